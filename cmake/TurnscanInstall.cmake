@@ -1,0 +1,17 @@
+# CMake package: find_package(turnscan) gives turnscan::core, turnscan::reconstruction, ...
+include(CMakePackageConfigHelpers)
+
+get_property(floors GLOBAL PROPERTY TURNSCAN_FLOORS)
+install(TARGETS ${floors} EXPORT turnscanTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT turnscanTargets NAMESPACE turnscan::
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+configure_package_config_file(
+  "${CMAKE_CURRENT_LIST_DIR}/turnscanConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/turnscanConfig.cmake"
+  INSTALL_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/turnscanConfig.cmake"
+              "${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmake"
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

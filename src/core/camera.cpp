@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/camera.hpp>
+
+namespace turnscan {
+
+namespace {
+
+Eigen::Vector2d distort(const std::array<double, 5>& d, double x, double y) {
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
+  return {x * radial + 2.0 * d[2] * x * y + d[3] * (r2 + 2.0 * x * x),
+          y * radial + d[2] * (r2 + 2.0 * y * y) + 2.0 * d[3] * x * y};
+}
+
+}  // namespace
+
+bool CameraIntrinsics::distorted() const {
+  return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
+}
+
+Result<> CameraIntrinsics::check() const {
+  if (width < 1 || height < 1 || width > 65535 || height > 65535)
+    return fail(ErrorCode::kFormat, "intrinsics: image size {} x {} is not within 1..65535", width,
+                height);
+  const bool finite =
+      std::isfinite(fx) && std::isfinite(fy) && std::isfinite(cx) && std::isfinite(cy) &&
+      std::all_of(distortion.begin(), distortion.end(), [](double k) { return std::isfinite(k); });
+  if (!finite || !(fx > 0.0) || !(fy > 0.0))
+    return fail(ErrorCode::kFormat,
+                "intrinsics: fx = {}, fy = {}, cx = {}, cy = {} and distortion must be finite, "
+                "focal lengths positive",
+                fx, fy, cx, cy);
+  return {};
+}
+
+Vec3d CameraIntrinsics::ray(double u, double v) const {
+  const double xd = (u - cx) / fx, yd = (v - cy) / fy;
+  double x = xd, y = yd;
+  if (distorted()) {
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Vector2d error = distort(distortion, x, y) - Eigen::Vector2d(xd, yd);
+      x -= error.x();
+      y -= error.y();
+      if (error.squaredNorm() < 1e-20) break;
+    }
+  }
+  return {x, y, 1.0};
+}
+
+Eigen::Vector2d CameraIntrinsics::project(const Vec3d& p_camera) const {
+  const Eigen::Vector2d d =
+      distort(distortion, p_camera.x() / p_camera.z(), p_camera.y() / p_camera.z());
+  return {fx * d.x() + cx, fy * d.y() + cy};
+}
+
+RayTable::RayTable(const CameraIntrinsics& intrinsics) {
+  const std::size_t n = std::size_t(intrinsics.width) * std::size_t(intrinsics.height);
+  x_.reserve(n);
+  y_.reserve(n);
+  for (int v = 0; v < intrinsics.height; ++v) {
+    for (int u = 0; u < intrinsics.width; ++u) {
+      const Vec3d d = intrinsics.ray(u, v);
+      x_.push_back(static_cast<float>(d.x()));
+      y_.push_back(static_cast<float>(d.y()));
+    }
+  }
+}
+
+}  // namespace turnscan

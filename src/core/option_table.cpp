@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/option_table.hpp>
+
+namespace turnscan {
+
+namespace {
+
+Result<> check_range(const std::string& name, double value, Quantity quantity, Range range) {
+  if (value >= range.min && value <= range.max) return {};
+  return fail(ErrorCode::kInvalidOption, "{} = {} is outside {} to {}", name,
+              format_quantity(value, quantity), format_quantity(range.min, quantity),
+              format_quantity(range.max, quantity));
+}
+
+Result<double> parse_field(const std::string& name, std::string_view text, Quantity quantity,
+                           Range range) {
+  auto value = parse_quantity(text, quantity);
+  if (!value) return fail(ErrorCode::kInvalidOption, "{}: {}", name, value.error().message);
+  TURNSCAN_TRY(check_range(name, *value, quantity, range));
+  return value;
+}
+
+Result<int> parse_integer(const std::string& name, std::string_view text, Range range) {
+  TURNSCAN_ASSIGN(const double value, parse_field(name, text, Quantity::kNone, range));
+  if (value != std::floor(value))
+    return fail(ErrorCode::kInvalidOption, "{} = {} is not a whole number", name, text);
+  return static_cast<int>(value);
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+OptionTable& OptionTable::flag(std::string name, bool& value, std::string help) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.is_flag = true;
+  f.get = [&value] { return std::string(value ? "true" : "false"); };
+  f.set = [&value, name](std::string_view text) -> Result<> {
+    if (text != "true" && text != "false")
+      return fail(ErrorCode::kInvalidOption, "{} = {} is neither true nor false", name, text);
+    value = text == "true";
+    return {};
+  };
+  f.check = [] { return Result<>(); };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::number(std::string name, double& value, Quantity quantity, Range range,
+                                 std::string help) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.quantity = quantity;
+  f.range = range;
+  f.get = [&value, quantity] { return format_quantity(value, quantity); };
+  f.set = [=, &value](std::string_view text) -> Result<> {
+    TURNSCAN_ASSIGN(value, parse_field(name, text, quantity, range));
+    return {};
+  };
+  f.check = [=, &value] { return check_range(name, value, quantity, range); };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::number(std::string name, int& value, Range range, std::string help) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.range = range;
+  f.get = [&value] { return std::to_string(value); };
+  f.set = [=, &value](std::string_view text) -> Result<> {
+    TURNSCAN_ASSIGN(value, parse_integer(name, text, range));
+    return {};
+  };
+  f.check = [=, &value] { return check_range(name, value, Quantity::kNone, range); };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::number(std::string name, std::optional<double>& value, Quantity quantity,
+                                 Range range, std::string help) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.quantity = quantity;
+  f.range = range;
+  f.may_be_auto = true;
+  f.get = [&value, quantity] {
+    return value ? format_quantity(*value, quantity) : std::string("auto");
+  };
+  f.set = [=, &value](std::string_view text) -> Result<> {
+    if (text == "auto") {
+      value.reset();
+      return {};
+    }
+    TURNSCAN_ASSIGN(value, parse_field(name, text, quantity, range));
+    return {};
+  };
+  f.check = [=, &value] { return value ? check_range(name, *value, quantity, range) : Result<>(); };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::number(std::string name, std::optional<int>& value, Range range,
+                                 std::string help) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.range = range;
+  f.may_be_auto = true;
+  f.get = [&value] { return value ? std::to_string(*value) : std::string("auto"); };
+  f.set = [=, &value](std::string_view text) -> Result<> {
+    if (text == "auto") {
+      value.reset();
+      return {};
+    }
+    TURNSCAN_ASSIGN(value, parse_integer(name, text, range));
+    return {};
+  };
+  f.check = [=, &value] {
+    return value ? check_range(name, *value, Quantity::kNone, range) : Result<>();
+  };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::text(std::string name, std::string& value, std::string help) {
+  OptionField f;
+  f.name = std::move(name);
+  f.help = std::move(help);
+  f.get = [&value] { return value; };
+  f.set = [&value](std::string_view text) -> Result<> {
+    value = std::string(text);
+    return {};
+  };
+  f.check = [] { return Result<>(); };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::choice_index(std::string name, std::vector<std::string> choices,
+                                       std::string help, std::function<int()> get,
+                                       std::function<void(int)> set) {
+  OptionField f;
+  f.name = name;
+  f.help = std::move(help);
+  f.choices = choices;
+  f.get = [choices, get] { return choices.at(static_cast<std::size_t>(get())); };
+  f.set = [choices, name, set](std::string_view text) -> Result<> {
+    const auto found = std::find(choices.begin(), choices.end(), text);
+    if (found == choices.end())
+      return fail(ErrorCode::kInvalidOption, "{} = {} is not one of {}", name, text,
+                  fmt::join(choices, ", "));
+    set(static_cast<int>(found - choices.begin()));
+    return {};
+  };
+  f.check = [choices, name, get]() -> Result<> {
+    if (get() >= 0 && static_cast<std::size_t>(get()) < choices.size()) return {};
+    return fail(ErrorCode::kInvalidOption, "{} = {} is not one of {}", name, get(),
+                fmt::join(choices, ", "));
+  };
+  fields_.push_back(std::move(f));
+  return *this;
+}
+
+OptionTable& OptionTable::append(OptionTable other, const std::string& prefix) {
+  for (OptionField& field : other.fields_) {
+    field.name = prefix + field.name;
+    fields_.push_back(std::move(field));
+  }
+  return *this;
+}
+
+const OptionField* OptionTable::find(std::string_view name) const {
+  const auto found = std::find_if(fields_.begin(), fields_.end(),
+                                  [&](const OptionField& f) { return f.name == name; });
+  return found == fields_.end() ? nullptr : &*found;
+}
+
+Result<> OptionTable::set(std::string_view name, std::string_view value) const {
+  if (const OptionField* field = find(name)) return field->set(value);
+  const auto nearest = std::min_element(
+      fields_.begin(), fields_.end(), [&](const OptionField& a, const OptionField& b) {
+        return edit_distance(a.name, name) < edit_distance(b.name, name);
+      });
+  if (nearest == fields_.end())
+    return fail(ErrorCode::kInvalidOption, "there is no option '{}'", name);
+  return fail(ErrorCode::kInvalidOption, "there is no option '{}'; did you mean '{}'", name,
+              nearest->name);
+}
+
+Result<> OptionTable::check() const {
+  for (const OptionField& field : fields_) TURNSCAN_TRY(field.check());
+  return {};
+}
+
+}  // namespace turnscan

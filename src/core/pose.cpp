@@ -1,0 +1,35 @@
+#include <Eigen/SVD>
+#include <turnscan/core/pose.hpp>
+
+namespace turnscan {
+
+Result<Pose> pose_from(const Vec3d& translation_m, double qx, double qy, double qz, double qw) {
+  const Eigen::Quaterniond q(qw, qx, qy, qz);
+  if (!translation_m.allFinite() || !q.coeffs().allFinite())
+    return fail(ErrorCode::kFormat, "pose has a value that is not finite");
+  if (!(q.norm() > 1e-6)) return fail(ErrorCode::kFormat, "pose has a quaternion of length zero");
+  Pose pose = Pose::Identity();
+  pose.linear() = q.normalized().toRotationMatrix();
+  pose.translation() = translation_m;
+  return pose;
+}
+
+Result<Pose> pose_from(const Eigen::Matrix4d& matrix) {
+  if (!matrix.allFinite()) return fail(ErrorCode::kFormat, "pose has a value that is not finite");
+  if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-6)
+    return fail(ErrorCode::kFormat, "pose matrix: the last row is not 0 0 0 1");
+  const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();
+  if ((r * r.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || r.determinant() < 0)
+    return fail(ErrorCode::kFormat, "pose matrix: the upper left 3x3 block is not a rotation");
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Pose pose = Pose::Identity();
+  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return pose;
+}
+
+Pose rotation_about_y(double angle_rad) {
+  return Pose(Eigen::AngleAxisd(angle_rad, Vec3d::UnitY()));
+}
+
+}  // namespace turnscan
