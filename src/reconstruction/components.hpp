@@ -1,0 +1,30 @@
+#pragma once
+// Objects as connected components of surviving voxels (thesis 6.1.3).
+
+#include <turnscan/reconstruction/voxel_grid.hpp>
+
+namespace turnscan {
+
+struct ComponentOptions {
+  std::string keep = "all";     ///< "all", "largest" or a number N: the N largest
+  double min_share = 0.02;      ///< smaller pieces, relative to the largest, are crumbs
+  std::optional<double> gap_m;  ///< pieces closer than this belong together
+};
+OptionTable describe(ComponentOptions& options);
+
+/// Fails with kInvalidOption unless keep is all, largest or a positive number. 0 means all.
+Result<int> objects_to_keep(const ComponentOptions& options);
+
+struct Components {
+  std::vector<std::int32_t> label;  ///< per voxel: object number from 0, largest first; -1: none
+  std::vector<std::size_t> voxel_count;  ///< per object
+  std::size_t crumbs = 0;                ///< pieces below the minimum size
+  std::size_t not_kept = 0;              ///< pieces left out by `keep`
+};
+
+/// 26-neighbourhood on cells of `cell` voxels a side (1: the voxels themselves; more bridges gaps
+/// of sparse scans). Ordered by number of points, ties by position.
+Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
+                                   int cell);
+
+}  // namespace turnscan

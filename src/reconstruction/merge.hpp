@@ -1,0 +1,53 @@
+#pragma once
+// From frames to one cloud in the table frame (thesis 3.4.1).
+
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/outliers.hpp>
+#include <turnscan/turntable/crop.hpp>
+
+namespace turnscan {
+
+struct MergeOptions {
+  std::optional<double> speed_rad_s;
+  bool cloud_outliers = false;  ///< a second statistical filter, on the merged cloud
+};
+OptionTable describe(MergeOptions& options);
+
+/// All points of a scan in the table frame, with where each was seen from.
+struct MergedCloud {
+  PointCloud cloud;                   ///< cloud.frame is set: position of the frame
+  std::vector<Viewpoint> viewpoints;  ///< per frame, table frame, the turn taken out
+  std::uint64_t returns = 0;          ///< valid returns of all frames before the crop
+  std::uint64_t cropped = 0;          ///< of these, inside the cylinder
+  std::uint64_t kept = 0;             ///< of these, kept by the filter of each frame
+  std::size_t frames = 0;             ///< frames used
+  std::size_t dropped_frames = 0;     ///< marked as dropped in the recording
+
+  /// Unit vector from point i towards the sensor that saw it.
+  Vec3f towards_sensor(std::size_t i) const;
+};
+
+/// The per-frame part: a pure function of one frame. Crop (if any), filter, then to the table.
+struct FrameRecipe {
+  const SequenceHeader* header = nullptr;
+  std::vector<RayTable> rays;  ///< per sensor
+  std::optional<Cylinder> cylinder;
+  OutlierOptions outliers;
+
+  static FrameRecipe make(const SequenceHeader& header);
+};
+struct FramePart {
+  PointCloud cloud;  ///< table frame
+  std::uint64_t returns = 0, cropped = 0;
+};
+Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
+                                const Pose& T_table_sensor);
+
+/// Reads and processes all frames on all cores and joins them in order: the same bytes for every
+/// number of threads. A frame that cannot be read fails the merge and is named.
+Result<MergedCloud> merge_frames(const FrameSequence& sequence, const FrameRecipe& recipe,
+                                 const std::vector<Pose>& T_table_sensor,
+                                 const RunContext& context);
+
+}  // namespace turnscan

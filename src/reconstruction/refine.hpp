@@ -1,0 +1,29 @@
+#pragma once
+// Candidates are moved onto the local surface of the measurements around them.
+
+#include <turnscan/reconstruction/candidates.hpp>
+
+namespace turnscan {
+
+struct RefineOptions {
+  bool enabled = true;
+  std::optional<double> radius_m;  ///< tangential reach (standard deviation of the weight)
+  int iterations = 3;
+};
+OptionTable describe(RefineOptions& options);
+
+struct RefineScale {
+  double radius_m;  ///< standard deviation of the tangential Gaussian weight
+  double noise_m;   ///< standard deviation of the measurements along the normal
+};
+
+/// Moving least squares projection (Levin 2003) with a robust weight (Tukey): around each candidate
+/// the measurements within a cylinder along its normal that were seen from its side are fitted by a
+/// height field of degree 2, and the candidate moves onto it; the normal follows. Candidates with
+/// too little support are dropped. Then one candidate per voxel is kept: those that fell into one
+/// voxel are averaged. Needs normals; candidates.voxel stays the voxel they came from.
+Result<Candidates> refine_candidates(const MergedCloud& merged, const VoxelGrid& grid,
+                                     const Candidates& candidates, const RefineScale& scale,
+                                     int iterations, const RunContext& context);
+
+}  // namespace turnscan

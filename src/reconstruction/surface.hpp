@@ -1,0 +1,34 @@
+#pragma once
+// From oriented candidate points to a mesh: Poisson (Kazhdan et al. 2006/2013, PCL) or concave hull
+// (alpha shape, PCL). Both run in a child process, so that they can be cancelled at any moment.
+
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+
+namespace turnscan {
+
+enum class SurfaceMethod { kPoisson, kConcaveHull };
+
+struct SurfaceOptions {
+  SurfaceMethod method = SurfaceMethod::kPoisson;
+  int poisson_depth = 8;
+  double samples_per_node = 1.5;
+  double poisson_scale = 1.1;
+  double point_weight = 4.0;
+  std::optional<double> alpha_m;  ///< concave hull: largest radius that bridges a gap
+  bool repair = true;             ///< make the mesh closed, 2-manifold and outward
+};
+OptionTable describe(SurfaceOptions& options);
+
+/// Poisson surface as the library gives it: single-threaded, hence the same bytes on every run.
+/// Needs points with normals. Fails with kTooFewPoints (fewer than 10), kLibrary, kCancelled.
+Result<TriangleMesh> poisson_surface(const PointCloud& oriented, const SurfaceOptions& options,
+                                     const RunContext& context);
+
+/// Concave hull: not 2-manifold by nature.
+Result<TriangleMesh> concave_hull(const PointCloud& points, double alpha_m,
+                                  const RunContext& context);
+
+}  // namespace turnscan

@@ -1,0 +1,58 @@
+#pragma once
+// Keep what stands on the platter: the cylinder above it (thesis eq. 3.5 to 3.7, algorithm 2).
+
+#include <optional>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/option_table.hpp>
+
+namespace turnscan {
+
+struct CropOptions {
+  bool enabled = true;
+  /// Lowest height above the platter that is kept; nullopt: found from the platter's own returns.
+  std::optional<double> margin_m;
+  /// Radius of the cylinder; nullopt: the platter's radius.
+  std::optional<double> radius_m;
+  double height_m = 2.0;  ///< height of the cylinder
+};
+OptionTable describe(CropOptions& options);
+
+/// A cylinder in the table frame: y in [margin, height], distance from the axis below radius.
+struct Cylinder {
+  double margin_m = 0.0;
+  double height_m = 2.0;
+  double radius_m = 1e9;
+
+  bool contains(const Vec3d& p_table) const {
+    return p_table.y() > margin_m && p_table.y() < height_m &&
+           p_table.x() * p_table.x() + p_table.z() * p_table.z() < radius_m * radius_m;
+  }
+};
+
+/// The same cylinder seen from a sensor: one multiply-add row per axis, no full transform.
+class SensorCrop {
+ public:
+  SensorCrop(const Cylinder& cylinder, const Pose& T_table_sensor);
+  bool keeps(const Vec3f& p_sensor) const;
+
+ private:
+  Eigen::Matrix3f rotation_;
+  Vec3f translation_;
+  float margin_, height_, radius_squared_;
+};
+
+/// Keeps the points inside (in order); cells are kept with them.
+FramePoints crop(const FramePoints& points, const SensorCrop& crop);
+
+/// How far the platter's own returns lie from y = 0.
+struct PlatterReturns {
+  std::size_t count = 0;  ///< returns within 15 mm of the plane, inside the radius
+  double height_m = 0.0;  ///< their median height
+  double sigma_m = 0.0;   ///< robust standard deviation of their height
+};
+
+/// Measures them on points in the table frame. The lower half of their distribution decides, so
+/// that the object's foot does not count as noise. count = 0 when fewer than 200 are there.
+PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m);
+
+}  // namespace turnscan
