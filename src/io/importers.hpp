@@ -1,0 +1,61 @@
+#pragma once
+// Foreign data sets as frame sequences. docs/importing.md describes the layouts. Units and depth
+// scales are taken from the format's definition or from the options; where neither gives them the
+// import fails with a sentence that asks.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/option_table.hpp>
+#include <vector>
+
+namespace turnscan {
+
+enum class ImportFormat { kAuto, kStanfordConf, kCloudFolder, kTumRgbd, kFramePose, kJsonPng };
+enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
+enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
+
+struct ImportOptions {
+  ImportFormat format = ImportFormat::kAuto;
+  std::string angles;                         ///< file of a cloud folder's angles or times
+  std::optional<double> depth_unit_m;         ///< per step of the depth images
+  LengthUnit point_unit = LengthUnit::kAuto;  ///< of scans
+  std::string intrinsics;                     ///< "fx,fy,cx,cy" or a file with a 3x3 matrix
+  std::string sensor_position;                ///< of scans: "x,y,z" with units
+  std::string sensor_direction;               ///< of scans: "x,y,z" from the surface to the sensor
+  PoseDirection pose_direction = PoseDirection::kAuto;
+  std::string world_up;          ///< "x,y,z" in the world of the poses; empty: +Y
+  bool clockwise = false;        ///< angles and speed count clockwise from above
+  std::string turntable_axis;    ///< "x,y,z", up, frame of sensor 0
+  std::string turntable_center;  ///< "x,y,z" with units, frame of sensor 0
+  std::optional<double> turntable_radius_m;
+  std::optional<double> platter_height_m;  ///< of the platter above the given point of the axis
+  std::optional<double> speed_rad_s;
+
+  Result<> check() const;
+};
+
+/// Names, ranges and help of the fields; refers to options.
+OptionTable describe(ImportOptions& options);
+
+/// One layout that can be imported.
+struct ImporterInfo {
+  ImportFormat format;
+  std::string_view name;  ///< as in the option "format"
+  std::string_view help;
+};
+const std::vector<ImporterInfo>& importers();
+
+/// Opens a data set. path is a file (.conf, .json) or a folder. Files are read when frames are
+/// read; read() may be called from several threads. What was assumed stands in header().source,
+/// one line each after the first. Depth images: 65535 of a foreign image becomes kNoReturn.
+/// Fails with kNotFound (no such path or a named file is missing), kUnsupported (the layout is not
+/// recognised), kInvalidOption (an option is wrong or has no meaning for the layout), kMissingData
+/// (a unit, intrinsics or the like must be given) and kFormat.
+Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
+                                                    const ImportOptions& options);
+
+}  // namespace turnscan

@@ -1,0 +1,56 @@
+#pragma once
+// What `turnscan info` says about a recording.
+
+#include <string>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct ValueSpan {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+struct SensorSummary {
+  SensorInfo info;
+  std::size_t frames = 0;            ///< that are not dropped
+  std::size_t sampled = 0;           ///< frames that were decoded for the figures below
+  std::size_t colored = 0;           ///< of the sampled frames
+  std::optional<ValueSpan> depth_m;  ///< distance along z of the returns in the sampled frames
+  double valid_share = 0.0;  ///< returns per pixel or grid cell; 1 for points without a grid
+  std::size_t points_per_frame = 0;  ///< mean over the sampled frames
+};
+
+struct SequenceSummary {
+  std::string software;
+  std::string source;  ///< first line of SequenceHeader::source
+  std::size_t frames = 0;
+  std::size_t dropped = 0;
+  std::size_t passes = 0;
+  std::size_t with_time = 0;  ///< frames, dropped ones left out; likewise below
+  std::size_t with_angle = 0;
+  std::size_t with_pose = 0;
+  std::optional<ValueSpan> time_s;
+  std::optional<ValueSpan> angle_rad;
+  std::optional<double> turns;  ///< from the angles, else from speed and times
+  std::optional<TurntableInfo> turntable;
+  std::vector<SensorSummary> sensors;
+  std::vector<std::string> notes;    ///< assumptions of the import, defects found on opening
+  std::vector<std::string> missing;  ///< what reconstruction will lack; empty: nothing
+};
+
+/// Decodes at most 16 frames of each sensor, spread evenly. A frame that cannot be read becomes a
+/// note. Fails only with kCancelled.
+Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContext& context);
+/// As above, with the recording's own notes.
+Result<SequenceSummary> summarize(const Recording& recording, const RunContext& context);
+
+/// Several lines for people, values with their units.
+std::string summary_text(const SequenceSummary& summary);
+/// One JSON object, SI units in the field names.
+std::string summary_json(const SequenceSummary& summary);
+
+}  // namespace turnscan
