@@ -1,0 +1,44 @@
+#pragma once
+// Point clouds on disk: PLY (read and written) and PCD (read).
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/result.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// A cloud as a file holds it: coordinates in the file's own unit and frame.
+struct CloudFile {
+  PointCloud cloud;
+  int grid_width = 0;  ///< columns of organised points, else 0
+  int grid_height = 0;
+  std::vector<std::int32_t> grid;  ///< cell -> position in cloud, -1 where empty; row by row
+  std::optional<Viewpoint> viewpoint;
+};
+
+/// Reads by content: PLY (ascii, binary of either byte order) or PCD (ascii, binary,
+/// binary_compressed).
+/// PLY: element vertex with x y z, and nx ny nz, red green blue, weight (or quality), frame where
+/// they exist; Stanford's range_grid with obj_info num_cols and num_rows. PCD: fields x y z,
+/// normal_x normal_y normal_z, rgb or rgba; HEIGHT > 1 is a grid; VIEWPOINT's position.
+/// Points that are not finite are left out, and their cells are -1. Other elements, properties and
+/// fields are skipped. Colours of floating-point type are taken as 0 to 1.
+/// Fails with kFormat (damaged; a count that the file's length cannot hold; an index out of
+/// range), kUnsupported (another kind of file), kTooFewPoints (no finite point) or as read_file.
+Result<CloudFile> read_cloud(const std::filesystem::path& path);
+Result<CloudFile> decode_cloud(std::string_view bytes);
+
+/// Binary little-endian PLY: x y z, and nx ny nz, red green blue, float "weight", uint "frame"
+/// where the cloud has them. Atomic. The second form keeps the grid (range_grid) and the viewpoint
+/// (obj_info). Fails with kUnsupported unless the file's name ends in .ply, or as
+/// write_file_atomically. Throws std::invalid_argument when an attribute's length or a grid's size
+/// does not fit.
+Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud);
+Result<> write_cloud(const std::filesystem::path& path, const CloudFile& file);
+
+}  // namespace turnscan

@@ -1,0 +1,55 @@
+#pragma once
+// Triangle meshes on disk. In memory: metres, +Y up, counter-clockwise seen from outside.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct ReadMeshOptions {
+  /// Length of the file's unit. Without it: 3MF, DAE and FBX say theirs, STL is in millimetres,
+  /// everything else in metres.
+  std::optional<double> metres_per_unit;
+};
+
+/// Objects of a mesh file, by the ending of its name: ply, obj, stl, off, 3mf, glb; any other
+/// ending goes to assimp. Polygons are cut into fans; elements and properties other than
+/// vertices, normals, colours and faces are skipped. STL's vertices are merged where they are
+/// exactly equal. 3MF, GLB and assimp's formats are read in a child process with a limit on memory
+/// and time, which ends at once when ctx is cancelled.
+/// Fails with kFormat (damaged; a count that the file's length cannot hold; an index out of range;
+/// a coordinate that is not finite), kTooFewPoints (no triangles), kResourceLimit, kUnsupported,
+/// kCancelled, or as read_file. Throws std::invalid_argument unless metres_per_unit is positive
+/// and finite.
+Result<std::vector<TriangleMesh>> read_meshes(const std::filesystem::path& path,
+                                              const ReadMeshOptions& options = {},
+                                              const RunContext& ctx = {});
+
+/// All objects of the file joined into one mesh. An attribute is kept only if all of them have it.
+Result<TriangleMesh> read_mesh(const std::filesystem::path& path,
+                               const ReadMeshOptions& options = {}, const RunContext& ctx = {});
+
+/// Writes by the ending of the name, atomically: ply (binary little-endian), obj (text), glb in
+/// metres; stl (binary), 3mf in millimetres. OBJ, 3MF (each a build item) and GLB hold several
+/// objects; PLY and STL get them joined. Colours are kept by PLY, OBJ (after the coordinates), 3MF
+/// (a colour group) and GLB (COLOR_0); normals by PLY, OBJ and GLB.
+/// Fails with kUnsupported (another ending), kTooFewPoints (no mesh, or one without triangles),
+/// kFormat (a coordinate that is not finite), or as write_file_atomically. Throws
+/// std::invalid_argument when an attribute's length does not fit or an index is out of range.
+Result<> write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes);
+Result<> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+/// To be asked before long work: whether write_meshes could write there (ending known, folder
+/// there and writable, not a directory).
+Result<> check_mesh_output(const std::filesystem::path& path);
+
+/// Meshes as one. An attribute is kept only if all of them have it; the first name is kept.
+TriangleMesh join_meshes(std::span<const TriangleMesh> meshes);
+
+}  // namespace turnscan
