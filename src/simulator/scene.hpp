@@ -1,0 +1,77 @@
+#pragma once
+// Meshes and the platter, ready to be hit by rays. Embree stays behind this header.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+
+namespace turnscan {
+
+/// Points origin + t * direction with t in (t_min, t_max). direction need not be of unit length.
+struct Ray {
+  Vec3f origin = Vec3f::Zero();
+  Vec3f direction = Vec3f::UnitZ();
+  float t_min = 0.0f;
+  float t_max = std::numeric_limits<float>::infinity();
+};
+
+inline constexpr std::uint32_t kNothing = 0xffffffffu;  ///< RayHit::object of a ray that missed
+inline constexpr std::uint32_t kPlatter = 0xfffffffeu;  ///< RayHit::object of the platter
+
+struct RayHit {
+  float t = std::numeric_limits<float>::infinity();  ///< in lengths of the ray's direction
+  std::uint32_t object = kNothing;                   ///< position in the scene's objects
+  std::uint32_t triangle = 0;                        ///< of that object; 0 on the platter
+  float u = 0.0f, v = 0.0f;      ///< barycentric: (1 - u - v) a + u b + v c; 0 on the platter
+  Vec3f normal = Vec3f::Zero();  ///< unit, from the triangle's winding; platter: +Y
+
+  bool valid() const { return object != kNothing; }
+};
+
+/// Rays that lie next to each other in the span and have much the same origin and direction are
+/// kCoherent: 1.5 to 2.5 times as fast. The result is the same either way.
+enum class RayOrder { kCoherent, kIncoherent };
+
+/// Immutable; all members may be called from several threads at once. Triangles count from both
+/// sides. No ray slips through between two triangles that share an edge.
+class Scene {
+ public:
+  /// Copies what it needs of the meshes. A mesh without triangles is allowed. platter_radius_m
+  /// adds a disc about the y axis with its face at y = 0. Fails with kFormat when a triangle names
+  /// a vertex that does not exist or one that is not finite; with kInvalidOption when the radius is
+  /// not positive; with kResourceLimit when Embree runs out of memory. The same scene for every
+  /// number of threads.
+  static Result<Scene> create(std::span<const TriangleMesh> objects,
+                              std::optional<double> platter_radius_m = std::nullopt);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  /// The nearest hit of each ray. hits must be as long as rays.
+  void intersect(std::span<const Ray> rays, std::span<RayHit> hits,
+                 RayOrder order = RayOrder::kIncoherent) const;
+  RayHit intersect(const Ray& ray) const;
+
+  /// 1 where anything lies on the ray, else 0. blocked must be as long as rays.
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                RayOrder order = RayOrder::kIncoherent) const;
+  bool occluded(const Ray& ray) const;
+
+  std::size_t object_count() const;
+  std::optional<double> platter_radius_m() const;
+  /// Box about the objects, without the platter.
+  const Box& object_box() const;
+  /// Box about everything.
+  Box box() const;
+
+ private:
+  struct Impl;
+  explicit Scene(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace turnscan
