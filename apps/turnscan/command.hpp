@@ -1,0 +1,43 @@
+#pragma once
+// What a subcommand is to the program: it declares its options, then runs.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <utility>
+
+namespace turnscan::cli {
+
+class CommandLine;
+
+/// One run of a subcommand: how it is watched and cancelled, and what it has to say. Text goes to
+/// standard output when the command has ended, so that it never mixes with the progress bar.
+class Session {
+ public:
+  explicit Session(RunContext context) : context_(std::move(context)) {}
+
+  const RunContext& context() const { return context_; }
+
+  template <class... Args>
+  void print(fmt::format_string<Args...> format, Args&&... args) {
+    text_ += fmt::format(format, std::forward<Args>(args)...);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  RunContext context_;
+  std::string text_;
+};
+
+class Command {
+ public:
+  virtual ~Command() = default;
+  virtual void declare(CommandLine& line) = 0;
+  /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else failed.
+  virtual Result<> run(Session& session) = 0;
+};
+
+}  // namespace turnscan::cli
