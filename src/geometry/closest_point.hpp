@@ -1,0 +1,43 @@
+#pragma once
+// The exact nearest point on a triangle mesh.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <turnscan/core/triangle_mesh.hpp>
+
+namespace turnscan {
+
+/// The point of triangle (a, b, c) nearest to p; degenerate triangles (segments, points) included.
+/// Region test of Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+Vec3d closest_point_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+/// Answers nearest-point queries on a mesh (metres): a hierarchy of float boxes that only ever
+/// prunes what is farther, and double arithmetic at the triangles. Queries may run from many
+/// threads. Triangles with an index out of range or a vertex that is not finite are left out.
+class MeshDistance {
+ public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  struct Hit {
+    Vec3d point = Vec3d::Zero();     ///< on the mesh
+    std::uint32_t triangle = kNone;  ///< of equally near ones the lowest; kNone: nothing found
+    double distance = std::numeric_limits<double>::infinity();  ///< metres, unsigned
+  };
+
+  /// Copies what it needs of the mesh.
+  explicit MeshDistance(const TriangleMesh& mesh);
+  MeshDistance(MeshDistance&&) noexcept;
+  MeshDistance& operator=(MeshDistance&&) noexcept;
+  ~MeshDistance();
+
+  /// Nearest point within max_distance (inclusive, metres). Nothing found: triangle == kNone, as
+  /// for an empty mesh or a p that is not finite.
+  Hit closest(const Vec3d& p, double max_distance = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace turnscan

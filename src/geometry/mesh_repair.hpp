@@ -1,0 +1,102 @@
+#pragma once
+// Steps that turn triangles into a surface. Every function checks its mesh first and fails with
+// kFormat as validate_mesh does; an empty mesh passes through. Per-vertex colours and normals come
+// along; vertices that a step creates get them from their neighbours. All are deterministic.
+
+#include <cstdint>
+#include <limits>
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// Makes one vertex of those that agree in all three coordinates (STL soups), or, with a tolerance,
+/// of those that fall chain-wise within tolerance_m of each other; the first one's place and
+/// attributes stay. Triangles that so lose a corner are dropped.
+Result<TriangleMesh> merge_vertices(const TriangleMesh& mesh, double tolerance_m = 0.0);
+
+/// Drops vertices that no triangle names. The order of the rest stays.
+Result<TriangleMesh> drop_unreferenced(const TriangleMesh& mesh);
+
+/// Drops triangles that repeat a vertex, that have no area at all, or that are exact copies of an
+/// earlier one (same three vertices, either way round); then unreferenced vertices.
+Result<TriangleMesh> remove_degenerate(const TriangleMesh& mesh);
+
+/// One mesh per piece (pieces share no vertex), most triangles first, then by first triangle.
+Result<std::vector<TriangleMesh>> split_components(const TriangleMesh& mesh);
+
+/// All triangles of all meshes in one; attributes stay if every mesh with vertices has them.
+TriangleMesh join_meshes(const std::vector<TriangleMesh>& meshes);
+
+/// Makes every edge one of at most two triangles that run along it in opposite directions, and
+/// every vertex the centre of one fan, by cutting the surface apart where that fails (vertices are
+/// duplicated, no triangle with area is dropped, none is moved). Where three or more triangles meet
+/// at an edge, the two that continue each other most smoothly stay together. Cuts leave boundaries.
+/// The triangles' orientations are kept: neighbours that disagree are cut apart, so call
+/// orient_consistently first where they cannot be trusted.
+Result<TriangleMesh> make_manifold(const TriangleMesh& mesh);
+
+/// Turns triangles so that neighbours across two-triangle edges agree, piece by piece, by flood
+/// from the piece's first triangle (a one-sided piece keeps disagreements; make_manifold then cuts
+/// it).
+Result<TriangleMesh> orient_consistently(const TriangleMesh& mesh);
+
+/// orient_consistently, then turns whole pieces whose signed volume is negative. A piece that is
+/// not closed goes by the volume of the cone from its centroid, i.e. most of it faces away from
+/// there.
+Result<TriangleMesh> orient_outward(const TriangleMesh& mesh);
+
+struct FillHolesOptions {
+  /// Loops with more edges than this stay open.
+  std::size_t max_edges = std::numeric_limits<std::size_t>::max();
+  bool refine = true;    ///< split the new triangles down to the edge length around the hole
+  bool fair = true;      ///< let the refined patch continue its surroundings smoothly
+  double tension = 0.0;  ///< as RelaxOptions::tension
+};
+
+struct FilledMesh {
+  TriangleMesh mesh;
+  std::vector<std::uint8_t> filled;  ///< per triangle: 1 = it closes a hole
+  std::size_t holes = 0;             ///< loops closed
+};
+
+/// Closes the boundary loops of a mesh that make_manifold would leave alone (kFormat otherwise).
+/// Loops of up to some hundred edges get the triangulation of least area (Barequet and Sharir 1995,
+/// by dynamic programming; larger loops are first halved greedily); the patch is refined (Liepa
+/// 2003, after Pfeifle and Seidel 1996) and faired. The result is manifold and consistently
+/// oriented and, without max_edges, closed. Patches may pass through other parts of the surface.
+Result<FilledMesh> fill_holes(const TriangleMesh& mesh, const FillHolesOptions& options,
+                              const RunContext& context);
+
+struct RelaxOptions {
+  /// 0: thin plate (continues slope and curvature of the surroundings), 1: membrane (least area,
+  /// as a soap film); in between a mixture.
+  double tension = 0.0;
+};
+OptionTable describe(RelaxOptions& options);
+
+/// Moves the vertices with movable[v] != 0 (one entry a vertex) to where the patch they form
+/// continues its fixed surroundings as a thin plate or membrane; connectivity stays. Weights are
+/// uniform (every edge counts the same): unlike cotangents they cannot become negative or huge on
+/// slivers and folds, which is what the balloons that this is used on are full of. Each connected
+/// movable region is solved on its own, sparse Cholesky; regions without a fixed neighbour do not
+/// move. Normals of moved vertices are recomputed. Solves for 100,000 movable vertices take a few
+/// seconds.
+/// Fails with kInvalidOption when movable does not fit, kLibrary when a system cannot be solved.
+Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint8_t>& movable,
+                           const RelaxOptions& options, const RunContext& context);
+
+/// The whole chain on any triangles: merge, remove_degenerate, orient_consistently, make_manifold,
+/// fill_holes, orient_outward. The result passes check_mesh(...).watertight(), or the call fails
+/// with kTooFewPoints (nothing is left) or kLibrary (says what stands against it).
+Result<TriangleMesh> repair(const TriangleMesh& mesh, const FillHolesOptions& options,
+                            const RunContext& context);
+
+/// Unit normals per vertex, weighted by the angle of each triangle at the vertex; zero where no
+/// triangle with area is.
+std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh);
+
+}  // namespace turnscan
