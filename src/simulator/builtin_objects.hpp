@@ -25,7 +25,7 @@ struct LetterA {
 };
 
 /// Vertices lie on the true circle, so the facets are inside it by at most 2 um.
-struct Cylinder {
+struct SolidCylinder {
   static constexpr double diameter_m = 0.080;
   static constexpr double height_m = 0.160;
   static constexpr int segments = 360;
