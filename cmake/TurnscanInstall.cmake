@@ -13,5 +13,6 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmak
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_BINARY_DIR}/turnscanConfig.cmake"
               "${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/TurnscanPcl.cmake"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
 install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -22,9 +22,10 @@ struct Components {
   std::size_t not_kept = 0;              ///< pieces left out by `keep`
 };
 
-/// 26-neighbourhood on cells of `cell` voxels a side (1: the voxels themselves; more bridges gaps
-/// of sparse scans). Ordered by number of points, ties by position.
+/// Voxels that are at most `reach` (at least 1) steps apart on every axis are connected: 1 is the
+/// 26-neighbourhood; more bridges the gaps of sparse scans. Ordered by number of points, ties by
+/// position.
 Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
-                                   int cell);
+                                   int reach);
 
 }  // namespace turnscan

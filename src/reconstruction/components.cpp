@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <numeric>
+#include <turnscan/reconstruction/components.hpp>
+
+namespace turnscan {
+
+namespace {
+
+/// Disjoint sets with path halving; the smaller position is the root, so that the result does not
+/// depend on the order of unions.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Voxels within reach cells of each other on every axis are connected: for reach 1 the 26
+/// neighbours. Half of the neighbourhood is enough, the other half is met from the other side.
+void join_neighbours(const VoxelGrid& grid, int reach, DisjointSets& sets) {
+  const VoxelIndex r = VoxelIndex::Constant(reach);
+  for (std::uint32_t i = 0; i < grid.voxels().size(); ++i) {
+    const VoxelIndex& index = grid.voxels()[i].index;
+    VoxelIndex high = index + r;
+    high.z() = index.z();
+    grid.for_each_in_box(index - r, high, [&](std::uint32_t j) { sets.join(i, j); });
+  }
+}
+
+}  // namespace
+
+OptionTable describe(ComponentOptions& o) {
+  OptionTable table;
+  table.text("keep", o.keep, "Objects to keep: all, largest, or a number N for the N largest")
+      .number("min-object-share", o.min_share, Quantity::kNone, {0.0, 1.0},
+              "Pieces with a smaller share of the largest piece's points are crumbs and go")
+      .number("object-gap", o.gap_m, Quantity::kLength, {0.0, 1.0},
+              "Pieces closer than this are one object; automatic: from spacing and noise");
+  return table;
+}
+
+Result<int> objects_to_keep(const ComponentOptions& options) {
+  if (options.keep == "all") return 0;
+  if (options.keep == "largest") return 1;
+  const auto number = parse_number(options.keep);
+  if (!number || !(*number >= 1.0) || *number > 1e6 || *number != std::floor(*number))
+    return fail(ErrorCode::kInvalidOption, "keep = {} is neither all, largest nor a number from 1",
+                options.keep);
+  return static_cast<int>(*number);
+}
+
+Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
+                                   int reach) {
+  TURNSCAN_ASSIGN(const int keep, objects_to_keep(options));
+  const std::size_t n = grid.voxels().size();
+  DisjointSets sets(n);
+  join_neighbours(grid, std::max(1, reach), sets);
+  struct Piece {
+    std::uint64_t points = 0;
+    std::size_t voxels = 0;
+    std::uint32_t root = 0;
+  };
+  std::vector<Piece> pieces(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    Piece& piece = pieces[sets.root(i)];
+    piece.root = sets.root(i);
+    piece.points += grid.voxels()[i].count();
+    ++piece.voxels;
+  }
+  std::erase_if(pieces, [](const Piece& p) { return p.voxels == 0; });
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return a.points != b.points ? a.points > b.points : a.root < b.root;
+  });
+  Components out;
+  std::vector<std::int32_t> label_of_root(n, -1);
+  for (const Piece& piece : pieces) {
+    if (double(piece.points) < options.min_share * double(pieces.front().points)) {
+      ++out.crumbs;
+    } else if (keep > 0 && out.voxel_count.size() >= std::size_t(keep)) {
+      ++out.not_kept;
+    } else {
+      label_of_root[piece.root] = static_cast<std::int32_t>(out.voxel_count.size());
+      out.voxel_count.push_back(piece.voxels);
+    }
+  }
+  out.label.reserve(n);
+  for (std::uint32_t i = 0; i < n; ++i) out.label.push_back(label_of_root[sets.root(i)]);
+  return out;
+}
+
+}  // namespace turnscan

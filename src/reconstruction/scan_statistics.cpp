@@ -1,0 +1,112 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/geometry/knn.hpp>
+#include <turnscan/reconstruction/scan_statistics.hpp>
+#include <turnscan/reconstruction/voxel_grid.hpp>
+
+namespace turnscan {
+
+namespace {
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double median_nearest(const std::vector<Vec3f>& points) {
+  const KdTree tree(points);
+  std::vector<double> distances;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 2000);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    std::array<std::uint32_t, 2> index;
+    std::array<float, 2> squared;
+    if (tree.knn(points[i], 2, index.data(), squared.data()) == 2)
+      distances.push_back(std::sqrt(squared[1]));
+  }
+  return median(distances);
+}
+
+struct Thickness {
+  double sigma = 0.0;
+  double density = 0.0;  ///< points per square metre
+};
+
+/// Points of `order` within r of p are spread along the normal with sigma.
+Thickness thickness_at(const MergedCloud& merged, const VoxelGrid& grid, const Vec3f& p, double r) {
+  const VoxelIndex low = ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
+  const VoxelIndex high = ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
+  Vec3d sum = Vec3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  std::size_t n = 0;
+  grid.for_each_in_box(low, high, [&](std::uint32_t v) {
+    const VoxelGrid::Voxel& voxel = grid.voxels()[v];
+    for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
+      const Vec3d d = (merged.cloud.points[grid.order()[k]] - p).cast<double>();
+      if (d.squaredNorm() > r * r) continue;
+      sum += d;
+      squares += d * d.transpose();
+      ++n;
+    }
+  });
+  if (n < 8) return {};
+  const Vec3d mean = sum / double(n);
+  const Eigen::Matrix3d covariance = squares / double(n) - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return {std::sqrt(std::max(0.0, solver.eigenvalues()[0])),
+          double(n) / (std::numbers::pi * r * r)};
+}
+
+}  // namespace
+
+FrameStatistics frame_statistics(const FramePoints& points) {
+  FrameStatistics out;
+  if (points.cell.empty()) {
+    out.spacing_m = median_nearest(points.cloud.points);
+    return out;
+  }
+  std::vector<double> steps, bends;
+  const auto& p = points.cloud.points;
+  const bool depth = !points.viewpoint.parallel;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (points.cell[i] != points.cell[i - 1] + 1) continue;
+    steps.push_back((p[i] - p[i - 1]).norm());
+    if (i + 1 == p.size() || points.cell[i + 1] != points.cell[i] + 1) continue;
+    // Along the ray; a scanner with parallel rays looks along the viewpoint's direction.
+    const Vec3f bend = p[i] - 0.5f * (p[i - 1] + p[i + 1]);
+    bends.push_back(std::abs(depth ? bend.z() : bend.dot(points.viewpoint.value.cast<float>())));
+  }
+  out.spacing_m = median(steps);
+  out.noise_m = 1.4826 * median(bends) / std::sqrt(1.5);
+  return out;
+}
+
+CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m) {
+  constexpr std::size_t kSamples = 1500;
+  const auto& points = merged.cloud.points;
+  CloudStatistics out;
+  double r = start_radius_m;
+  for (int round = 0; round < 9; ++round, r *= std::numbers::sqrt2) {
+    auto grid = VoxelGrid::build(points, r, RunContext());
+    if (!grid) return out;
+    std::vector<double> sigmas(kSamples), densities(kSamples);
+    parallel_for(kSamples, 16, [&](std::size_t s) {
+      const std::size_t i = mix64(s) % points.size();
+      const Thickness t = thickness_at(merged, *grid, points[i], r);
+      sigmas[s] = t.sigma;
+      densities[s] = t.density;
+    });
+    out.noise_m = median(sigmas);
+    const double density = median(densities);
+    out.spacing_m = density > 0.0 ? 1.0 / std::sqrt(density) : 0.0;
+    if (density > 0.0 && out.noise_m < r / 3.0) break;
+  }
+  return out;
+}
+
+}  // namespace turnscan

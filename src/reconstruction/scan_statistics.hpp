@@ -1,0 +1,30 @@
+#pragma once
+// What the data say about themselves: spacing and noise, from which automatic values follow.
+
+#include <turnscan/reconstruction/merge.hpp>
+
+namespace turnscan {
+
+/// Of single frames, before merging.
+struct FrameStatistics {
+  double spacing_m = 0.0;  ///< median distance between grid neighbours (or nearest neighbours)
+  double noise_m = 0.0;    ///< robust sigma of a point along its ray; 0 where there is no grid
+};
+
+/// Noise: second differences along the rows of the grid, z[i] - (z[i-1] + z[i+1]) / 2, have
+/// 1.5 sigma^2 for independent noise and vanish on smooth surfaces; their median absolute value
+/// gives sigma. Correlated noise is underestimated; merged_noise sees it.
+FrameStatistics frame_statistics(const FramePoints& points);
+
+/// Of the merged cloud.
+struct CloudStatistics {
+  double noise_m = 0.0;    ///< median thickness of the cloud along its normal (standard deviation)
+  double spacing_m = 0.0;  ///< 1 / sqrt(points per square metre of surface)
+};
+
+/// Samples neighbourhoods of radius r, smallest first, until the thickness is below a third of r:
+/// the square root of the smallest eigenvalue of the covariance. Deterministic. Starts at
+/// start_radius_m; ends at 16 times that.
+CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m);
+
+}  // namespace turnscan
