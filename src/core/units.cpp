@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <turnscan/core/units.hpp>
 
@@ -52,31 +53,38 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+struct Split {
+  double value;
+  std::string_view rest;  // what follows the number, trimmed
+};
+
+// from_chars takes no leading plus sign, people write one.
+std::optional<Split> split_number(std::string_view text) {
+  std::string_view t = trimmed(text);
+  if (t.starts_with('+') && !t.starts_with("+-")) t.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  return Split{value, trimmed(t.substr(static_cast<std::size_t>(end - t.data())))};
+}
+
 }  // namespace
 
 Result<double> parse_number(std::string_view text) {
-  const std::string_view t = trimmed(text);
-  double value = 0.0;
-  const char* begin = t.data();
-  if (!t.empty() && t.front() == '+') ++begin;
-  const auto [end, error] = std::from_chars(begin, t.data() + t.size(), value);
-  if (error != std::errc() || end != t.data() + t.size() || !std::isfinite(value))
+  const auto split = split_number(text);
+  if (!split || !split->rest.empty())
     return fail(ErrorCode::kInvalidOption, "'{}' is not a finite number", text);
-  return value;
+  return split->value;
 }
 
 Result<double> parse_quantity(std::string_view text, Quantity quantity) {
   if (quantity == Quantity::kNone) return parse_number(text);
   const auto units = units_of(quantity);
-  const std::string_view t = trimmed(text);
-  double value = 0.0;
-  const char* begin = t.data();
-  if (!t.empty() && t.front() == '+') ++begin;
-  const auto [end, error] = std::from_chars(begin, t.data() + t.size(), value);
-  if (error != std::errc() || !std::isfinite(value))
+  const auto split = split_number(text);
+  if (!split)
     return fail(ErrorCode::kInvalidOption, "'{}' is not a number with a unit ({})", text,
                 names(units));
-  const std::string_view unit = trimmed(t.substr(static_cast<std::size_t>(end - t.data())));
+  const auto [value, unit] = *split;
   if (unit.empty() && value == 0.0) return 0.0;
   for (const UnitScale& u : units) {
     if (unit == u.name) return value * u.to_si;
