@@ -22,9 +22,10 @@ constexpr std::uint64_t hash_key(std::uint64_t seed, std::uint64_t a, std::uint6
   return mix64(mix64(mix64(mix64(seed) ^ a) ^ b) ^ c);
 }
 
-/// Uniform in (0, 1), from the upper 53 bits; never exactly 0 or 1.
+/// Uniform in (0, 1), from the upper 52 bits (with 53 the largest would round to 1); never exactly
+/// 0 or 1.
 constexpr double uniform01(std::uint64_t key) {
-  return (static_cast<double>(key >> 11) + 0.5) * 0x1.0p-53;
+  return (static_cast<double>(key >> 12) + 0.5) * 0x1.0p-52;
 }
 
 /// Standard normal (Box and Muller 1958).
