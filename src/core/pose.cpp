@@ -1,4 +1,5 @@
 #include <Eigen/SVD>
+#include <cmath>
 #include <turnscan/core/pose.hpp>
 
 namespace turnscan {
@@ -7,7 +8,8 @@ Result<Pose> pose_from(const Vec3d& translation_m, double qx, double qy, double 
   const Eigen::Quaterniond q(qw, qx, qy, qz);
   if (!translation_m.allFinite() || !q.coeffs().allFinite())
     return fail(ErrorCode::kFormat, "pose has a value that is not finite");
-  if (!(q.norm() > 1e-6)) return fail(ErrorCode::kFormat, "pose has a quaternion of length zero");
+  if (!(q.norm() > 1e-6) || !std::isfinite(q.norm()))
+    return fail(ErrorCode::kFormat, "pose has a quaternion of length {}", q.norm());
   Pose pose = Pose::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = translation_m;
@@ -19,7 +21,8 @@ Result<Pose> pose_from(const Eigen::Matrix4d& matrix) {
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-6)
     return fail(ErrorCode::kFormat, "pose matrix: the last row is not 0 0 0 1");
   const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();
-  if ((r * r.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || r.determinant() < 0)
+  const double error = (r * r.transpose() - Eigen::Matrix3d::Identity()).norm();
+  if (!(error <= 1e-3) || r.determinant() < 0)
     return fail(ErrorCode::kFormat, "pose matrix: the upper left 3x3 block is not a rotation");
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Pose pose = Pose::Identity();

@@ -11,8 +11,8 @@ using Vec3f = Eigen::Vector3f;
 using Vec3d = Eigen::Vector3d;
 using Pose = Eigen::Isometry3d;
 
-/// Pose from translation and quaternion (Hamilton, any non-zero length). Fails with kFormat when a
-/// value is not finite or the quaternion is zero.
+/// Pose from translation and quaternion (Hamilton; any length above 1e-6). Fails with kFormat when
+/// a value is not finite or the quaternion is zero.
 Result<Pose> pose_from(const Vec3d& translation_m, double qx, double qy, double qz, double qw);
 
 /// Pose from a row-major 4x4 matrix. Fails with kFormat unless it is finite, its last row is
