@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <turnscan/core/camera.hpp>
 
 namespace turnscan {
 
 namespace {
+
+constexpr int kMaxUndistortSteps = 200;
 
 Eigen::Vector2d distort(const std::array<double, 5>& d, double x, double y) {
   const double r2 = x * x + y * y;
@@ -36,15 +39,16 @@ Result<> CameraIntrinsics::check() const {
 
 Vec3d CameraIntrinsics::ray(double u, double v) const {
   const double xd = (u - cx) / fx, yd = (v - cy) / fy;
-  double x = xd, y = yd;
-  if (distorted()) {
-    for (int i = 0; i < 20; ++i) {
-      const Eigen::Vector2d error = distort(distortion, x, y) - Eigen::Vector2d(xd, yd);
-      x -= error.x();
-      y -= error.y();
-      if (error.squaredNorm() < 1e-20) break;
-    }
+  if (!distorted()) return {xd, yd, 1.0};
+  // Converges where the distortion is monotone; strong distortion makes it slow, not wrong.
+  double x = xd, y = yd, squared_error = 1.0;
+  for (int i = 0; i < kMaxUndistortSteps && squared_error > 1e-20; ++i) {
+    const Eigen::Vector2d error = distort(distortion, x, y) - Eigen::Vector2d(xd, yd);
+    x -= error.x();
+    y -= error.y();
+    squared_error = error.squaredNorm();
   }
+  if (!(squared_error <= 1e-12)) return Vec3d::Constant(std::numeric_limits<double>::quiet_NaN());
   return {x, y, 1.0};
 }
 

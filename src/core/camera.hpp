@@ -21,7 +21,8 @@ struct CameraIntrinsics {
   /// Fails with kFormat unless sizes are in [1, 65535], focal lengths are positive and all finite.
   Result<> check() const;
   /// Direction with z = 1 of the ray through image point (u, v); undoes the distortion by fixed
-  /// point iteration.
+  /// point iteration. NaN where no ray gives that image point (outside what the distortion model
+  /// covers).
   Vec3d ray(double u, double v) const;
   /// Image point of p_camera (z > 0).
   Eigen::Vector2d project(const Vec3d& p_camera) const;

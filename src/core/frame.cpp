@@ -51,8 +51,9 @@ Result<FramePoints> points_of_depth(const Frame& frame, const SensorInfo& sensor
     const std::uint16_t raw = depth.pixels[i];
     if (raw == kNoReturn || raw == kOutsideCrop) continue;
     const float z = static_cast<float>(raw * sensor.depth_unit_m + sensor.depth_bias_m);
-    if (!(z > 0.0f)) continue;
-    out.cloud.points.emplace_back(rays.x()[i] * z, rays.y()[i] * z, z);
+    const Vec3f p(rays.x()[i] * z, rays.y()[i] * z, z);
+    if (!(z > 0.0f) || !p.allFinite()) continue;
+    out.cloud.points.push_back(p);
     out.cell.push_back(static_cast<std::int32_t>(i));
     if (registered) out.cloud.colors.push_back(frame.color.pixels[i]);
   }
@@ -76,7 +77,8 @@ Result<FramePoints> points_of_scan(const Frame& frame, const SensorInfo& sensor)
     for (std::size_t i = 0; i < in.size(); ++i) take(i);
     return out;
   }
-  if (frame.grid.size() != std::size_t(frame.grid_width) * std::size_t(frame.grid_height))
+  if (frame.grid_width < 0 || frame.grid_height < 0 ||
+      frame.grid.size() != std::size_t(frame.grid_width) * std::size_t(frame.grid_height))
     return fail_at(frame.info.file, ErrorCode::kFormat, "range grid has {} cells, not {} x {}",
                    frame.grid.size(), frame.grid_width, frame.grid_height);
   out.width = frame.grid_width;

@@ -85,8 +85,9 @@ struct FramePoints {
 };
 
 /// Valid returns of a frame as points, in the order of cells. Takes colour where it is registered
-/// (same size as depth), or projects each point into the colour camera. Pixels kNoReturn and
-/// kOutsideCrop and points that are not finite are left out. rays must fit the intrinsics.
+/// (same size as depth), or projects each point into the colour camera; black where that does not
+/// see it. Pixels kNoReturn and kOutsideCrop and points that are not finite or not in front of a
+/// depth camera are left out. rays must fit the intrinsics.
 /// Fails with kFormat when sizes do not fit.
 Result<FramePoints> points_of(const Frame& frame, const SensorInfo& sensor, const RayTable& rays);
 
