@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <turnscan/core/option_table.hpp>
 
 namespace turnscan {
@@ -22,6 +24,8 @@ Result<double> parse_field(const std::string& name, std::string_view text, Quant
 }
 
 Result<int> parse_integer(const std::string& name, std::string_view text, Range range) {
+  range.min = std::max(range.min, double(std::numeric_limits<int>::min()));
+  range.max = std::min(range.max, double(std::numeric_limits<int>::max()));
   TURNSCAN_ASSIGN(const double value, parse_field(name, text, Quantity::kNone, range));
   if (value != std::floor(value))
     return fail(ErrorCode::kInvalidOption, "{} = {} is not a whole number", name, text);
@@ -45,6 +49,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+OptionTable& OptionTable::add(OptionField field) {
+  if (find(field.name) != nullptr)
+    throw std::invalid_argument("two options are named " + field.name);
+  fields_.push_back(std::move(field));
+  return *this;
+}
+
 OptionTable& OptionTable::flag(std::string name, bool& value, std::string help) {
   OptionField f;
   f.name = name;
@@ -58,8 +69,7 @@ OptionTable& OptionTable::flag(std::string name, bool& value, std::string help) 
     return {};
   };
   f.check = [] { return Result<>(); };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::number(std::string name, double& value, Quantity quantity, Range range,
@@ -75,8 +85,7 @@ OptionTable& OptionTable::number(std::string name, double& value, Quantity quant
     return {};
   };
   f.check = [=, &value] { return check_range(name, value, quantity, range); };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::number(std::string name, int& value, Range range, std::string help) {
@@ -90,8 +99,7 @@ OptionTable& OptionTable::number(std::string name, int& value, Range range, std:
     return {};
   };
   f.check = [=, &value] { return check_range(name, value, Quantity::kNone, range); };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::number(std::string name, std::optional<double>& value, Quantity quantity,
@@ -114,8 +122,7 @@ OptionTable& OptionTable::number(std::string name, std::optional<double>& value,
     return {};
   };
   f.check = [=, &value] { return value ? check_range(name, *value, quantity, range) : Result<>(); };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::number(std::string name, std::optional<int>& value, Range range,
@@ -137,8 +144,7 @@ OptionTable& OptionTable::number(std::string name, std::optional<int>& value, Ra
   f.check = [=, &value] {
     return value ? check_range(name, *value, Quantity::kNone, range) : Result<>();
   };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::text(std::string name, std::string& value, std::string help) {
@@ -151,8 +157,7 @@ OptionTable& OptionTable::text(std::string name, std::string& value, std::string
     return {};
   };
   f.check = [] { return Result<>(); };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::choice_index(std::string name, std::vector<std::string> choices,
@@ -176,14 +181,13 @@ OptionTable& OptionTable::choice_index(std::string name, std::vector<std::string
     return fail(ErrorCode::kInvalidOption, "{} = {} is not one of {}", name, get(),
                 fmt::join(choices, ", "));
   };
-  fields_.push_back(std::move(f));
-  return *this;
+  return add(std::move(f));
 }
 
 OptionTable& OptionTable::append(OptionTable other, const std::string& prefix) {
   for (OptionField& field : other.fields_) {
     field.name = prefix + field.name;
-    fields_.push_back(std::move(field));
+    add(std::move(field));
   }
   return *this;
 }

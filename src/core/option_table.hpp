@@ -38,6 +38,7 @@ struct OptionField {
 };
 
 /// Table of the fields of one or more options structs. It refers to them; they must outlive it.
+/// Two fields of one name throw std::invalid_argument.
 class OptionTable {
  public:
   OptionTable& flag(std::string name, bool& value, std::string help);
@@ -73,6 +74,7 @@ class OptionTable {
  private:
   OptionTable& choice_index(std::string name, std::vector<std::string> choices, std::string help,
                             std::function<int()> get, std::function<void(int)> set);
+  OptionTable& add(OptionField field);
   std::vector<OptionField> fields_;
 };
 

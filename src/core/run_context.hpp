@@ -25,7 +25,8 @@ class RunContext {
   RunContext();
 
   /// Called at the start of each phase and at most about 20 times a second within it, from
-  /// whichever thread works, never from two at once. It must not call begin_phase or advance.
+  /// whichever thread works, never from two at once. It may call cancel() and cancelled(), and
+  /// nothing else of the context.
   void set_listener(Listener listener);
 
   void cancel() const noexcept;
