@@ -1,0 +1,38 @@
+# Compile settings of our own code.
+
+# Headers lie beside their sources and are included as <turnscan/FLOOR/NAME.hpp>, before and after
+# installation: in the build tree a link named turnscan stands for src/.
+file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/include")
+file(CREATE_LINK "${CMAKE_SOURCE_DIR}/src" "${CMAKE_BINARY_DIR}/include/turnscan" SYMBOLIC)
+
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+find_program(TURNSCAN_CCACHE ccache)
+if(TURNSCAN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${TURNSCAN_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${TURNSCAN_CCACHE}")
+endif()
+
+add_library(turnscan_settings INTERFACE)
+target_compile_features(turnscan_settings INTERFACE cxx_std_20)
+# -ffp-contract=off: the same bytes with and without FMA units.
+target_compile_options(turnscan_settings INTERFACE -ffp-contract=off)
+add_library(turnscan_warnings INTERFACE)
+target_compile_options(turnscan_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+                                                   -Wnon-virtual-dtor -Woverloaded-virtual)
+# GCC 12 sees uninitialised values in every std::optional<double> that it inlines.
+target_compile_options(turnscan_warnings
+                       INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+if(TURNSCAN_WERROR)
+  target_compile_options(turnscan_warnings INTERFACE -Werror)
+endif()
+# PCL's surface module names all of VTK: programs load only the libraries that they call.
+add_link_options(-Wl,--as-needed)
+if(TURNSCAN_SANITIZE)
+  add_compile_options(-fsanitize=${TURNSCAN_SANITIZE} -fno-omit-frame-pointer
+                      -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${TURNSCAN_SANITIZE})
+endif()

@@ -1,0 +1,22 @@
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <iostream>
+#include <locale>
+
+// Every test runs in a locale that writes 1.234,5 for 1234.5: whatever reads or writes numbers by
+// the locale shows at once.
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+#ifdef TURNSCAN_TEST_LOCPATH
+  setenv("LOCPATH", TURNSCAN_TEST_LOCPATH, 1);
+  const char* const name = "de_DE.UTF-8";
+  if (std::setlocale(LC_NUMERIC, name) == nullptr) {
+    std::cerr << "no locale " << name << " in " << TURNSCAN_TEST_LOCPATH << '\n';
+    return 1;
+  }
+  std::locale::global(std::locale(std::locale::classic(), name, std::locale::numeric));
+#endif
+  return RUN_ALL_TESTS();
+}
