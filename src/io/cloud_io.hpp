@@ -29,7 +29,8 @@ struct CloudFile {
 /// Points that are not finite are left out, and their cells are -1. Other elements, properties and
 /// fields are skipped. Colours of floating-point type are taken as 0 to 1.
 /// Fails with kFormat (damaged; a count that the file's length cannot hold; an index out of
-/// range), kUnsupported (another kind of file), kTooFewPoints (no finite point) or as read_file.
+/// range), kUnsupported (another kind of file) or as read_file. A cloud without points is no error:
+/// a scanner may see nothing.
 Result<CloudFile> read_cloud(const std::filesystem::path& path);
 Result<CloudFile> decode_cloud(std::string_view bytes);
 
