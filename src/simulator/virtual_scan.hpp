@@ -65,7 +65,7 @@ inline constexpr double kSilhouetteStep_m = 0.02;
 class VirtualScan : public FrameSequence {
  public:
   /// objects: table frame, platter at angle 0. Fails with kInvalidOption when an option is out of
-  /// range or the camera is inside the platter's plane, and as Scene::create does.
+  /// range, and as Scene::create does.
   static Result<VirtualScan> create(std::vector<TriangleMesh> objects,
                                     const VirtualScanOptions& options);
   VirtualScan(VirtualScan&&) noexcept;

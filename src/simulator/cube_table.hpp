@@ -1,0 +1,26 @@
+#pragma once
+// How a surface crosses a cube whose corners are inside or outside (private to the simulator).
+// Corner c lies at (c & 1, c >> 1 & 1, c >> 2).
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace turnscan {
+
+inline constexpr int kCubeEdges = 12;
+
+struct CubeEdge {
+  int corner;  ///< the end where the coordinate `axis` is 0
+  int axis;    ///< 0, 1, 2
+};
+
+CubeEdge cube_edge(int edge);
+
+/// Vertices: 0 to 11 on the edges; kCubeEdges and up in the middle of the cube.
+using CubeTriangle = std::array<std::uint8_t, 3>;
+
+/// Triangles for the corners whose bit in `inside` is set; counter-clockwise seen from outside.
+std::span<const CubeTriangle> cube_triangles(unsigned inside);
+
+}  // namespace turnscan
