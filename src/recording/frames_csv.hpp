@@ -1,0 +1,31 @@
+#pragma once
+// frames.csv as text. Internal: not installed.
+
+#include <string>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct FrameRow {
+  FrameInfo info;
+  std::string color_file;
+  std::size_t line = 0;  ///< of frames.csv, from 1
+};
+
+struct FrameTable {
+  std::vector<FrameRow> rows;  ///< by index
+  std::vector<std::string> notes;
+};
+
+/// The column names, with the line's end.
+std::string frames_csv_header();
+/// One line, with its end. info.file and color_file must not contain commas, quotes or line ends.
+std::string frames_csv_line(const FrameInfo& info, const std::string& color_file);
+
+/// Reads the whole table. A last line without its end that cannot be read is left out with a note;
+/// every other wrong line is an error (kFormat) that names it.
+Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count);
+
+}  // namespace turnscan

@@ -1,0 +1,319 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/version.hpp>
+#include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/cloud_io.hpp>
+#include <turnscan/io/image_io.hpp>
+#include <turnscan/recording/frames_csv.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/recording_json.hpp>
+#include <unordered_set>
+
+namespace turnscan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kBatch = 64;  ///< frames whose lines are appended together
+
+tl::unexpected<Error> system_error(const fs::path& path, std::string_view what, int error) {
+  return fail_at(path.string(), ErrorCode::kIo, "{}: {}", what,
+                 std::generic_category().message(error));
+}
+
+/// frames.csv while it grows: whole lines only, also when the disk is full.
+class LineFile {
+ public:
+  LineFile() = default;
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+  ~LineFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+
+  bool created() const { return descriptor_ >= 0; }
+
+  Result<> create(const fs::path& path) {
+    path_ = path;
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return system_error(path_, "cannot create", errno);
+    return {};
+  }
+
+  /// One write(): the kernel has all of it, or the file is cut back to its last whole line.
+  Result<> append(std::string_view lines) {
+    std::size_t done = 0;
+    while (done < lines.size()) {
+      const ssize_t n = ::write(descriptor_, lines.data() + done, lines.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) {
+        const int error = errno;
+        (void)!::ftruncate(descriptor_, static_cast<off_t>(size_));
+        return system_error(path_, "cannot append a line", error);
+      }
+      done += static_cast<std::size_t>(n);
+    }
+    size_ += lines.size();
+    return {};
+  }
+
+  Result<> sync() {
+    if (::fsync(descriptor_) != 0) return system_error(path_, "cannot write", errno);
+    return {};
+  }
+
+ private:
+  fs::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// Makes the folder with its parents; the ones that did not exist before are added to `made`.
+Result<> make_folders(const fs::path& folder, std::vector<fs::path>& made) {
+  std::error_code error;
+  if (fs::exists(folder, error)) {
+    if (!fs::is_directory(folder, error))
+      return fail_at(folder.string(), ErrorCode::kAlreadyExists,
+                     "there is a file of that name; choose another folder");
+    if (!fs::is_empty(folder, error))
+      return fail_at(folder.string(), ErrorCode::kAlreadyExists,
+                     "the folder is not empty, and a recording is never overwritten; choose "
+                     "another one or remove it");
+    return {};
+  }
+  std::vector<fs::path> missing;
+  for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path())
+    missing.push_back(p);
+  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
+    if (fs::create_directory(*p, error)) made.push_back(*p);
+    if (error) return system_error(*p, "cannot create the folder", error.value());
+  }
+  return {};
+}
+
+tl::unexpected<Error> misfit(const Frame& frame, const std::string& why) {
+  return fail(ErrorCode::kInvalidOption, "recording: frame {} cannot be written: {}",
+              frame.info.index, why);
+}
+
+Result<> check_pixels(const Frame& frame, const SensorInfo& sensor) {
+  const CameraIntrinsics& camera = sensor.intrinsics;
+  const DepthImage& depth = frame.depth;
+  if (depth.width == camera.width && depth.height == camera.height &&
+      depth.pixels.size() == std::size_t(depth.width) * std::size_t(depth.height))
+    return {};
+  return misfit(frame, fmt::format("its depth image has {} x {} pixels, its sensor {} x {}",
+                                   depth.width, depth.height, camera.width, camera.height));
+}
+
+Result<> check_frame(const Frame& frame, const SequenceHeader& header) {
+  const FrameInfo& info = frame.info;
+  if (info.sensor >= header.sensors.size())
+    return misfit(frame, fmt::format("there is no sensor {}", info.sensor));
+  if (std::isinf(info.time_s) || (info.angle_rad && !std::isfinite(*info.angle_rad)) ||
+      (info.T_table_sensor && !info.T_table_sensor->matrix().allFinite()))
+    return misfit(frame, "its time, angle or pose is not finite");
+  if (info.status == FrameStatus::kDropped) return {};
+  const SensorInfo& sensor = header.sensors[info.sensor];
+  if (sensor.kind == SensorKind::kDepthCamera) return check_pixels(frame, sensor);
+  if (frame.points.empty()) return misfit(frame, "it has no points");
+  return {};
+}
+
+}  // namespace
+
+struct RecordingWriter::State {
+  fs::path folder;
+  RecordingDescription description;
+  ColorFileFormat color = ColorFileFormat::kPng;
+  LineFile table;
+  std::unordered_set<std::uint32_t> indices;
+  std::vector<fs::path> made_folders;  ///< parents first
+  bool finished = false;
+
+  /// Writes the frame's files and returns its line. May run on several threads at once.
+  Result<std::string> write_files(const Frame& frame) const;
+  Result<std::string> write_color(const Frame& frame, const std::string& number) const;
+  Result<> write_data(const Frame& frame, const fs::path& path) const;
+  Result<> make_subfolder(const char* name) const;
+  Result<> claim_index(const FrameInfo& info);
+  /// Removes what this writer made.
+  void discard();
+};
+
+Result<> RecordingWriter::State::make_subfolder(const char* name) const {
+  std::error_code error;
+  fs::create_directory(folder / name, error);
+  if (error) return system_error(folder / name, "cannot create the folder", error.value());
+  return {};
+}
+
+Result<> RecordingWriter::State::write_data(const Frame& frame, const fs::path& path) const {
+  if (!frame.depth.empty()) return write_depth_png(path, frame.depth, Durability::kNamed);
+  return write_cloud(
+      path, CloudFile{frame.points, frame.grid_width, frame.grid_height, frame.grid, std::nullopt});
+}
+
+Result<std::string> RecordingWriter::State::write_color(const Frame& frame,
+                                                        const std::string& number) const {
+  if (frame.color.empty()) return std::string();
+  TURNSCAN_TRY(make_subfolder("color"));
+  const bool png = color == ColorFileFormat::kPng;
+  const std::string name = "color/" + number + (png ? ".png" : ".jpg");
+  TURNSCAN_TRY(png ? write_color_png(folder / name, frame.color, Durability::kNamed)
+                   : write_color_jpeg(folder / name, frame.color, 92, Durability::kNamed));
+  return name;
+}
+
+Result<std::string> RecordingWriter::State::write_files(const Frame& frame) const {
+  TURNSCAN_TRY(check_frame(frame, description.header));
+  FrameInfo info = frame.info;
+  info.file.clear();
+  if (info.status == FrameStatus::kDropped) return frames_csv_line(info, "");
+  const std::string number = fmt::format("{:06}", info.index);
+  const bool depth = description.header.sensors[info.sensor].kind == SensorKind::kDepthCamera;
+  TURNSCAN_TRY(make_subfolder(depth ? "depth" : "points"));
+  info.file = depth ? "depth/" + number + ".png" : "points/" + number + ".ply";
+  TURNSCAN_TRY(write_data(frame, folder / info.file));
+  TURNSCAN_ASSIGN(const std::string color_file, write_color(frame, number));
+  return frames_csv_line(info, color_file);
+}
+
+Result<> RecordingWriter::State::claim_index(const FrameInfo& info) {
+  if (!indices.insert(info.index).second)
+    return fail(ErrorCode::kInvalidOption, "recording: there are two frames with the index {}",
+                info.index);
+  return {};
+}
+
+void RecordingWriter::State::discard() {
+  std::error_code ignored;
+  if (table.created()) {  // else what is there is somebody else's
+    for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
+      fs::remove_all(folder / name, ignored);
+  }
+  for (auto p = made_folders.rbegin(); p != made_folders.rend(); ++p) fs::remove(*p, ignored);
+}
+
+RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
+RecordingWriter& RecordingWriter::operator=(RecordingWriter&&) noexcept = default;
+RecordingWriter::~RecordingWriter() = default;
+
+Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
+                                                const SequenceHeader& header,
+                                                const CaptureSettings& capture,
+                                                ColorFileFormat color) {
+  TURNSCAN_TRY(check_header(header));
+  auto state = std::make_unique<State>();
+  state->folder = folder;
+  state->color = color;
+  state->description = {header, capture, false, std::nullopt};
+  state->description.header.software = fmt::format("turnscan {}", version());
+  const auto made = [&]() -> Result<> {
+    TURNSCAN_TRY(make_folders(folder, state->made_folders));
+    TURNSCAN_TRY(state->table.create(folder / "frames.csv"));
+    TURNSCAN_TRY(state->table.append(frames_csv_header()));
+    return write_file_atomically(folder / "recording.json", recording_json(state->description));
+  }();
+  if (!made) {
+    state->discard();
+    return tl::unexpected<Error>(made.error());
+  }
+  return RecordingWriter(std::move(state));
+}
+
+Result<> RecordingWriter::append(const Frame& frame) {
+  if (!state_ || state_->finished)
+    throw std::invalid_argument("recording: append() after finish()");
+  TURNSCAN_TRY(check_frame(frame, state_->description.header));
+  TURNSCAN_TRY(state_->claim_index(frame.info));
+  auto line = state_->write_files(frame);
+  Result<> done = line ? state_->table.append(*line) : tl::unexpected<Error>(line.error());
+  if (!done) state_->indices.erase(frame.info.index);
+  return done;
+}
+
+Result<> RecordingWriter::finish() {
+  if (!state_ || state_->finished)
+    throw std::invalid_argument("recording: finish() was called before");
+  TURNSCAN_TRY(state_->table.sync());
+  RecordingDescription description = state_->description;
+  description.complete = true;
+  description.frame_count = static_cast<std::uint32_t>(state_->indices.size());
+  TURNSCAN_TRY(
+      write_file_atomically(state_->folder / "recording.json", recording_json(description)));
+  state_->finished = true;
+  return {};
+}
+
+namespace {
+
+/// Reads one frame of a sequence; a dropped one has no data.
+Result<Frame> frame_at(const FrameSequence& sequence, std::size_t position) {
+  const FrameInfo& info = sequence.frames()[position];
+  if (info.status != FrameStatus::kDropped) return sequence.read(position);
+  Frame frame;
+  frame.info = info;
+  return frame;
+}
+
+/// Runs work(i) for all i of [begin, end) on all cores and returns the values in order, or the
+/// first error by position, or kCancelled.
+template <class Work>
+Result<std::vector<std::string>> run_batch(std::size_t begin, std::size_t end,
+                                           const RunContext& context, const Work& work) {
+  std::vector<Result<std::string>> results(end - begin, Result<std::string>());
+  std::atomic<bool> failed{false};
+  parallel_for(end - begin, 1, [&](std::size_t i) {
+    if (failed || context.cancelled()) return;
+    results[i] = work(begin + i);
+    if (!results[i]) failed = true;
+    context.advance();
+  });
+  TURNSCAN_TRY(context.check());
+  std::vector<std::string> values;
+  for (auto& result : results) {
+    if (!result) return tl::unexpected<Error>(std::move(result).error());
+    values.push_back(std::move(*result));
+  }
+  return values;
+}
+
+}  // namespace
+
+Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
+                         const RunContext& context) {
+  TURNSCAN_TRY(context.check());
+  TURNSCAN_ASSIGN(RecordingWriter writer, RecordingWriter::create(folder, sequence.header()));
+  RecordingWriter::State& state = *writer.state_;
+  const std::size_t count = sequence.frames().size();
+  const auto written = [&]() -> Result<> {
+    for (const FrameInfo& info : sequence.frames()) TURNSCAN_TRY(state.claim_index(info));
+    context.begin_phase("write recording", count);
+    for (std::size_t begin = 0; begin < count; begin += kBatch) {
+      const auto work = [&](std::size_t position) -> Result<std::string> {
+        TURNSCAN_ASSIGN(const Frame frame, frame_at(sequence, position));
+        return state.write_files(frame);
+      };
+      TURNSCAN_ASSIGN(const std::vector<std::string> lines,
+                      run_batch(begin, std::min(begin + kBatch, count), context, work));
+      TURNSCAN_TRY(state.table.append(fmt::format("{}", fmt::join(lines, ""))));
+    }
+    TURNSCAN_TRY(context.check());
+    return writer.finish();
+  }();
+  if (!written) state.discard();
+  return written;
+}
+
+}  // namespace turnscan
