@@ -1,0 +1,223 @@
+// The search in the grid against a search through all points, on every instruction set.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/outliers_grid.hpp>
+
+#include "depth_frames.hpp"
+
+namespace turnscan::outliers {
+namespace {
+
+using testing::Defects;
+
+/// By definition: all squared distances sorted, the first (the point itself) left out.
+std::vector<float> brute_force(const std::vector<Vec3f>& points, int k) {
+  std::vector<float> mean;
+  std::vector<float> squared(points.size());
+  for (const Vec3f& q : points) {
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const float dx = q.x() - points[j].x(), dy = q.y() - points[j].y();
+      const float dz = q.z() - points[j].z();
+      squared[j] = dx * dx + dy * dy + dz * dz;
+    }
+    std::partial_sort(squared.begin(), squared.begin() + k + 1, squared.end());
+    double sum = 0.0;
+    for (int i = 1; i <= k; ++i) sum += std::sqrt(double(squared[i]));
+    mean.push_back(static_cast<float>(sum / k));
+  }
+  return mean;
+}
+
+const std::vector<InstructionSet> kSets = {InstructionSet::kPortable, InstructionSet::kAvx2,
+                                           InstructionSet::kAvx512};
+
+/// Uses each instruction set that this machine has, then the widest again.
+class EachSet {
+ public:
+  template <class Test>
+  static void run(const Test& test) {
+    for (const InstructionSet set : kSets) {
+      if (!kernel_for(set)) continue;
+      SCOPED_TRACE(static_cast<int>(set));
+      use_instruction_set(set);
+      test();
+    }
+  }
+};
+
+/// As a run of numbers that differ in bits, not values; and the grid must not have given up.
+void expect_exact(const FramePoints& frame, int k) {
+  const std::vector<float> expected = brute_force(frame.cloud.points, k);
+  EachSet::run([&] {
+    std::vector<float> mean(expected.size(), -1.0f);
+    ASSERT_TRUE(grid_mean_distances(frame, k, mean));
+    EXPECT_EQ(std::memcmp(mean.data(), expected.data(), mean.size() * sizeof(float)), 0)
+        << "k " << k;
+  });
+}
+
+FramePoints small_frame(const testing::DepthAt& depth, int width = 70, int height = 50,
+                        double f = 60.0) {
+  CameraIntrinsics camera;
+  camera.width = width, camera.height = height;
+  camera.fx = camera.fy = f;
+  camera.cx = width / 2.0, camera.cy = height / 2.0;
+  return testing::render(camera, depth);
+}
+
+double random_at(std::uint64_t seed, int column, int row) {
+  return uniform01(hash_key(seed, std::uint64_t(column), std::uint64_t(row)));
+}
+
+TEST(GridSearch, GivesTheMeanDistancesOfBruteForce) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Defects defects;
+    defects.seed = seed;
+    const FramePoints frame = testing::object_frame(testing::kinect_v2(), defects);
+    for (const int k : {1, 7, 10, 33}) expect_exact(frame, k);
+  }
+}
+
+TEST(GridSearch, FollowsADistortingLens) {
+  const FramePoints frame = testing::object_frame(testing::distorted_kinect_v2());
+  for (const int k : {3, 10}) expect_exact(frame, k);
+}
+
+TEST(GridSearch, WidensTheWindowAsFarAsNeeded) {
+  // Random depths: neighbours in space are many pixels apart.
+  for (const double spread : {0.1, 1.0, 10.0}) {
+    const FramePoints frame = small_frame([spread](int column, int row, double, double) {
+      return 0.5 + spread * random_at(11, column, row);
+    });
+    for (const int k : {1, 10, 40, 100, 600}) expect_exact(frame, k);
+  }
+}
+
+TEST(GridSearch, FindsNeighboursAcrossHoles) {
+  for (const double holes : {0.5, 0.9}) {
+    const FramePoints frame = small_frame([holes](int column, int row, double x, double) {
+      return random_at(12, column, row) < holes ? 0.0 : 1.0 + 0.2 * x;
+    });
+    for (const int k : {1, 10, 50}) expect_exact(frame, k);
+  }
+}
+
+TEST(GridSearch, SeesPastAForegroundThatHidesTheNeighbours) {
+  // Single pixels far behind a wall of slats: their neighbours lie behind the next slats.
+  const FramePoints frame = small_frame([](int column, int row, double, double) {
+    return (column * 5 + row * 3) % 11 == 0 ? 2.0 + 0.01 * random_at(13, column, row) : 0.5;
+  });
+  for (const int k : {1, 10, 25}) expect_exact(frame, k);
+}
+
+TEST(GridSearch, CanUseAnySizeOfGrid) {
+  for (const int width : {1, 2, 3, 15, 16, 17, 31, 33})
+    for (const int height : {1, 2, 9, 20}) {
+      const FramePoints frame =
+          small_frame([](int column, int row, double,
+                         double) { return 1.0 + 0.1 * random_at(14, column, row); },
+                      width, height);
+      const int points = width * height;
+      for (const int k : {1, 10, 24, 100})
+        if (points > k) expect_exact(frame, k);
+    }
+}
+
+TEST(GridSearch, HandlesParallelAndSlantedScans) {
+  for (const double shear : {0.0, 0.4, 2.0}) {
+    FramePoints frame;
+    frame.width = 60, frame.height = 45;
+    frame.viewpoint = {Vec3d::UnitZ(), true};
+    for (int cell = 0; cell < 60 * 45; ++cell) {
+      const double z = 0.03 * random_at(15, cell % 60 / 9, cell / 60 / 7) + 1e-4 * (cell % 7);
+      frame.cell.push_back(cell);
+      frame.cloud.points.emplace_back(float(0.0005 * (cell % 60)),
+                                      float(-0.0005 * (cell / 60) + shear * z), float(z));
+    }
+    for (const int k : {1, 10, 40}) expect_exact(frame, k);
+  }
+}
+
+TEST(GridSearch, HandlesAnySensorPose) {
+  for (int turn = 0; turn < 8; ++turn) {
+    FramePoints frame = small_frame([](int column, int row, double x, double y) {
+      return 1.0 + 0.5 * x + 0.3 * y + 0.01 * random_at(16, column, row);
+    });
+    const Pose T = Eigen::Translation3d(turn, 0.5 * turn, -1.0) *
+                   Eigen::AngleAxisd(0.8 * turn, Vec3d(1.0, turn, -0.5).normalized());
+    for (Vec3f& p : frame.cloud.points) p = (T * p.cast<double>()).cast<float>();
+    frame.viewpoint = frame.viewpoint.transformed(T);
+    expect_exact(frame, 10);
+    frame.viewpoint = Viewpoint();
+    expect_exact(frame, 10);
+  }
+}
+
+TEST(GridSearch, IsExactWhereCoordinatesAreCoarse) {
+  // 1 km away a step of float32 is 0.06 mm, a tenth of the spacing.
+  for (const double f : {2e6, 2e5}) {
+    FramePoints frame = small_frame(
+        [](int column, int row, double, double) { return 1.0 + 1e-4 * random_at(17, column, row); },
+        40, 30, f);
+    for (Vec3f& p : frame.cloud.points) p *= 1000.0f;
+    expect_exact(frame, 10);
+  }
+}
+
+TEST(GridSearch, GivesUpOnPointsLostInAHugeGrid) {
+  FramePoints frame;
+  frame.width = frame.height = 40000;
+  for (int i = 0; i < 30; ++i) {
+    frame.cell.push_back(i * 50000000);
+    frame.cloud.points.emplace_back(float(i), 0.0f, 1.0f);
+  }
+  std::vector<float> mean(frame.cell.size());
+  EXPECT_FALSE(grid_mean_distances(frame, 10, mean));
+}
+
+TEST(GridSearch, GivesUpOnSharedCells) {
+  FramePoints frame = small_frame([](int, int, double, double) { return 1.0; });
+  frame.cell[1] = frame.cell[0];
+  std::vector<float> mean(frame.cell.size());
+  EXPECT_FALSE(grid_mean_distances(frame, 10, mean));
+}
+
+TEST(GridSearch, BoundsNeverExceedTheDistance) {
+  for (const bool parallel : {false, true}) {
+    FramePoints frame = testing::object_frame(testing::distorted_kinect_v2());
+    frame.viewpoint.parallel = parallel;
+    frame.viewpoint.value = parallel ? Vec3d(0, 0, -1) : Vec3d(0.01, 0.02, -0.3);
+    PointGrid built;
+    ASSERT_TRUE(built.build(frame));
+    const Grid& grid = built.grid();
+    for (std::size_t i = 0; i < frame.cell.size(); i += 37) {
+      for (std::size_t j = 0; j < frame.cell.size(); j += 11) {
+        const std::int32_t at = built.position()[i], other = built.position()[j];
+        const auto column = [&](std::int32_t p) { return int((p + kPad) % grid.stride) - kPad; };
+        const int c = column(other);
+        if (c == column(at)) continue;
+        const Border& border = c < column(at) ? grid.before_column : grid.beyond_column;
+        const double bound = border.a[c] * double(grid.w[at]) + border.b[c] * double(grid.u[at]) +
+                             border.offset[c] - grid.margin - 1e-6;
+        EXPECT_LE(bound, (frame.cloud.points[i] - frame.cloud.points[j]).norm());
+      }
+    }
+  }
+}
+
+TEST(InstructionSets, PortableIsAlwaysThereAndUnknownOnesAreRefused) {
+  EXPECT_NE(kernel_for(InstructionSet::kPortable), nullptr);
+  for (const InstructionSet set : kSets) {
+    if (!kernel_for(set)) {
+      EXPECT_THROW(use_instruction_set(set), std::invalid_argument);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace turnscan::outliers
