@@ -84,15 +84,15 @@ TriangleMesh make_letter() {
 TriangleMesh make_cylinder() {
   TriangleMesh mesh;
   mesh.name = "cylinder";
-  constexpr auto n = static_cast<std::uint32_t>(Cylinder::segments);
-  for (const double y : {0.0, Cylinder::height_m}) {
+  constexpr auto n = static_cast<std::uint32_t>(SolidCylinder::segments);
+  for (const double y : {0.0, SolidCylinder::height_m}) {
     for (std::uint32_t i = 0; i < n; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / n, r = Cylinder::diameter_m / 2;
+      const double angle = 2.0 * std::numbers::pi * i / n, r = SolidCylinder::diameter_m / 2;
       mesh.vertices.push_back(Vec3d(r * std::sin(angle), y, r * std::cos(angle)).cast<float>());
     }
   }
   mesh.vertices.emplace_back(0.0f, 0.0f, 0.0f);
-  mesh.vertices.emplace_back(0.0f, float(Cylinder::height_m), 0.0f);
+  mesh.vertices.emplace_back(0.0f, float(SolidCylinder::height_m), 0.0f);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
     add_quad(mesh, i, j, n + j, n + i);

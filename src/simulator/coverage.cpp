@@ -60,11 +60,11 @@ std::vector<std::size_t> scattered(std::size_t n) {
 
 /// A view in the table frame.
 struct TableView {
-  const View* view;
+  const CoverageView* view;
   Pose T_sensor_table;
   Viewpoint viewpoint;
 
-  explicit TableView(const View& v)
+  explicit TableView(const CoverageView& v)
       : view(&v),
         T_sensor_table(v.T_table_sensor.inverse()),
         viewpoint(v.viewpoint.transformed(v.T_table_sensor)) {}
@@ -153,11 +153,9 @@ Result<Pose> pose_of(const FrameInfo& frame, const FrameInfo& first, const Seque
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> count_views(const Scene& scene, std::span<const View> views,
-                                               std::span<const Vec3f> points,
-                                               std::span<const Vec3f> normals,
-                                               const CoverageOptions& options,
-                                               const RunContext& context) {
+Result<std::vector<std::uint32_t>> count_views(
+    const Scene& scene, std::span<const CoverageView> views, std::span<const Vec3f> points,
+    std::span<const Vec3f> normals, const CoverageOptions& options, const RunContext& context) {
   if (points.size() != normals.size())
     throw std::invalid_argument("count_views: points and normals differ in number");
   std::vector<std::uint32_t> counts(points.size(), 0);
@@ -178,15 +176,15 @@ Result<std::vector<std::uint32_t>> count_views(const Scene& scene, std::span<con
   return counts;
 }
 
-Result<std::vector<View>> views_of(const FrameSequence& sequence) {
+Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence) {
   const SequenceHeader& header = sequence.header();
-  std::vector<View> views;
+  std::vector<CoverageView> views;
   for (const FrameInfo& frame : sequence.frames()) {
     if (frame.status == FrameStatus::kDropped) continue;
     if (frame.sensor >= header.sensors.size())
       return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", frame.index, frame.sensor);
     const SensorInfo& sensor = header.sensors[frame.sensor];
-    View view;
+    CoverageView view;
     TURNSCAN_ASSIGN(view.T_table_sensor, pose_of(frame, sequence.frames().front(), header));
     view.viewpoint = sensor.viewpoint;
     if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
@@ -204,7 +202,7 @@ Result<std::vector<std::uint8_t>> seen_mask(const Scene& scene, const FrameSeque
                                             std::span<const Vec3f> points,
                                             std::span<const Vec3f> normals,
                                             const RunContext& context) {
-  TURNSCAN_ASSIGN(const std::vector<View> views, views_of(sequence));
+  TURNSCAN_ASSIGN(const std::vector<CoverageView> views, views_of(sequence));
   CoverageOptions options;
   options.enough = views_needed(views.size());
   TURNSCAN_ASSIGN(const std::vector<std::uint32_t> counts,

@@ -12,7 +12,7 @@
 namespace turnscan {
 
 /// Where one frame was seen from.
-struct View {
+struct CoverageView {
   Pose T_table_sensor = Pose::Identity();  ///< of this frame: the platter's turn taken back
   /// A point counts only if it projects into the image. None: all around (point scanners).
   std::optional<CameraIntrinsics> intrinsics;
@@ -29,16 +29,14 @@ struct CoverageOptions {
 /// its normal is within max_incidence of the line of sight, and nothing of the scene lies between.
 /// points and normals: table frame, platter at angle 0, as the scene; normals of unit length. Fails
 /// with kCancelled; throws std::invalid_argument if the spans differ in length.
-Result<std::vector<std::uint32_t>> count_views(const Scene& scene, std::span<const View> views,
-                                               std::span<const Vec3f> points,
-                                               std::span<const Vec3f> normals,
-                                               const CoverageOptions& options,
-                                               const RunContext& context);
+Result<std::vector<std::uint32_t>> count_views(
+    const Scene& scene, std::span<const CoverageView> views, std::span<const Vec3f> points,
+    std::span<const Vec3f> normals, const CoverageOptions& options, const RunContext& context);
 
 /// The views of a sequence, dropped frames left out. A frame's pose is its own T_table_sensor, or
 /// that of its sensor turned back by the frame's angle (or by speed times the time since the first
 /// frame). Fails with kMissingData when a frame has neither.
-Result<std::vector<View>> views_of(const FrameSequence& sequence);
+Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence);
 
 /// How many of `frames` frames must see a surface point for it to count as seen: 5, or all but one
 /// if there are fewer than 6, and at least one.

@@ -102,8 +102,9 @@ class Painter {
     rays.reserve(std::size_t(options_.width) * kSamples);
     for (int x = 0; x < options_.width; ++x) {
       for (int s = 0; s < kSamples; ++s) {
-        const double u = x + (s % kSamplesPerSide + 0.5) / kSamplesPerSide;
-        const double v = row + (s / kSamplesPerSide + 0.5) / kSamplesPerSide;
+        const int column = s % kSamplesPerSide, line = s / kSamplesPerSide;
+        const double u = x + (column + 0.5) / kSamplesPerSide;
+        const double v = row + (line + 0.5) / kSamplesPerSide;
         Ray ray;
         ray.origin = camera.eye.cast<float>();
         ray.direction =

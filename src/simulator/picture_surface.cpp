@@ -62,8 +62,8 @@ Vec3f linear_of(Rgb color) {
 
 Rgb rgb_of(const Vec3f& linear) {
   const auto channel = [](float c) {
-    return static_cast<std::uint8_t>(255.0f * std::pow(std::clamp(c, 0.0f, 1.0f), 1.0f / 2.2f) +
-                                     0.5f);
+    const float value = std::pow(std::clamp(c, 0.0f, 1.0f), 1.0f / 2.2f);
+    return static_cast<std::uint8_t>(std::lround(255.0f * value));
   };
   return {channel(linear.x()), channel(linear.y()), channel(linear.z())};
 }
