@@ -1,0 +1,31 @@
+#pragma once
+// The formats of meshes, one function each. Not installed.
+
+#include <span>
+#include <string_view>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/io/atomic_file.hpp>
+#include <vector>
+
+namespace turnscan::detail {
+
+using Meshes = Result<std::vector<TriangleMesh>>;
+
+// Readers: coordinates in the file's own unit; indices are in range; objects may be empty and
+// coordinates not finite. Fail with kFormat or kUnsupported.
+
+Meshes decode_ply_mesh(std::string_view bytes);
+/// Several PLY files, one directly behind the other.
+Meshes decode_ply_sequence(std::string_view bytes);
+Meshes decode_stl(std::string_view bytes);
+Meshes decode_obj(std::string_view bytes);
+Meshes decode_off(std::string_view bytes);
+
+// Writers: meshes in metres, already checked.
+
+Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
+
+}  // namespace turnscan::detail
