@@ -15,9 +15,10 @@ constexpr std::uint32_t kMaxIndex = 4000000000;
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr std::array<const char*, 7> kPoseColumns{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
-/// Twelve decimals, trailing zeros dropped: reading and writing again gives the same text.
-std::string fixed12(double value) {
-  std::string text = fmt::format("{:.12f}", value);
+/// Trailing zeros are dropped. Degrees get ten decimals: an angle of a few thousand degrees that is
+/// read and written again stays the same text although it goes through radians.
+std::string fixed_text(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text == "-0" ? "0" : text;
@@ -130,13 +131,13 @@ std::string frames_csv_line(const FrameInfo& info, const std::string& color_file
   std::string line = fmt::format("{},", info.index);
   if (!std::isnan(info.time_s)) line += fmt::format("{}", info.time_s);
   line += fmt::format(",{},{},{},", info.sensor, info.pass, info.turn);
-  if (info.angle_rad) line += fixed12(*info.angle_rad / kDeg);
+  if (info.angle_rad) line += fixed_text(*info.angle_rad / kDeg, 10);
   if (info.T_table_sensor) {
     const Vec3d t = info.T_table_sensor->translation();
     Eigen::Quaterniond q(info.T_table_sensor->linear());
     if (q.w() < 0.0) q.coeffs() = -q.coeffs();
     for (const double v : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-      line += fmt::format(",{}", fixed12(v));
+      line += fmt::format(",{}", fixed_text(v, 12));
   } else {
     line += ",,,,,,,";
   }
