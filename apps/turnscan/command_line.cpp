@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::size_t kHelpWidth = 64;  // of the right-hand column of --help
 
+std::string spaced_names(const std::string& names) {
+  std::string out;
+  for (const char c : names) out += c == ',' ? ", " : std::string(1, c);
+  return out;
+}
+
 std::string label_of(const OptionField& field) {
   if (!field.choices.empty()) return "CHOICE";
   switch (field.quantity) {
@@ -31,6 +37,10 @@ std::string label_of(const OptionField& field) {
 std::string limit_text(double value, Quantity quantity) {
   if (quantity == Quantity::kNone && value == std::floor(value) && std::fabs(value) < 1e15)
     return fmt::format("{:.0f}", value);
+  if (quantity == Quantity::kLength && std::fabs(value) >= 1.0) return fmt::format("{:g}m", value);
+  if (quantity == Quantity::kLength && value != 0.0 && std::fabs(value) < 1e-5)
+    return fmt::format("{:g}um", value * 1e6);
+  if (quantity == Quantity::kAngularSpeed) return fmt::format("{:g}rad/s", value);
   return format_quantity(value, quantity);
 }
 
@@ -87,7 +97,7 @@ CLI::Option* CommandLine::declare(CLI::Option* option, const std::string& label,
   const bool positional = option->get_positional();
   const bool takes_value = option->get_type_size() != 0;
   ArgumentInfo info;
-  info.usage = positional ? option->get_name(true) : option->get_name(false, true);
+  info.usage = positional ? option->get_name(true) : spaced_names(option->get_name(false, true));
   if (takes_value && !positional) info.usage += " " + label;
   info.help = help;
   option->group(positional ? "Arguments" : "Options");
@@ -131,6 +141,7 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
 void CommandLine::bind(const OptionField& field, const std::string& title, ArgumentGroup& group) {
   ArgumentInfo info;
   info.help = field.help;
+  if (!info.help.empty() && info.help.back() == '.') info.help.pop_back();
   info.default_value = field.get();
   CLI::Option* option = nullptr;
   const std::string flag = "--" + field.name;

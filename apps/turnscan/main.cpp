@@ -1,7 +1,13 @@
+#include "commands.hpp"
 #include "program.hpp"
 
 int main(int argc, char** argv) {
-  turnscan::cli::Program program;
+  using namespace turnscan::cli;
+  Program program;
+  program.add("import", "Make a recording from range scans or depth images of another program",
+              make_import_command());
+  program.add("info", "Say what a recording, mesh or point cloud holds", make_info_command());
+  program.add("render", "Draw a picture of meshes", make_render_command());
   program.add_reference();
   return program.run(argc, argv);
 }

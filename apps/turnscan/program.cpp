@@ -35,9 +35,54 @@ OptionTable describe(RunOptions& o) {
   return table;
 }
 
+/// --help with long lines wrapped and flags shown without CLI11's marks.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = Formatter::make_option_name(option, is_positional);
+    if (const auto mark = name.find("{false}"); mark != std::string::npos)
+      name.erase(mark, std::strlen("{false}"));
+    for (auto i = name.find(','); i != std::string::npos; i = name.find(',', i + 2))
+      name.insert(i + 1, " ");
+    return name;
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(), wrapped(command->get_description(), 76), 16);
+    return out.str();
+  }
+};
+
 int exit_code_of(ErrorCode code) {
   if (code == ErrorCode::kCancelled) return kExitCancelled;
   return code == ErrorCode::kInvalidOption ? kExitUsage : kExitFailed;
+}
+
+/// What to do about an error whose sentence does not say it.
+std::string_view advice_for(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kNotFound:
+      return "check the path";
+    case ErrorCode::kIo:
+      return "check permissions and free space";
+    case ErrorCode::kFormat:
+      return "the file is damaged or not what its name says, so get it again";
+    case ErrorCode::kUnsupported:
+      return "use another format";
+    case ErrorCode::kAlreadyExists:
+      return "choose another name";
+    case ErrorCode::kMissingData:
+    case ErrorCode::kTooFewPoints:
+      return "look at the input with 'turnscan info'";
+    default:
+      return "try other options";
+  }
+}
+
+std::string with_advice(const Error& error) {
+  const std::string text = error.text();
+  if (text.find("; ") != std::string::npos) return text;
+  return fmt::format("{}; {}", text, advice_for(error.code));
 }
 
 /// One line whatever a path or a library's message contains.
@@ -67,8 +112,18 @@ int put_text(const std::string& text) {
   return kExitFailed;
 }
 
+/// CLI11's words for what a user can do wrong, in the form of our own errors.
+std::string parse_error_text(const CLI::ParseError& error) {
+  std::string text = error.what();
+  if (const auto at = text.rfind(" is required"); at != std::string::npos)
+    return text.substr(0, at) + ": missing; give it";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    return text.substr(0, text.find(':')) + ": its value is missing; give one";
+  return text;
+}
+
 std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names) {
-  if (argument.rfind("-", 0) != 0)
+  if (argument.rfind('-', 0) != 0)
     return fmt::format("{}: one argument too many; remove it", argument);
   OptionTable options;
   std::string unused;
@@ -110,9 +165,12 @@ Program::Program() : parts_(std::make_unique<Parts>()) {
   app.require_subcommand(0, 1);
   app.allow_extras();
   app.set_version_flag("--version", fmt::format("turnscan {}", version()), "Print the version");
-  app.get_formatter()->column_width(36);
-  app.get_formatter()->label("OPTIONS", "OPTIONS");
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND ...");
+  auto formatter = std::make_shared<HelpFormatter>();
+  formatter->column_width(36);
+  formatter->label("SUBCOMMAND", "COMMAND ...");
+  formatter->label("Positionals", "Arguments");
+  app.formatter(formatter);
+  app.set_help_flag("-h,--help", "Print this help and exit");
   app.footer("'turnscan COMMAND --help' explains one command.");
 }
 
@@ -156,7 +214,7 @@ int Program::run_command(Entry& entry) {
   if (auto applied = entry.line.apply(); !applied) {
     const Error& error = applied.error();
     if (exit_code_of(error.code) == kExitUsage) return usage_error(error.text(), called);
-    print_error(error.text());
+    print_error(with_advice(error));
     return exit_code_of(error.code);
   }
   set_thread_count(entry.run_options.threads);
@@ -170,7 +228,7 @@ int Program::run_command(Entry& entry) {
   const int code = exit_code_of(result.error().code);
   if (code == kExitUsage) return usage_error(result.error().text(), called);
   print_error(code == kExitCancelled ? entry.app->get_name() + ": cancelled; run it again to finish"
-                                     : result.error().text());
+                                     : with_advice(result.error()));
   return code;
 }
 
@@ -184,7 +242,7 @@ int Program::run_checked(int argc, char** argv) {
     return put_text(std::string(version_text.what()) + "\n");
   } catch (const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
-    return usage_error(error.what(),
+    return usage_error(parse_error_text(error),
                        chosen.empty() ? "turnscan" : "turnscan " + chosen.front()->get_name());
   }
   for (Entry& entry : parts_->entries) {
@@ -194,7 +252,7 @@ int Program::run_checked(int argc, char** argv) {
   if (extra.empty()) return usage_error("no command: nothing to do", "turnscan");
   std::vector<std::string> names;
   for (const Entry& entry : parts_->entries) names.push_back(entry.app->get_name());
-  if (extra.front().rfind("-", 0) == 0)
+  if (extra.front().rfind('-', 0) == 0)
     return usage_error(unknown_argument(extra.front(), {"help", "version"}), "turnscan");
   return usage_error(fmt::format("{}: there is no such command; use one of {}", extra.front(),
                                  fmt::join(names, ", ")),

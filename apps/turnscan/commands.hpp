@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "command.hpp"
+
+namespace turnscan::cli {
+
+std::unique_ptr<Command> make_import_command();
+std::unique_ptr<Command> make_info_command();
+std::unique_ptr<Command> make_reconstruct_command();
+std::unique_ptr<Command> make_evaluate_command();
+std::unique_ptr<Command> make_render_command();
+std::unique_ptr<Command> make_demo_command();
+
+}  // namespace turnscan::cli
