@@ -85,6 +85,7 @@ TriangleMesh make_cylinder() {
   TriangleMesh mesh;
   mesh.name = "cylinder";
   constexpr auto n = static_cast<std::uint32_t>(SolidCylinder::segments);
+  mesh.vertices.reserve(2 * n + 2);
   for (const double y : {0.0, SolidCylinder::height_m}) {
     for (std::uint32_t i = 0; i < n; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / n, r = SolidCylinder::diameter_m / 2;
@@ -111,6 +112,7 @@ constexpr std::array<std::pair<std::string_view, Maker>, 3> kObjects{
 
 std::vector<std::string> builtin_object_names() {
   std::vector<std::string> names;
+  names.reserve(kObjects.size());
   for (const auto& object : kObjects) names.emplace_back(object.first);
   return names;
 }

@@ -63,10 +63,11 @@ Result<> attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, std:
               mesh.triangles.size());
 }
 
+/// Lanes without a ray get the first one: where 16 lanes are emulated, Embree looks at them too.
 template <class Packet>
 void load(Packet& packet, std::span<const Ray> rays) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Ray& r = rays[i];
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const Ray& r = rays[i < rays.size() ? i : 0];
     packet.org_x[i] = r.origin.x();
     packet.org_y[i] = r.origin.y();
     packet.org_z[i] = r.origin.z();
@@ -117,8 +118,8 @@ struct Scene::Impl {
     alignas(64) int valid[kPacket] = {};
     RTCRayHit16 packet;
     load(packet.ray, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      valid[i] = -1;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < rays.size() ? -1 : 0;
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }

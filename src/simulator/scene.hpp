@@ -37,7 +37,8 @@ struct RayHit {
 enum class RayOrder { kCoherent, kIncoherent };
 
 /// Immutable; all members may be called from several threads at once. Triangles count from both
-/// sides. No ray slips through between two triangles that share an edge.
+/// sides. No ray slips through between two triangles that share an edge; of rays aimed exactly at a
+/// vertex Embree 3.13 loses about one in 200 (measured on a sphere).
 class Scene {
  public:
   /// Copies what it needs of the meshes. A mesh without triangles is allowed. platter_radius_m

@@ -1,0 +1,448 @@
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/simulator/virtual_scan.hpp>
+
+#include "tests/simulator/shapes.hpp"
+
+namespace turnscan {
+namespace {
+
+using test::kPi;
+
+constexpr double kUnit = 1e-4;
+// Half a step of the depth image, and what float32 rays lose.
+constexpr double kRounding = 0.5 * kUnit + 1e-6;
+
+VirtualScanOptions clean() {
+  VirtualScanOptions o;
+  o.noise = "none";
+  o.mixed_pixels = 0.0;
+  o.frames = 8;
+  o.platter = false;
+  return o;
+}
+
+VirtualScan scan_of(const std::vector<TriangleMesh>& meshes, const VirtualScanOptions& options) {
+  auto scan = VirtualScan::create(meshes, options);
+  EXPECT_TRUE(scan) << (scan ? "" : scan.error().text());
+  return std::move(*scan);
+}
+
+DepthImage depth_of(const VirtualScan& scan, std::size_t position) {
+  auto frame = scan.read(position);
+  EXPECT_TRUE(frame) << (frame ? "" : frame.error().text());
+  return frame->depth;
+}
+
+const CameraIntrinsics& camera_of(const VirtualScan& scan) {
+  return scan.header().sensors[0].intrinsics;
+}
+
+/// Calls body(column, row, ray in the table frame with the depth as its parameter, depth or 0).
+template <class Body>
+void for_each_pixel(const VirtualScan& scan, std::size_t position, const Body& body) {
+  const DepthImage depth = depth_of(scan, position);
+  const Pose T = scan.T_table_sensor(position);
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const Vec3d direction = T.linear() * camera_of(scan).ray(x, y);
+      body(x, y, Vec3d(T.translation()), direction, depth.at(x, y) * kUnit);
+    }
+  }
+}
+
+/// Nearest root of the quadratic a t^2 + 2 b t + c, or infinity; `margin` is how clearly it has
+/// any: (b^2 - a c) / b^2.
+double nearest_root(double a, double b, double c, double& margin) {
+  margin = (b * b - a * c) / (b * b);
+  if (margin < 0.0) return std::numeric_limits<double>::infinity();
+  return (-b - std::sqrt(b * b - a * c)) / a;
+}
+
+TEST(VirtualScan, SeesThePlatterAsThePlaneItIs) {
+  VirtualScanOptions o = clean();
+  o.platter = true;
+  const VirtualScan scan = scan_of({}, o);
+  std::size_t seen = 0;
+  for_each_pixel(scan, 3, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+    const double t = -eye.y() / way.y();
+    const double radius = std::hypot(eye.x() + t * way.x(), eye.z() + t * way.z());
+    if (std::abs(radius - 0.15) < 1e-5) return;
+    const bool on = t > 0.0 && radius < 0.15;
+    ASSERT_EQ(depth > 0.0, on);
+    if (on) {
+      ASSERT_NEAR(depth, t, kRounding);
+    }
+    seen += on ? 1 : 0;
+  });
+  EXPECT_GT(seen, 3000u);
+}
+
+TEST(VirtualScan, SeesASphereWhereAlgebraSays) {
+  const Vec3d centre(0.02, 0.09, 0.01);
+  const VirtualScan scan = scan_of({test::sphere_mesh(centre, 0.06, 500)}, clean());
+  std::size_t seen = 0;
+  for_each_pixel(scan, 5, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+    const Vec3d o = eye - centre;
+    double margin = 0.0;
+    const double t =
+        nearest_root(way.squaredNorm(), o.dot(way), o.squaredNorm() - 0.06 * 0.06, margin);
+    if (std::abs(margin) < 1e-4) return;  // within a few pixels of the outline: facets
+    ASSERT_EQ(depth > 0.0, std::isfinite(t));
+    if (depth > 0.0) {
+      ASSERT_NEAR(depth, t, kRounding + 5e-6);
+    }
+    seen += depth > 0.0 ? 1 : 0;
+  });
+  EXPECT_GT(seen, 1500u);
+}
+
+TEST(VirtualScan, SeesTheCylinderWhereAlgebraSays) {
+  const VirtualScan scan = scan_of({*builtin_object("cylinder")}, clean());
+  std::size_t walls = 0, top = 0;
+  for_each_pixel(scan, 2, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+    if (depth == 0.0) return;
+    double margin = 0.0;
+    const double wall =
+        nearest_root(way.x() * way.x() + way.z() * way.z(), eye.x() * way.x() + eye.z() * way.z(),
+                     eye.x() * eye.x() + eye.z() * eye.z() - 0.04 * 0.04, margin);
+    const double lid = (0.16 - eye.y()) / way.y();
+    const double height = eye.y() + wall * way.y();
+    if (margin < 1e-4 || std::abs(height - 0.16) < 1e-5) return;
+    const bool on_wall = height > 0.0 && height < 0.16;
+    ASSERT_NEAR(depth, on_wall ? wall : lid, kRounding + 1e-5);
+    (on_wall ? walls : top) += 1;
+  });
+  EXPECT_GT(walls, 1000u);
+  EXPECT_GT(top, 100u);
+}
+
+TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
+  VirtualScanOptions o = clean();
+  o.platter = true;
+  o.intrinsics = intrinsics_of(ScannerPreset::kKinectV2);
+  o.intrinsics->distortion = {0.09, -0.27, 0.001, -0.0005, 0.09};
+  const VirtualScan scan = scan_of({}, o);
+  for_each_pixel(scan, 0, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+    if (depth > 0.0) {
+      ASSERT_NEAR(depth, -eye.y() / way.y(), kRounding);
+    }
+  });
+}
+
+TEST(VirtualScan, TurnsTheObjectCounterClockwiseSeenFromAbove) {
+  // A post on the +X side comes to -Z, before the camera, after a quarter of a turn.
+  VirtualScanOptions o = clean();
+  o.frames = 4;
+  const VirtualScan scan = scan_of({test::box_mesh({0.09, 0, -0.01}, {0.11, 0.18, 0.01})}, o);
+  const auto nearest = [&](std::size_t position) {
+    double z = 10.0;
+    for (const auto raw : depth_of(scan, position).pixels)
+      if (raw != kNoReturn) z = std::min(z, raw * kUnit);
+    return z;
+  };
+  EXPECT_NEAR(nearest(1), 0.9 - 0.11 * std::cos(o.elevation_rad), 0.03);
+  EXPECT_NEAR(nearest(3), 0.9 + 0.09 * std::cos(o.elevation_rad), 0.03);
+  // The camera's x axis is -X of the table at the start, so the post is on the left.
+  const DepthImage first = depth_of(scan, 0);
+  for (int y = 0; y < first.height; ++y)
+    for (int x = 256; x < first.width; ++x) ASSERT_EQ(first.at(x, y), kNoReturn);
+}
+
+TEST(VirtualScan, PutsThePointsOfAllFramesOnTheObjectAtAngleZero) {
+  const Vec3d low(0.02, 0.0, -0.05), high(0.06, 0.1, 0.03);
+  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, clean());
+  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
+    for_each_pixel(scan, i, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+      if (depth == 0.0) return;
+      const Vec3d p = eye + depth * way;
+      const Vec3d out = (low - p).cwiseMax(p - high);
+      ASSERT_NEAR(out.maxCoeff(), 0.0, 1e-4);
+    });
+  }
+}
+
+TEST(VirtualScan, SaysWhereItsTurntableIs) {
+  const VirtualScan scan = scan_of({}, clean());
+  const SensorInfo& sensor = scan.header().sensors.at(0);
+  const TurntableInfo& table = *scan.header().turntable;
+  // Thesis eq. 3.10 read as rows: the table's axes in the sensor's frame.
+  const Vec3d y = table.axis, x = y.cross(table.center_m).normalized(), z = x.cross(y);
+  Pose T = Pose::Identity();
+  T.linear() << x.transpose(), y.transpose(), z.transpose();
+  T.translation() = -(T.linear() * table.center_m);
+  EXPECT_TRUE(T.isApprox(*sensor.T_table_sensor, 1e-12));
+  EXPECT_NEAR(T.linear().determinant(), 1.0, 1e-12);
+  EXPECT_NEAR((T.translation() - Vec3d(0, 0.09, 0)).norm(), 0.9, 1e-12);
+  EXPECT_DOUBLE_EQ(*table.radius_m, 0.15);
+  EXPECT_DOUBLE_EQ(sensor.depth_unit_m, kUnit);
+}
+
+TEST(VirtualScan, SpreadsFramesOverTheTurns) {
+  VirtualScanOptions o = clean();
+  o.frames = 920;
+  o.turns = 2.0;
+  const VirtualScan scan = scan_of({}, o);
+  EXPECT_DOUBLE_EQ(*scan.frames()[0].angle_rad, 0.0);
+  EXPECT_NEAR(*scan.frames()[919].angle_rad, 4.0 * kPi * 919 / 920, 1e-12);
+  EXPECT_EQ(scan.frames()[459].turn, 0u);
+  EXPECT_EQ(scan.frames()[460].turn, 1u);
+  EXPECT_DOUBLE_EQ(scan.frames()[30].time_s, 1.0);
+  EXPECT_NEAR(*scan.header().turntable->speed_rad_s, 4.0 * kPi * 30.0 / 920.0, 1e-12);
+}
+
+TEST(VirtualScan, TakesTheAngleFromSpeedAndFrameRateWhenTheyAreGiven) {
+  VirtualScanOptions o = clean();
+  o.frames = 920;
+  ASSERT_TRUE(describe(o).set("speed", "10.4478deg/s"));
+  const VirtualScan scan = scan_of({}, o);
+  EXPECT_NEAR(*scan.frames()[919].angle_rad * 180.0 / kPi, 10.4478 * 919 / 30, 1e-9);
+}
+
+TEST(VirtualScan, GivesTheSameBytesInAnyOrderOnAnyThread) {
+  VirtualScanOptions o;
+  o.frames = 12;
+  o.color = true;
+  const VirtualScan scan = scan_of({*builtin_object("letter-a")}, o);
+  std::vector<Frame> serial(12), parallel(12);
+  for (std::size_t i = 12; i-- > 0;) serial[i] = *scan.read(i);
+  set_thread_count(4);
+  const VirtualScan again = scan_of({*builtin_object("letter-a")}, o);
+  parallel_for(12, 1, [&](std::size_t i) { parallel[i] = *again.read(i); });
+  set_thread_count(0);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(serial[i].depth.pixels, parallel[i].depth.pixels) << i;
+    EXPECT_EQ(serial[i].color.pixels, parallel[i].color.pixels) << i;
+  }
+}
+
+TEST(VirtualScan, ChangesItsNoiseWithTheSeed) {
+  VirtualScanOptions o = clean();
+  o.platter = true;
+  o.noise = "gaussian:1mm";
+  const DepthImage one = depth_of(scan_of({}, o), 0);
+  o.seed = 2;
+  EXPECT_NE(one.pixels, depth_of(scan_of({}, o), 0).pixels);
+}
+
+/// Noise of each pixel of the platter in units of sigma, frame by frame.
+std::vector<std::vector<double>> residuals(double sigma, int frames) {
+  VirtualScanOptions o = clean();
+  o.platter = true;
+  o.frames = frames;
+  const VirtualScan truth = scan_of({}, o);
+  o.noise = fmt::format("gaussian:{}m", sigma);
+  const VirtualScan noisy = scan_of({}, o);
+  std::vector<std::vector<double>> out(frames);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const DepthImage a = depth_of(truth, i), b = depth_of(noisy, i);
+    for (std::size_t k = 0; k < a.pixels.size(); ++k)
+      if (a.pixels[k] != kNoReturn)
+        out[i].push_back((double(b.pixels[k]) - double(a.pixels[k])) * kUnit / sigma);
+  }
+  return out;
+}
+
+TEST(GaussianNoise, HasItsMeanAndSigmaAndTails) {
+  const double sigma = 1.5e-3;
+  double sum = 0.0, squares = 0.0, beyond = 0.0;
+  std::size_t n = 0;
+  for (const auto& frame : residuals(sigma, 30)) {
+    for (const double r : frame) {
+      sum += r;
+      squares += r * r;
+      beyond += std::abs(r) > 2.0 ? 1.0 : 0.0;
+      ++n;
+    }
+  }
+  ASSERT_GT(n, 90000u);
+  const double mean = sum / double(n);
+  // Both images are rounded: two uniform errors of one step.
+  const double rounding = 2.0 / 12.0 * (kUnit / sigma) * (kUnit / sigma);
+  EXPECT_LT(std::abs(mean), test::mean_bound(1.0, n));
+  EXPECT_NEAR(squares / double(n), 1.0 + rounding, test::mean_bound(std::sqrt(2.0), n));
+  // P(|x| > 2) = 0.0455; the steps of the image blur the limit by a thirtieth of sigma.
+  EXPECT_NEAR(beyond / double(n), 0.0455, test::mean_bound(std::sqrt(0.0455), n) + 0.004);
+}
+
+TEST(GaussianNoise, IsIndependentOfNeighboursAndOfTheNextFrame) {
+  const auto r = residuals(1.5e-3, 20);
+  double beside = 0.0, later = 0.0;
+  std::size_t n = 0, m = 0;
+  for (std::size_t i = 0; i + 1 < r.size(); ++i) {
+    for (std::size_t k = 0; k + 1 < r[i].size(); ++k, ++n) beside += r[i][k] * r[i][k + 1];
+    for (std::size_t k = 0; k < std::min(r[i].size(), r[i + 1].size()); ++k, ++m)
+      later += r[i][k] * r[i + 1][k];
+  }
+  EXPECT_LT(std::abs(beside / double(n)), test::mean_bound(1.01, n));
+  EXPECT_LT(std::abs(later / double(m)), test::mean_bound(1.01, m));
+}
+
+/// How far the deepest of the four neighbours lies behind; infinite before the background.
+double step_behind(const DepthImage& depth, int x, int y) {
+  double step = 0.0;
+  for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+    const int raw = depth.at(x + dx, y + dy);
+    if (raw == kNoReturn) return std::numeric_limits<double>::infinity();
+    step = std::max(step, (raw - int(depth.at(x, y))) * kUnit);
+  }
+  return step;
+}
+
+struct MixedCount {
+  std::size_t silhouette = 0, mixed = 0, elsewhere = 0, beyond_reach = 0;
+  double part_sum = 0.0;  ///< of the reach, over mixed pixels before the background
+  std::size_t parts = 0;
+};
+
+/// Two objects behind each other, so that there are silhouettes before both kinds of background.
+MixedCount count_mixed(double share, int frames) {
+  VirtualScanOptions o = clean();
+  o.frames = frames;
+  const std::vector<TriangleMesh> meshes{test::box_mesh({-0.02, 0, -0.08}, {0.02, 0.1, -0.06}),
+                                         test::box_mesh({-0.1, 0, 0}, {0.1, 0.2, 0.02})};
+  const VirtualScan truth = scan_of(meshes, o);
+  o.mixed_pixels = share;
+  const VirtualScan mixed = scan_of(meshes, o);
+  MixedCount count;
+  for (std::size_t i = 0; i < truth.frames().size(); ++i) {
+    const DepthImage a = depth_of(truth, i), b = depth_of(mixed, i);
+    for (int y = 1; y + 1 < a.height; ++y) {
+      for (int x = 1; x + 1 < a.width; ++x) {
+        if (a.at(x, y) == kNoReturn) {
+          count.elsewhere += b.at(x, y) != kNoReturn ? 1 : 0;
+          continue;
+        }
+        const double step = step_behind(a, x, y);
+        if (std::abs(step - kSilhouetteStep_m) < 2.0 * kUnit) continue;
+        const double moved = (int(b.at(x, y)) - int(a.at(x, y))) * kUnit;
+        const double reach = std::min(o.mixed_reach_m, step);
+        if (step < kSilhouetteStep_m) {
+          count.elsewhere += moved != 0.0 ? 1 : 0;
+          continue;
+        }
+        ++count.silhouette;
+        count.beyond_reach += moved < 0.0 || moved > reach + 2.0 * kUnit ? 1 : 0;
+        if (moved == 0.0) continue;
+        ++count.mixed;
+        count.part_sum += moved / reach;
+        ++count.parts;
+      }
+    }
+  }
+  return count;
+}
+
+TEST(MixedPixels, AreTheAskedShareOfTheSilhouetteAndNothingElse) {
+  for (const double share : {0.2, 0.5}) {
+    const MixedCount count = count_mixed(share, 60);
+    ASSERT_GT(count.silhouette, 10000u);
+    EXPECT_EQ(count.elsewhere, 0u);
+    EXPECT_EQ(count.beyond_reach, 0u);
+    // One in 200 to 1600 moves by less than half a step of the image and does not show.
+    EXPECT_NEAR(double(count.mixed) / double(count.silhouette), share,
+                test::mean_bound(std::sqrt(share * (1.0 - share)), count.silhouette) + 0.002);
+  }
+}
+
+TEST(MixedPixels, LieUniformlyBetweenTheEdgeAndTheReach) {
+  const MixedCount count = count_mixed(1.0, 60);
+  EXPECT_NEAR(count.part_sum / double(count.parts), 0.5,
+              test::mean_bound(std::sqrt(1.0 / 12.0), count.parts) + 0.002);
+  EXPECT_GT(double(count.mixed) / double(count.silhouette), 0.995);
+}
+
+TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
+  VirtualScanOptions o = clean();
+  o.platter = true;
+  o.aim_height_m = 0.0;
+  o.elevation_rad = 4.0 * kPi / 180.0;  // neighbouring rows are more than 2 cm apart
+  const DepthImage truth = depth_of(scan_of({}, o), 0);
+  o.mixed_pixels = 1.0;
+  const DepthImage mixed = depth_of(scan_of({}, o), 0);
+  std::size_t inner = 0;
+  for (int y = 1; y + 1 < truth.height; ++y) {
+    for (int x = 1; x + 1 < truth.width; ++x) {
+      if (truth.at(x, y) == kNoReturn || std::isinf(step_behind(truth, x, y))) continue;
+      ASSERT_EQ(truth.at(x, y), mixed.at(x, y));
+      inner += step_behind(truth, x, y) > kSilhouetteStep_m ? 1 : 0;
+    }
+  }
+  EXPECT_GT(inner, 20u);
+}
+
+TEST(VirtualScan, ColoursThePixelsThatSeeSomething) {
+  VirtualScanOptions o = clean();
+  o.color = true;
+  TriangleMesh box = test::box_mesh({-0.05, 0, -0.05}, {0.05, 0.1, 0.05});
+  box.colors.assign(8, Rgb{200, 0, 0});
+  const VirtualScan scan = scan_of({box}, o);
+  const Frame frame = *scan.read(0);
+  ASSERT_EQ(frame.color.width, frame.depth.width);
+  for (std::size_t k = 0; k < frame.depth.pixels.size(); ++k) {
+    const Rgb c = frame.color.pixels[k];
+    ASSERT_EQ(frame.depth.pixels[k] != kNoReturn, c.r > 60 && c.g == 0);
+  }
+}
+
+TEST(VirtualScan, IsEmptyWhenThereIsNothingToSee) {
+  const VirtualScan scan = scan_of({TriangleMesh()}, clean());
+  for (const auto raw : depth_of(scan, 0).pixels) ASSERT_EQ(raw, kNoReturn);
+}
+
+TEST(VirtualScan, WorksFromInsideAnObject) {
+  const VirtualScan scan = scan_of({test::sphere_mesh(Vec3d::Zero(), 2.0, 60)}, clean());
+  for (const auto raw : depth_of(scan, 0).pixels) ASSERT_NE(raw, kNoReturn);
+}
+
+TEST(VirtualScan, FailsForAFrameThatIsNotThere) {
+  const VirtualScan scan = scan_of({}, clean());
+  EXPECT_EQ(scan.read(8).error().code, ErrorCode::kNotFound);
+}
+
+TEST(VirtualScanOptionsTest, RefusesValuesOutsideTheirRange) {
+  const auto refused = [](const VirtualScanOptions& o, const std::string& name) {
+    const auto scan = VirtualScan::create({}, o);
+    return !scan && scan.error().code == ErrorCode::kInvalidOption &&
+           scan.error().message.find(name) != std::string::npos;
+  };
+  VirtualScanOptions o;
+  o.frames = 0;
+  EXPECT_TRUE(refused(o, "frames = 0"));
+  o = {};
+  o.distance_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(refused(o, "distance"));
+  o = {};
+  o.mixed_pixels = 1.5;
+  EXPECT_TRUE(refused(o, "mixed-pixels = 1.5"));
+  o = {};
+  o.noise = "physics";
+  EXPECT_TRUE(refused(o, "noise = physics"));
+}
+
+TEST(VirtualScanOptionsTest, RefusesIntrinsicsThatMakeNoSense) {
+  VirtualScanOptions o;
+  o.intrinsics = CameraIntrinsics();
+  EXPECT_FALSE(VirtualScan::create({}, o));
+}
+
+TEST(ParseNoise, ReadsNoneAndGaussian) {
+  EXPECT_EQ(*parse_noise("none"), 0.0);
+  EXPECT_DOUBLE_EQ(*parse_noise("gaussian:1.5mm"), 1.5e-3);
+  for (const char* text : {"", "gaussian", "gaussian:", "gaussian:1", "gaussian:-1mm",
+                           "gaussian:5m", "Gaussian:1mm", "gaussian:nanmm"}) {
+    const auto sigma = parse_noise(text);
+    ASSERT_FALSE(sigma) << text;
+    EXPECT_EQ(sigma.error().code, ErrorCode::kInvalidOption);
+  }
+}
+
+TEST(VirtualScanOptionsTest, HasDefaultsWithinTheirRanges) {
+  VirtualScanOptions o;
+  EXPECT_TRUE(describe(o).check());
+  EXPECT_TRUE(parse_noise(o.noise));
+}
+
+}  // namespace
+}  // namespace turnscan
