@@ -56,10 +56,10 @@ OptionTable& OptionTable::add(OptionField field) {
   return *this;
 }
 
-OptionTable& OptionTable::flag(std::string name, bool& value, std::string help) {
+OptionTable& OptionTable::flag(const std::string& name, bool& value, const std::string& help) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.is_flag = true;
   f.get = [&value] { return std::string(value ? "true" : "false"); };
   f.set = [&value, name](std::string_view text) -> Result<> {
@@ -72,11 +72,11 @@ OptionTable& OptionTable::flag(std::string name, bool& value, std::string help) 
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::number(std::string name, double& value, Quantity quantity, Range range,
-                                 std::string help) {
+OptionTable& OptionTable::number(const std::string& name, double& value, Quantity quantity,
+                                 Range range, const std::string& help) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.quantity = quantity;
   f.range = range;
   f.get = [&value, quantity] { return format_quantity(value, quantity); };
@@ -88,10 +88,11 @@ OptionTable& OptionTable::number(std::string name, double& value, Quantity quant
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::number(std::string name, int& value, Range range, std::string help) {
+OptionTable& OptionTable::number(const std::string& name, int& value, Range range,
+                                 const std::string& help) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.range = range;
   f.get = [&value] { return std::to_string(value); };
   f.set = [=, &value](std::string_view text) -> Result<> {
@@ -102,11 +103,11 @@ OptionTable& OptionTable::number(std::string name, int& value, Range range, std:
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::number(std::string name, std::optional<double>& value, Quantity quantity,
-                                 Range range, std::string help) {
+OptionTable& OptionTable::number(const std::string& name, std::optional<double>& value,
+                                 Quantity quantity, Range range, const std::string& help) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.quantity = quantity;
   f.range = range;
   f.may_be_auto = true;
@@ -125,11 +126,11 @@ OptionTable& OptionTable::number(std::string name, std::optional<double>& value,
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::number(std::string name, std::optional<int>& value, Range range,
-                                 std::string help) {
+OptionTable& OptionTable::number(const std::string& name, std::optional<int>& value, Range range,
+                                 const std::string& help) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.range = range;
   f.may_be_auto = true;
   f.get = [&value] { return value ? std::to_string(*value) : std::string("auto"); };
@@ -147,10 +148,11 @@ OptionTable& OptionTable::number(std::string name, std::optional<int>& value, Ra
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::text(std::string name, std::string& value, std::string help) {
+OptionTable& OptionTable::text(const std::string& name, std::string& value,
+                               const std::string& help) {
   OptionField f;
-  f.name = std::move(name);
-  f.help = std::move(help);
+  f.name = name;
+  f.help = help;
   f.get = [&value] { return value; };
   f.set = [&value](std::string_view text) -> Result<> {
     value = std::string(text);
@@ -160,12 +162,13 @@ OptionTable& OptionTable::text(std::string name, std::string& value, std::string
   return add(std::move(f));
 }
 
-OptionTable& OptionTable::choice_index(std::string name, std::vector<std::string> choices,
-                                       std::string help, std::function<int()> get,
-                                       std::function<void(int)> set) {
+OptionTable& OptionTable::choice_index(const std::string& name,
+                                       const std::vector<std::string>& choices,
+                                       const std::string& help, const std::function<int()>& get,
+                                       const std::function<void(int)>& set) {
   OptionField f;
   f.name = name;
-  f.help = std::move(help);
+  f.help = help;
   f.choices = choices;
   f.get = [choices, get] { return choices.at(static_cast<std::size_t>(get())); };
   f.set = [choices, name, set](std::string_view text) -> Result<> {

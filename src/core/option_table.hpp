@@ -41,22 +41,22 @@ struct OptionField {
 /// Two fields of one name throw std::invalid_argument.
 class OptionTable {
  public:
-  OptionTable& flag(std::string name, bool& value, std::string help);
-  OptionTable& number(std::string name, double& value, Quantity quantity, Range range,
-                      std::string help);
-  OptionTable& number(std::string name, int& value, Range range, std::string help);
+  OptionTable& flag(const std::string& name, bool& value, const std::string& help);
+  OptionTable& number(const std::string& name, double& value, Quantity quantity, Range range,
+                      const std::string& help);
+  OptionTable& number(const std::string& name, int& value, Range range, const std::string& help);
   /// "auto" is std::nullopt.
-  OptionTable& number(std::string name, std::optional<double>& value, Quantity quantity,
-                      Range range, std::string help);
-  OptionTable& number(std::string name, std::optional<int>& value, Range range, std::string help);
-  OptionTable& text(std::string name, std::string& value, std::string help);
+  OptionTable& number(const std::string& name, std::optional<double>& value, Quantity quantity,
+                      Range range, const std::string& help);
+  OptionTable& number(const std::string& name, std::optional<int>& value, Range range,
+                      const std::string& help);
+  OptionTable& text(const std::string& name, std::string& value, const std::string& help);
   /// Enumeration: choices[i] stands for static_cast<E>(i).
   template <class E>
-  OptionTable& choice(std::string name, E& value, std::vector<std::string> choices,
-                      std::string help) {
+  OptionTable& choice(const std::string& name, E& value, const std::vector<std::string>& choices,
+                      const std::string& help) {
     return choice_index(
-        std::move(name), std::move(choices), std::move(help),
-        [&value] { return static_cast<int>(value); },
+        name, choices, help, [&value] { return static_cast<int>(value); },
         [&value](int i) { value = static_cast<E>(i); });
   }
 
@@ -72,8 +72,9 @@ class OptionTable {
   Result<> check() const;
 
  private:
-  OptionTable& choice_index(std::string name, std::vector<std::string> choices, std::string help,
-                            std::function<int()> get, std::function<void(int)> set);
+  OptionTable& choice_index(const std::string& name, const std::vector<std::string>& choices,
+                            const std::string& help, const std::function<int()>& get,
+                            const std::function<void(int)>& set);
   OptionTable& add(OptionField field);
   std::vector<OptionField> fields_;
 };
