@@ -160,7 +160,8 @@ def globbed_sources(tree):
 def machine_flags(tree):
     for path in tree.cmake() + [p for p in tree.paths if p == "CMakePresets.json"]:
         for number, line in enumerate(tree.lines(path), 1):
-            if re.search(r"-m(arch|tune|sse|avx|fma)|-ffast-math", line.split("#")[0]):
+            if re.search(r"-m(arch|tune|cpu)=native|-Ofast|-f(fast|unsafe)-math",
+                         line.split("#")[0]):
                 yield path, number, "flags that change with the machine, or change results"
 
 
