@@ -83,9 +83,9 @@ OptionTable describe(RelaxOptions& options);
 /// uniform (every edge counts the same): unlike cotangents they cannot become negative or huge on
 /// slivers and folds, which is what the balloons that this is used on are full of. Each connected
 /// movable region is solved on its own, sparse Cholesky; regions without a fixed neighbour do not
-/// move. Normals of moved vertices are recomputed. Solves for 100,000 movable vertices take a few
-/// seconds.
-/// Fails with kInvalidOption when movable does not fit, kLibrary when a system cannot be solved.
+/// move. Normals of moved vertices are recomputed. 100,000 movable vertices take some 3 s.
+/// Fails with kInvalidOption when movable does not fit, kLibrary when a system cannot be solved,
+/// kResourceLimit for regions of over a million vertices or so, kCancelled.
 Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint8_t>& movable,
                            const RelaxOptions& options, const RunContext& context);
 
