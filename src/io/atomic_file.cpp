@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 #include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/decode_file.hpp>
 
 namespace turnscan {
 
@@ -56,6 +57,22 @@ Result<> read_all(int descriptor, const fs::path& path, std::string& content) {
   return {};
 }
 
+Descriptor open_to_read(const fs::path& path) {
+  // O_NONBLOCK: opening a pipe must not wait for a writer.
+  return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+}
+
+/// Right after open_to_read, whose failure it tells.
+Result<std::uint64_t> size_of_regular_file(const Descriptor& descriptor, const fs::path& path) {
+  if (descriptor.get() < 0) return system_error(path, "cannot open", errno);
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) return system_error(path, "cannot read", errno);
+  if (S_ISDIR(status.st_mode)) return system_error(path, "cannot read", EISDIR);
+  if (!S_ISREG(status.st_mode))
+    return fail_at(path.string(), ErrorCode::kIo, "cannot read: not a regular file");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
 /// The file that a symbolic link leads to, also when it does not exist yet.
 fs::path follow_links(fs::path path) {
   std::error_code error;
@@ -83,21 +100,19 @@ void sync_folder(const fs::path& path) {
 }  // namespace
 
 Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
-  // O_NONBLOCK: opening a pipe must not wait for a writer.
-  const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (descriptor.get() < 0) return system_error(path, "cannot open", errno);
-  struct stat status {};
-  if (::fstat(descriptor.get(), &status) != 0) return system_error(path, "cannot read", errno);
-  if (S_ISDIR(status.st_mode)) return system_error(path, "cannot read", EISDIR);
-  if (!S_ISREG(status.st_mode))
-    return fail_at(path.string(), ErrorCode::kIo, "cannot read: not a regular file");
-  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const Descriptor descriptor = open_to_read(path);
+  TURNSCAN_ASSIGN(const std::uint64_t size, size_of_regular_file(descriptor, path));
   if (size > max_bytes)
     return fail_at(path.string(), ErrorCode::kResourceLimit,
                    "the file has {} bytes: at most {} are allowed", size, max_bytes);
   std::string content(size, '\0');
   TURNSCAN_TRY(read_all(descriptor.get(), path, content));
   return content;
+}
+
+Result<> detail::check_readable(const fs::path& path) {
+  TURNSCAN_TRY(size_of_regular_file(open_to_read(path), path));
+  return {};
 }
 
 FileSink::FileSink(int descriptor, std::string path)
@@ -142,7 +157,14 @@ Result<> FileSink::write_through(const char* data, std::size_t size) {
 /// One file being written: the temporary one is gone unless commit() succeeded.
 class AtomicFile {
  public:
-  explicit AtomicFile(const fs::path& path) : path_(follow_links(path)) {}
+  explicit AtomicFile(const fs::path& path) : path_(follow_links(path)) {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::equivalent(path, path_, error)) {
+      // /dev/stdout may lead to a file that has no name, or no longer has it.
+      path_ = path;
+      nameless_ = true;
+    }
+  }
   ~AtomicFile() {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
   }
@@ -153,7 +175,8 @@ class AtomicFile {
     std::error_code error;
     const fs::file_status status = fs::status(path_, error);
     if (fs::is_directory(status)) return system_error(path_, "cannot write", EISDIR);
-    if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(body);
+    if (nameless_ || (fs::exists(status) && !fs::is_regular_file(status)))
+      return write_directly(body);
     temporary_ = temporary_beside(path_);
     Descriptor descriptor(
         ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -180,7 +203,7 @@ class AtomicFile {
   }
 
   Result<> write_directly(const std::function<Result<>(FileSink&)>& body) {
-    Descriptor descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+    Descriptor descriptor(::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
     if (descriptor.get() < 0) return system_error(path_, "cannot write", errno);
     TURNSCAN_TRY(run(body, descriptor));
     if (descriptor.close() != 0) return system_error(path_, "cannot write", errno);
@@ -197,6 +220,7 @@ class AtomicFile {
 
   fs::path path_;
   fs::path temporary_;
+  bool nameless_ = false;
 };
 
 Result<> write_file_atomically(const fs::path& path, const std::function<Result<>(FileSink&)>& body,

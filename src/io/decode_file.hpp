@@ -10,6 +10,9 @@
 
 namespace turnscan::detail {
 
+/// Fails as read_file would for a file that is not there or cannot be opened.
+Result<> check_readable(const std::filesystem::path& path);
+
 /// Reads a file and decodes it; errors get the path, and running out of memory is one of them.
 template <class Decode>
 auto decode_file(const std::filesystem::path& path, const Decode& decode)

@@ -22,10 +22,24 @@ Meshes decode_stl(std::string_view bytes);
 Meshes decode_obj(std::string_view bytes);
 Meshes decode_off(std::string_view bytes);
 
+struct MeshesWithUnit {
+  std::vector<TriangleMesh> meshes;
+  double metres_per_unit = 1.0;
+};
+
+// These two rest on libraries that were not made for hostile files: read_meshes runs them in a
+// child process.
+
+Result<MeshesWithUnit> decode_3mf(std::string_view bytes);
+/// In metres.
+Meshes decode_glb(std::string_view bytes);
+
 // Writers: meshes in metres, already checked.
 
 Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes);
 
 }  // namespace turnscan::detail

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <turnscan/io/decode_file.hpp>
 #include <turnscan/io/file_name.hpp>
+#include <turnscan/io/mesh_convert.hpp>
 #include <turnscan/io/mesh_formats.hpp>
 #include <turnscan/io/mesh_io.hpp>
 
@@ -32,8 +33,11 @@ struct WriteFormat {
   std::string_view extension;
   Result<> (*write)(FileSink&, std::span<const TriangleMesh>);
 };
-constexpr std::array<WriteFormat, 3> kWriteFormats{
-    {{"ply", detail::write_ply_mesh}, {"obj", detail::write_obj}, {"stl", detail::write_stl}}};
+constexpr std::array<WriteFormat, 5> kWriteFormats{{{"ply", detail::write_ply_mesh},
+                                                    {"obj", detail::write_obj},
+                                                    {"stl", detail::write_stl},
+                                                    {"3mf", detail::write_3mf},
+                                                    {"glb", detail::write_glb}}};
 
 template <class Formats>
 auto find_format(const Formats& formats, const fs::path& path) {
@@ -54,6 +58,15 @@ detail::Meshes finish(std::vector<TriangleMesh> meshes, double metres_per_unit) 
       if (!mesh.vertices[i].allFinite())
         return fail(ErrorCode::kFormat, "the coordinates of vertex {} are not finite", i);
   }
+  return meshes;
+}
+
+detail::Meshes read_foreign(const fs::path& path, std::optional<double> metres_per_unit,
+                            const RunContext& ctx) {
+  TURNSCAN_TRY(detail::check_readable(path));
+  auto meshes = detail::read_in_child(path, metres_per_unit, ctx);
+  if (meshes) meshes = finish(std::move(*meshes), kMetre);
+  if (!meshes && meshes.error().path.empty()) meshes.error().path = path.string();
   return meshes;
 }
 
@@ -80,9 +93,9 @@ Result<> check_for_writing(const fs::path& path, std::span<const TriangleMesh> m
   return {};
 }
 
-std::string extensions(const std::array<WriteFormat, 3>& formats) {
+std::string writable_extensions() {
   std::string text;
-  for (const WriteFormat& format : formats) text += fmt::format(" .{}", format.extension);
+  for (const WriteFormat& format : kWriteFormats) text += fmt::format(" .{}", format.extension);
   return text;
 }
 
@@ -90,7 +103,7 @@ Result<const WriteFormat*> write_format(const fs::path& path) {
   if (const WriteFormat* format = find_format(kWriteFormats, path)) return format;
   return fail_at(path.string(), ErrorCode::kUnsupported,
                  "no mesh can be written under this name; give one that ends in one of{}",
-                 extensions(kWriteFormats));
+                 writable_extensions());
 }
 
 template <class T>
@@ -107,8 +120,7 @@ Result<std::vector<TriangleMesh>> read_meshes(const fs::path& path, const ReadMe
     throw std::invalid_argument("metres_per_unit must be positive and finite");
   TURNSCAN_TRY(ctx.check());
   const ReadFormat* format = find_format(kReadFormats, path);
-  if (format == nullptr)
-    return fail_at(path.string(), ErrorCode::kUnsupported, "meshes of this kind are not read");
+  if (format == nullptr) return read_foreign(path, options.metres_per_unit, ctx);
   return detail::decode_file(path, [&](std::string_view bytes) -> detail::Meshes {
     TURNSCAN_ASSIGN(auto meshes, format->decode(bytes));
     return finish(std::move(meshes), options.metres_per_unit.value_or(format->metres_per_unit));

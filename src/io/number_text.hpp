@@ -69,8 +69,7 @@ class TextCursor {
   template <class T>
   bool floating(T& value) {
     skip_blanks();
-    const char* first = at_;
-    if (first != end_ && *first == '+') ++first;
+    const char* first = behind_plus();
     const auto [last, error] = std::from_chars(first, end_, value);
     if (error == std::errc::result_out_of_range)
       value = beyond_range<T>({first, static_cast<std::size_t>(last - first)});
@@ -82,8 +81,7 @@ class TextCursor {
   /// An integer after blanks, also one written as "3.0"; otherwise as floating().
   bool integer(std::int64_t& value) {
     skip_blanks();
-    const char* first = at_;
-    if (first != end_ && *first == '+') ++first;
+    const char* first = behind_plus();
     const auto [last, error] = std::from_chars(first, end_, value);
     if (error == std::errc() && accept(last)) return true;
     double number = 0.0;
@@ -97,6 +95,11 @@ class TextCursor {
   }
 
  private:
+  /// std::from_chars takes no plus sign; "+-1" stays wrong.
+  const char* behind_plus() const {
+    return end_ - at_ > 1 && *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_;
+  }
+
   bool accept(const char* last) {
     if (last != end_ && !is_space(*last)) return false;
     at_ = last;

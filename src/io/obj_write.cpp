@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/io/clean_name.hpp>
 #include <turnscan/io/mesh_formats.hpp>
 
 namespace turnscan::detail {
@@ -43,9 +44,10 @@ Result<> write_lines(FileSink& sink, std::size_t n, const Append& append) {
   return {};
 }
 
-std::string one_line(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c < 32 || c == '\\'; }, ' ');
+/// A backslash could join the line with the next.
+std::string object_name(const TriangleMesh& mesh) {
+  std::string name = clean_name(mesh.name);
+  std::replace(name.begin(), name.end(), '\\', '/');
   return name;
 }
 
@@ -59,7 +61,7 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes) {
   std::uint64_t first = 1;
   for (const TriangleMesh& mesh : meshes) {
     if (meshes.size() > 1 || !mesh.name.empty())
-      TURNSCAN_TRY(sink.write("o " + one_line(mesh.name) + "\n"));
+      TURNSCAN_TRY(sink.write("o " + object_name(mesh) + "\n"));
     const std::size_t n = mesh.vertices.size();
     TURNSCAN_TRY(write_lines(sink, n, [&](auto& text, auto i) { append_vertex(text, mesh, i); }));
     TURNSCAN_TRY(write_lines(sink, normals ? n : 0, [&](auto& text, auto i) {

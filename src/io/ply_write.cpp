@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <turnscan/io/clean_name.hpp>
 #include <turnscan/io/ply_write.hpp>
 #include <vector>
 
@@ -38,14 +39,6 @@ Result<> write_rows(FileSink& sink, std::size_t n, std::size_t max_row_bytes, co
   return {};
 }
 
-/// A line of the header ends at the first line break.
-std::string one_line(std::string_view text) {
-  std::string line(text.substr(0, 200));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 32; }, ' ');
-  return line;
-}
-
 std::string info_of(const PlyJob& job) {
   std::string text;
   if (!job.grid.empty())
@@ -55,7 +48,7 @@ std::string info_of(const PlyJob& job) {
     text += fmt::format(
         "obj_info {} {} {} {}\n", job.viewpoint->parallel ? "view_direction" : "viewpoint",
         job.viewpoint->value.x(), job.viewpoint->value.y(), job.viewpoint->value.z());
-  if (!job.name.empty()) text += fmt::format("obj_info name {}\n", one_line(job.name));
+  if (!job.name.empty()) text += fmt::format("obj_info name {}\n", clean_name(job.name));
   return text;
 }
 

@@ -33,7 +33,7 @@ LIBRARIES = [
     ("nanoflann", r"nanoflann", ("src/geometry/", "tests/", "bench/"), False),
     ("TBB (loops go through core/parallel.hpp)", r"(oneapi/)?tbb/", ("src/core/",), True),
     ("a file library", r"png\.h|jpeglib\.h|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
-     ("src/io/", "tests/"), False),
+     ("src/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
     ("spdlog (libraries do not log)", r"spdlog/", ("apps/",), False),
     ("CLI11", r"CLI/", ("apps/",), False),
     ("toml++", r"toml\+\+/|toml\.hpp", ("apps/",), False),
@@ -45,7 +45,7 @@ LIBRARIES = [
 LOCALE_CALLS = re.compile(r"\b(stod|stof|stold|atof|strtod|strtof|sscanf|fscanf|scanf)\s*\(")
 
 # Hosts that files may name, as the source of a fact or as an identifier in a file format.
-HOSTS = {"www.apache.org", "github.com", "graphics.stanford.edu", "doi.org", "arxiv.org",
+HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.edu", "doi.org", "arxiv.org",
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de",
          "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org"}

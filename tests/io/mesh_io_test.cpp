@@ -364,7 +364,7 @@ TEST_P(EveryWriter, EmptyOrTruncatedFileIsRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, EveryWriter, ::testing::Values("ply", "obj", "stl"),
+INSTANTIATE_TEST_SUITE_P(Formats, EveryWriter, ::testing::Values("ply", "obj", "stl", "3mf", "glb"),
                          [](const auto& format) { return std::string(format.param); });
 
 TEST(Mesh, UnknownNamesAndMissingFilesAreErrors) {

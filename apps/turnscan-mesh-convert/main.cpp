@@ -1,0 +1,70 @@
+// turnscan-mesh-convert FILE [METRES_PER_UNIT]
+// Reads FILE (3MF, GLB, or whatever assimp knows) and writes its objects in metres to standard
+// output, as one binary PLY after another. On failure: exit 1 and one line on standard error,
+// "CODE: SENTENCE", where CODE is the name of a turnscan::ErrorCode.
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <turnscan/core/units.hpp>
+#include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/file_name.hpp>
+#include <turnscan/io/mesh_formats.hpp>
+
+#include "assimp_mesh.hpp"
+#include "limits.hpp"
+
+namespace {
+
+using namespace turnscan;
+
+Result<detail::MeshesWithUnit> read(const std::filesystem::path& path) {
+  const std::string extension = detail::lower_extension(path);
+  if (extension == "3mf" || extension == "glb") {
+    TURNSCAN_ASSIGN(const std::string bytes, read_file(path));
+    if (extension == "3mf") return detail::decode_3mf(bytes);
+    TURNSCAN_ASSIGN(auto meshes, detail::decode_glb(bytes));
+    return detail::MeshesWithUnit{std::move(meshes), 1.0};
+  }
+  TURNSCAN_ASSIGN(auto meshes, read_with_assimp(path));
+  return detail::MeshesWithUnit{std::move(meshes.meshes), meshes.metres_per_unit};
+}
+
+Result<> convert(int argc, char** argv) {
+  if (argc < 2 || argc > 3)
+    return fail(ErrorCode::kInvalidOption, "usage: turnscan-mesh-convert FILE [METRES_PER_UNIT]");
+  TURNSCAN_ASSIGN(auto read_meshes, read(argv[1]));
+  double unit = read_meshes.metres_per_unit;
+  if (argc == 3) {
+    TURNSCAN_ASSIGN(unit, parse_number(argv[2]));
+  }
+  for (TriangleMesh& mesh : read_meshes.meshes)
+    for (Vec3f& p : mesh.vertices) p = (p.cast<double>() * unit).cast<float>();
+  return write_file_atomically("/dev/stdout", [&](FileSink& sink) -> Result<> {
+    for (const TriangleMesh& mesh : read_meshes.meshes)
+      if (!mesh.empty()) TURNSCAN_TRY(detail::write_ply_mesh(sink, std::span(&mesh, 1)));
+    return {};
+  });
+}
+
+int report(std::string_view code, std::string_view sentence) {
+  fmt::print(stderr, "{}: {}\n", code, sentence.substr(0, sentence.find('\n')));
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  limit_this_process();
+  try {
+    const Result<> result = convert(argc, argv);
+    if (result) return 0;
+    return report(name_of(result.error().code), result.error().message);
+  } catch (const std::bad_alloc&) {
+    return report(name_of(ErrorCode::kResourceLimit), "reading it takes too much memory");
+  } catch (const std::exception& error) {
+    return report(name_of(ErrorCode::kFormat), error.what());
+  }
+}
