@@ -33,9 +33,9 @@ struct OutlierStatistics {
 /// pcl::StatisticalOutlierRemoval (1.13) keeps of the same cloud, unorganised; see
 /// docs/stages/outliers.md for the proof and for the one reservation.
 ///
-/// Frames with cells are searched in their grid: several times faster than a tree, one thread, no
-/// allocation but the result once the thread's buffers have grown (call it for many frames in
-/// parallel). Others, and the rare grids in which no useful bound exists, are searched in a tree.
+/// Frames with cells are searched in their grid: many times faster than a tree, on one thread, in
+/// buffers that the thread keeps (call it for many frames in parallel). Others, those with k > 128
+/// and the rare grids that tell nothing about space are searched in a tree.
 ///
 /// All ones when options.enabled is false. Fails with kInvalidOption when an option is out of
 /// range, kFormat when a coordinate is not finite or beyond 1e9 m. Throws std::invalid_argument

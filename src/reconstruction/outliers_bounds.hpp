@@ -9,9 +9,9 @@
 namespace turnscan::outliers {
 
 /// Coordinates in which columns and rows of a frame come apart. For rays from one point, w is the
-/// depth from there along a middle direction, and u / w (v / w) grows or falls with the column
-/// (row); for others u (v) itself does: the linear function of space that says most about the
-/// column. A bound is valid in any such coordinates; how far off it is depends on the choice.
+/// depth from there along a middle direction, and u / w (v / w) grows with the column (row); for
+/// others u (v) itself does: the linear function of space that says most about the column. A bound
+/// is valid in any such coordinates; how far off it is depends on the choice.
 struct BoundFrame {
   enum class Kind { kPinhole, kCentral, kLinear };
   Kind kind = Kind::kPinhole;  ///< kPinhole: u, v, w are x, y, z
@@ -21,33 +21,50 @@ struct BoundFrame {
   bool central() const { return kind != Kind::kLinear; }
 };
 
-/// kLinear for parallel rays, and where rays from the viewpoint do not all go forward.
+/// kPinhole for depth images as they come, kLinear for parallel rays and where rays from the
+/// viewpoint do not all go forward. Needs at least one point.
 BoundFrame choose_bound_frame(const FramePoints& frame);
 
-/// The smallest and the largest u / w (or u) in each column.
-struct Extent {
-  std::vector<float> low, high;
-
-  void reset(int count);
-  void add(int i, float value) {
-    low[i] = value < low[i] ? value : low[i];
-    high[i] = value > high[i] ? value : high[i];
+/// The smallest and the largest u / w (or u) of each column, for blocks of kBand rows; or of each
+/// row, for blocks of columns. Infinite the wrong way round where there is no point.
+class Extents {
+ public:
+  void reset(int lines, int across);
+  void add(int line, int across, float value) {
+    const std::size_t i = std::size_t(across / kBand) * std::size_t(lines_) + std::size_t(line);
+    low_[i] = value < low_[i] ? value : low_[i];
+    high_[i] = value > high_[i] ? value : high_[i];
   }
+  int lines() const { return lines_; }
+  int blocks() const { return blocks_; }
+  /// The extents of all lines over the blocks [begin, end).
+  void merge(int begin, int end, std::vector<float>& low, std::vector<float>& high) const;
+
+ private:
+  int lines_ = 0, blocks_ = 0;
+  std::vector<float> low_, high_;
 };
 
-/// The planes before and beyond each column.
+/// The planes before and beyond each line of the grid.
 class BorderTables {
  public:
-  void build(const Extent& extent, bool central);
+  /// One table, from all blocks. Returns how wide a line is on average, in steps from line to line.
+  double build_whole(const Extents& extents, bool central);
+  /// A table for each block, from it and its neighbours.
+  void build_bands(const Extents& extents, bool central);
   Border before() const { return border(0); }
   Border beyond() const { return border(1); }
 
  private:
+  void resize(int lines, int bands);
+  void build(int band, bool central);
   Border border(int side) const;
-  void set(int side, int i, double plane, bool central);
+  void fill(int band, int side, bool central);
 
-  std::vector<float> values_;
-  int count_ = 0, length_ = 0;
+  std::vector<float> values_, low_, high_;
+  std::vector<double> planes_;
+  int lines_ = 0, bands_ = 1;
+  std::ptrdiff_t length_ = 0;
 };
 
 }  // namespace turnscan::outliers

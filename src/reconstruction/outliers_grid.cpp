@@ -34,6 +34,7 @@ bool PointGrid::build(const FramePoints& frame) {
   if (!place(frame)) return false;
   if (bounds_.kind != BoundFrame::Kind::kPinhole) place_bound_coordinates(frame);
   build_borders(bounds_.central());
+  move_origin();
   return true;
 }
 
@@ -63,8 +64,8 @@ void PointGrid::lay_out(const FramePoints& frame) {
   // Stale x and y in empty cells do no harm: z alone makes the distance infinite.
   z_.assign(size, kHole);
   position_.resize(frame.cell.size());
-  columns_.reset(grid_.columns);
-  rows_.reset(grid_.rows);
+  columns_.reset(grid_.columns, grid_.rows);
+  rows_.reset(grid_.rows, grid_.columns);
   const bool own = bounds_.kind == BoundFrame::Kind::kPinhole;
   if (!own) u_.resize(size), v_.resize(size), w_.resize(size);
   grid_.x = x_.data(), grid_.y = y_.data(), grid_.z = z_.data();
@@ -90,8 +91,8 @@ bool PointGrid::place(const FramePoints& frame) {
     x_[at] = p.x(), y_[at] = p.y(), z_[at] = p.z();
     position_[i] = static_cast<std::int32_t>(at);
     if (!pinhole) continue;
-    columns_.add(column, p.x() / p.z());
-    rows_.add(row, p.y() / p.z());
+    columns_.add(column, row, p.x() / p.z());
+    rows_.add(row, column, p.y() / p.z());
   }
   return true;
 }
@@ -107,21 +108,31 @@ void PointGrid::place_bound_coordinates(const FramePoints& frame) {
     largest = std::max(largest, std::abs(u) + std::abs(v) + std::abs(w));
     const auto row = static_cast<int>(at / grid_.stride) - kPad;
     const auto column = static_cast<int>(at % grid_.stride) - kPad;
-    columns_.add(column, u / w);
-    rows_.add(row, v / w);
+    columns_.add(column, row, u / w);
+    rows_.add(row, column, v / w);
   }
   grid_.margin = 0x1p-20f * largest;
   grid_.margin_relative = 0.0f;
 }
 
 void PointGrid::build_borders(bool central) {
-  column_tables_.build(columns_, central);
-  row_tables_.build(rows_, central);
-  grid_.before_column = column_tables_.before();
-  grid_.beyond_column = column_tables_.beyond();
-  grid_.before_row = row_tables_.before();
-  grid_.beyond_row = row_tables_.beyond();
-  // The arrays as the kernels see them begin at the first cell of the box.
+  // Lines of the grid that are bent (by a lens, or by depth in scans that are not from one point)
+  // are told apart better within a band.
+  constexpr double kBentSteps = 0.5;
+  const double width = std::max(column_table_.build_whole(columns_, central),
+                                row_table_.build_whole(rows_, central));
+  grid_.whole = {column_table_.before(), column_table_.beyond(), row_table_.before(),
+                 row_table_.beyond()};
+  grid_.bent = width > kBentSteps;
+  if (!grid_.bent) return;
+  column_bands_.build_bands(columns_, central);
+  row_bands_.build_bands(rows_, central);
+  grid_.bands = {column_bands_.before(), column_bands_.beyond(), row_bands_.before(),
+                 row_bands_.beyond()};
+}
+
+/// The arrays as the kernels see them begin at the first cell of the box.
+void PointGrid::move_origin() {
   const std::ptrdiff_t origin = kPad * grid_.stride + kPad;
   for (const float** array : {&grid_.x, &grid_.y, &grid_.z, &grid_.u, &grid_.v, &grid_.w})
     *array += origin;
@@ -130,44 +141,26 @@ void PointGrid::build_borders(bool central) {
 
 namespace {
 
-/// Beyond this many cells a point, a tree is faster.
-constexpr std::uint64_t kCellsPerPoint = 8000;
+/// Beyond so many cells in windows of single points a tree is faster.
+std::uint64_t affordable_cells(std::size_t points) { return 2000 * points + (1u << 24); }
 
 struct Buffers {
   PointGrid grid;
-  std::vector<float> mean, near;
-  std::vector<Unsettled> unsettled;
+  std::vector<float> mean;
 };
-
-bool settle_row(Buffers& buffers, int row, int k, std::uint64_t& cells) {
-  const Grid& grid = buffers.grid.grid();
-  float* mean = buffers.mean.data() + row * grid.stride;
-  std::size_t count = 0;
-  if (k <= kMaxLaneK) {
-    count = kernel().search_row(grid, row, k, mean, buffers.unsettled.data());
-  } else {
-    for (int column = 0; column < grid.columns; ++column)
-      if (grid.z[row * grid.stride + column] != kHole)
-        buffers.unsettled[count++] = {column, row, HUGE_VALF};
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    const Unsettled& point = buffers.unsettled[i];
-    mean[point.column] = window_mean_distance(grid, point, k, buffers.near, cells);
-  }
-  return cells <= kCellsPerPoint * buffers.grid.position().size();
-}
 
 }  // namespace
 
 bool grid_mean_distances(const FramePoints& frame, int k, std::span<float> mean) {
   static thread_local Buffers buffers;
-  if (!buffers.grid.build(frame)) return false;
+  if (k > kMaxK || !buffers.grid.build(frame)) return false;
   const Grid& grid = buffers.grid.grid();
   buffers.mean.resize(buffers.grid.array_size());
-  buffers.unsettled.resize(std::size_t(grid.columns));
   std::uint64_t cells = 0;
-  for (int row = 0; row < grid.rows; ++row)
-    if (!settle_row(buffers, row, k, cells)) return false;
+  for (int row = 0; row < grid.rows; ++row) {
+    cells += kernel().search_row(grid, row, k, buffers.mean.data() + row * grid.stride);
+    if (cells > affordable_cells(mean.size())) return false;
+  }
   const std::vector<std::int32_t>& position = buffers.grid.position();
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = buffers.mean[position[i]];
   return true;

@@ -26,24 +26,20 @@ class PointGrid {
   bool place(const FramePoints& frame);
   void place_bound_coordinates(const FramePoints& frame);
   void build_borders(bool central);
+  void move_origin();
 
   int first_column_ = 0, first_row_ = 0;
   BoundFrame bounds_;
   std::vector<float> x_, y_, z_, u_, v_, w_;
   std::vector<std::int32_t> position_;
-  Extent columns_, rows_;
-  BorderTables column_tables_, row_tables_;
+  Extents columns_, rows_;
+  BorderTables column_table_, row_table_, column_bands_, row_bands_;
   Grid grid_{};
 };
 
 /// Mean distances to the k nearest neighbours, one per point, in frame order; needs more than k
-/// points. False when the grid is of no use (see PointGrid::build, or when most points need windows
-/// so wide that a tree is faster); mean is then undefined.
+/// points. False when the grid is of no use (k > kMaxK, see PointGrid::build, or when most points
+/// need windows so wide that a tree is faster); mean is then undefined.
 bool grid_mean_distances(const FramePoints& frame, int k, std::span<float> mean);
-
-/// Mean distance to the k nearest of one point, in a window of its own. near is scratch.
-/// Adds the number of cells looked at to cells.
-float window_mean_distance(const Grid& grid, const Unsettled& point, int k,
-                           std::vector<float>& near, std::uint64_t& cells);
 
 }  // namespace turnscan::outliers

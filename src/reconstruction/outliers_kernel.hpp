@@ -11,19 +11,23 @@ namespace turnscan::outliers {
 
 inline constexpr int kMaxLanes = 16;   ///< widest vector, in floats
 inline constexpr int kPad = 8;         ///< empty cells around the grid: the widest ring of lanes
-inline constexpr int kMaxLaneK = 64;   ///< larger k are searched point by point
+inline constexpr int kBand = 16;       ///< rows (columns) that share a table of their own, see Grid
+inline constexpr int kMaxK = 128;      ///< most neighbours that the kernels look for
 inline constexpr float kHole = 1e30f;  ///< z of an empty cell: its squared distance is infinite
-/// A squared distance may be rounded by 5 units of 2^-24, its bound by 3.
+/// A squared distance is rounded by at most 5 units of 2^-24, its bound by 2.
 inline constexpr float kShrink = 1.0f - 0x1p-20f;
 
-/// Planes that hold off whole columns or rows. Every point in column c or beyond it (before it) is
-/// at least a[c] * w + b[c] * u + offset[c] away from the point with bound coordinates (u, w), with
-/// v in place of u for rows; infinite where nothing lies beyond. Entries from -kPad - 1 to
+/// Planes that hold off columns (rows). Every point in column c or beyond it (before it) is at
+/// least a[c] * w + b[c] * u + offset[c] away from the point with bound coordinates (u, w), with v
+/// in place of u for rows; infinite where nothing lies there. Entries from -kPad - 1 to
 /// columns + kPad + kMaxLanes can be read.
 struct Border {
-  const float* a;
-  const float* b;
-  const float* offset;
+  const float *a, *b, *offset;
+  std::ptrdiff_t band_stride;  ///< from the table of a band to the next one's
+};
+
+struct Borders {
+  Border before_column, beyond_column, before_row, beyond_row;
 };
 
 /// One frame. A cell lies at row * stride + column; kPad cells before and behind each row and
@@ -33,25 +37,20 @@ struct Grid {
   const float *u, *v, *w;  ///< bound coordinates of the points
   std::ptrdiff_t stride;
   int columns, rows;
-  Border before_column, beyond_column, before_row, beyond_row;
+  Borders whole;  ///< of all rows (columns)
+  /// Where lines of the grid are bent: for the columns of the rows from one band before band i to
+  /// one behind it (row / kBand = i), and for the rows of such columns.
+  Borders bands;
+  bool bent;
   /// Rounding of a bound: margin + margin_relative * (|x| + |y| + |z|).
   float margin, margin_relative;
 };
 
-struct Unsettled {
-  std::int32_t column, row;
-  float squared_distance;  ///< k points are at most as far; may be infinite
-};
-
 struct Kernel {
-  /// Mean distance to the k nearest neighbours (k <= kMaxLaneK) of the points of a row, where a
-  /// ring of at most kPad cells proves it. Writes mean[column] (up to kMaxLanes - 1 more), and
-  /// those that need a wider window to unsettled (room for columns). Returns how many these are.
-  std::size_t (*search_row)(const Grid& grid, int row, int k, float* mean, Unsettled* unsettled);
-  /// Appends the squared distances from point i (a cell's position in the arrays) to the points of
-  /// n cells from `first` that are <= limit to out (room for n + kMaxLanes). Returns how many.
-  std::size_t (*collect)(const Grid& grid, std::ptrdiff_t i, std::ptrdiff_t first, int n,
-                         float limit, float* out);
+  /// Mean distance to the k nearest neighbours (k <= kMaxK) of each point of a row; there must be
+  /// more than k points. Writes mean[column], and up to kMaxLanes - 1 values behind the last.
+  /// Returns how many cells it looked at in windows of single points.
+  std::uint64_t (*search_row)(const Grid& grid, int row, int k, float* mean);
 };
 
 enum class InstructionSet { kPortable, kAvx2, kAvx512 };

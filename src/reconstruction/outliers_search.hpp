@@ -6,7 +6,7 @@
 /// The k smallest squared distances so far of each lane, ascending.
 template <int kFixed>
 struct Nearest {
-  static constexpr int kCapacity = kFixed > 0 ? kFixed : kMaxLaneK;
+  static constexpr int kCapacity = kFixed > 0 ? kFixed : kMaxK;
   Lanes best[kCapacity];
   int runtime_k;
 
@@ -54,32 +54,140 @@ TURNSCAN_INLINE void visit_ring(const Query& q, int ring, Nearest<kFixed>& neare
   }
 }
 
-TURNSCAN_INLINE Lanes distance_beyond(const Border& border, std::ptrdiff_t column, Lanes u,
-                                      Lanes w) {
+// --- lower bounds
+// ---------------------------------------------------------------------------------
+
+TURNSCAN_INLINE Lanes to_column(const Border& border, std::ptrdiff_t column, int band, Lanes u,
+                                Lanes w) {
+  column += band * border.band_stride;
   return Lanes::load(border.a + column) * w + Lanes::load(border.b + column) * u +
          Lanes::load(border.offset + column);
 }
 
-TURNSCAN_INLINE Lanes distance_beyond_row(const Border& border, std::ptrdiff_t row, Lanes v,
-                                          Lanes w) {
+TURNSCAN_INLINE Lanes to_row(const Border& border, std::ptrdiff_t row, int band, Lanes v, Lanes w) {
+  row += band * border.band_stride;
   return Lanes::set(border.a[row]) * w + Lanes::set(border.b[row]) * v +
          Lanes::set(border.offset[row]);
 }
 
-/// Lanes whose `worst` no point outside the window of `ring` cells around them can better.
-TURNSCAN_INLINE unsigned settled(const Query& q, int column, int row, int ring, Lanes worst) {
+/// Lower bound of the distance from each lane's point to those outside the window of `ring` cells
+/// around it, before rounding. In bands it holds for points at most kBand columns or rows away.
+TURNSCAN_INLINE Lanes distance_outside(const Query& q, const Borders& borders, int column, int row,
+                                       int ring) {
   const Grid& grid = *q.grid;
   const Lanes u = Lanes::load(grid.u + q.cell), v = Lanes::load(grid.v + q.cell);
   const Lanes w = Lanes::load(grid.w + q.cell);
-  const Lanes columns = min(distance_beyond(grid.before_column, column - ring - 1, u, w),
-                            distance_beyond(grid.beyond_column, column + ring + 1, u, w));
-  const Lanes rows = min(distance_beyond_row(grid.before_row, row - ring - 1, v, w),
-                         distance_beyond_row(grid.beyond_row, row + ring + 1, v, w));
-  const Lanes size = absolute(q.x) + absolute(q.y) + absolute(q.z);
-  const Lanes margin = Lanes::set(grid.margin) + Lanes::set(grid.margin_relative) * size;
-  const Lanes bound = max(min(columns, rows) - margin, Lanes::set(0.0f));
-  return less_equal(worst, bound * bound * Lanes::set(kShrink));
+  const int row_band = row / kBand, column_band = column / kBand;
+  const Lanes columns = min(to_column(borders.before_column, column - ring - 1, row_band, u, w),
+                            to_column(borders.beyond_column, column + ring + 1, row_band, u, w));
+  const Lanes rows = min(to_row(borders.before_row, row - ring - 1, column_band, v, w),
+                         to_row(borders.beyond_row, row + ring + 1, column_band, v, w));
+  return min(columns, rows);
 }
+
+struct Bounds {
+  Lanes far;     ///< distance of what the bands do not tell about
+  Lanes margin;  ///< rounding
+
+  TURNSCAN_INLINE Bounds(const Query& q, int column, int row)
+      : far(Lanes::set(__builtin_inff())),
+        margin(Lanes::set(q.grid->margin) + Lanes::set(q.grid->margin_relative) *
+                                                (absolute(q.x) + absolute(q.y) + absolute(q.z))) {
+    if (q.grid->bent) far = distance_outside(q, q.grid->whole, column, row, kBand);
+  }
+  /// Lower bound of the squared distances, as they are rounded.
+  TURNSCAN_INLINE Lanes squared(const Query& q, int column, int row, int ring) const {
+    const Borders& borders = q.grid->bent ? q.grid->bands : q.grid->whole;
+    const Lanes distance = min(distance_outside(q, borders, column, row, ring), far) - margin;
+    const Lanes bound = max(distance, Lanes::set(0.0f));
+    return bound * bound * Lanes::set(kShrink);
+  }
+};
+
+// --- one point in a window of its own
+// -------------------------------------------------------------
+
+/// Rows are looked at from the point's own outwards, each as far as the k-th distance reaches.
+struct Window {
+  const Grid& grid;
+  const Query query;  ///< the same point in all lanes
+  int column, row, k, first, last;
+  float u, v, w, margin;
+  std::uint64_t cells = 0;
+  float best[kMaxK + 1];  ///< ascending, the point itself among them
+
+  /// At least k neighbours are within the squared distance `limit`, which may be infinite.
+  TURNSCAN_INLINE Window(const Grid& g, int c, int r, int k_in, float limit)
+      : grid(g), query(spread(g, r * g.stride + c)), column(c), row(r), k(k_in) {
+    const std::ptrdiff_t i = query.cell;
+    u = grid.u[i], v = grid.v[i], w = grid.w[i];
+    margin = grid.margin +
+             grid.margin_relative * (__builtin_fabsf(grid.x[i]) + __builtin_fabsf(grid.y[i]) +
+                                     __builtin_fabsf(grid.z[i]));
+    // Distances equal to the limit need not be found: they are there already.
+    for (int n = 0; n <= k; ++n) best[n] = limit;
+    first = last = column;
+    while (first > 0 && !clear(grid.whole.before_column, first - 1, u)) --first;
+    while (last + 1 < grid.columns && !clear(grid.whole.beyond_column, last + 1, u)) ++last;
+  }
+  TURNSCAN_INLINE static Query spread(const Grid& g, std::ptrdiff_t i) {
+    return {Lanes::set(g.x[i]), Lanes::set(g.y[i]), Lanes::set(g.z[i]), &g, i};
+  }
+  /// Nothing there is nearer than the k-th distance.
+  TURNSCAN_INLINE bool clear(const Border& border, int i, float across) const {
+    const float distance = border.a[i] * w + border.b[i] * across + border.offset[i] - margin;
+    return distance > 0.0f && distance * distance * kShrink >= best[k];
+  }
+  TURNSCAN_INLINE void insert(float d) {
+    int i = k;
+    for (; i > 0 && best[i - 1] > d; --i) best[i] = best[i - 1];
+    best[i] = d;
+  }
+  TURNSCAN_INLINE void visit_row(int r) {
+    while (first < column && clear(grid.whole.before_column, first, u)) ++first;
+    while (last > column && clear(grid.whole.beyond_column, last, u)) --last;
+    cells += std::uint64_t(last - first + 1);
+    for (int c = first; c <= last; c += Lanes::kCount) {
+      const Lanes d = squared_distance(query, r * grid.stride + c);
+      unsigned near = less(d, Lanes::set(best[k]));
+      if (last - c < Lanes::kCount - 1) near &= (2u << (last - c)) - 1u;
+      if (near == 0) continue;
+      float values[Lanes::kCount];
+      d.store(values);
+      for (; near != 0; near &= near - 1) {
+        const float value = values[__builtin_ctz(near)];
+        if (value < best[k]) insert(value);
+      }
+    }
+  }
+  TURNSCAN_INLINE void visit_rows() {
+    visit_row(row);
+    bool up = true, down = true;
+    for (int step = 1; up || down; ++step) {
+      up = up && row - step >= 0 && !clear(grid.whole.before_row, row - step, v);
+      if (up) visit_row(row - step);
+      down = down && row + step < grid.rows && !clear(grid.whole.beyond_row, row + step, v);
+      if (down) visit_row(row + step);
+    }
+  }
+  /// Sum of the roots in double and ascending, rounded once: as PCL does.
+  TURNSCAN_INLINE float mean() const {
+    double sum = 0.0;
+    for (int i = 1; i <= k; ++i) sum += __builtin_sqrt(double(best[i]));
+    return static_cast<float>(sum / k);
+  }
+};
+
+float search_window(const Grid& grid, int column, int row, int k, float limit,
+                    std::uint64_t& cells) {
+  Window window(grid, column, row, k, limit);
+  window.visit_rows();
+  cells += window.cells;
+  return window.mean();
+}
+
+// --- points side by side
+// --------------------------------------------------------------------------
 
 /// Rings that hold k points of a plane seen from the front.
 TURNSCAN_INLINE int first_rings(int k) {
@@ -88,66 +196,54 @@ TURNSCAN_INLINE int first_rings(int k) {
   return ring;
 }
 
-/// A wider ring for all lanes costs more than a window of its own for this many.
-constexpr int kFewLanes = Lanes::kCount / 4;
+/// For this many lanes a wider ring costs less than a window for each; fewer are worth one while
+/// they are likely to be settled by it: while the k-th distance is at most twice the bound.
+constexpr int kManyLanes = Lanes::kCount / 4;
+constexpr float kLikely = 4.0f;
 
 template <int kFixed>
-TURNSCAN_INLINE std::size_t search_lanes(const Grid& grid, int column, int row, int k, float* mean,
-                                         Unsettled* unsettled) {
+TURNSCAN_INLINE std::uint64_t search_lanes(const Grid& grid, int column, int row, int k,
+                                           float* mean) {
   const std::ptrdiff_t cell = row * grid.stride + column;
   const Query q{Lanes::load(grid.x + cell), Lanes::load(grid.y + cell), Lanes::load(grid.z + cell),
                 &grid, cell};
   const unsigned active = less(q.z, Lanes::set(0.5f * kHole));
   if (active == 0) return 0;
   Nearest<kFixed> nearest(k);
+  const Bounds bounds(q, column, row);
   const int first = first_rings(k);
   unsigned open = active;
   for (int ring = 1; ring <= kPad; ++ring) {
     visit_ring(q, ring, nearest);
     if (ring < first) continue;
-    open = active & ~settled(q, column, row, ring, nearest.worst());
-    if (__builtin_popcount(open) <= kFewLanes) break;
+    const Lanes bound = bounds.squared(q, column, row, ring);
+    open = active & ~less_equal(nearest.worst(), bound);
+    const unsigned likely = open & less_equal(nearest.worst(), bound * Lanes::set(kLikely));
+    if (likely == 0 && __builtin_popcount(open) < kManyLanes) break;
   }
   Lanes::store_mean(nearest.best, k, mean + column);
   if (open == 0) return 0;
   float worst[Lanes::kCount];
   nearest.worst().store(worst);
-  std::size_t count = 0;
+  std::uint64_t cells = 0;
   for (; open != 0; open &= open - 1) {
     const int lane = __builtin_ctz(open);
-    unsettled[count++] = {column + lane, row, worst[lane]};
+    mean[column + lane] = search_window(grid, column + lane, row, k, worst[lane], cells);
   }
-  return count;
+  return cells;
 }
 
 template <int kFixed>
-std::size_t search_row_k(const Grid& grid, int row, int k, float* mean, Unsettled* unsettled) {
-  std::size_t count = 0;
+std::uint64_t search_row_k(const Grid& grid, int row, int k, float* mean) {
+  std::uint64_t cells = 0;
   for (int column = 0; column < grid.columns; column += Lanes::kCount)
-    count += search_lanes<kFixed>(grid, column, row, k, mean, unsettled + count);
-  return count;
+    cells += search_lanes<kFixed>(grid, column, row, k, mean);
+  return cells;
 }
 
 /// The default k keeps its list in registers.
-std::size_t search_row(const Grid& grid, int row, int k, float* mean, Unsettled* unsettled) {
-  return k == 10 ? search_row_k<10>(grid, row, k, mean, unsettled)
-                 : search_row_k<0>(grid, row, k, mean, unsettled);
+std::uint64_t search_row(const Grid& grid, int row, int k, float* mean) {
+  return k == 10 ? search_row_k<10>(grid, row, k, mean) : search_row_k<0>(grid, row, k, mean);
 }
 
-std::size_t collect(const Grid& grid, std::ptrdiff_t i, std::ptrdiff_t first, int n, float limit,
-                    float* out) {
-  const Query q{Lanes::set(grid.x[i]), Lanes::set(grid.y[i]), Lanes::set(grid.z[i]), &grid, i};
-  std::size_t count = 0;
-  for (int column = 0; column < n; column += Lanes::kCount) {
-    const Lanes d = squared_distance(q, first + column);
-    unsigned near = less_equal(d, Lanes::set(limit));
-    if (n - column < Lanes::kCount) near &= (1u << (n - column)) - 1u;
-    if (near == 0) continue;
-    float values[Lanes::kCount];
-    d.store(values);
-    for (; near != 0; near &= near - 1) out[count++] = values[__builtin_ctz(near)];
-  }
-  return count;
-}
-
-constexpr Kernel kKernel{search_row, collect};
+constexpr Kernel kKernel{search_row};
