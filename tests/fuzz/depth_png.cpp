@@ -1,0 +1,11 @@
+#include <turnscan/io/image_io.hpp>
+
+#include "tests/fuzz/checks.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto read = turnscan::decode_depth_png(turnscan::fuzz::text_of(data, size));
+  if (read)
+    turnscan::fuzz::require(
+        read->pixels.size() == std::size_t(read->width) * std::size_t(read->height), "size");
+  return 0;
+}

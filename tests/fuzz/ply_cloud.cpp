@@ -1,0 +1,9 @@
+#include <turnscan/io/cloud_io.hpp>
+
+#include "tests/fuzz/checks.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto read = turnscan::decode_cloud(turnscan::fuzz::text_of(data, size));
+  if (read) turnscan::fuzz::check(*read);
+  return 0;
+}
