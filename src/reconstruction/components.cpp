@@ -26,15 +26,26 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Voxels within reach cells of each other on every axis are connected: for reach 1 the 26
-/// neighbours. Half of the neighbourhood is enough, the other half is met from the other side.
-void join_neighbours(const VoxelGrid& grid, int reach, DisjointSets& sets) {
-  const VoxelIndex r = VoxelIndex::Constant(reach);
-  for (std::uint32_t i = 0; i < grid.voxels().size(); ++i) {
-    const VoxelIndex& index = grid.voxels()[i].index;
-    VoxelIndex high = index + r;
-    high.z() = index.z();
-    grid.for_each_in_box(index - r, high, [&](std::uint32_t j) { sets.join(i, j); });
+/// Joins what lies in one cell of `side` voxels or in cells that touch. Half of the neighbours of a
+/// cell are enough, the other half meets it from the other side.
+void join_neighbours(const VoxelGrid& grid, int side, DisjointSets& sets) {
+  std::vector<Vec3f> cells;  // as points, so that the grid sorts them
+  cells.reserve(grid.voxels().size());
+  for (const VoxelGrid::Voxel& voxel : grid.voxels()) {
+    const Vec3d cell = (voxel.index.cast<double>() / side).array().floor() + 0.5;
+    cells.push_back(cell.cast<float>());
+  }
+  const auto coarse = VoxelGrid::build(cells, 1.0, RunContext());
+  if (!coarse) return;  // no voxels at all
+  for (const VoxelGrid::Voxel& cell : coarse->voxels()) {
+    const std::uint32_t first = coarse->order()[cell.begin];
+    for (std::uint32_t k = cell.begin + 1; k < cell.end; ++k) sets.join(first, coarse->order()[k]);
+    const VoxelIndex one = VoxelIndex::Ones();
+    VoxelIndex high = cell.index + one;
+    high.z() = cell.index.z();
+    coarse->for_each_in_box(cell.index - one, high, [&](std::uint32_t other) {
+      sets.join(first, coarse->order()[coarse->voxels()[other].begin]);
+    });
   }
 }
 
@@ -65,7 +76,7 @@ Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions
   TURNSCAN_ASSIGN(const int keep, objects_to_keep(options));
   const std::size_t n = grid.voxels().size();
   DisjointSets sets(n);
-  join_neighbours(grid, std::max(1, reach), sets);
+  join_neighbours(grid, std::max(1, reach / 2), sets);
   struct Piece {
     std::uint64_t points = 0;
     std::size_t voxels = 0;

@@ -22,9 +22,9 @@ struct Components {
   std::size_t not_kept = 0;              ///< pieces left out by `keep`
 };
 
-/// Voxels that are at most `reach` (at least 1) steps apart on every axis are connected: 1 is the
-/// 26-neighbourhood; more bridges the gaps of sparse scans. Ordered by number of points, ties by
-/// position.
+/// reach 1: the 26-neighbourhood of voxels. More bridges the gaps of sparse scans: pieces that are
+/// at most reach / 2 voxels apart are always one, those more than reach apart never (cells of
+/// reach / 2 voxels, 26-neighbourhood). Ordered by number of points, ties by position.
 Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
                                    int reach);
 

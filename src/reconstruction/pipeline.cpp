@@ -76,6 +76,7 @@ class Run {
   FrameRecipe recipe_;
   std::vector<Pose> poses_;
   MergedCloud merged_;
+  double cloud_spacing_m_ = 0.0;
   std::optional<VoxelGrid> grid_;
   Components components_;
   Candidates candidates_;
@@ -129,6 +130,11 @@ Result<> Run::survey() {
   std::sort(noise.begin(), noise.end());
   out_.frame_spacing_m = spacing[spacing.size() / 2];
   out_.sensor_noise_m = noise[noise.size() / 2];
+  // Rounding to the sensor's unit spreads depth by unit / sqrt(12) at least.
+  for (const SensorInfo& sensor : sequence_.header().sensors) {
+    if (sensor.kind == SensorKind::kDepthCamera)
+      out_.sensor_noise_m = std::max(out_.sensor_noise_m, sensor.depth_unit_m / std::sqrt(12.0));
+  }
   return choose_crop(sample);
 }
 
@@ -137,13 +143,20 @@ Result<> Run::choose_crop(const std::vector<Vec3f>& sample) {
   if (!options_.crop.enabled || (!table && !options_.crop.radius_m)) return {};
   Cylinder cylinder;
   cylinder.height_m = options_.crop.height_m;
-  const bool radius_known = options_.crop.radius_m || table->radius_m;
-  cylinder.radius_m =
-      options_.crop.radius_m ? *options_.crop.radius_m : table->radius_m.value_or(1e3);
-  if (radius_known)
-    choose("crop-radius", mm(cylinder.radius_m),
-           options_.crop.radius_m ? "given" : "the platter's radius");
-  const PlatterReturns platter = measure_platter(sample, std::min(cylinder.radius_m, 0.5));
+  std::optional<double> known = options_.crop.radius_m;
+  if (!known && table) known = table->radius_m;
+  const PlatterReturns platter = measure_platter(sample, std::min(known.value_or(0.5), 0.5));
+  const auto found = known ? known : find_platter_radius(sample, platter);
+  if (found) {
+    choose("crop-radius", mm(*found),
+           options_.crop.radius_m ? "given"
+           : known                ? "the platter's radius"
+                                  : "where the returns of the platter end");
+  } else {
+    out_.notes.push_back("the platter's radius is not known and its edge was not found: nothing is "
+                         "cropped sideways; give --crop-radius");
+  }
+  cylinder.radius_m = found.value_or(1e3);
   double margin = std::max(0.002, 4.0 * out_.sensor_noise_m);
   std::string reason = fmt::format("4 times the sensor's noise of {}", mm(out_.sensor_noise_m));
   if (platter.count > 0) {
@@ -190,11 +203,12 @@ Result<> Run::merge() {
 
 Result<> Run::count_voxels() {
   const CloudStatistics statistics =
-      cloud_statistics(merged_, std::max(2.0 * out_.frame_spacing_m, 3.0 * out_.sensor_noise_m));
+      cloud_statistics(merged_, std::max(4.0 * out_.frame_spacing_m, 4.0 * out_.sensor_noise_m));
   out_.merged_noise_m = std::max(statistics.noise_m, 1e-5);
-  double size = std::max(2.0 * statistics.spacing_m, 0.7 * out_.merged_noise_m);
+  cloud_spacing_m_ = statistics.spacing_m;
+  double size = std::max(2.0 * statistics.spacing_m, out_.merged_noise_m);
   std::string reason =
-      fmt::format("the larger of 0.7 times the cloud's thickness {} and twice its spacing {}",
+      fmt::format("the larger of the thickness of the cloud, {}, and twice its spacing, {}",
                   mm(out_.merged_noise_m), mm(statistics.spacing_m));
   const double longest = bounds(merged_.cloud.points).size().maxCoeff();
   if (options_.voxels.grid) {
@@ -222,8 +236,8 @@ Result<> Run::count_voxels() {
                 threshold.typical_count);
   const double gap =
       length_or(options_.components.gap_m, "object-gap",
-                std::max({size, 2.5 * out_.frame_spacing_m, 2.0 * out_.merged_noise_m}),
-                "from voxel size, spacing in a frame and noise");
+                std::max(3.0 * size, 4.0 * statistics.spacing_m),
+                "the larger of 3 voxels and 4 times the cloud's spacing");
   TURNSCAN_ASSIGN(components_, find_components(*grid_, options_.components,
                                                static_cast<int>(std::lround(gap / size))));
   context_.advance();
@@ -264,8 +278,7 @@ Result<> Run::refine() {
   // (a height field of degree 2 has about twice the mean's standard deviation).
   const double size = grid_->size_m(), noise = out_.merged_noise_m;
   const double target = std::max(0.1 * noise, 0.05 * size);
-  const double spacing = cloud_statistics(merged_, 3.0 * noise).spacing_m;
-  const double wanted = spacing * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
+  const double wanted = cloud_spacing_m_ * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
   const double radius = length_or(options_.refine.radius_m, "refine-radius",
                                   std::clamp(wanted, 0.75 * size, 3.0 * size),
                                   fmt::format("so that a fitted height is good to {}", mm(target)));

@@ -1,19 +1,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/refine.hpp>
+#include <turnscan/reconstruction/refine_kernel.hpp>
 
 namespace turnscan {
 
 namespace {
 
-/// Reach of the cylinder: beyond it Gaussian weights and Gaussian noise are negligible.
-constexpr double kTangentialReach = 2.5;  // times radius_m
-constexpr double kNormalReach = 3.5;      // times noise_m
+/// The compact weight (1 - r^2)^3 has the standard deviation of a Gaussian at this reach.
+constexpr double kReach = 2.45;  // times radius_m
+/// Tukey's biweight keeps 95 % efficiency at 4.685 sigma; the first step, whose site may still lie
+/// off the surface by some sigma, looks twice as far.
+constexpr double kTukey = 4.685;  // times noise_m
 /// A measurement supports a surface if its ray met it at less than about 80 degrees.
-constexpr double kFacing = 0.17;
-/// Tukey's biweight keeps 95 % efficiency at 4.685 sigma.
-constexpr double kTukey = 4.685;
+constexpr float kFacing = 0.17f;
 constexpr double kLeastSupport = 0.05;  // of the median support
 
 struct Site {
@@ -22,91 +24,103 @@ struct Site {
   bool lost = false;
 };
 
-struct Sums {
-  Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
-};
+using Moments = std::array<double, detail::kMoments>;
 
 class Projector {
  public:
   Projector(const MergedCloud& merged, const VoxelGrid& grid, const RefineScale& scale)
-      : merged_(merged), grid_(grid), scale_(scale) {
-    tangential_ = kTangentialReach * scale.radius_m;
-    normal_ = std::max(kNormalReach * scale.noise_m, scale.radius_m);
-    sorted_.reserve(grid.order().size());
-    for (std::uint32_t i : grid.order()) sorted_.push_back(merged.cloud.points[i]);
+      : grid_(grid) {
+    reach_ = kReach * scale.radius_m;
+    height_ = std::max(kTukey * scale.noise_m, 0.5 * scale.radius_m);
+    const std::size_t n = grid.order().size();
+    for (auto& column : columns_) column.resize(n);
+    parallel_for(n, 16384, [&](std::size_t k) {
+      const std::uint32_t i = grid.order()[k];
+      const Vec3f& p = merged.cloud.points[i];
+      const Vec3f view = merged.towards_sensor(i);
+      for (int a = 0; a < 3; ++a) {
+        columns_[std::size_t(a)][k] = p[a];
+        columns_[std::size_t(a + 3)][k] = view[a];
+      }
+    });
   }
 
   /// One step: the site moves onto the fitted height field over its own tangent plane.
-  void step(Site& site, bool robust) const {
+  void step(Site& site, double height_factor) const {
     if (site.lost) return;
     const Vec3d u = site.n.unitOrthogonal(), v = site.n.cross(u);
-    Sums sums = collect(site, u, v, robust);
-    site.support = sums.a(0, 0);
-    if (site.support < 3.0) {
-      site.lost = true;
-      return;
-    }
-    // A ridge lets the curvature terms fade where too few points carry them.
-    const double r2 = scale_.radius_m * scale_.radius_m;
-    for (int k = 1; k < 3; ++k) sums.a(k, k) += 0.5 * r2;
-    for (int k = 3; k < 6; ++k) sums.a(k, k) += 4.0 * r2 * r2;
-    const Eigen::Matrix<double, 6, 1> x = sums.a.ldlt().solve(sums.b);
-    if (!x.allFinite() || std::abs(x[0]) > normal_) {
-      site.lost = true;
-      return;
-    }
+    const double height = height_factor * height_;
+    const Moments s = collect(site, u, v, height);
+    site.support = s[0];
+    site.lost = site.support < 0.5;
+    if (site.lost) return;
+    const Eigen::Matrix<double, 6, 1> x = fit(s);
+    site.lost = !x.allFinite() || std::abs(x[0]) > height;
+    if (site.lost) return;
     site.p += x[0] * site.n;
-    site.n = (site.n - x[1] * u - x[2] * v).normalized();
+    site.n = (site.n - x[1] / reach_ * u - x[2] / reach_ * v).normalized();
   }
 
  private:
-  Sums collect(const Site& site, const Vec3d& u, const Vec3d& v, bool robust) const {
+  /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge lets slope and curvature
+  /// fade where too few points carry them.
+  static Eigen::Matrix<double, 6, 1> fit(const Moments& s) {
+    Eigen::Matrix<double, 6, 6> a;
+    a << s[0], s[1], s[2], s[3], s[4], s[5],    //
+        s[1], s[3], s[4], s[6], s[7], s[8],     //
+        s[2], s[4], s[5], s[7], s[8], s[9],     //
+        s[3], s[6], s[7], s[10], s[11], s[12],  //
+        s[4], s[7], s[8], s[11], s[12], s[13],  //
+        s[5], s[8], s[9], s[12], s[13], s[14];
+    Eigen::Matrix<double, 6, 1> b;
+    b << s[15], s[16], s[17], s[18], s[19], s[20];
+    for (int k = 1; k < 3; ++k) a(k, k) += 0.1;
+    for (int k = 3; k < 6; ++k) a(k, k) += 0.2;
+    return a.ldlt().solve(b);
+  }
+
+  Moments collect(const Site& site, const Vec3d& u, const Vec3d& v, double height) const {
+    detail::TangentFrame frame;
+    for (int a = 0; a < 3; ++a) {
+      frame.p[a] = static_cast<float>(site.p[a]);
+      frame.n[a] = static_cast<float>(site.n[a]);
+      frame.u[a] = static_cast<float>(u[a]);
+      frame.v[a] = static_cast<float>(v[a]);
+    }
+    frame.inverse_reach = static_cast<float>(1.0 / reach_);
+    frame.inverse_height = static_cast<float>(1.0 / height);
+    frame.facing = kFacing;
+    // The box of the cylinder, and of it the voxels that the cylinder may touch.
     const double size = grid_.size_m();
-    // The box of the cylinder.
-    const Vec3d half = normal_ * site.n.cwiseAbs() +
-                       tangential_ * (Vec3d::Ones() - site.n.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    const Vec3d half = height * site.n.cwiseAbs() +
+                       reach_ * (Vec3d::Ones() - site.n.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
     const VoxelIndex low = ((site.p - half) / size).array().floor().cast<int>();
     const VoxelIndex high = ((site.p + half) / size).array().floor().cast<int>();
-    const double far = tangential_ + 0.87 * size, far2 = far * far;
-    Sums sums;
+    const double far = reach_ + 0.87 * size, far2 = far * far;
+    detail::MomentLanes lanes{};
     grid_.for_each_in_box(low, high, [&](std::uint32_t i) {
       const VoxelGrid::Voxel& voxel = grid_.voxels()[i];
       const Vec3d d = grid_.center(voxel) - site.p;
       const double h = d.dot(site.n);
-      if (d.squaredNorm() - h * h > far2) return;
-      for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) add(site, u, v, k, robust, sums);
+      if (d.squaredNorm() - h * h > far2 || std::abs(h) > height + 0.87 * size) return;
+      detail::add_moments(measurements(), voxel.begin, voxel.end, frame, lanes);
     });
+    Moments sums{};
+    for (std::size_t m = 0; m < sums.size(); ++m) {
+      for (float value : lanes[m]) sums[m] += value;
+    }
     return sums;
   }
 
-  void add(const Site& site, const Vec3d& u, const Vec3d& v, std::uint32_t k, bool robust,
-           Sums& sums) const {
-    const Vec3d q = sorted_[k].cast<double>();
-    const Vec3d d = q - site.p;
-    const double h = d.dot(site.n);
-    if (std::abs(h) > normal_) return;
-    const double x = d.dot(u), y = d.dot(v), r2 = x * x + y * y;
-    if (r2 > tangential_ * tangential_) return;
-    const Viewpoint& view = merged_.viewpoints[merged_.cloud.frame[grid_.order()[k]]];
-    if (view.direction_from(q).dot(site.n) < kFacing) return;
-    double w = std::exp(-0.5 * r2 / (scale_.radius_m * scale_.radius_m));
-    if (robust) {
-      const double c = std::max(kTukey * scale_.noise_m, 1e-9), t = 1.0 - (h / c) * (h / c);
-      if (t <= 0.0) return;
-      w *= t * t;
-    }
-    Eigen::Matrix<double, 6, 1> basis;
-    basis << 1.0, x, y, x * x, x * y, y * y;
-    sums.a.noalias() += w * basis * basis.transpose();
-    sums.b.noalias() += (w * h) * basis;
+  detail::Measurements measurements() const {
+    return {columns_[0].data(), columns_[1].data(), columns_[2].data(),
+            columns_[3].data(), columns_[4].data(), columns_[5].data()};
   }
 
-  const MergedCloud& merged_;
   const VoxelGrid& grid_;
-  RefineScale scale_;
-  double tangential_ = 0.0, normal_ = 0.0;
-  std::vector<Vec3f> sorted_;  ///< in the grid's order: neighbours lie together in memory
+  double reach_ = 0.0, height_ = 0.0;
+  /// In the grid's order: neighbours lie together in memory.
+  std::array<std::vector<float>, 6> columns_;
 };
 
 double median_support(const std::vector<Site>& sites) {
@@ -207,6 +221,25 @@ Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, 
   return out;
 }
 
+/// Of the layers of voxels that noise spreads along the normal, the fullest is the best start:
+/// candidates whose voxel has a fuller one next to it along their normal are left out.
+std::vector<Site> starting_sites(const VoxelGrid& grid, const Candidates& candidates) {
+  std::vector<Site> sites(candidates.cloud.size());
+  parallel_for(sites.size(), 1024, [&](std::size_t i) {
+    Site& site = sites[i];
+    site.p = candidates.cloud.points[i].cast<double>();
+    site.n = candidates.cloud.normals[i].cast<double>();
+    const std::uint32_t own = grid.voxels()[candidates.voxel[i]].count();
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3d q =
+          grid.center(grid.voxels()[candidates.voxel[i]]) + side * grid.size_m() * site.n;
+      const auto next = grid.find((q / grid.size_m()).array().floor().cast<int>());
+      if (next >= 0 && grid.voxels()[std::size_t(next)].count() > own) site.lost = true;
+    }
+  });
+  return sites;
+}
+
 }  // namespace
 
 OptionTable describe(RefineOptions& o) {
@@ -224,20 +257,16 @@ Result<Candidates> refine_candidates(const MergedCloud& merged, const VoxelGrid&
                                      int iterations, const RunContext& context) {
   if (candidates.cloud.normals.size() != candidates.cloud.size())
     throw std::invalid_argument("refine_candidates: candidates need normals");
-  const double cell = std::max(scale.radius_m, 0.5 * grid.size_m());
+  const double cell = std::max(scale.radius_m, 0.5 * scale.noise_m);
   TURNSCAN_ASSIGN(const VoxelGrid index, VoxelGrid::build(merged.cloud.points, cell, context));
   const Projector projector(merged, index, scale);
   Candidates current = candidates;
-  std::vector<Site> sites(current.cloud.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    sites[i].p = current.cloud.points[i].cast<double>();
-    sites[i].n = current.cloud.normals[i].cast<double>();
-  }
+  std::vector<Site> sites = starting_sites(grid, candidates);
   for (int iteration = 0; iteration < iterations; ++iteration) {
     context.begin_phase("refine candidates", sites.size());
     parallel_for(sites.size(), 64, [&](std::size_t i) {
       if (context.cancelled()) return;
-      projector.step(sites[i], iteration > 0);
+      projector.step(sites[i], iteration == 0 ? 2.0 : 1.0);
       context.advance();
     });
     TURNSCAN_TRY(context.check());

@@ -13,7 +13,7 @@ struct RefineOptions {
 OptionTable describe(RefineOptions& options);
 
 struct RefineScale {
-  double radius_m;  ///< standard deviation of the tangential Gaussian weight
+  double radius_m;  ///< standard deviation of the tangential weight
   double noise_m;   ///< standard deviation of the measurements along the normal
 };
 

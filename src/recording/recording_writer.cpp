@@ -93,10 +93,9 @@ Result<> make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   std::vector<fs::path> missing;
   for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path())
     missing.push_back(p);
-  std::reverse(missing.begin(), missing.end());
-  for (const fs::path& p : missing) {
-    if (fs::create_directory(p, error)) made.push_back(p);
-    if (error) return system_error(p, "cannot create the folder", error.value());
+  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
+    if (fs::create_directory(*p, error)) made.push_back(*p);
+    if (error) return system_error(*p, "cannot create the folder", error.value());
   }
   return {};
 }
@@ -202,8 +201,7 @@ void RecordingWriter::State::discard() {
     for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
       fs::remove_all(folder / name, ignored);
   }
-  std::for_each(made_folders.rbegin(), made_folders.rend(),
-                [&](const fs::path& made) { fs::remove(made, ignored); });
+  for (auto p = made_folders.rbegin(); p != made_folders.rend(); ++p) fs::remove(*p, ignored);
 }
 
 RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -299,7 +297,7 @@ Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
   TURNSCAN_ASSIGN(RecordingWriter writer, RecordingWriter::create(folder, sequence.header()));
   RecordingWriter::State& state = *writer.state_;
   const std::size_t count = sequence.frames().size();
-  auto written = [&]() -> Result<> {
+  const auto written = [&]() -> Result<> {
     for (const FrameInfo& info : sequence.frames()) TURNSCAN_TRY(state.claim_index(info));
     context.begin_phase("write recording", count);
     for (std::size_t begin = 0; begin < count; begin += kBatch) {

@@ -138,7 +138,6 @@ std::string summary_text(const SequenceSummary& s) {
 
 std::string summary_json(const SequenceSummary& s) {
   OrderedJson out;
-  out["kind"] = "recording";
   out["source"] = s.source;
   out["software"] = s.software;
   out["frames"] = s.frames;
@@ -155,9 +154,7 @@ std::string summary_json(const SequenceSummary& s) {
   if (s.turntable) out["turntable"] = turntable_json(*s.turntable);
   out["notes"] = s.notes;
   out["missing"] = s.missing;
-  std::string text = json_text(out);
-  text.pop_back();
-  return text;
+  return json_text(out);
 }
 
 }  // namespace turnscan

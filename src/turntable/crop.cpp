@@ -70,4 +70,27 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
   return out;
 }
 
+std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
+                                          const PlatterReturns& platter) {
+  constexpr double kRing = 0.004;
+  constexpr std::size_t kRings = 150;
+  constexpr double kLeastDensity = 2e4;  // returns per square metre: one in 50 mm^2
+  if (platter.count == 0) return std::nullopt;
+  std::vector<double> density(kRings, 0.0);
+  const double band = std::max(4.0 * platter.sigma_m, 0.001);
+  for (const Vec3f& p : p_table) {
+    const double r = std::hypot(p.x(), p.z());
+    if (std::abs(p.y() - platter.height_m) < band && r < kRing * kRings)
+      density[static_cast<std::size_t>(r / kRing)] += 1.0;
+  }
+  for (std::size_t i = 0; i < kRings; ++i)
+    density[i] /= EIGEN_PI * kRing * kRing * double(2 * i + 1);
+  const auto densest = std::max_element(density.begin(), density.end());
+  if (*densest < kLeastDensity) return std::nullopt;
+  const auto end = std::find_if(densest, density.end(),
+                                [&](double d) { return d < 0.3 * *densest; });
+  if (end == density.end()) return std::nullopt;
+  return kRing * double(end - density.begin());
+}
+
 }  // namespace turnscan

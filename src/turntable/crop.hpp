@@ -55,4 +55,11 @@ struct PlatterReturns {
 /// that the object's foot does not count as noise. count = 0 when fewer than 200 are there.
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m);
 
+/// Radius at which the platter's returns end: outwards from the ring (of 4 mm) in which they lie
+/// densest, the first ring with less than 0.3 times that density. p_table must hold whole frames
+/// (not cropped), spread over a turn. nullopt where they do not end within 0.6 m, e.g. on a plane
+/// that goes on beyond the platter, or where there are too few.
+std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
+                                          const PlatterReturns& platter);
+
 }  // namespace turnscan
