@@ -49,7 +49,7 @@ Result<std::optional<double>> number_field(std::string_view name, std::string_vi
 
 Result<std::uint32_t> index_field(std::string_view name, std::string_view text, std::uint32_t max) {
   if (text.empty()) return 0U;
-  const auto value = parse_index(text, max);
+  auto value = parse_index(text, max);
   if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
   return value;
 }

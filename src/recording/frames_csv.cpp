@@ -26,7 +26,7 @@ std::string fixed_text(double value, int decimals) {
 
 Result<double> number_field(const CsvColumns& columns, const std::vector<std::string>& fields,
                             const char* name) {
-  const auto value = parse_number(columns.field(fields, name));
+  auto value = parse_number(columns.field(fields, name));
   if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
   return value;
 }
@@ -35,7 +35,7 @@ Result<std::uint32_t> index_field(const CsvColumns& columns, const std::vector<s
                                   const char* name, std::uint32_t max) {
   const std::string_view text = columns.field(fields, name);
   if (text.empty() && std::string_view(name) != "index") return 0U;
-  const auto value = parse_index(text, max);
+  auto value = parse_index(text, max);
   if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
   return value;
 }

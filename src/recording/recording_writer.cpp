@@ -93,9 +93,10 @@ Result<> make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   std::vector<fs::path> missing;
   for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path())
     missing.push_back(p);
-  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
-    if (fs::create_directory(*p, error)) made.push_back(*p);
-    if (error) return system_error(*p, "cannot create the folder", error.value());
+  std::reverse(missing.begin(), missing.end());
+  for (const fs::path& p : missing) {
+    if (fs::create_directory(p, error)) made.push_back(p);
+    if (error) return system_error(p, "cannot create the folder", error.value());
   }
   return {};
 }
@@ -201,7 +202,8 @@ void RecordingWriter::State::discard() {
     for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
       fs::remove_all(folder / name, ignored);
   }
-  for (auto p = made_folders.rbegin(); p != made_folders.rend(); ++p) fs::remove(*p, ignored);
+  std::for_each(made_folders.rbegin(), made_folders.rend(),
+                [&](const fs::path& made) { fs::remove(made, ignored); });
 }
 
 RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -297,7 +299,7 @@ Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
   TURNSCAN_ASSIGN(RecordingWriter writer, RecordingWriter::create(folder, sequence.header()));
   RecordingWriter::State& state = *writer.state_;
   const std::size_t count = sequence.frames().size();
-  const auto written = [&]() -> Result<> {
+  auto written = [&]() -> Result<> {
     for (const FrameInfo& info : sequence.frames()) TURNSCAN_TRY(state.claim_index(info));
     context.begin_phase("write recording", count);
     for (std::size_t begin = 0; begin < count; begin += kBatch) {

@@ -50,7 +50,7 @@ Result<SequenceSummary> summarize(const Recording& recording, const RunContext& 
 
 /// Several lines for people, values with their units.
 std::string summary_text(const SequenceSummary& summary);
-/// One JSON object, SI units in the field names.
+/// One JSON object without a line end, SI units in the field names.
 std::string summary_json(const SequenceSummary& summary);
 
 }  // namespace turnscan

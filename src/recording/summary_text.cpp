@@ -138,6 +138,7 @@ std::string summary_text(const SequenceSummary& s) {
 
 std::string summary_json(const SequenceSummary& s) {
   OrderedJson out;
+  out["kind"] = "recording";
   out["source"] = s.source;
   out["software"] = s.software;
   out["frames"] = s.frames;
@@ -154,7 +155,9 @@ std::string summary_json(const SequenceSummary& s) {
   if (s.turntable) out["turntable"] = turntable_json(*s.turntable);
   out["notes"] = s.notes;
   out["missing"] = s.missing;
-  return json_text(out);
+  std::string text = json_text(out);
+  text.pop_back();
+  return text;
 }
 
 }  // namespace turnscan

@@ -14,8 +14,6 @@ namespace fs = std::filesystem;
 using testing::frame_of;
 using ::testing::HasSubstr;
 using testing::open;
-using testing::put_color;
-using testing::put_depth;
 using testing::put_scan;
 using testing::refusal;
 using testing::TempFolder;

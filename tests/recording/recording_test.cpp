@@ -12,7 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::color_image;
 using ::testing::Contains;
-using testing::content_of;
 using testing::depth_frame;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
