@@ -53,24 +53,26 @@ class Adjacency {
   std::vector<std::uint32_t> neighbours_;
 };
 
-/// Connected movable vertices that touch a fixed one, region by region.
+/// Movable vertices that are connected, or that touch the same fixed vertex: the plate's term of
+/// that vertex couples them. Regions that touch no fixed vertex at all are left out.
 std::vector<std::vector<std::uint32_t>> find_regions(const Adjacency& adjacency,
                                                      const std::vector<std::uint8_t>& movable) {
   std::vector<std::vector<std::uint32_t>> regions;
   std::vector<std::uint8_t> seen(movable.size(), 0);
   for (std::uint32_t seed = 0; seed < movable.size(); ++seed) {
     if (movable[seed] == 0 || seen[seed] != 0) continue;
-    std::vector<std::uint32_t> region(1, seed);
+    std::vector<std::uint32_t> region, queue(1, seed);
     seen[seed] = 1;
-    bool held = false;
-    for (std::size_t i = 0; i < region.size(); ++i) {
-      for (const std::uint32_t n : adjacency.of(region[i])) {
-        held |= movable[n] == 0;
-        if (movable[n] == 0 || seen[n] != 0) continue;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::uint32_t v = queue[i];
+      if (movable[v] != 0) region.push_back(v);
+      for (const std::uint32_t n : adjacency.of(v)) {
+        if (seen[n] != 0 || (movable[v] == 0 && movable[n] == 0)) continue;
         seen[n] = 1;
-        region.push_back(n);
+        queue.push_back(n);
       }
     }
+    const bool held = region.size() < queue.size();
     if (held) regions.push_back(std::move(region));
   }
   return regions;

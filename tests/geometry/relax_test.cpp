@@ -92,6 +92,19 @@ TEST(Relax, SolvesRegionsApartAndLeavesWhatNothingHolds) {
   }
 }
 
+TEST(Relax, RegionsThatTouchTheSameFixedVertexAreSolvedTogether) {
+  TriangleMesh mesh = plane(30);
+  std::vector<std::uint8_t> movable = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.3f);
+  for (std::size_t v = 0; v < movable.size(); ++v) {
+    // A line of fixed vertices one vertex wide parts two regions.
+    if (std::abs(mesh.vertices[v].x() - 0.5f) < 0.01f) movable[v] = 0;
+  }
+  blow_up(mesh, movable, 4);
+  const auto relaxed = relax(mesh, movable, {}, RunContext());
+  ASSERT_TRUE(relaxed) << relaxed.error().text();
+  for (const Vec3f& v : relaxed->vertices) ASSERT_NEAR(v.z(), 0.0f, 1e-5f);
+}
+
 TEST(Relax, SurvivesSliversFoldsAndHubs) {
   TriangleMesh mesh = plane(60);
   auto movable = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.4f);
