@@ -202,8 +202,10 @@ Result<> Run::merge() {
 }
 
 Result<> Run::count_voxels() {
-  const CloudStatistics statistics =
-      cloud_statistics(merged_, std::max(4.0 * out_.frame_spacing_m, 4.0 * out_.sensor_noise_m));
+  // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
+  const double noise = out_.sensor_noise_m, apart = out_.frame_spacing_m;
+  const double pixels = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  const CloudStatistics statistics = cloud_statistics(merged_, 3.0 * std::max(pixels, noise));
   out_.merged_noise_m = std::max(statistics.noise_m, 1e-5);
   cloud_spacing_m_ = statistics.spacing_m;
   double size = std::max(2.0 * statistics.spacing_m, out_.merged_noise_m);

@@ -16,7 +16,7 @@ constexpr double kReach = 2.45;  // times radius_m
 constexpr double kTukey = 4.685;  // times noise_m
 /// A measurement supports a surface if its ray met it at less than about 80 degrees.
 constexpr float kFacing = 0.17f;
-constexpr double kLeastSupport = 0.05;  // of the median support
+constexpr double kLeastSupport = 0.1;  // of the median support
 
 struct Site {
   Vec3d p, n;
@@ -230,6 +230,7 @@ std::vector<Site> starting_sites(const VoxelGrid& grid, const Candidates& candid
     site.p = candidates.cloud.points[i].cast<double>();
     site.n = candidates.cloud.normals[i].cast<double>();
     const std::uint32_t own = grid.voxels()[candidates.voxel[i]].count();
+    site.support = candidates.cloud.weights[i];
     for (const double side : {-1.0, 1.0}) {
       const Vec3d q =
           grid.center(grid.voxels()[candidates.voxel[i]]) + side * grid.size_m() * site.n;
@@ -260,8 +261,11 @@ Result<Candidates> refine_candidates(const MergedCloud& merged, const VoxelGrid&
   const double cell = std::max(scale.radius_m, 0.5 * scale.noise_m);
   TURNSCAN_ASSIGN(const VoxelGrid index, VoxelGrid::build(merged.cloud.points, cell, context));
   const Projector projector(merged, index, scale);
-  Candidates current = candidates;
-  std::vector<Site> sites = starting_sites(grid, candidates);
+  // A surface that is smooth over radius_m needs no candidates much closer than that.
+  const double spacing = std::max(grid.size_m(), 0.6 * scale.radius_m);
+  std::vector<Site> sites;
+  TURNSCAN_ASSIGN(Candidates current,
+                  thin(candidates, starting_sites(grid, candidates), spacing, sites, context));
   for (int iteration = 0; iteration < iterations; ++iteration) {
     context.begin_phase("refine candidates", sites.size());
     parallel_for(sites.size(), 64, [&](std::size_t i) {
@@ -271,7 +275,7 @@ Result<Candidates> refine_candidates(const MergedCloud& merged, const VoxelGrid&
     });
     TURNSCAN_TRY(context.check());
     std::vector<Site> next;
-    TURNSCAN_ASSIGN(current, thin(current, sites, grid.size_m(), next, context));
+    TURNSCAN_ASSIGN(current, thin(current, sites, spacing, next, context));
     sites.swap(next);
   }
   return current;

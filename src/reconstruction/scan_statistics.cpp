@@ -104,7 +104,7 @@ CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_
     out.noise_m = median(sigmas);
     const double density = median(densities);
     out.spacing_m = density > 0.0 ? 1.0 / std::sqrt(density) : 0.0;
-    if (density > 0.0 && out.noise_m < r / 5.0) break;
+    if (density > 0.0 && out.noise_m < r / 4.5) break;
   }
   return out;
 }

@@ -22,7 +22,7 @@ struct CloudStatistics {
   double spacing_m = 0.0;  ///< 1 / sqrt(points per square metre of surface)
 };
 
-/// Samples neighbourhoods of radius r, smallest first, until the thickness is below a fifth of r (a
+/// Samples neighbourhoods of radius r, smallest first, until the thickness is below r / 4.5 (a
 /// smaller ball would cut the noise off):
 /// the square root of the smallest eigenvalue of the covariance. Deterministic. Starts at
 /// start_radius_m; ends at 16 times that.
