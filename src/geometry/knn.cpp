@@ -102,7 +102,7 @@ PointStore sort_along_curve(std::span<const Vec3f> points) {
   for (const Vec3f& p : points) {
     if (p.allFinite()) box.add(p.cast<double>());
   }
-  const double longest = std::max(box.size().maxCoeff(), std::numeric_limits<double>::min());
+  const double longest = std::max(box.size().maxCoeff(), 1e-300);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {

@@ -66,10 +66,16 @@ TEST(OutliersLikePcl, FullFrameThroughADistortingLens) {
   expect_pcl(testing::room_frame(testing::distorted_kinect_v2()));
 }
 
-TEST(OutliersLikePcl, AnyNumberOfNeighboursAndAnyLambda) {
+TEST(OutliersLikePcl, AnyNumberOfNeighbours) {
+  const FramePoints frame = testing::object_frame(small_camera(200, 160, 180.0));
+  ASSERT_GT(frame.cloud.size(), 1001u);
+  for (const int k : {1, 2, 3, 4, 9, 11, 20, 50, 128, 129, 249, 250, 251, 1000})
+    expect_pcl(frame, k);
+}
+
+TEST(OutliersLikePcl, AnyLambda) {
   const FramePoints frame = testing::object_frame(testing::kinect_v2());
-  for (const int k : {1, 2, 3, 4, 9, 10, 11, 20, 50, 64, 65, 100, 249, 250, 251, 1000})
-    for (const double lambda : {0.0, 0.5, 1.0, 3.0}) expect_pcl(frame, k, lambda);
+  for (const double lambda : {0.0, 0.1, 0.5, 2.0, 3.7, 100.0}) expect_pcl(frame, 10, lambda);
 }
 
 TEST(OutliersLikePcl, FrontalPlaneWhereNearlyAllDistancesTie) {
@@ -175,12 +181,12 @@ TEST(OutliersLikePcl, ParallelRays) {
 }
 
 TEST(OutliersLikePcl, RealDepthImages) {
-  const std::vector<NamedFrame> frames = testing::real_depth_frames(10);
+  const std::vector<NamedFrame> frames = testing::real_depth_frames(25);
   if (frames.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
   for (const NamedFrame& frame : frames) {
     SCOPED_TRACE(frame.name);
     ASSERT_GT(frame.points.cloud.size(), 1000u);
-    expect_pcl(frame.points);
+    EXPECT_EQ(mask(frame.points), testing::pcl_outlier_mask(frame.points.cloud.points, 10, 1.0));
   }
 }
 
