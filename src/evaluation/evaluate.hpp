@@ -10,35 +10,45 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/registration.hpp>
 #include <vector>
 
 namespace turnscan {
 
+enum class Align { kNone, kIcp };
+
 struct EvaluateOptions {
-  std::string thresholds = "0.5mm,1mm,2mm";  ///< for precision, recall and F; positive lengths
+  std::string thresholds = "0.5mm,1mm,2mm";  ///< for precision, recall and F
   int samples = 200000;                      ///< drawn from each of the two surfaces
   int seed = 1;
-  bool align_icp = false;  ///< first move the mesh rigidly onto the reference
+  Align align = Align::kNone;  ///< kIcp: first move the mesh rigidly onto the reference
+  IcpOptions icp{};            ///< of that
 };
-/// Fields thresholds, samples, sample-seed, align.
+/// Fields thresholds, samples, sample-seed, align (none, icp), and those of IcpOptions.
 OptionTable describe(EvaluateOptions& options);
+
+/// Lengths separated by commas, as "0.5mm,1mm", in metres, ascending. kInvalidOption unless there
+/// are one to 64, all positive.
+Result<std::vector<double>> parse_thresholds(std::string_view text);
 
 /// Which points of the reference the sensors saw: one entry a point, 1 = seen. Points in metres in
 /// the reference's frame, unit normals. An empty function: all were seen.
 using SeenTest = std::function<Result<std::vector<std::uint8_t>>(std::span<const Vec3f> points,
                                                                  std::span<const Vec3f> normals)>;
 
-/// Of unsigned distances, metres; all zero when there are none (count == 0).
+/// Of unsigned distances, metres; all zero when there are none (count == 0). Percentiles are by
+/// nearest rank.
 struct ErrorStatistics {
   std::size_t count = 0;
   double mean = 0.0, median = 0.0, p95 = 0.0, max = 0.0, rms = 0.0;
 };
+ErrorStatistics error_statistics(std::vector<double> distances);
 
-/// In percent of samples: 0 to 1.
+/// Fractions, 0 to 1.
 struct ThresholdScore {
   double threshold_m = 0.0;
-  double precision = 0.0;  ///< samples of the mesh within the threshold of the reference
-  double recall = 0.0;     ///< samples of the reference within the threshold of the mesh
+  double precision = 0.0;  ///< of the mesh within the threshold of the reference
+  double recall = 0.0;     ///< of the seen reference within the threshold of the mesh
   double f = 0.0;          ///< harmonic mean of both; 0 when both are
 };
 
@@ -47,8 +57,8 @@ struct Evaluation {
   ErrorStatistics accuracy;
   /// Seen part of the reference to mesh.
   ErrorStatistics completeness;
-  /// Mean signed distance of the same samples as accuracy along the reference's normal: positive
-  /// when the mesh lies outside the reference.
+  /// Mean of the way from the reference to the samples of accuracy, along the reference's normal:
+  /// positive when the mesh lies outside the reference.
   double bias_m = 0.0;
   std::vector<ThresholdScore> scores;
   double mesh_area_m2 = 0.0, reference_area_m2 = 0.0;
@@ -61,18 +71,25 @@ struct Evaluation {
   double alignment_rms_m = 0.0;
 };
 
-/// Distances are exact from sample to triangle. Fails as validate_mesh and sample_surface do (the
-/// message says which mesh), with kInvalidOption, with kTooFewPoints when the seen part of the
-/// reference is empty, as icp does, and when cancelled.
+/// Distances are exact from sample to triangle; the samples are area-uniform and the same for every
+/// run. Begins the phases "align" (if asked for), "sample", "accuracy", "completeness", "seen" (if
+/// given). Fails with kFormat (the message says which of the two meshes), kInvalidOption,
+/// kTooFewPoints when a mesh has no area or nothing of the reference was seen, as icp() and the
+/// SeenTest do, and kCancelled. The same bytes for any number of threads.
 Result<Evaluation> evaluate(const TriangleMesh& mesh, const TriangleMesh& reference,
                             const EvaluateOptions& options, const SeenTest& seen,
                             const RunContext& context);
 
-/// JSON text, keys with units ("median_m"); docs/evaluation.md lists them.
+/// JSON text with a final newline; keys carry units ("median_m"). docs/evaluation.md lists them.
 std::string to_json(const Evaluation& evaluation);
 
-/// The mesh with per-vertex colours for its exact distance to the reference: 0 dark violet, over
-/// red and orange, to max_error_m and beyond pale yellow (the perceptually ordered "inferno" map).
+/// The mesh moved to where `pose` puts it; normals turn along.
+TriangleMesh transformed(const TriangleMesh& mesh, const Pose& pose);
+
+/// The mesh with each vertex coloured by its exact distance to the reference, on the perceptually
+/// ordered map viridis (Smith and van der Walt 2015): 0 is dark violet, half of max_error_m teal,
+/// max_error_m and more yellow. Fails with kFormat, kInvalidOption (max_error_m not positive),
+/// kTooFewPoints (no triangle in the reference), kCancelled.
 Result<TriangleMesh> color_by_error(const TriangleMesh& mesh, const TriangleMesh& reference,
                                     double max_error_m, const RunContext& context);
 
