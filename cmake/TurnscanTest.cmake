@@ -1,6 +1,9 @@
 # The function that declares one test program.
 include(GoogleTest)
 
+# Builds every unit test, and nothing that they do not need.
+add_custom_target(unit_tests)
+
 # turnscan_test(NAME SOURCES a.cpp ... [USES targets]): a GoogleTest program; each of its tests is
 # one CTest test named FLOOR.Suite.Sentence, with the label unit.
 function(turnscan_test name)
@@ -11,6 +14,7 @@ function(turnscan_test name)
                                           turnscan_settings turnscan_warnings)
   target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")
   target_compile_definitions(${target} PRIVATE TURNSCAN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  add_dependencies(unit_tests ${target})
   gtest_discover_tests(${target} TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS unit
                        DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST)
 endfunction()
