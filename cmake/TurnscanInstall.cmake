@@ -15,4 +15,6 @@ install(FILES "${CMAKE_BINARY_DIR}/turnscanConfig.cmake"
               "${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/TurnscanPcl.cmake"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
-install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" "${CMAKE_SOURCE_DIR}/README.md"
+        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
