@@ -118,15 +118,38 @@ TEST(VirtualScan, SeesTheCylinderWhereAlgebraSays) {
   EXPECT_GT(top, 100u);
 }
 
+TEST(VirtualScan, SeesABoxOutToItsLastPixel) {
+  const Vec3d low(-0.05, 0.02, -0.04), high(0.05, 0.15, 0.04);
+  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, clean());
+  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
+    for_each_pixel(scan, i, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+      // Where the ray enters and leaves the three slabs (Kay and Kajiya 1986).
+      const Vec3d a = (low - eye).cwiseQuotient(way), b = (high - eye).cwiseQuotient(way);
+      const double enter = a.cwiseMin(b).maxCoeff(), leave = a.cwiseMax(b).minCoeff();
+      if (std::abs(enter - leave) < 1e-5) return;
+      ASSERT_EQ(depth > 0.0, enter < leave);
+      if (depth > 0.0) {
+        ASSERT_NEAR(depth, enter, kRounding);
+      }
+    });
+  }
+}
+
 TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
   VirtualScanOptions o = clean();
   o.platter = true;
+  o.distance_m = 0.3;
+  o.aim_height_m = 0.0;
   o.intrinsics = intrinsics_of(ScannerPreset::kKinectV2);
   o.intrinsics->distortion = {0.09, -0.27, 0.001, -0.0005, 0.09};
   const VirtualScan scan = scan_of({}, o);
   for_each_pixel(scan, 0, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
+    const double t = -eye.y() / way.y();
+    const double radius = std::hypot(eye.x() + t * way.x(), eye.z() + t * way.z());
+    if (std::abs(radius - 0.15) < 1e-5) return;
+    ASSERT_EQ(depth > 0.0, t > 0.0 && radius < 0.15);
     if (depth > 0.0) {
-      ASSERT_NEAR(depth, -eye.y() / way.y(), kRounding);
+      ASSERT_NEAR(depth, t, kRounding);
     }
   });
 }
@@ -347,10 +370,12 @@ TEST(MixedPixels, AreTheAskedShareOfTheSilhouetteAndNothingElse) {
 }
 
 TEST(MixedPixels, LieUniformlyBetweenTheEdgeAndTheReach) {
-  const MixedCount count = count_mixed(1.0, 60);
-  EXPECT_NEAR(count.part_sum / double(count.parts), 0.5,
-              test::mean_bound(std::sqrt(1.0 / 12.0), count.parts) + 0.002);
-  EXPECT_GT(double(count.mixed) / double(count.silhouette), 0.995);
+  for (const double share : {0.3, 1.0}) {
+    const MixedCount count = count_mixed(share, 60);
+    EXPECT_NEAR(count.part_sum / double(count.parts), 0.5,
+                test::mean_bound(std::sqrt(1.0 / 12.0), count.parts) + 0.002);
+    EXPECT_NEAR(double(count.mixed) / double(count.silhouette), share, share < 1.0 ? 0.03 : 0.005);
+  }
 }
 
 TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
