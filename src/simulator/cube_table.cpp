@@ -60,24 +60,19 @@ bool fan_is_safe(const std::vector<int>& loop, std::size_t apex) {
   return true;
 }
 
-void add_loop(const std::vector<int>& loop, int& middle, Triangles& out) {
+/// Each of the 256 cases has such a fan for each of its loops (the tests look).
+void add_loop(const std::vector<int>& loop, Triangles& out) {
   const std::size_t n = loop.size();
-  for (std::size_t apex = 0; apex < n; ++apex) {
-    if (!fan_is_safe(loop, apex)) continue;
-    for (std::size_t k = 1; k + 1 < n; ++k)
-      out.push_back({std::uint8_t(loop[apex]), std::uint8_t(loop[(apex + k) % n]),
-                     std::uint8_t(loop[(apex + k + 1) % n])});
-    return;
-  }
-  for (std::size_t k = 0; k < n; ++k)
-    out.push_back({std::uint8_t(middle), std::uint8_t(loop[k]), std::uint8_t(loop[(k + 1) % n])});
-  ++middle;
+  std::size_t apex = 0;
+  while (apex + 1 < n && !fan_is_safe(loop, apex)) ++apex;
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    out.push_back({std::uint8_t(loop[apex]), std::uint8_t(loop[(apex + k) % n]),
+                   std::uint8_t(loop[(apex + k + 1) % n])});
 }
 
 Triangles triangles_of(unsigned inside) {
   auto next = successors(inside);
   Triangles out;
-  int middle = kCubeEdges;
   for (int first = 0; first < kCubeEdges; ++first) {
     std::vector<int> loop;
     for (int edge = first; next[edge] >= 0;) {
@@ -86,7 +81,7 @@ Triangles triangles_of(unsigned inside) {
       next[edge] = -1;
       edge = following;
     }
-    if (!loop.empty()) add_loop(loop, middle, out);
+    if (!loop.empty()) add_loop(loop, out);
   }
   return out;
 }

@@ -17,7 +17,7 @@ struct CubeEdge {
 
 CubeEdge cube_edge(int edge);
 
-/// Vertices: 0 to 11 on the edges; kCubeEdges and up in the middle of the cube.
+/// The edges on which the corners lie.
 using CubeTriangle = std::array<std::uint8_t, 3>;
 
 /// Triangles for the corners whose bit in `inside` is set; counter-clockwise seen from outside.

@@ -11,11 +11,10 @@ namespace {
 
 constexpr int kBlock = 8;  // cells along a block's side
 constexpr int kCorners = kBlock + 1;
-constexpr std::uint64_t kCentre = std::uint64_t(1) << 62;  // marks vertices within a cell
 // No vertex comes nearer to a grid corner than this part of an edge: two would fall together.
 constexpr float kCornerMargin = 0.005f;
 
-using Key = std::uint64_t;  // of a vertex: the grid edge that it lies on, or the cell
+using Key = std::uint64_t;  // of a vertex: the grid edge that it lies on
 using KeyTriangle = std::array<Key, 3>;
 
 struct Cell {
@@ -100,9 +99,8 @@ class Mesher {
     }
   }
 
-  Key vertex_key(const Cell& cell, int vertex) const {
-    if (vertex >= kCubeEdges) return kCentre + (corner_key(cell) * 256 + Key(vertex - kCubeEdges));
-    const CubeEdge edge = cube_edge(vertex);
+  Key vertex_key(const Cell& cell, int cell_edge) const {
+    const CubeEdge edge = cube_edge(cell_edge);
     const Cell corner{cell.x + (edge.corner & 1), cell.y + (edge.corner >> 1 & 1),
                       cell.z + (edge.corner >> 2)};
     return corner_key(corner) * 3 + Key(edge.axis);
@@ -127,10 +125,6 @@ class Mesher {
   }
 
   Vec3f vertex(Key key) const {
-    if (key >= kCentre) {
-      const Cell c = corner_of((key - kCentre) / 256);
-      return onto_surface(position(c.x, c.y, c.z) + Vec3f::Constant(0.5f * grid_.cell));
-    }
     const Cell c = corner_of(key / 3);
     const Vec3f a = position(c.x, c.y, c.z);
     const Cell d{c.x + (key % 3 == 0), c.y + (key % 3 == 1), c.z + (key % 3 == 2)};

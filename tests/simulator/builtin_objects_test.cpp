@@ -167,5 +167,13 @@ TEST(ImplicitMesh, HasItsVerticesOnTheSurface) {
     ASSERT_GT(mesh.normals[i].dot(mesh.vertices[i].normalized()), 0.999f);
 }
 
+TEST(ImplicitMesh, IsOnTheSurfaceBeforeItIsSmoothed) {
+  const SignedDistance ball = [](const Vec3f& p) { return p.norm() - 0.02f; };
+  const TriangleMesh mesh =
+      mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 0});
+  // No vertex comes nearer to a corner of the grid than 0.5 % of a cell.
+  for (const Vec3f& p : mesh.vertices) ASSERT_NEAR(p.norm(), 0.02f, 6e-6f);
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -128,7 +128,7 @@ TEST(Coverage, LeavesOutWhatIsOutsideTheImage) {
 TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
   const TriangleMesh mesh = *builtin_object("cylinder");
   VirtualScanOptions o;
-  o.frames = 60;
+  o.frames = 50;
   o.platter = false;
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
@@ -136,7 +136,7 @@ TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
   const auto counts = counts_of(scan->scene(), *views_of(*scan), s);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     std::uint32_t expected = 0;
-    for (std::size_t f = 0; f < 60; ++f) {
+    for (std::size_t f = 0; f < 50; ++f) {
       const Vec3d way = scan->T_table_sensor(f).translation() - s.points[i].cast<double>();
       expected += s.normals[i].cast<double>().dot(way.normalized()) > std::cos(kLimit) ? 1 : 0;
     }

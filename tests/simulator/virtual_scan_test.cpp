@@ -118,8 +118,7 @@ TEST(VirtualScan, SeesTheCylinderWhereAlgebraSays) {
   EXPECT_GT(top, 100u);
 }
 
-TEST(VirtualScan, SeesABoxOutToItsLastPixel) {
-  const Vec3d low(-0.05, 0.02, -0.04), high(0.05, 0.15, 0.04);
+void expect_box_seen(const Vec3d& low, const Vec3d& high) {
   const VirtualScan scan = scan_of({test::box_mesh(low, high)}, clean());
   for (std::size_t i = 0; i < scan.frames().size(); ++i) {
     for_each_pixel(scan, i, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
@@ -127,12 +126,20 @@ TEST(VirtualScan, SeesABoxOutToItsLastPixel) {
       const Vec3d a = (low - eye).cwiseQuotient(way), b = (high - eye).cwiseQuotient(way);
       const double enter = a.cwiseMin(b).maxCoeff(), leave = a.cwiseMax(b).minCoeff();
       if (std::abs(enter - leave) < 1e-5) return;
-      ASSERT_EQ(depth > 0.0, enter < leave);
+      ASSERT_EQ(depth > 0.0, enter < leave && enter > 0.0);
       if (depth > 0.0) {
         ASSERT_NEAR(depth, enter, kRounding);
       }
     });
   }
+}
+
+TEST(VirtualScan, SeesABoxOutToItsLastPixel) {
+  expect_box_seen({-0.05, 0.02, -0.04}, {0.05, 0.15, 0.04});
+}
+
+TEST(VirtualScan, SeesWhatReachesBeyondTheCamera) {
+  expect_box_seen({0.05, -0.5, -3.0}, {0.3, -0.4, 3.0});
 }
 
 TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
