@@ -76,7 +76,7 @@ TEST(Cylinder, HasItsDiameterHeightAndVolume) {
 
 TEST(Doll, IsAsTallAsItSays) {
   const Box box = bounds(object("doll").vertices);
-  EXPECT_NEAR(box.max.y(), Doll::height_m, 2e-4);
+  EXPECT_NEAR(box.max.y(), Doll::height_m, 5e-5);
   EXPECT_LT(box.size().x(), 0.16);
   EXPECT_LT(box.size().z(), 0.12);
 }
