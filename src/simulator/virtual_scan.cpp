@@ -68,7 +68,7 @@ OptionTable describe(VirtualScanOptions& o) {
       .number("turns", o.turns, Quantity::kNone, {-1000.0, 1000.0},
               "Turns of the platter that the frames are spread over.")
       .number("fps", o.fps, Quantity::kNone, {1e-3, 1e6}, "Frames a second.")
-      .number("speed", o.speed_rad_s, Quantity::kAngularSpeed, {-1000.0, 1000.0},
+      .number("scan-speed", o.speed_rad_s, Quantity::kAngularSpeed, {-1000.0, 1000.0},
               "Speed of the platter; auto: from turns, frames and fps.")
       .text("noise", o.noise, "Depth noise: none or gaussian:SIGMA, e.g. gaussian:1.5mm.")
       .number("mixed-pixels", o.mixed_pixels, Quantity::kNone, {0.0, 1.0},

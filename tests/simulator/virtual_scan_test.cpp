@@ -225,7 +225,7 @@ TEST(VirtualScan, SpreadsFramesOverTheTurns) {
 TEST(VirtualScan, TakesTheAngleFromSpeedAndFrameRateWhenTheyAreGiven) {
   VirtualScanOptions o = clean();
   o.frames = 920;
-  ASSERT_TRUE(describe(o).set("speed", "10.4478deg/s"));
+  ASSERT_TRUE(describe(o).set("scan-speed", "10.4478deg/s"));
   const VirtualScan scan = scan_of({}, o);
   EXPECT_NEAR(*scan.frames()[919].angle_rad * 180.0 / kPi, 10.4478 * 919 / 30, 1e-9);
 }
