@@ -7,6 +7,8 @@ int main(int argc, char** argv) {
   program.add("import", "Make a recording from range scans or depth images of another program",
               make_import_command());
   program.add("info", "Say what a recording, mesh or point cloud holds", make_info_command());
+  program.add("reconstruct", "Make a watertight mesh of each object in a recording",
+              make_reconstruct_command());
   program.add("render", "Draw a picture of meshes", make_render_command());
   program.add_reference();
   return program.run(argc, argv);
