@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
-constexpr std::size_t kKeyRays = 4;
+constexpr std::size_t kKeyRays = 2;    // of each sample
 constexpr float kLightRadius = 0.05f;  // of the key light's disc at distance 1: soft shadows
 constexpr float kGroundBounce = 0.6f;  // light that comes from below, as part of the sky's
 const Vec3f kKeyColor(0.80f, 0.77f, 0.72f);
@@ -54,8 +54,19 @@ struct Spot {
   Vec3f normal;
   Vec3f albedo;
   bool ground = false;
-  std::uint64_t key = 0;  ///< of its random numbers
+  std::uint64_t key = 0;   ///< of the pixel's random numbers
+  std::size_t sample = 0;  ///< which of the pixel's samples it is
 };
+
+/// Point k of n of a spot on the unit disc. The points of all samples of a pixel together are
+/// evenly spread: strata for the radius, golden ratio steps for the angle.
+Eigen::Vector2f spread_point(const Spot& spot, std::size_t k, std::size_t n, std::uint64_t salt) {
+  const std::size_t index = k * kSamples + spot.sample;
+  const std::uint64_t key = mix64(spot.key ^ salt);
+  const double u = (double(index) + uniform01(mix64(key + 1 + index))) / double(n * kSamples);
+  const double v = std::fmod(uniform01(key) + 0.6180339887498949 * double(index), 1.0);
+  return disc_point(u, v);
+}
 
 struct Light {
   float key = 0.0f;  ///< share of the key light that arrives
@@ -84,7 +95,8 @@ class Painter {
       const std::size_t pixel = i / kSamples;
       if (auto spot = spot_of(rays[i], hits[i])) {
         spot->pixel = pixel;
-        spot->key = hash_key(0x70696374, std::uint64_t(view), std::uint64_t(row), i);
+        spot->key = hash_key(0x70696374, std::uint64_t(view), std::uint64_t(row), pixel);
+        spot->sample = i % kSamples;
         spots.push_back(*spot);
       } else {
         sums[pixel] += linear_of(options_.background);
@@ -148,9 +160,7 @@ class Painter {
     const auto [a, b] = tangents(to_light);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const Spot& spot = spots[i / kKeyRays];
-      const std::uint64_t key = spot.key + 0x10000 * (i % kKeyRays + 1);
-      const double u = (double(i % kKeyRays) + uniform01(mix64(key))) / kKeyRays;
-      const Eigen::Vector2f d = kLightRadius * disc_point(u, uniform01(mix64(key + 1)));
+      const Eigen::Vector2f d = kLightRadius * spread_point(spot, i % kKeyRays, kKeyRays, 1);
       rays[i] = {spot.position, to_light + d.x() * a + d.y() * b};
     }
     scene_.occluded(rays, blocked, RayOrder::kCoherent);
@@ -169,13 +179,9 @@ class Painter {
       // The floor is most of the picture and has little to show.
       const std::size_t n = spots[i].ground ? (all + 1) / 2 : all;
       const auto [a, b] = tangents(spots[i].normal);
-      const double shift = uniform01(mix64(spots[i].key + 3));
       float sum = 0.0f;
       for (std::size_t k = 0; k < n; ++k) {
-        const double u = (double(k) + uniform01(mix64(spots[i].key + 4 + k))) / double(n);
-        // Golden ratio steps spread the angles.
-        const double v = std::fmod(shift + 0.6180339887498949 * double(k), 1.0);
-        const Eigen::Vector2f d = disc_point(u, v);
+        const Eigen::Vector2f d = spread_point(spots[i], k, n, 2);
         const float up = std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()));
         rays[k] = {spots[i].position, d.x() * a + d.y() * b + up * spots[i].normal};
       }

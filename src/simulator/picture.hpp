@@ -23,7 +23,7 @@ struct PictureOptions {
   bool use_colors = true;      ///< vertex colours where a mesh has them
   Rgb surface{204, 196, 184};  ///< of meshes without colours
   Rgb background{255, 255, 255};
-  int ambient_samples = 16;  ///< rays a sample (four samples a pixel) for ambient occlusion
+  int ambient_samples = 8;  ///< rays a sample (four samples a pixel) for ambient occlusion
 };
 
 OptionTable describe(PictureOptions& options);
