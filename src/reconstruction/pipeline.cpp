@@ -153,8 +153,9 @@ Result<> Run::choose_crop(const std::vector<Vec3f>& sample) {
            : known                ? "the platter's radius"
                                   : "where the returns of the platter end");
   } else {
-    out_.notes.push_back("the platter's radius is not known and its edge was not found: nothing is "
-                         "cropped sideways; give --crop-radius");
+    out_.notes.push_back(
+        "the platter's radius is not known and its edge was not found: nothing is "
+        "cropped sideways; give --crop-radius");
   }
   cylinder.radius_m = found.value_or(1e3);
   double margin = std::max(0.002, 4.0 * out_.sensor_noise_m);
@@ -204,7 +205,8 @@ Result<> Run::merge() {
 Result<> Run::count_voxels() {
   // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
   const double noise = out_.sensor_noise_m, apart = out_.frame_spacing_m;
-  const double pixels = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  const double pixels =
+      std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
   const CloudStatistics statistics = cloud_statistics(merged_, 3.0 * std::max(pixels, noise));
   out_.merged_noise_m = std::max(statistics.noise_m, 1e-5);
   cloud_spacing_m_ = statistics.spacing_m;
@@ -236,10 +238,9 @@ Result<> Run::count_voxels() {
     return fail(ErrorCode::kTooFewPoints,
                 "no voxel has {} points (typical are {:.0f}); lower --voxel-min-points", m,
                 threshold.typical_count);
-  const double gap =
-      length_or(options_.components.gap_m, "object-gap",
-                std::max(3.0 * size, 4.0 * statistics.spacing_m),
-                "the larger of 3 voxels and 4 times the cloud's spacing");
+  const double gap = length_or(options_.components.gap_m, "object-gap",
+                               std::max(3.0 * size, 4.0 * statistics.spacing_m),
+                               "the larger of 3 voxels and 4 times the cloud's spacing");
   TURNSCAN_ASSIGN(components_, find_components(*grid_, options_.components,
                                                static_cast<int>(std::lround(gap / size))));
   context_.advance();

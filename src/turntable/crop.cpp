@@ -87,8 +87,8 @@ std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
     density[i] /= EIGEN_PI * kRing * kRing * double(2 * i + 1);
   const auto densest = std::max_element(density.begin(), density.end());
   if (*densest < kLeastDensity) return std::nullopt;
-  const auto end = std::find_if(densest, density.end(),
-                                [&](double d) { return d < 0.3 * *densest; });
+  const auto end =
+      std::find_if(densest, density.end(), [&](double d) { return d < 0.3 * *densest; });
   if (end == density.end()) return std::nullopt;
   return kRing * double(end - density.begin());
 }
