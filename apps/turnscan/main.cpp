@@ -9,7 +9,10 @@ int main(int argc, char** argv) {
   program.add("info", "Say what a recording, mesh or point cloud holds", make_info_command());
   program.add("reconstruct", "Make a watertight mesh of each object in a recording",
               make_reconstruct_command());
+  program.add("evaluate", "Measure how far a mesh is from a reference", make_evaluate_command());
   program.add("render", "Draw a picture of meshes", make_render_command());
+  program.add("demo", "Record a built-in object with a virtual camera, reconstruct and judge it",
+              make_demo_command());
   program.add_reference();
   return program.run(argc, argv);
 }

@@ -118,8 +118,9 @@ class SceneReader {
     if (visited_[index]++ != 0) return "a node has two parents";
     const tinygltf::Node& node = model_.nodes[index];
     const Transform transform = open.transform * transform_of(node);
-    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-      open_.push_back({*child, transform});
+    const auto old = static_cast<std::ptrdiff_t>(open_.size());
+    for (const int child : node.children) open_.push_back({child, transform});
+    std::reverse(open_.begin() + old, open_.end());  // the last one is visited first
     if (node.mesh < 0) return nullptr;
     if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) return "a mesh does not exist";
     const tinygltf::Mesh& source = model_.meshes[static_cast<std::size_t>(node.mesh)];

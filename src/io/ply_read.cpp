@@ -26,6 +26,7 @@ class VertexColumns {
         return false;
       found.push_back(position);
     }
+    if (element_.count == 0) return true;
     target.resize(element_.count);
     char* first = reinterpret_cast<char*>(target.data());
     const std::size_t step = sizeof(T) / found.size();

@@ -1,0 +1,41 @@
+#pragma once
+// One scene of the demo: a virtual camera records it, the recording is reconstructed, and every
+// object is compared with the truth.
+
+#include <filesystem>
+#include <string>
+#include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/simulator/virtual_scan.hpp>
+#include <vector>
+
+namespace turnscan::cli {
+
+struct DemoSceneOptions {
+  VirtualScanOptions scan;
+  ReconstructOptions reconstruct;
+  EvaluateOptions evaluate;
+};
+
+struct DemoFigures {
+  std::string scene;
+  std::string object;
+  std::size_t frames = 0;
+  MeshReport check;
+  Evaluation evaluation;
+  double f_at_1mm = 0.0;
+  double seconds = 0.0;  ///< of the scene, from the first frame to the mesh
+};
+
+/// "all" becomes every scene. Fails with kInvalidOption for an unknown name.
+Result<std::vector<std::string>> scene_names(const std::string& object);
+
+/// Leaves in `folder`: recording/, per object OBJECT.ply, OBJECT.stl, OBJECT-reference.ply,
+/// OBJECT-errors.ply and OBJECT.png (reference, reconstruction, errors), report.json.
+/// Reconstructed pieces belong to the reference that they are nearest to.
+Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name,
+                                                const std::filesystem::path& folder,
+                                                const DemoSceneOptions& options,
+                                                const RunContext& context);
+
+}  // namespace turnscan::cli

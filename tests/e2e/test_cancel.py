@@ -1,0 +1,146 @@
+"""Ctrl-C at every phase: exit code 130, one line, and nothing half-written."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+import harness
+from harness import CANCELLED, HANG_S, ROOT, ply_cube, shared_recording, start
+
+STOP_S = 5.0  # a second is promised; the rest is for machines that are busy with other things
+
+
+def phases_of(err):
+    """Phases in the order in which the progress lines announced them."""
+    return [line for line in err.splitlines() if line and ":" not in line]
+
+
+class Cancel(harness.TestCase):
+    def stop_at(self, phase, number, args, delay=0.0, stop_signal=signal.SIGINT):
+        """Starts the program and stops it when the given phase begins for the n-th time. Returns
+        (exit code, seconds from the signal to the end), or None if it had ended before."""
+        process = start(*args, cwd=self.dir)
+        seen = []
+        for line in process.stderr:
+            seen.append(line)
+            if phase is None or phases_of("".join(seen)).count(phase) == number:
+                break
+        time.sleep(delay)
+        process.send_signal(stop_signal)
+        begin = time.monotonic()
+        _, err = process.communicate(timeout=HANG_S)
+        if process.returncode == 0:
+            return None
+        self.assertEqual(process.returncode, CANCELLED, f"{phase}: {''.join(seen)}{err}")
+        self.assertIn("cancelled", err.splitlines()[-1])
+        return time.monotonic() - begin
+
+    def every_phase(self, args, made=()):
+        done = self.ok(*args)
+        for name in made:
+            target = self.dir / name
+            harness.remove(target) if target.is_dir() else target.unlink()
+        before = self.files()
+        phases = phases_of(done.stderr)
+        self.assertGreater(len(phases), 0, done.stderr)
+        slowest = 0.0
+        for i, phase in enumerate(phases):
+            seconds = self.stop_at(phase, phases[:i + 1].count(phase), args)
+            if seconds is None:  # the run was faster than the signal
+                for name in made:
+                    target = self.dir / name
+                    harness.remove(target) if target.is_dir() else target.unlink(missing_ok=True)
+                continue
+            slowest = max(slowest, seconds)
+            self.assertLess(seconds, STOP_S, phase)
+            self.assertEqual(self.files(), before, f"left behind when stopped in '{phase}'")
+        print(f"{args[0]}: stopped in {len(phases)} phases, slowest {slowest:.2f} s", flush=True)
+
+    def test_reconstruct(self):
+        self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--report", "r.json",
+                          "--save-stage", "merged"), made=["m.3mf", "r.json", "m-merged.ply"])
+
+    def test_demo(self):
+        self.every_phase(("demo", "--object", "cylinder", "--frames", "60", "--out", "d"),
+                         made=["d"])
+
+    def test_render(self):
+        (self.dir / "a.ply").write_text(ply_cube(0.1))
+        self.every_phase(("render", "a.ply", "-o", "p.png", "--picture-width", "1200", "--picture-height", "1200"),
+                         made=["p.png"])
+
+    def test_evaluate(self):
+        (self.dir / "a.ply").write_text(ply_cube(0.1))
+        self.every_phase(("evaluate", "a.ply", "--reference", "a.ply", "--json", "e.json"),
+                         made=["e.json"])
+
+    def test_sigterm_is_the_same(self):
+        args = ("demo", "--object", "cylinder", "--frames", "900", "--out", "d")
+        seconds = self.stop_at(None, 0, args, delay=0.5, stop_signal=signal.SIGTERM)
+        self.assertLess(seconds, STOP_S)
+        self.assertEqual(self.files(), [])
+
+    def test_the_second_ctrl_c_ends_at_once(self):
+        process = start("demo", "--object", "cylinder", "--frames", "900", "--out", "d",
+                        cwd=self.dir)
+        process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=HANG_S), CANCELLED)
+        process.communicate()
+
+    def test_a_ctrl_c_of_the_terminal_reaches_children_through_their_parent_only(self):
+        """A terminal signals the whole group: the child must not die first and be taken for a
+        failed library."""
+        args = ("reconstruct", str(shared_recording()), "-o", "m.ply", "--poisson-depth", "9")
+        process = start(*args, cwd=self.dir, start_new_session=True)
+        lines = []
+        for line in process.stderr:
+            lines.append(line)
+            if line.lower().startswith(("surface", "poisson")):
+                break
+        time.sleep(0.3)
+        os.killpg(process.pid, signal.SIGINT)
+        _, err = process.communicate(timeout=HANG_S)
+        self.assertEqual(process.returncode, CANCELLED, "".join(lines) + err)
+        self.assertEqual(self.files(), [])
+
+
+class Progress(harness.TestCase):
+    def test_lines_without_a_terminal(self):
+        err = self.ok("demo", "--object", "cylinder", "--frames", "24", "--out", "d").stderr
+        self.assertGreater(len(phases_of(err)), 3)
+        self.assertNotIn("\r", err)
+        self.assertNotIn("\033", err)
+
+    def test_quiet_says_nothing(self):
+        result = self.ok("demo", "--object", "cylinder", "--frames", "24", "--out", "d", "--quiet")
+        self.assertEqual(result.stderr, "")
+
+    def test_a_bar_with_a_percentage_on_a_terminal(self):
+        import pty
+        master, slave = pty.openpty()
+        process = start("demo", "--object", "cylinder", "--frames", "60", "--out", "d",
+                        cwd=self.dir, stderr=slave)
+        os.close(slave)
+        shown = b""
+        while True:
+            try:
+                piece = os.read(master, 65536)
+            except OSError:  # Linux reports the end of a terminal as an error
+                break
+            if not piece:
+                break
+            shown += piece
+        process.communicate(timeout=HANG_S)
+        os.close(master)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn(b"%", shown)
+        self.assertRegex(shown, rb"\[#+-*\]")
+        self.assertTrue(shown.endswith(b"\r\033[K"), "the bar is removed at the end")
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,239 @@
+"""What the commands give: meshes in every format and unit, reports, saved stages, the same bytes
+for every number of threads, and files that say the same as flags."""
+
+import json
+import re
+import struct
+import zipfile
+
+import harness
+from harness import FAILED, USAGE, ply_cube, shared_demo, shared_recording
+
+
+def stl_size_mm(path):
+    data = path.read_bytes()
+    count = struct.unpack_from("<I", data, 80)[0]
+    assert len(data) == 84 + 50 * count
+    corners = [struct.unpack_from("<3f", data, 84 + 50 * t + 12 * (1 + v))
+               for t in range(count) for v in range(3)]
+    return [max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)]
+
+
+class Reconstruct(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.rec = str(shared_recording())
+
+    def test_no_options_give_a_watertight_mesh_of_the_right_size(self):
+        out = self.ok("reconstruct", self.rec, "-o", "m.ply").stdout
+        self.assertIn("Wrote m.ply", out)
+        self.assertIn("voxel-size", out)
+        info = json.loads(self.ok("info", "m.ply", "--json").stdout)
+        mesh = info["objects"][0]
+        self.assertTrue(mesh["watertight"])
+        for size, truth in zip(mesh["size_m"], (0.08, 0.16, 0.08)):
+            self.assertAlmostEqual(size, truth, delta=0.003)
+        self.assertIn("watertight", self.ok("info", "m.ply").stdout)
+        self.assertEqual(self.files(), ["m.ply"])
+
+    def test_the_report_has_counts_reasons_times_and_checks(self):
+        self.ok("reconstruct", self.rec, "-o", "m.ply", "--report", "r.json")
+        report = (self.dir / "r.json").read_text()
+        json.loads(report)
+        for word in ("frames", "points", "candidates", "vertices", "triangles", "reason",
+                     "seconds", "memory", "watertight", "version"):
+            self.assertIn(word, report)
+
+    def test_stl_and_3mf_are_in_millimetres(self):
+        self.ok("reconstruct", self.rec, "-o", "m.stl")
+        self.ok("reconstruct", self.rec, "-o", "m.3mf")
+        for size, truth in zip(stl_size_mm(self.dir / "m.stl"), (80, 160, 80)):
+            self.assertAlmostEqual(size, truth, delta=3)
+        with zipfile.ZipFile(self.dir / "m.3mf") as package:
+            model = next(n for n in package.namelist() if n.endswith(".model"))
+            xml = package.read(model).decode()
+        self.assertRegex(xml, r'unit="millimeter"')
+        heights = [float(y) for y in re.findall(r'<vertex [^>]*y="([^"]+)"', xml)]
+        self.assertAlmostEqual(max(heights) - min(heights), 160, delta=3)
+
+    def test_every_format_holds_the_same_mesh(self):
+        counts = set()
+        for ending in ("ply", "obj", "stl", "3mf", "glb"):
+            self.ok("reconstruct", self.rec, "-o", f"m.{ending}")
+            info = json.loads(self.ok("info", f"m.{ending}", "--json").stdout)["objects"][0]
+            self.assertTrue(info["watertight"], ending)
+            counts.add((info["triangles"], *(round(s, 5) for s in info["size_m"])))
+        self.assertEqual(len(counts), 1, counts)
+
+    def test_the_number_of_threads_does_not_change_a_byte(self):
+        for threads in (1, 2):
+            self.ok("reconstruct", self.rec, "-o", f"m{threads}.ply", "--threads", threads,
+                    "--save-stage", f"candidates=c{threads}.ply")
+        for name in ("m", "c"):
+            self.assertEqual((self.dir / f"{name}1.ply").read_bytes(),
+                             (self.dir / f"{name}2.ply").read_bytes(), name)
+
+    def test_a_toml_file_says_the_same_as_flags_and_flags_go_before_it(self):
+        (self.dir / "o.toml").write_text(
+            "threads = 1\n[voxels]\nvoxel-size = '2.5mm'\n[outliers]\noutlier-lambda = 2\n")
+        flags = ("--voxel-size", "2.5mm", "--outlier-lambda", "2")
+        self.ok("reconstruct", self.rec, "-o", "a.ply", "--config", "o.toml")
+        self.ok("reconstruct", self.rec, "-o", "b.ply", *flags)
+        self.ok("reconstruct", self.rec, "-o", "c.ply", "--config", "o.toml", "--voxel-size", "3mm")
+        a, b, c = ((self.dir / n).read_bytes() for n in ("a.ply", "b.ply", "c.ply"))
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+
+    def test_stages_are_saved_beside_the_mesh_or_where_one_says(self):
+        self.ok("reconstruct", self.rec, "-o", "m.stl", "--save-stage", "merged",
+                "--save-stage", "candidates=points.ply")
+        self.assertEqual(self.files(), ["m-merged.ply", "m.stl", "points.ply"])
+        clouds = {}
+        for name in ("m-merged.ply", "points.ply"):
+            info = json.loads(self.ok("info", name, "--json").stdout)
+            self.assertEqual(info["kind"], "cloud")
+            clouds[name] = info["points"]
+        self.assertGreater(clouds["m-merged.ply"], clouds["points.ply"])
+
+    def test_an_open_mesh_is_refused_unless_allowed(self):
+        args = ("reconstruct", self.rec, "-o", "m.ply", "--surface", "concave-hull", "--no-repair")
+        self.refused(FAILED, *args, says="--allow-open")
+        self.assertEqual(self.files(), [])
+        self.ok(*args, "--allow-open")
+        self.assertEqual(self.files(), ["m.ply"])
+
+    def test_both_candidate_methods_run(self):
+        self.ok("reconstruct", self.rec, "-o", "a.ply", "--candidates", "sub-voxel")
+        self.ok("reconstruct", self.rec, "-o", "b.ply", "--candidates", "centroid")
+
+    def test_a_wrong_turntable_file_is_named(self):
+        (self.dir / "t.json").write_text('{"axis": [0, 0, 0], "center_m": [0, 0, 1]}')
+        self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--turntable", "t.json",
+                     says="t.json")
+
+    def test_the_recordings_own_turntable_given_by_hand_changes_nothing(self):
+        header = json.loads((shared_recording() / "recording.json").read_text())
+        (self.dir / "t.json").write_text(json.dumps(header["turntable"]))
+        self.ok("reconstruct", self.rec, "-o", "a.ply")
+        self.ok("reconstruct", self.rec, "-o", "b.ply", "--turntable", "t.json")
+        a, b = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]["volume_m3"]
+                for n in ("a.ply", "b.ply"))
+        self.assertAlmostEqual(a, b, delta=1e-6)
+
+
+class SeveralObjects(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.rec = str(shared_demo("pair", 60) / "recording")
+
+    def test_several_objects_become_numbered_files(self):
+        out = self.ok("reconstruct", self.rec, "-o", "m.stl").stdout
+        self.assertEqual(self.files(), ["m-1.stl", "m-2.stl"])
+        self.assertIn("Wrote m-2.stl", out)
+
+    def test_several_objects_go_into_one_3mf_and_one_glb(self):
+        for name in ("m.3mf", "m.glb"):
+            self.ok("reconstruct", self.rec, "-o", name)
+            self.assertEqual(len(json.loads(self.ok("info", name, "--json").stdout)["objects"]), 2)
+
+    def test_keep_largest_keeps_one(self):
+        self.ok("reconstruct", self.rec, "-o", "m.ply", "--keep", "largest")
+        self.assertEqual(self.files(), ["m.ply"])
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--keep", "best", says="keep")
+
+
+class Demo(harness.TestCase):
+    def test_the_folder_holds_what_was_promised(self):
+        folder = shared_demo("cylinder", 60)
+        names = {p.name for p in folder.iterdir()}
+        for name in ("recording", "cylinder.ply", "cylinder.stl", "cylinder-reference.ply",
+                     "cylinder-errors.ply", "cylinder.png", "report.json"):
+            self.assertIn(name, names)
+        figures = json.loads((folder.parent / "figures.json").read_text())["objects"]
+        self.assertEqual([f["object"] for f in figures], ["cylinder"])
+        self.assertTrue(figures[0]["watertight"])
+        self.assertGreater(figures[0]["f_at_1mm"], 0.9)
+
+    def test_a_second_demo_takes_the_next_free_folder(self):
+        (self.dir / "turnscan-demo").mkdir()
+        out = self.ok("demo", "--object", "cylinder", "--frames", "24").stdout
+        self.assertIn("turnscan-demo-2", out)
+        self.assertEqual(list((self.dir / "turnscan-demo").iterdir()), [])
+
+
+class Evaluate(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        (self.dir / "a.ply").write_text(ply_cube(0.1))
+        (self.dir / "b.ply").write_text(ply_cube(0.102))
+
+    def test_a_mesh_against_itself_has_no_error(self):
+        self.ok("evaluate", "a.ply", "--reference", "a.ply", "--json", "e.json")
+        figures = json.loads((self.dir / "e.json").read_text())
+        self.assertLess(figures["accuracy"]["p95_m"], 1e-6)
+
+    def test_thresholds_and_error_map(self):
+        out = self.ok("evaluate", "b.ply", "--reference", "a.ply", "--thresholds", "0.5mm,5mm",
+                      "--error-map", "map.ply").stdout
+        self.assertIn("0.5mm", out)
+        self.assertIn("5mm", out)
+        info = json.loads(self.ok("info", "map.ply", "--json").stdout)
+        self.assertTrue(info["objects"][0]["colored"])
+
+    def test_units_that_the_file_does_not_say(self):
+        (self.dir / "mm.ply").write_text(ply_cube(100))
+        self.ok("evaluate", "mm.ply", "--unit", "mm", "--reference", "a.ply", "--json", "e.json")
+        figures = json.loads((self.dir / "e.json").read_text())
+        self.assertLess(figures["accuracy"]["p95_m"], 1e-6)
+        self.refused(USAGE, "evaluate", "mm.ply", "--unit", "ell", "--reference", "a.ply",
+                     says="ell")
+
+    def test_wrong_thresholds(self):
+        self.refused(USAGE, "evaluate", "a.ply", "--reference", "a.ply", "--thresholds", "1,2",
+                     says="unit")
+
+    def test_seen_from_a_recording(self):
+        demo = shared_demo("cylinder", 60)
+        args = ("evaluate", demo / "cylinder.ply", "--reference", demo / "cylinder-reference.ply")
+        self.ok(*args, "--json", "all.json")
+        self.ok(*args, "--seen-from", demo / "recording", "--json", "seen.json")
+        every, seen = (json.loads((self.dir / n).read_text()) for n in ("all.json", "seen.json"))
+        self.assertLess(seen["seen_area_m2"], every["seen_area_m2"])
+
+
+class Info(harness.TestCase):
+    def test_an_open_mesh_is_described_in_sentences(self):
+        (self.dir / "m.ply").write_text(ply_cube(0.1, hole=True))
+        out = self.ok("info", "m.ply").stdout
+        self.assertIn("It is not closed: 4 edges", out)
+        self.assertIn("It is not watertight", out)
+        self.assertIn("100.0 x 100.0 x 100.0 mm", out)
+
+    def test_a_closed_mesh_is_described_in_sentences(self):
+        (self.dir / "m.ply").write_text(ply_cube(0.1))
+        out = self.ok("info", "m.ply").stdout
+        self.assertIn("It is closed.", out)
+        self.assertIn("volume 1000.00 cm3", out)
+
+    def test_a_recording_is_summarised(self):
+        out = self.ok("info", shared_recording()).stdout
+        self.assertIn("60 frames", out)
+        json.loads(self.ok("info", shared_recording(), "--json").stdout)
+
+    def test_a_folder_with_the_name_of_a_command(self):
+        (self.dir / "demo").mkdir()
+        self.refused(FAILED, "info", "demo", says="demo")
+
+
+class Render(harness.TestCase):
+    def test_pictures_have_the_size_that_was_asked_for(self):
+        (self.dir / "a.ply").write_text(ply_cube(0.1))
+        for args, width in (((), 64), (("--side-by-side",), 128)):
+            self.ok("render", "a.ply", "a.ply", "-o", "p.png", "--picture-width", "64", "--picture-height", "48",
+                    *args)
+            size = struct.unpack(">II", (self.dir / "p.png").read_bytes()[16:24])
+            self.assertEqual(size, (width, 48))
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,160 @@
+"""Version, help, the reference page, and every way to use the command line wrongly."""
+
+import re
+
+import harness
+from harness import FAILED, ROOT, USAGE, run
+
+COMMANDS = ["import", "info", "reconstruct", "evaluate", "render", "demo", "reference"]
+
+
+class Help(harness.TestCase):
+    def test_version_is_printed(self):
+        self.assertRegex(self.ok("--version").stdout, r"^turnscan \d+\.\d+\.\d+\n$")
+
+    def test_help_lists_every_command(self):
+        out = self.ok("--help").stdout
+        for command in COMMANDS:
+            self.assertRegex(out, rf"(?m)^  {command} ")
+
+    def test_every_command_has_help_with_defaults_and_ranges(self):
+        for command in COMMANDS:
+            out = self.ok(command, "--help").stdout
+            self.assertIn(f"turnscan {command}", out)
+            self.assertIn("--threads NUMBER", out)
+            self.assertIn("0 to 1024", out)
+        self.assertNotIn("{false}", out)
+
+    def test_help_fits_100_columns(self):
+        for command in COMMANDS:
+            for line in self.ok(command, "--help").stdout.splitlines():
+                self.assertLessEqual(len(line), 104, line)
+
+    def test_the_reference_page_in_docs_is_what_the_program_prints(self):
+        page = (ROOT / "docs" / "reference.md").read_text()
+        self.assertEqual(page, self.ok("reference").stdout,
+                         "run: turnscan reference > docs/reference.md")
+
+    def test_option_names_are_unique_within_a_command(self):
+        for command in COMMANDS:
+            names = re.findall(r"(?m)^  (?:-\w, )?--([\w-]+)", self.ok(command, "--help").stdout)
+            self.assertEqual(len(names), len(set(names)), f"{command}: {names}")
+
+
+class WrongUsage(harness.TestCase):
+    def wrong(self, *args, says=()):
+        result = run(*args, cwd=self.dir)
+        self.assertEqual(result.returncode, USAGE, f"{args}: {result.stderr}")
+        self.assertEqual(result.stdout, "")
+        self.assert_one_line_error(result.stderr, args)
+        self.assertIn("--help'", result.stderr)
+        for words in (says,) if isinstance(says, str) else says:
+            self.assertIn(words, result.stderr)
+
+    def test_no_command(self):
+        self.wrong()
+
+    def test_unknown_command(self):
+        self.wrong("reconstrct", says="reconstrct")
+
+    def test_unknown_option_names_the_nearest(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxl-size", "1mm", says="--voxel-size")
+        self.wrong("--verson", says="--version")
+
+    def test_one_argument_too_many(self):
+        self.wrong("info", "a.ply", "b.ply", says="b.ply")
+
+    def test_missing_argument(self):
+        self.wrong("reconstruct", "-o", "m.ply", says="RECORDING")
+        self.wrong("reconstruct", "rec", says="--out")
+        self.wrong("info", says="RECORDING")
+
+    def test_missing_value(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxel-size", says="--voxel-size")
+
+    def test_number_without_its_unit(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxel-size", "1.5",
+                   says=["voxel-size", "unit", "mm"])
+
+    def test_unknown_unit(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxel-size", "1.5parsec",
+                   says=["parsec", "mm"])
+
+    def test_value_out_of_range_names_the_range(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--threads", "-1", says=["threads", "1024"])
+        self.wrong("demo", "--frames", "0", says="frames")
+
+    def test_not_a_number(self):
+        for text in ("nan", "inf", "1e999", "0x10", "1,5", ""):
+            self.wrong("demo", "--frames", text, says="frames")
+
+    def test_whole_numbers_only(self):
+        self.wrong("demo", "--frames", "60.5", says="whole number")
+
+    def test_unknown_choice_lists_the_choices(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--candidates", "best", says="sub-voxel")
+
+    def test_unknown_output_format(self):
+        self.wrong("reconstruct", "rec", "-o", "m.docx", says=["m.docx", ".ply"])
+        self.wrong("render", "m.ply", "-o", "m.bmp", says=".png")
+
+    def test_unknown_stage(self):
+        self.wrong("reconstruct", "rec", "-o", "m.ply", "--save-stage", "crob", says="merged")
+
+    def test_unknown_object(self):
+        self.wrong("demo", "--object", "teapot", says="doll")
+
+
+class ConfigFile(harness.TestCase):
+    def wrong(self, toml, says, code=USAGE):
+        (self.dir / "o.toml").write_text(toml)
+        self.refused(code, "reconstruct", "rec", "-o", "m.ply", "--config", "o.toml", says=says)
+
+    def test_unknown_key_names_file_line_and_nearest_option(self):
+        self.wrong("\n\nvoxel-siz = '1mm'\n", ["o.toml:3", "'voxel-size'"])
+
+    def test_unknown_table_lists_the_tables(self):
+        self.wrong("[voxel]\nvoxel-size = '1mm'\n", ["o.toml:1", "[voxels]"])
+
+    def test_key_in_the_wrong_table_names_the_right_one(self):
+        self.wrong("[outliers]\nvoxel-size = '1mm'\n", ["o.toml:2", "[voxels]"])
+
+    def test_number_without_its_unit(self):
+        self.wrong("voxel-size = 1.5\n", ["o.toml:1", "unit"])
+
+    def test_value_that_is_no_value(self):
+        self.wrong("threads = [1, 2]\n", ["o.toml:1", "threads"])
+        self.wrong("threads = 1979-05-27\n", ["o.toml:1", "threads"])
+
+    def test_value_out_of_range(self):
+        self.wrong("[run]\nthreads = -3\n", ["o.toml:2", "1024"])
+        self.wrong("threads = nan\n", ["o.toml:1", "threads"])
+
+    def test_text_that_is_not_toml(self):
+        self.wrong("a = = b\n", ["o.toml:1"])
+        self.wrong("a = 1\na = 2\n", ["o.toml"])
+        self.wrong("\0\xff", ["o.toml"])
+
+    def test_missing_file(self):
+        self.refused(FAILED, "reconstruct", "rec", "-o", "m.ply", "--config", "none.toml",
+                     says="none.toml")
+
+    def test_a_folder_is_not_a_file(self):
+        self.refused(USAGE, "reconstruct", "rec", "-o", "m.ply", "--config", ".", says="TOML")
+
+
+class Output(harness.TestCase):
+    def test_full_standard_output_is_a_failure(self):
+        with open("/dev/full", "w") as full:
+            result = run("reference", cwd=self.dir, stdout=full)
+        self.assertEqual(result.returncode, FAILED)
+        self.assert_one_line_error(result.stderr)
+
+    def test_a_closed_or_full_standard_error_changes_nothing(self):
+        with open("/dev/full", "w") as full:
+            self.assertEqual(run("reference", cwd=self.dir, stderr=full).returncode, 0)
+            self.assertEqual(run("--nonsense", cwd=self.dir, stderr=full).returncode, USAGE)
+
+
+if __name__ == "__main__":
+    harness.main()
