@@ -96,9 +96,9 @@ TEST(Refine, LeavesOneCandidateAVoxelAndSide) {
   const auto refined =
       refine_candidates(*o.merged, *o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
   ASSERT_TRUE(refined);
-  const auto grid = VoxelGrid::build(refined->cloud.points, 0.001, RunContext());
+  const auto grid = VoxelGrid::build(refined->cloud.points, 0.0012, RunContext());  // 0.6 radii
   // The mean of a voxel's candidates may round into its neighbour.
-  EXPECT_LE(double(refined->cloud.size()), 1.01 * double(grid->voxels().size()));
+  EXPECT_LE(double(refined->cloud.size()), 1.05 * double(grid->voxels().size()));
 }
 
 TEST(Refine, IsTheSameForOneAndTwoThreads) {
