@@ -68,7 +68,8 @@ std::string report_json(const Reconstruction& r, const ReconstructOptions& optio
     for (const OptionField& field : stage.table.fields())
       given[stage.stage][field.name] = field.get();
   }
-  const Json report = {{"software", std::string("turnscan ") + version()},
+  const Json report = {{"software", "turnscan"},
+                       {"version", version()},
                        {"frames", r.frames},
                        {"dropped_frames", r.dropped_frames},
                        {"returns", r.returns},

@@ -96,7 +96,7 @@ class Reconstruct(harness.TestCase):
         self.assertGreater(clouds["m-merged.ply"], clouds["points.ply"])
 
     def test_an_open_mesh_is_refused_unless_allowed(self):
-        args = ("reconstruct", self.rec, "-o", "m.ply", "--surface", "concave-hull", "--no-repair")
+        args = ("reconstruct", self.rec, "-o", "m.ply", "--method", "concave-hull", "--no-repair")
         self.refused(FAILED, *args, says="--allow-open")
         self.assertEqual(self.files(), [])
         self.ok(*args, "--allow-open")
