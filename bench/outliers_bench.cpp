@@ -71,7 +71,7 @@ class Ratios : public benchmark::ConsoleReporter {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs)
       if (!run.error_occurred && run.counters.count("ns/point"))
-        found_[run.run_name.function_name] = run.counters.at("ns/point").value * 1e9;
+        found_[run.run_name.function_name] = run.counters.at("ns/point").value;
   }
   void print(const std::vector<NamedFrame>& frames) const {
     fmt::print("\n{:<40} {:>8} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "ns/point (ratio to PCL)",
