@@ -1,0 +1,13 @@
+// The input is a .conf file beside one scan.
+
+#include "tests/fuzz/scratch_folder.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace turnscan;
+  static const fuzz::ScratchFolder folder;
+  static const bool laid_out = (folder.put_scan("a.ply"), true);
+  (void)laid_out;
+  folder.put("a.conf", fuzz::text_of(data, size));
+  fuzz::check_import(folder / "a.conf", ImportOptions{});
+  return 0;
+}

@@ -1,0 +1,17 @@
+// The input is a file of a recording, looked at without decoding it.
+
+#include <turnscan/recording/file_check.hpp>
+
+#include "tests/fuzz/scratch_folder.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace turnscan;
+  static const fuzz::ScratchFolder folder;
+  folder.put("a.ply", fuzz::text_of(data, size));
+  // What can be read must not be taken for truncated.
+  const bool readable = bool(read_cloud(folder / "a.ply"));
+  const std::string defect = defect_of_file(folder / "a.ply");
+  fuzz::require(!readable || defect.empty() || !fuzz::text_of(data, size).starts_with("ply"),
+                "a readable file is whole");
+  return 0;
+}

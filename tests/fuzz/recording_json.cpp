@@ -1,0 +1,16 @@
+// The input is recording.json; what is read can be written and read again.
+
+#include <turnscan/recording/recording_json.hpp>
+
+#include "tests/fuzz/checks.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace turnscan;
+  const auto read = parse_recording_json(fuzz::text_of(data, size));
+  if (!read) return 0;
+  fuzz::require(bool(check_header(read->header)), "a header that can be written");
+  const auto again = parse_recording_json(recording_json(*read));
+  fuzz::require(again && again->header.sensors.size() == read->header.sensors.size(),
+                "written and read again");
+  return 0;
+}
