@@ -2,17 +2,10 @@
 // What the pixels of a pinhole camera see (private to the simulator).
 
 #include <turnscan/core/camera.hpp>
-#include <turnscan/simulator/scene.hpp>
+#include <turnscan/simulator/samples.hpp>
 #include <vector>
 
 namespace turnscan {
-
-/// Pixels [left, right) x [top, bottom).
-struct PixelRect {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  int width() const { return right - left; }
-  int height() const { return bottom - top; }
-};
 
 /// The hits of all pixels in rect, row by row; the pixels around it see nothing. A hit's t is the
 /// depth along z.

@@ -1,23 +1,12 @@
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <stdexcept>
-#include <turnscan/simulator/scene.hpp>
+#include <turnscan/simulator/scene_impl.hpp>
 
 namespace turnscan {
 
 namespace {
 
 constexpr std::size_t kPacket = 16;
-
-struct DeviceDeleter {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneDeleter {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
-using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
 
 RTCIntersectContext context_of(RayOrder order) {
   RTCIntersectContext context;
@@ -43,26 +32,6 @@ Result<> check_mesh_indices(const TriangleMesh& mesh, std::size_t object) {
   return {};
 }
 
-Result<> attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, std::uint32_t id) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               mesh.vertices.size()));
-  auto* indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  if (vertices != nullptr && indices != nullptr) {
-    for (const Vec3f& p : mesh.vertices) vertices = std::copy_n(p.data(), 3, vertices);
-    for (const auto& t : mesh.triangles) indices = std::copy_n(t.data(), 3, indices);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, id);
-  }
-  rtcReleaseGeometry(geometry);
-  if (vertices != nullptr && indices != nullptr) return {};
-  return fail(ErrorCode::kResourceLimit, "object {}: not enough memory for {} triangles", id,
-              mesh.triangles.size());
-}
-
 /// Lanes without a ray get the first one: where 16 lanes are emulated, Embree looks at them too.
 template <class Packet>
 void load(Packet& packet, std::span<const Ray> rays) {
@@ -83,72 +52,85 @@ void load(Packet& packet, std::span<const Ray> rays) {
   }
 }
 
+void take(const RTCHit16& hit, float t, std::size_t i, RayHit& out) {
+  out.t = t;
+  out.object = hit.geomID[i];
+  out.triangle = hit.primID[i];
+  out.u = hit.u[i];
+  out.v = hit.v[i];
+  out.normal = Vec3f(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).normalized();
+}
+
 }  // namespace
 
-struct Scene::Impl {
-  DevicePtr device;
-  ScenePtr scene;
-  std::size_t objects = 0;
-  std::optional<double> platter_radius_m;
-  float platter_radius_squared = 0.0f;
-  Box object_box;
-
-  /// Where the ray meets the platter, or infinity.
-  float platter_t(const Ray& ray) const {
-    constexpr float kNever = std::numeric_limits<float>::infinity();
-    if (!platter_radius_m || ray.direction.y() == 0.0f) return kNever;
-    const float t = -ray.origin.y() / ray.direction.y();
-    if (!(t > ray.t_min && t < ray.t_max)) return kNever;
-    const float x = ray.origin.x() + t * ray.direction.x();
-    const float z = ray.origin.z() + t * ray.direction.z();
-    return x * x + z * z <= platter_radius_squared ? t : kNever;
+Result<> Scene::Impl::attach(const TriangleMesh& mesh, std::uint32_t id) {
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               mesh.vertices.size()));
+  auto* indices = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
+  const bool there = vertices != nullptr && indices != nullptr;
+  if (there) {
+    objects[id] = {vertices, indices, static_cast<std::uint32_t>(mesh.vertices.size()),
+                   static_cast<std::uint32_t>(mesh.triangles.size())};
+    for (const Vec3f& p : mesh.vertices) vertices = std::copy_n(p.data(), 3, vertices);
+    for (const auto& t : mesh.triangles) indices = std::copy_n(t.data(), 3, indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene.get(), geometry, id);
   }
+  rtcReleaseGeometry(geometry);
+  if (there) return {};
+  return fail(ErrorCode::kResourceLimit, "object {}: not enough memory for {} triangles", id,
+              mesh.triangles.size());
+}
 
-  void take(const RTCHit16& hit, float t, std::size_t i, RayHit& out) const {
-    out.t = t;
-    out.object = hit.geomID[i];
-    out.triangle = hit.primID[i];
-    out.u = hit.u[i];
-    out.v = hit.v[i];
-    out.normal = Vec3f(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]).normalized();
-  }
+float Scene::Impl::platter_t(const Ray& ray) const {
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  if (!platter_radius_m || ray.direction.y() == 0.0f) return kNever;
+  const float t = -ray.origin.y() / ray.direction.y();
+  if (!(t > ray.t_min && t < ray.t_max)) return kNever;
+  const float x = ray.origin.x() + t * ray.direction.x();
+  const float z = ray.origin.z() + t * ray.direction.z();
+  return x * x + z * z <= platter_radius_squared ? t : kNever;
+}
 
-  void intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
-                        RTCIntersectContext& context) const {
-    alignas(64) int valid[kPacket] = {};
-    RTCRayHit16 packet;
-    load(packet.ray, rays);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      valid[i] = i < rays.size() ? -1 : 0;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    rtcIntersect16(valid, scene.get(), &context, &packet);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      hits[i] = RayHit();
-      const bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      if (hit) take(packet.hit, packet.ray.tfar[i], i, hits[i]);
-      const float t = platter_t(rays[i]);
-      if (t < hits[i].t) hits[i] = {t, kPlatter, 0, 0.0f, 0.0f, Vec3f::UnitY()};
-    }
+void Scene::Impl::intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
+                                   RTCIntersectContext& context) const {
+  alignas(64) int valid[kPacket] = {};
+  RTCRayHit16 packet;
+  load(packet.ray, rays);
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    valid[i] = i < rays.size() ? -1 : 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
+  rtcIntersect16(valid, scene.get(), &context, &packet);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i] = RayHit();
+    const bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    if (hit) take(packet.hit, packet.ray.tfar[i], i, hits[i]);
+    const float t = platter_t(rays[i]);
+    if (t < hits[i].t) hits[i] = {t, kPlatter, 0, 0.0f, 0.0f, Vec3f::UnitY()};
+  }
+}
 
-  void occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
-                       RTCIntersectContext& context) const {
-    alignas(64) int valid[kPacket] = {};
-    RTCRay16 packet;
-    load(packet, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      blocked[i] = std::isfinite(platter_t(rays[i])) ? 1 : 0;
-      valid[i] = blocked[i] ? 0 : -1;
-    }
-    rtcOccluded16(valid, scene.get(), &context, &packet);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      // Embree marks an occluded ray with tfar = -inf.
-      if (valid[i] != 0 && packet.tfar[i] < 0.0f) blocked[i] = 1;
-    }
+void Scene::Impl::occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                                  RTCIntersectContext& context) const {
+  alignas(64) int valid[kPacket] = {};
+  RTCRay16 packet;
+  load(packet, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    blocked[i] = std::isfinite(platter_t(rays[i])) ? 1 : 0;
+    valid[i] = blocked[i] ? 0 : -1;
   }
-};
+  rtcOccluded16(valid, scene.get(), &context, &packet);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    // Embree marks an occluded ray with tfar = -inf.
+    if (valid[i] != 0 && packet.tfar[i] < 0.0f) blocked[i] = 1;
+  }
+}
 
 Scene::Scene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Scene::Scene(Scene&&) noexcept = default;
@@ -167,15 +149,14 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
   if (!impl->device) return fail(ErrorCode::kLibrary, "Embree could not be started");
   impl->scene = ScenePtr(rtcNewScene(impl->device.get()));
   rtcSetSceneFlags(impl->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  impl->objects = objects.size();
+  impl->objects.resize(objects.size());
   impl->platter_radius_m = platter_radius_m;
-  const double radius = platter_radius_m.value_or(0.0);
-  impl->platter_radius_squared = static_cast<float>(radius * radius);
+  if (platter_radius_m)
+    impl->platter_radius_squared = static_cast<float>(*platter_radius_m * *platter_radius_m);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].empty()) continue;
     TURNSCAN_TRY(check_mesh_indices(objects[i], i));
-    TURNSCAN_TRY(
-        attach(impl->device.get(), impl->scene.get(), objects[i], static_cast<std::uint32_t>(i)));
+    TURNSCAN_TRY(impl->attach(objects[i], static_cast<std::uint32_t>(i)));
     for (const auto& t : objects[i].triangles)
       for (const std::uint32_t v : t) impl->object_box.add(objects[i].vertices[v].cast<double>());
   }
@@ -219,7 +200,17 @@ bool Scene::occluded(const Ray& ray) const {
   return blocked != 0;
 }
 
-std::size_t Scene::object_count() const { return impl_->objects; }
+std::size_t Scene::object_count() const { return impl_->objects.size(); }
+std::array<Vec3f, 3> Scene::corners(std::uint32_t object, std::uint32_t triangle) const {
+  const SceneObject& o = impl_->objects[object];
+  std::array<Vec3f, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* p = o.vertices + 3 * std::size_t(o.indices[3 * std::size_t(triangle) + k]);
+    out[k] = {p[0], p[1], p[2]};
+  }
+  return out;
+}
+
 std::optional<double> Scene::platter_radius_m() const { return impl_->platter_radius_m; }
 const Box& Scene::object_box() const { return impl_->object_box; }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Meshes and the platter, ready to be hit by rays. Embree stays behind this header.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -19,17 +20,17 @@ struct Ray {
   float t_max = std::numeric_limits<float>::infinity();
 };
 
-inline constexpr std::uint32_t kNothing = 0xffffffffu;  ///< RayHit::object of a ray that missed
-inline constexpr std::uint32_t kPlatter = 0xfffffffeu;  ///< RayHit::object of the platter
+inline constexpr std::uint32_t kNoObject = 0xffffffffu;  ///< RayHit::object of a ray that missed
+inline constexpr std::uint32_t kPlatter = 0xfffffffeu;   ///< RayHit::object of the platter
 
 struct RayHit {
   float t = std::numeric_limits<float>::infinity();  ///< in lengths of the ray's direction
-  std::uint32_t object = kNothing;                   ///< position in the scene's objects
+  std::uint32_t object = kNoObject;                  ///< position in the scene's objects
   std::uint32_t triangle = 0;                        ///< of that object; 0 on the platter
   float u = 0.0f, v = 0.0f;      ///< barycentric: (1 - u - v) a + u b + v c; 0 on the platter
   Vec3f normal = Vec3f::Zero();  ///< unit, from the triangle's winding; platter: +Y
 
-  bool valid() const { return object != kNothing; }
+  bool valid() const { return object != kNoObject; }
 };
 
 /// Rays that lie next to each other in the span and have much the same origin and direction are
@@ -64,13 +65,18 @@ class Scene {
 
   std::size_t object_count() const;
   std::optional<double> platter_radius_m() const;
+  /// The corners of a triangle. Preconditions: object < object_count() and has that triangle.
+  std::array<Vec3f, 3> corners(std::uint32_t object, std::uint32_t triangle) const;
   /// Box about the objects, without the platter.
   const Box& object_box() const;
   /// Box about everything.
   Box box() const;
 
- private:
+  /// For the simulator's own sources (scene_impl.hpp).
   struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
   explicit Scene(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

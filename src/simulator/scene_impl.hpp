@@ -1,0 +1,46 @@
+#pragma once
+// The inside of a scene, for those sources of the simulator that speak to Embree themselves
+// (private).
+
+#include <embree3/rtcore.h>
+
+#include <turnscan/simulator/scene.hpp>
+#include <type_traits>
+#include <vector>
+
+namespace turnscan {
+
+struct DeviceDeleter {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
+using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
+
+/// The buffers of one object, which Embree owns.
+struct SceneObject {
+  const float* vertices = nullptr;  ///< x y z each
+  const std::uint32_t* indices = nullptr;
+  std::uint32_t vertex_count = 0, triangle_count = 0;
+};
+
+struct Scene::Impl {
+  DevicePtr device;
+  ScenePtr scene;
+  std::vector<SceneObject> objects;
+  std::optional<double> platter_radius_m;
+  float platter_radius_squared = -1.0f;  ///< negative: there is none
+  Box object_box;
+
+  Result<> attach(const TriangleMesh& mesh, std::uint32_t id);
+  /// Where the ray meets the platter, or infinity.
+  float platter_t(const Ray& ray) const;
+  void intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
+                        RTCIntersectContext& context) const;
+  void occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                       RTCIntersectContext& context) const;
+};
+
+}  // namespace turnscan

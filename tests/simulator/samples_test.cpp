@@ -1,0 +1,330 @@
+#include <turnscan/core/random.hpp>
+#include <turnscan/simulator/samples.hpp>
+
+#include "tests/simulator/shapes.hpp"
+
+namespace turnscan {
+namespace {
+
+CameraIntrinsics camera(int width = 160, int height = 120, double f = 150.0) {
+  CameraIntrinsics c;
+  c.width = width, c.height = height;
+  c.fx = c.fy = f;
+  c.cx = 0.5 * (width - 1), c.cy = 0.5 * (height - 1);
+  return c;
+}
+
+ScannerModel scanner(const Vec3d& emitter = Vec3d::Zero()) {
+  ScannerModel g;
+  g.max_incidence_rad = test::kPi / 2;
+  g.camera = camera();
+  g.emitter_m = emitter;
+  g.near_m = 0.1, g.far_m = 5.0;
+  return g;
+}
+
+SampleTracer tracer_of(const ScannerModel& g) {
+  auto tracer = SampleTracer::create(g);
+  EXPECT_TRUE(tracer) << (tracer ? "" : tracer.error().text());
+  return std::move(*tracer);
+}
+
+Scene scene_of(const std::vector<TriangleMesh>& meshes, std::optional<double> platter = {}) {
+  auto scene = Scene::create(meshes, platter);
+  EXPECT_TRUE(scene) << (scene ? "" : scene.error().text());
+  return std::move(*scene);
+}
+
+/// Rectangle [x0, x1] x [y0, y1] at depth z, its normal towards -z.
+TriangleMesh wall(double x0, double x1, double y0, double y1, double z) {
+  TriangleMesh mesh;
+  for (const auto& [x, y] : {std::pair(x0, y0), {x1, y0}, {x1, y1}, {x0, y1}})
+    mesh.vertices.push_back(Vec3d(x, y, z).cast<float>());
+  mesh.triangles = {{0, 3, 2}, {0, 2, 1}};
+  return mesh;
+}
+
+Pose random_pose(std::uint64_t seed) {
+  const auto u = [&](std::uint64_t k) { return 2.0 * uniform01(hash_key(seed, 1, 2, k)) - 1.0; };
+  Pose T = Pose::Identity();
+  T.linear() = Eigen::Quaterniond(u(0), u(1), u(2), u(3)).normalized().toRotationMatrix();
+  T.translation() = Vec3d(u(4), u(5), u(6));
+  return T;
+}
+
+SampleGrid trace(const SampleTracer& tracer, const std::vector<Body>& bodies,
+                 const Pose& T_world_sensor = Pose::Identity()) {
+  SampleGrid grid;
+  tracer.trace(bodies, T_world_sensor, grid);
+  return grid;
+}
+
+Miss miss_at(const SampleGrid& grid, int column, int row) {
+  return grid.contains(column, row) ? grid.miss[grid.index(column, row)] : Miss::kNothing;
+}
+
+std::size_t count(const SampleGrid& grid, Miss miss) {
+  return std::size_t(std::count(grid.miss.begin(), grid.miss.end(), miss));
+}
+
+TEST(Samples, OfAPlaneLieOnIt) {
+  const Scene scene = scene_of({wall(-3, 3, -3, 3, 0.7)});
+  const SampleGrid grid = trace(tracer_of(scanner({0.08, 0, 0})), {{&scene}});
+  ASSERT_EQ(grid.size(), 160u * 120u);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    ASSERT_TRUE(grid.counts(i));
+    ASSERT_NEAR(grid.z[i], 0.7f, 1.2e-7);
+  }
+}
+
+TEST(Samples, OfATiltedPlaneLieOnItToFloatPrecisionWhereverTheBodyIs) {
+  const Scene scene = scene_of({wall(-3, 3, -3, 3, 0.0)});
+  const SampleTracer tracer = tracer_of(scanner({0.0, 0.05, 0.01}));
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    // The plane n * p = 1.2 in the sensor frame.
+    const Vec3d n = (Vec3d(0, 0, 1) + 0.3 * random_pose(seed).translation()).normalized();
+    Pose T_sensor_body = Pose::Identity();
+    T_sensor_body.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), n).toRotationMatrix();
+    T_sensor_body.translation() = 1.2 * n;
+    const Pose T_world_sensor = random_pose(seed + 100);
+    const std::vector<Body> bodies{{&scene, T_world_sensor * T_sensor_body}};
+    const SampleGrid grid = trace(tracer, bodies, T_world_sensor);
+    ASSERT_GT(grid.size(), 15000u);
+    for (int row = 0; row < 120; ++row) {
+      for (int column = 0; column < 160; ++column) {
+        if (miss_at(grid, column, row) == Miss::kNothing) continue;
+        const std::size_t i = grid.index(column, row);
+        ASSERT_TRUE(grid.counts(i)) << name_of(grid.miss[i]);
+        const Vec3d d = tracer.direction(column, row);
+        ASSERT_NEAR(grid.z[i], 1.2 / n.dot(d), 5e-7 / std::abs(n.dot(d)));
+        const SampleHit hit = tracer.hit_of(bodies, T_world_sensor, grid, i, d);
+        ASSERT_NEAR(hit.p_sensor.dot(n), 1.2, 1e-9);
+        ASSERT_NEAR(hit.incidence_rad, std::acos(std::min(1.0, n.dot(d.normalized()))), 1e-7);
+      }
+    }
+  }
+}
+
+TEST(Samples, OfASphereLieWhereAlgebraSays) {
+  const double radius = 0.2;
+  const Vec3d centre(0.02, -0.03, 0.8);
+  const Scene scene = scene_of({test::sphere_mesh(centre, radius, 500)});
+  const SampleTracer tracer = tracer_of(scanner());
+  const SampleGrid grid = trace(tracer, {{&scene}});
+  std::size_t seen = 0;
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      const Vec3d d = tracer.direction(column, row);
+      const double a = d.squaredNorm(), b = -centre.dot(d),
+                   c = centre.squaredNorm() - radius * radius;
+      const double root = b * b - a * c;
+      if (std::abs(root) < 1e-3) continue;  // the outline feels the facets
+      ASSERT_EQ(miss_at(grid, column, row), root > 0.0 ? Miss::kNone : Miss::kNothing);
+      if (root < 0.0) continue;
+      // Facets of 1.3 mm lie at most 1 um inside.
+      ASSERT_NEAR(grid.z[grid.index(column, row)], (-b - std::sqrt(root)) / a, 2e-5);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 3000u);
+}
+
+/// A slot seen frontally: the wall in front, from x = 0 to the right, hides from an emitter b to
+/// the right of the receiver a strip of the wall dz behind it that is b * dz / z wide.
+TEST(Samples, MissTheUmbraOfASlotAndNoMore) {
+  for (const double b : {0.02, 0.08, 0.2}) {
+    for (const double dz : {0.01, 0.05, 0.3}) {
+      const double z = 0.6;
+      const Scene scene = scene_of({wall(0.0, 5, -5, 5, z), wall(-5, 5, -5, 5, z + dz)});
+      ScannerModel g = scanner({b, 0, 0});
+      g.camera = camera(1000, 3, 900.0);
+      const SampleTracer tracer = tracer_of(g);
+      const SampleGrid grid = trace(tracer, {{&scene}});
+      for (int column = 0; column < 1000; ++column) {
+        const double slope = tracer.direction(column, 1).x();
+        const double x = slope * (z + dz);  // on the wall behind
+        const Miss miss = miss_at(grid, column, 1);
+        if (std::min(std::abs(slope), std::abs(x + b * dz / z)) < 1e-5) continue;
+        const bool shadow = slope < 0.0 && x > -b * dz / z;
+        ASSERT_EQ(miss, shadow ? Miss::kEmitterBlocked : Miss::kNone) << b << ' ' << dz << ' ' << x;
+      }
+    }
+  }
+}
+
+TEST(Samples, DoNotCountOnASheetLitFromBehindOnly) {
+  // A sheet along the line of sight's side: the receiver sees one side, the emitter the other.
+  TriangleMesh sheet;
+  sheet.vertices = {
+      {-0.2f, -0.2f, 0.8f}, {-0.2f, 0.2f, 0.8f}, {0.2f, 0.2f, 1.2f}, {0.2f, -0.2f, 1.2f}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (const bool inverted : {false, true}) {
+    if (inverted)
+      for (auto& t : sheet.triangles) std::swap(t[0], t[1]);
+    const Scene scene = scene_of({sheet});
+    ScannerModel g = scanner({-1.1, 0, 0});
+    const SampleGrid behind = trace(tracer_of(g), {{&scene}});
+    EXPECT_EQ(count(behind, Miss::kNone), 0u);
+    EXPECT_GT(count(behind, Miss::kEmitterBlocked), 1000u);
+    g.emitter_m = {-0.9, 0, 0};
+    const SampleGrid front = trace(tracer_of(g), {{&scene}});
+    EXPECT_EQ(count(front, Miss::kEmitterBlocked), 0u);
+    EXPECT_EQ(count(front, Miss::kNone), count(behind, Miss::kEmitterBlocked));
+  }
+}
+
+TEST(Samples, SayWhyTheyDoNotCount) {
+  const Scene scene = scene_of(
+      {wall(-1.0, -0.2, -1, 1, 0.5), wall(-0.3, 0.3, -1, 1, 1.0), wall(0.3, 2.0, -1, 1, 2.0)});
+  ScannerModel g = scanner();
+  g.near_m = 0.6, g.far_m = 1.5;
+  const SampleGrid grid = trace(tracer_of(g), {{&scene}});
+  EXPECT_EQ(miss_at(grid, 0, 60), Miss::kTooNear);
+  EXPECT_EQ(miss_at(grid, 80, 60), Miss::kNone);
+  EXPECT_EQ(miss_at(grid, 150, 60), Miss::kTooFar);
+  EXPECT_FLOAT_EQ(grid.z[grid.index(150, 60)], 2.0f);
+  // Both ends count.
+  g.near_m = 1.0, g.far_m = 2.0;
+  EXPECT_EQ(count(trace(tracer_of(g), {{&scene}}), Miss::kTooFar), 0u);
+  g.near_m = 0.1;
+  g.max_incidence_rad = 0.2;
+  const SampleTracer narrow = tracer_of(g);
+  const SampleGrid flat = trace(narrow, {{&scene}});
+  for (int column = 0; column < 160; ++column) {
+    const Miss miss = miss_at(flat, column, 60);
+    if (miss == Miss::kNothing) continue;
+    const Vec3d d = narrow.direction(column, 60).normalized();
+    EXPECT_EQ(miss, d.z() < std::cos(0.2) ? Miss::kGrazing : Miss::kNone);
+  }
+}
+
+/// Every sample against single rays of the scene: the slow way.
+TEST(Samples, AgreeWithSingleRaysForSeveralBodies) {
+  const Scene turning = scene_of(
+      {test::sphere_mesh({0.05, 0.1, 0}, 0.08, 30), test::box_mesh({-.1, 0, -.1}, {0, .2, .0})},
+      0.15);
+  const Scene room = scene_of(
+      {test::box_mesh({-1, -.3, -1}, {1, -.2, 1}), test::box_mesh({.2, -.2, -.3}, {.3, .2, -.2})});
+  for (const bool distorted : {false, true}) {
+    ScannerModel g = scanner({0.4, 0.1, 0.0});
+    if (distorted) g.camera.distortion = {0.1, -0.05, 0.001, 0.002, 0.0};
+    const SampleTracer tracer = tracer_of(g);
+    std::size_t shadows = 0;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      Pose T = Pose::Identity();  // looks at the origin from afar
+      const Vec3d eye = random_pose(seed).translation().normalized() + Vec3d(0, 0.4, 0);
+      T.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), -eye).toRotationMatrix();
+      T.translation() = eye;
+      const Pose turned = rotation_about_y(0.7 + double(seed));
+      const std::vector<Body> bodies{{&turning, turned}, {&room, Pose::Identity()}};
+      const SampleGrid grid = trace(tracer, bodies, T);
+      std::size_t wrong = 0, hits = 0;
+      for (int row = 0; row < 120; ++row) {
+        for (int column = 0; column < 160; ++column) {
+          const Vec3d d = tracer.direction(column, row);
+          float nearest = std::numeric_limits<float>::infinity();
+          std::uint32_t body = 0, object = kNoObject;
+          for (std::uint32_t b = 0; b < 2; ++b) {
+            const Pose T_body = bodies[b].T_world_body.inverse() * T;
+            Ray ray;
+            ray.origin = T_body.translation().cast<float>();
+            ray.direction = (T_body.linear() * d).cast<float>();
+            const RayHit hit = bodies[b].scene->intersect(ray);
+            if (hit.valid() && hit.t < nearest) nearest = hit.t, body = b, object = hit.object;
+          }
+          if (object == kNoObject) {
+            wrong += miss_at(grid, column, row) == Miss::kNothing ? 0 : 1;
+            continue;
+          }
+          ASSERT_TRUE(grid.contains(column, row));
+          const std::size_t i = grid.index(column, row);
+          ++hits;
+          if (!grid.hit(i) || grid.body(i) != body || grid.object(i) != object ||
+              std::abs(grid.z[i] - nearest) > 2e-6f) {
+            ++wrong;
+            continue;
+          }
+          bool blocked = false;
+          const Vec3d e = T * g.emitter_m, p = T * tracer.hit_of(bodies, T, grid, i, d).p_sensor;
+          for (const Body& other : bodies) {
+            const Pose back = other.T_world_body.inverse();
+            Ray ray;
+            ray.origin = (back * e).cast<float>();
+            ray.direction = (back.linear() * (p - e)).cast<float>();
+            ray.t_max = 1.0f - 1e-5f;
+            blocked = blocked || other.scene->occluded(ray);
+          }
+          shadows += blocked ? 1 : 0;
+          wrong += grid.miss[i] == (blocked ? Miss::kEmitterBlocked : Miss::kNone) ? 0 : 1;
+        }
+      }
+      EXPECT_GT(hits, 3000u);
+      EXPECT_LE(wrong, 3u) << seed;  // rays that graze an edge
+    }
+    EXPECT_GT(shadows, 100u);
+  }
+}
+
+TEST(Samples, OfAListAreThoseOfTheImage) {
+  const Scene scene = scene_of({test::sphere_mesh({0, 0, 1}, 0.3, 30), wall(-2, 2, -2, 2, 1.4)});
+  const SampleTracer tracer = tracer_of(scanner({0.1, 0, 0}));
+  const SampleGrid grid = trace(tracer, {{&scene}});
+  std::vector<float> x, y;
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      x.push_back(float(tracer.direction(column, row).x()));
+      y.push_back(float(tracer.direction(column, row).y()));
+    }
+  }
+  x[5] = std::numeric_limits<float>::quiet_NaN();
+  x.push_back(0.0f), y.push_back(0.0f);  // not a whole packet
+  Samples list;
+  const Body body{&scene};
+  tracer.trace({&body, 1}, Pose::Identity(), x, y, list);
+  ASSERT_EQ(list.size(), x.size());
+  EXPECT_EQ(list.miss[5], Miss::kOutOfView);
+  for (std::size_t i = 6; i + 1 < list.size(); ++i) {
+    ASSERT_EQ(list.miss[i], grid.miss[i]);
+    ASSERT_EQ(list.triangle[i], grid.triangle[i]);
+    ASSERT_FLOAT_EQ(list.z[i], grid.z[i]);
+  }
+}
+
+TEST(Samples, OfALineScannerAreAColumn) {
+  const Scene scene = scene_of({wall(-1, 1, -1, 1, 0.5)});
+  ScannerModel g = scanner();
+  g.kind = ScannerKind::kLine;
+  g.receiver_m = {0.1, 0, 0};
+  g.camera = camera(1, 77, 100.0);
+  const SampleGrid grid = trace(tracer_of(g), {{&scene}});
+  EXPECT_EQ(grid.rect, (PixelRect{0, 0, 1, 77}));
+  EXPECT_EQ(count(grid, Miss::kNone), 77u);
+  const Scene hidden = scene_of({wall(-1, 1, -1, 1, 0.5), wall(0.02, 1, -1, 1, 0.4)});
+  EXPECT_EQ(count(trace(tracer_of(g), {{&hidden}}), Miss::kReceiverBlocked), 77u);
+}
+
+TEST(Samples, OfNothingAreNone) {
+  const SampleTracer tracer = tracer_of(scanner({0.1, 0, 0}));
+  EXPECT_EQ(trace(tracer, {}).size(), 0u);
+  const Scene empty = scene_of({});
+  EXPECT_EQ(count(trace(tracer, {{&empty}}), Miss::kNone), 0u);
+  const Scene behind = scene_of({wall(-1, 1, -1, 1, -0.5)});
+  EXPECT_EQ(trace(tracer, {{&behind}}).size(), 0u);
+}
+
+TEST(Samples, ThrowWithoutAScene) {
+  SampleGrid grid;
+  const Body body;
+  EXPECT_THROW(tracer_of(scanner()).trace({&body, 1}, Pose::Identity(), grid),
+               std::invalid_argument);
+}
+
+TEST(Samples, NeedAScannerThatCanBe) {
+  ScannerModel g = scanner();
+  g.near_m = 6.0;
+  EXPECT_FALSE(SampleTracer::create(g));
+}
+
+}  // namespace
+}  // namespace turnscan
