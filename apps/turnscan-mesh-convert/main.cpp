@@ -54,10 +54,8 @@ int report(std::string_view code, std::string_view sentence) {
   return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  limit_this_process();
+/// The exit status.
+int run(int argc, char** argv) {
   try {
     const Result<> result = convert(argc, argv);
     if (result) return 0;
@@ -67,4 +65,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return report(name_of(ErrorCode::kFormat), error.what());
   }
+}
+
+}  // namespace
+
+// Ends at once: what the libraries would still do at the exit, after a file that may have been made
+// to harm them, can only spoil what has been written. Standard error is not buffered.
+int main(int argc, char** argv) {
+  limit_this_process();
+  ::_exit(run(argc, argv));
 }

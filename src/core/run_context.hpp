@@ -26,7 +26,7 @@ class RunContext {
 
   /// Called at the start of each phase and at most about 20 times a second within it, from
   /// whichever thread works, never from two at once. It may call cancel() and cancelled(), and
-  /// nothing else of the context.
+  /// nothing else of the context; it must not own a copy of it, which would then never be released.
   void set_listener(Listener listener);
 
   void cancel() const noexcept;

@@ -2,6 +2,11 @@
 
 #include "tests/fuzz/checks.hpp"
 
+// lib3mf 1.8 opens each part of the archive through libzip and never closes it: 160 bytes a part
+// stay behind with every file. Their release is not in our hands.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libzip.so"; }
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto read = turnscan::detail::decode_3mf(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(read->meshes);

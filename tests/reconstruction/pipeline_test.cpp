@@ -194,8 +194,8 @@ TEST(Reconstruct, GivesNothingOnceCancelled) {
 
 TEST(Reconstruct, StopsSoonWhenCancelledDuringTheSurface) {
   RunContext context;
-  context.set_listener([copy = context](const Progress& p) {
-    if (p.phase == "surface") copy.cancel();
+  context.set_listener([&context](const Progress& p) {
+    if (p.phase == "surface") context.cancel();
   });
   EXPECT_EQ(reconstruct(one_ball(), {}, {}, context).error().code, ErrorCode::kCancelled);
 }
