@@ -1,0 +1,11 @@
+#include <turnscan/simulator/noise_kernel.hpp>
+
+namespace turnscan::noise {
+namespace {
+#include <turnscan/simulator/noise_loops.hpp>
+}  // namespace
+
+extern const Kernel kAvx2Kernel;
+const Kernel kAvx2Kernel = kKernelTable;
+
+}  // namespace turnscan::noise
