@@ -1,46 +1,253 @@
-#pragma once
-// The samples of one packet of rays against several bodies (private).
+// Included by the sources of the kernels, each within a namespace of its own.
 
-#include <turnscan/simulator/samples.hpp>
-#include <turnscan/simulator/scene_impl.hpp>
+constexpr float kInfinity = __builtin_inff();
+/// Rounding of a hit and of the way to it, relative to the distances concerned.
+constexpr float kLift = 0x1p-20f;
+constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
-namespace turnscan::sampling {
+/// Values of Miss.
+enum { kCounts = 0, kMissed = 1, kTooNear = 2, kTooFar = 3, kOutOfView = 4, kGrazing = 7 };
 
-inline constexpr int kLanes = 16;
+/// Vectors of one value a lane; compilers split them into what the instruction set has.
+using F = float __attribute__((vector_size(4 * kLanes)));
+using I = int __attribute__((vector_size(4 * kLanes)));
 
-/// A body as one pose of the sensor sees it.
-struct BodyView {
-  const Scene::Impl* scene = nullptr;
-  std::uint32_t id = 0;    ///< position in the bodies, shifted to its place in Samples::surface
-  PixelRect rect;          ///< outside of it no pixel sees the body
-  float rotation[9] = {};  ///< body <- sensor, row by row
-  float origin[3] = {};    ///< of the rays, body frame
-  float other[3] = {};     ///< the other eye, body frame
-  float size = 0.0f;       ///< largest coordinate of the origin
+template <class V, class T>
+inline V get(const T* from) {
+  V v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return v;
+}
+template <class V, class T>
+inline void put(const V& v, T* to) {
+  __builtin_memcpy(to, &v, sizeof v);
+}
+inline F all(float value) { return value - F{}; }
+inline I all(int value) { return value - I{}; }
+inline F root(const F& v) {
+  F out;
+  for (int i = 0; i < kLanes; ++i) out[i] = __builtin_sqrtf(v[i]);
+  return out;
+}
+inline F absolute(const F& v) { return v < 0.0f ? -v : v; }
+inline bool any(const I& mask) {
+  int sum = 0;
+  for (int i = 0; i < kLanes; ++i) sum |= mask[i];
+  return sum != 0;
+}
+
+/// In: the rays' directions. Out: the rest.
+struct Packet {
+  F x, y;
+  F z;           ///< 0: nothing is hit
+  F nx, ny, nz;  ///< normal in the sensor frame, any length
+  I surface, triangle, miss;
 };
 
-/// What all packets of one pose have in common.
-struct View {
-  std::vector<BodyView> bodies;
-  float other[3] = {};  ///< the other eye, sensor frame
-  int blocked = 0;      ///< the miss of what it does not see
-  bool one_way = true;  ///< there is no other eye
-  float near_m = 0.0f, far_m = 0.0f;
-  float least_cosine = 0.0f;
-  float size = 0.0f;  ///< largest of the bodies'
+/// Rays from one point in the directions r * (x, y, z), up to `end`. Lanes that are not valid are
+/// left out by Embree, but it may look at them.
+inline void fill(const float* origin, const float* r, const F& x, const F& y, const F& z,
+                 const F& end, RTCRay16& ray) {
+  put(all(origin[0]), ray.org_x);
+  put(all(origin[1]), ray.org_y);
+  put(all(origin[2]), ray.org_z);
+  put(r[0] * x + r[1] * y + r[2] * z, ray.dir_x);
+  put(r[3] * x + r[4] * y + r[5] * z, ray.dir_y);
+  put(r[6] * x + r[7] * y + r[8] * z, ray.dir_z);
+  put(F{}, ray.tnear);
+  put(F{}, ray.time);
+  put(end, ray.tfar);
+  put(all(-1), ray.mask);
+  put(I{}, ray.id);
+  put(I{}, ray.flags);
+}
+
+/// Where the rays meet the platter (y = 0) before they end; infinity where they do not.
+inline F meet_platter(const RTCRay16& ray, const F& end, float radius_squared) {
+  const F t = -get<F>(ray.org_y) / get<F>(ray.dir_y);
+  const F x = get<F>(ray.org_x) + t * get<F>(ray.dir_x);
+  const F z = get<F>(ray.org_z) + t * get<F>(ray.dir_z);
+  const I hit = (t > 0.0f) & (t < end) & (x * x + z * z <= radius_squared);
+  return hit ? t : all(kInfinity);
+}
+
+inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext& context,
+                      Packet& p) {
+  alignas(64) RTCRayHit16 hits;
+  alignas(64) int active[kLanes];
+  const float* r = body.rotation;
+  fill(body.origin, r, p.x, p.y, all(1.0f), p.z, hits.ray);
+  put(all(-1), hits.hit.geomID);
+  put(all(-1), hits.hit.instID[0]);
+  put(valid, active);
+  rtcIntersect16(active, body.scene, &context, &hits);
+  const I object = get<I>(hits.hit.geomID), hit = object != -1;
+  const F nx = get<F>(hits.hit.Ng_x), ny = get<F>(hits.hit.Ng_y), nz = get<F>(hits.hit.Ng_z);
+  p.z = hit ? get<F>(hits.ray.tfar) : p.z;
+  p.surface = hit ? int(body.id) | object : p.surface;
+  p.triangle = hit ? get<I>(hits.hit.primID) : p.triangle;
+  p.nx = hit ? r[0] * nx + r[3] * ny + r[6] * nz : p.nx;
+  p.ny = hit ? r[1] * nx + r[4] * ny + r[7] * nz : p.ny;
+  p.nz = hit ? r[2] * nx + r[5] * ny + r[8] * nz : p.nz;
+  if (body.platter_radius_squared < 0.0f) return;
+  const F t = meet_platter(hits.ray, p.z, body.platter_radius_squared);
+  const I on = valid & (t < p.z);
+  p.z = on ? t : p.z;
+  p.surface = on ? all(int(body.id | kPlatterObject)) : p.surface;
+  p.triangle = on ? I{} : p.triangle;
+  p.nx = on ? all(r[3]) : p.nx;
+  p.ny = on ? all(r[4]) : p.ny;
+  p.nz = on ? all(r[5]) : p.nz;
+}
+
+/// From the other eye to just above the surface.
+struct Target {
+  F x, y, z;
 };
 
-/// In: the rays' directions (x, y, 1), NaN where there is none. Out: the rest.
-struct alignas(64) Packet {
-  float x[kLanes], y[kLanes];
-  float z[kLanes];          ///< 0: nothing is hit
-  float normal[3][kLanes];  ///< sensor frame, any length
-  std::uint32_t surface[kLanes], triangle[kLanes];
-  int miss[kLanes];
-};
+/// Everything but what may stand between the other eye and the surface.
+inline void judge(const View& view, const I& valid, Packet& p, Target& target) {
+  const I hit = p.z < kInfinity;
+  p.z = hit ? p.z : F{};
+  const F px = p.x * p.z, py = p.y * p.z;
+  const F wx = view.other[0] - px, wy = view.other[1] - py, wz = view.other[2] - p.z;
+  const F to_origin = -(p.nx * p.x + p.ny * p.y + p.nz);
+  const F to_other = p.nx * wx + p.ny * wy + p.nz * wz;
+  const F squared = p.nx * p.nx + p.ny * p.ny + p.nz * p.nz, length = root(squared);
+  const F flattest = view.least_cosine * length * root(p.x * p.x + p.y * p.y + 1.0f);
+  const I same_side = to_origin * to_other > 0.0f;
+  I miss = same_side | (view.two_eyed ? 0 : -1) ? I{} : all(view.blocked);
+  miss = absolute(to_origin) >= flattest ? miss : all(int(kGrazing));
+  miss = p.z > view.far_m ? all(int(kTooFar)) : miss;
+  miss = p.z < view.near_m ? all(int(kTooNear)) : miss;
+  miss = hit ? miss : all(int(kMissed));
+  p.miss = valid ? miss : all(int(kOutOfView));
+  const F lift = kLift * (absolute(px) + absolute(py) + p.z + view.size) / length;
+  const F scale = squared > 0.0f ? (to_other > 0.0f ? lift : -lift) : F{};
+  target.x = scale * p.nx - wx;
+  target.y = scale * p.ny - wy;
+  target.z = scale * p.nz - wz;
+}
 
-/// bodies: positions in view.bodies of those that the packet may hit.
-void trace(const View& view, std::span<const std::uint32_t> bodies, RTCIntersectContext& context,
-           Packet& packet);
+/// The lanes of valid that the body does not block.
+inline I lit(const BodyView& body, const Target& target, const I& valid,
+             RTCIntersectContext& context) {
+  alignas(64) RTCRay16 ray;
+  alignas(64) int active[kLanes];
+  const F end = all(1.0f);
+  fill(body.other, body.rotation, target.x, target.y, target.z, end, ray);
+  I left = valid;
+  if (body.platter_radius_squared >= 0.0f)
+    left &= meet_platter(ray, end, body.platter_radius_squared) == kInfinity;
+  put(left, active);
+  rtcOccluded16(active, body.scene, &context, &ray);
+  // Embree marks a blocked ray with tfar = -inf.
+  return left & (get<F>(ray.tfar) >= 0.0f);
+}
 
-}  // namespace turnscan::sampling
+inline bool overlap(const Frame& a, const Frame& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+inline void trace(const View& view, const Frame* where, RTCIntersectContext& context, Packet& p) {
+  const I valid = (p.x == p.x) & (p.y == p.y);
+  p.z = all(kInfinity);
+  p.surface = all(-1);
+  p.triangle = I{};
+  p.nx = p.ny = p.nz = F{};
+  for (int b = 0; b < view.body_count; ++b)
+    if (where == nullptr || overlap(*where, view.bodies[b].frame))
+      intersect(view.bodies[b], valid, context, p);
+  Target target;
+  judge(view, valid, p, target);
+  if (!view.two_eyed) return;
+  const I seen = p.miss == int(kCounts);
+  I left = seen;
+  for (int b = 0; b < view.body_count && any(left); ++b)
+    left = lit(view.bodies[b], target, left, context);
+  p.miss = seen & ~left ? all(view.blocked) : p.miss;
+}
+
+inline RTCIntersectContext coherent() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+/// Lanes [lane, lane + count) to the place `at`. count is a constant where it matters.
+inline void store(const Packet& p, int lane, int count, std::size_t at, const Output& out) {
+  const std::size_t bytes = std::size_t(count) * 4;
+  __builtin_memcpy(out.z + at, reinterpret_cast<const char*>(&p.z) + 4 * lane, bytes);
+  __builtin_memcpy(out.surface + at, reinterpret_cast<const char*>(&p.surface) + 4 * lane, bytes);
+  __builtin_memcpy(out.triangle + at, reinterpret_cast<const char*>(&p.triangle) + 4 * lane, bytes);
+  for (int i = 0; i < count; ++i) out.miss[at + i] = static_cast<std::uint8_t>(p.miss[lane + i]);
+}
+
+/// Lanes beyond the frame repeat its last column or row.
+template <int kTileWidth>
+inline void load(const Directions& d, const Frame& frame, int left, int top, Packet& p) {
+  alignas(64) float x[kLanes], y[kLanes];
+  for (int row = 0; row < kLanes / kTileWidth; ++row) {
+    const int v = top + row < frame.bottom ? top + row : frame.bottom - 1;
+    for (int column = 0; column < kTileWidth; ++column) {
+      const int u = left + column < frame.right ? left + column : frame.right - 1;
+      x[row * kTileWidth + column] = d.x[v * d.x_row + u];
+      y[row * kTileWidth + column] = d.y[v * d.y_row + u * d.y_column];
+    }
+  }
+  p.x = get<F>(x);
+  p.y = get<F>(y);
+}
+
+/// Its width is a constant, so that rows are copied as vectors.
+template <int kTileWidth>
+void trace_tiles(const View& view, const Directions& directions, const Frame& frame,
+                 const Output& out) {
+  constexpr int kTileHeight = kLanes / kTileWidth;
+  RTCIntersectContext context = coherent();
+  const int width = frame.right - frame.left;
+  for (int top = frame.top; top < frame.bottom; top += kTileHeight) {
+    for (int left = frame.left; left < frame.right; left += kTileWidth) {
+      const Frame tile{left, top, left + kTileWidth, top + kTileHeight};
+      Packet p;
+      load<kTileWidth>(directions, frame, left, top, p);
+      trace(view, &tile, context, p);
+      const int rows = frame.bottom - top < kTileHeight ? frame.bottom - top : kTileHeight;
+      for (int row = 0; row < rows; ++row) {
+        const std::size_t at = std::size_t(top + row - frame.top) * std::size_t(width) +
+                               std::size_t(left - frame.left);
+        if (frame.right - left >= kTileWidth)
+          store(p, row * kTileWidth, kTileWidth, at, out);
+        else
+          store(p, row * kTileWidth, frame.right - left, at, out);
+      }
+    }
+  }
+}
+
+void trace_image(const View& view, const Directions& directions, const Frame& frame, int tile_width,
+                 const Output& out) {
+  if (tile_width >= 4)
+    trace_tiles<4>(view, directions, frame, out);
+  else if (tile_width == 2)
+    trace_tiles<2>(view, directions, frame, out);
+  else
+    trace_tiles<1>(view, directions, frame, out);
+}
+
+void trace_list(const View& view, const float* x, const float* y, std::size_t n,
+                const Output& out) {
+  RTCIntersectContext context = coherent();
+  for (std::size_t at = 0; at < n; at += kLanes) {
+    const int count = n - at < std::size_t(kLanes) ? int(n - at) : kLanes;
+    Packet p;
+    for (int i = 0; i < kLanes; ++i) {
+      const std::size_t ray = at + std::size_t(i < count ? i : count - 1);
+      p.x[i] = x[ray];
+      p.y[i] = y[ray];
+    }
+    trace(view, nullptr, context, p);
+    store(p, 0, count, at, out);
+  }
+}

@@ -3,15 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <turnscan/simulator/sample_packet.hpp>
+#include <turnscan/simulator/sample_kernel.hpp>
 #include <turnscan/simulator/samples.hpp>
+#include <turnscan/simulator/scene_impl.hpp>
 
 namespace turnscan {
 
 using sampling::BodyView;
-using sampling::kLanes;
-using sampling::Packet;
-using sampling::View;
+using sampling::Frame;
 
 namespace {
 
@@ -22,13 +21,6 @@ constexpr std::array<std::string_view, kMissCount> kMissNames{
     "none",        "nothing",         "too-near",         "too-far",
     "out-of-view", "emitter-blocked", "receiver-blocked", "grazing",
     "too-dark",    "rejected"};
-
-/// Pixels of a packet: a square, or as near to it as the image's width allows.
-struct Tile {
-  int width = 4, height = 4;
-  explicit Tile(int image_width)
-      : width(image_width >= 3 ? 4 : image_width), height(kLanes / width) {}
-};
 
 /// Outside of it no pixel sees anything of the box; it has a border of a pixel.
 PixelRect rect_of(const CameraIntrinsics& camera, const Box& box, const Pose& T_sensor_box) {
@@ -65,10 +57,6 @@ PixelRect united(const PixelRect& a, const PixelRect& b) {
           std::max(a.bottom, b.bottom)};
 }
 
-bool overlap(const PixelRect& a, const PixelRect& b) {
-  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-}
-
 void copy(const Vec3d& from, float* to) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
@@ -78,50 +66,48 @@ BodyView view_of(const Body& body, std::size_t position, const ScannerModel& mod
   if (body.scene == nullptr) throw std::invalid_argument("SampleTracer: a body has no scene");
   const Pose T = body.T_world_body.inverse() * T_world_sensor;
   BodyView view;
-  view.scene = &body.scene->impl();
-  view.id = static_cast<std::uint32_t>(position << 24);
+  view.scene = body.scene->impl().scene.get();
+  view.platter_radius_squared = body.scene->impl().platter_radius_squared;
+  view.id = static_cast<std::uint32_t>(position << sampling::kObjectBits);
   for (int i = 0; i < 9; ++i) view.rotation[i] = static_cast<float>(T.linear()(i / 3, i % 3));
   copy(T.translation(), view.origin);
   copy(T * model.other_eye_m(), view.other);
-  view.size = static_cast<float>(T.translation().cwiseAbs().maxCoeff());
-  view.rect = rect_of(model.camera, body.scene->box(), T.inverse());
+  const PixelRect rect = rect_of(model.camera, body.scene->box(), T.inverse());
+  view.frame = {rect.left, rect.top, rect.right, rect.bottom};
   return view;
 }
 
-View view_of(std::span<const Body> bodies, const ScannerModel& model, const Pose& T_world_sensor) {
-  if (bodies.size() > kMaxBodies) throw std::invalid_argument("SampleTracer: too many bodies");
-  View view;
-  copy(model.other_eye_m(), view.other);
-  view.one_way = !model.two_eyed();
-  view.blocked =
-      int(model.kind == ScannerKind::kLine ? Miss::kReceiverBlocked : Miss::kEmitterBlocked);
-  view.near_m = static_cast<float>(model.near_m);
-  view.far_m = static_cast<float>(model.far_m);
-  // At a right angle nothing is too flat, whatever the rounding.
-  view.least_cosine = model.max_incidence_rad < kRight
-                          ? static_cast<float>(std::cos(model.max_incidence_rad))
-                          : 0.0f;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    view.bodies.push_back(view_of(bodies[b], b, model, T_world_sensor));
-    view.size = std::max(view.size, view.bodies.back().size);
-  }
-  return view;
-}
+/// The bodies as one pose sees them, in a form for the kernels.
+struct Views {
+  std::vector<BodyView> bodies;
+  sampling::View view;
 
-RTCIntersectContext coherent() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
-
-void store(const Packet& p, int lane, std::size_t at, int count, Samples& out) {
-  for (int i = 0; i < count; ++i) {
-    out.z[at + i] = p.z[lane + i];
-    out.surface[at + i] = p.surface[lane + i];
-    out.triangle[at + i] = p.triangle[lane + i];
-    out.miss[at + i] = static_cast<Miss>(p.miss[lane + i]);
+  Views(std::span<const Body> all, const ScannerModel& model, const Pose& T_world_sensor) {
+    if (all.size() > kMaxBodies) throw std::invalid_argument("SampleTracer: too many bodies");
+    bodies.reserve(all.size());
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      bodies.push_back(view_of(all[b], b, model, T_world_sensor));
+      for (const float x : bodies.back().origin) view.size = std::max(view.size, std::abs(x));
+    }
+    view.bodies = bodies.data();
+    view.body_count = static_cast<int>(bodies.size());
+    view.two_eyed = model.two_eyed();
+    copy(model.other_eye_m(), view.other);
+    view.blocked =
+        int(model.kind == ScannerKind::kLine ? Miss::kReceiverBlocked : Miss::kEmitterBlocked);
+    view.near_m = static_cast<float>(model.near_m);
+    view.far_m = static_cast<float>(model.far_m);
+    // At a right angle nothing is too flat, whatever the rounding.
+    view.least_cosine = model.max_incidence_rad < kRight
+                            ? static_cast<float>(std::cos(model.max_incidence_rad))
+                            : 0.0f;
   }
+};
+
+sampling::Output output_of(Samples& samples) {
+  static_assert(sizeof(Miss) == 1);
+  return {samples.z.data(), samples.surface.data(), samples.triangle.data(),
+          reinterpret_cast<std::uint8_t*>(samples.miss.data())};
 }
 
 }  // namespace
@@ -137,46 +123,23 @@ void Samples::resize(std::size_t n) {
 
 struct SampleTracer::Impl {
   ScannerModel model;
-  Tile tile;
-  bool separable;           ///< x depends on the column alone, y on the row alone
-  std::vector<float> x, y;  ///< directions, per column and row or per pixel
+  int tile_width;           ///< of a packet: a square, or as near to it as the image allows
+  std::vector<float> x, y;  ///< per column and row, or with distortion per pixel
+  sampling::Directions directions;
 
   explicit Impl(const ScannerModel& m)
-      : model(m), tile(m.camera.width), separable(!m.camera.distorted()) {
+      : model(m), tile_width(m.camera.width >= 3 ? 4 : m.camera.width) {
     const CameraIntrinsics& camera = m.camera;
-    if (!separable) {
+    if (camera.distorted()) {
       const RayTable table(camera);
       x = table.x();
       y = table.y();
+      directions = {x.data(), y.data(), camera.width, camera.width, 1};
       return;
     }
     for (int u = 0; u < camera.width; ++u) x.push_back(static_cast<float>(camera.ray(u, 0).x()));
     for (int v = 0; v < camera.height; ++v) y.push_back(static_cast<float>(camera.ray(0, v).y()));
-  }
-
-  /// Lanes beyond the rect repeat its last column or row.
-  void load(int left, int top, const PixelRect& rect, Packet& p) const {
-    for (int i = 0; i < kLanes; ++i) {
-      const int u = std::min(left + i % tile.width, rect.right - 1);
-      const int v = std::min(top + i / tile.width, rect.bottom - 1);
-      const std::size_t pixel = std::size_t(v) * std::size_t(model.camera.width) + std::size_t(u);
-      p.x[i] = x[separable ? std::size_t(u) : pixel];
-      p.y[i] = y[separable ? std::size_t(v) : pixel];
-    }
-  }
-
-  void trace_tile(const View& view, int left, int top, RTCIntersectContext& context,
-                  std::vector<std::uint32_t>& bodies, SampleGrid& out) const {
-    const PixelRect here{left, top, std::min(left + tile.width, out.rect.right),
-                         std::min(top + tile.height, out.rect.bottom)};
-    bodies.clear();
-    for (std::uint32_t b = 0; b < view.bodies.size(); ++b)
-      if (overlap(view.bodies[b].rect, here)) bodies.push_back(b);
-    Packet packet;
-    load(left, top, out.rect, packet);
-    sampling::trace(view, bodies, context, packet);
-    for (int v = here.top; v < here.bottom; ++v)
-      store(packet, (v - top) * tile.width, out.index(left, v), here.width(), out);
+    directions = {x.data(), y.data(), 0, 1, 0};
   }
 };
 
@@ -196,37 +159,25 @@ Vec3d SampleTracer::direction(double u, double v) const { return impl_->model.ca
 
 void SampleTracer::trace(std::span<const Body> bodies, const Pose& T_world_sensor,
                          SampleGrid& out) const {
-  const View view = view_of(bodies, impl_->model, T_world_sensor);
+  const Views views(bodies, impl_->model, T_world_sensor);
   out.width = impl_->model.camera.width;
   out.height = impl_->model.camera.height;
   out.rect = {};
-  for (const BodyView& body : view.bodies) out.rect = united(out.rect, body.rect);
+  for (const BodyView& body : views.bodies)
+    out.rect =
+        united(out.rect, {body.frame.left, body.frame.top, body.frame.right, body.frame.bottom});
   out.resize(std::size_t(out.rect.width()) * std::size_t(out.rect.height()));
-  RTCIntersectContext context = coherent();
-  std::vector<std::uint32_t> near_tile;
-  for (int top = out.rect.top; top < out.rect.bottom; top += impl_->tile.height)
-    for (int left = out.rect.left; left < out.rect.right; left += impl_->tile.width)
-      impl_->trace_tile(view, left, top, context, near_tile, out);
+  const Frame frame{out.rect.left, out.rect.top, out.rect.right, out.rect.bottom};
+  sampling::kernel().trace_image(views.view, impl_->directions, frame, impl_->tile_width,
+                                 output_of(out));
 }
 
 void SampleTracer::trace(std::span<const Body> bodies, const Pose& T_world_sensor,
                          std::span<const float> x, std::span<const float> y, Samples& out) const {
   if (x.size() != y.size()) throw std::invalid_argument("SampleTracer::trace: sizes differ");
-  const View view = view_of(bodies, impl_->model, T_world_sensor);
+  const Views views(bodies, impl_->model, T_world_sensor);
   out.resize(x.size());
-  RTCIntersectContext context = coherent();
-  std::vector<std::uint32_t> all(view.bodies.size());
-  for (std::uint32_t b = 0; b < all.size(); ++b) all[b] = b;
-  for (std::size_t at = 0; at < x.size(); at += kLanes) {
-    const int count = static_cast<int>(std::min<std::size_t>(kLanes, x.size() - at));
-    Packet packet;
-    for (int i = 0; i < kLanes; ++i) {
-      packet.x[i] = x[at + std::size_t(std::min(i, count - 1))];
-      packet.y[i] = y[at + std::size_t(std::min(i, count - 1))];
-    }
-    sampling::trace(view, all, context, packet);
-    store(packet, 0, at, count, out);
-  }
+  sampling::kernel().trace_list(views.view, x.data(), y.data(), x.size(), output_of(out));
 }
 
 SampleHit SampleTracer::hit_of(std::span<const Body> bodies, const Pose& T_world_sensor,

@@ -27,7 +27,7 @@ FLOORS = {
 # Header pattern, folders that may include it, whether an installed header may too.
 LIBRARIES = [
     ("PCL", r"pcl/", ("src/geometry/", "src/reconstruction/", "tests/", "bench/"), False),
-    ("Embree", r"embree\d?/", ("src/simulator/",), False),
+    ("Embree", r"embree\d?/", ("src/simulator/", "bench/"), False),
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/", ("apps/turnscan-studio/",), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
     ("nanoflann", r"nanoflann", ("src/geometry/", "tests/", "bench/"), False),

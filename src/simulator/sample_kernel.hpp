@@ -1,0 +1,77 @@
+#pragma once
+// The samples of packets of 16 rays, on plain arrays, built once per instruction set (private).
+// The sources that include this are compiled for other instruction sets: nothing here may bring
+// in inline functions that the linker could merge with those of other sources.
+
+#include <embree3/rtcore.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace turnscan::sampling {
+
+inline constexpr int kLanes = 16;
+inline constexpr std::uint32_t kObjectBits = 24;  ///< of a surface; the body above them
+inline constexpr std::uint32_t kPlatterObject = 0xfffffe;
+
+/// Pixels [left, right) x [top, bottom).
+struct Frame {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// A body as one pose of the sensor sees it.
+struct BodyView {
+  RTCScene scene = nullptr;
+  float platter_radius_squared = -1.0f;  ///< negative: there is none
+  std::uint32_t id = 0;                  ///< position in the bodies << kObjectBits
+  Frame frame;                           ///< outside of it no pixel sees the body
+  float rotation[9] = {};                ///< body <- sensor, row by row
+  float origin[3] = {};                  ///< of the rays, body frame
+  float other[3] = {};                   ///< the other eye, body frame
+};
+
+/// What all packets of one pose have in common.
+struct View {
+  const BodyView* bodies = nullptr;
+  int body_count = 0;
+  bool two_eyed = false;
+  float other[3] = {};  ///< the other eye, sensor frame
+  int blocked = 0;      ///< the miss of what it does not see
+  float near_m = 0.0f, far_m = 0.0f;
+  float least_cosine = 0.0f;
+  float size = 0.0f;  ///< largest coordinate of an origin
+};
+
+/// Directions (x, y, 1) of the pixels: x[v * x_row + u], y[v * y_row + u * y_column]. NaN: no ray.
+struct Directions {
+  const float *x = nullptr, *y = nullptr;
+  std::ptrdiff_t x_row = 0, y_row = 0, y_column = 0;
+};
+
+/// See Samples.
+struct Output {
+  float* z = nullptr;
+  std::uint32_t *surface = nullptr, *triangle = nullptr;
+  std::uint8_t* miss = nullptr;
+};
+
+struct Kernel {
+  /// The pixels of the frame, row by row without gaps, in packets of tile_width columns (1, 2, 4).
+  void (*trace_image)(const View& view, const Directions& directions, const Frame& frame,
+                      int tile_width, const Output& out);
+  /// n rays in the order given.
+  void (*trace_list)(const View& view, const float* x, const float* y, std::size_t n,
+                     const Output& out);
+};
+
+enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+
+/// nullptr when it was not built or this machine lacks it.
+const Kernel* kernel_for(InstructionSet set);
+/// The widest that this machine has, or the one set by use_instruction_set.
+const Kernel& kernel();
+/// For tests and benchmarks: all later calls use this one. Throws std::invalid_argument when
+/// kernel_for has none.
+void use_instruction_set(InstructionSet set);
+
+}  // namespace turnscan::sampling

@@ -1,0 +1,13 @@
+#include <turnscan/simulator/sample_kernel.hpp>
+
+namespace turnscan::sampling {
+namespace {
+
+#include <turnscan/simulator/sample_packet.hpp>
+
+}  // namespace
+
+extern const Kernel kAvx512Kernel;
+const Kernel kAvx512Kernel{trace_image, trace_list};
+
+}  // namespace turnscan::sampling
