@@ -8,6 +8,7 @@ namespace turnscan::cli {
 
 std::unique_ptr<Command> make_import_command();
 std::unique_ptr<Command> make_info_command();
+std::unique_ptr<Command> make_calibrate_command();
 std::unique_ptr<Command> make_reconstruct_command();
 std::unique_ptr<Command> make_evaluate_command();
 std::unique_ptr<Command> make_render_command();

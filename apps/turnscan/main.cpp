@@ -7,6 +7,8 @@ int main(int argc, char** argv) {
   program.add("import", "Make a recording from range scans or depth images of another program",
               make_import_command());
   program.add("info", "Say what a recording, mesh or point cloud holds", make_info_command());
+  program.add("calibrate", "Find where the turntable stands and how it turns",
+              make_calibrate_command());
   program.add("reconstruct", "Make a watertight mesh of each object in a recording",
               make_reconstruct_command());
   program.add("evaluate", "Measure how far a mesh is from a reference", make_evaluate_command());

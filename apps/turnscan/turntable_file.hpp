@@ -6,10 +6,10 @@
 
 namespace turnscan::cli {
 
-/// The sequence seen with another turntable. The file holds a JSON object as the key "turntable" of
-/// recording.json does (axis, center_m, and perhaps radius_m, speed_rad_s), alone or under that
-/// key. Sensor 0 gets its place from it; frames with poses of their own keep them. An empty path
-/// keeps the recording's turntable. The sequence must outlive the result.
+/// The sequence seen with another turntable: a file that turnscan calibrate saved, or a JSON object
+/// as the key "turntable" of recording.json (axis, center_m, and perhaps radius_m, speed_rad_s),
+/// alone or under that key. Sensor 0 gets its place from it. An empty path keeps the recording's
+/// turntable. The sequence must outlive the result.
 Result<std::unique_ptr<FrameSequence>> with_turntable(const FrameSequence& sequence,
                                                       const std::string& path);
 

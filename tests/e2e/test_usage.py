@@ -5,7 +5,7 @@ import re
 import harness
 from harness import FAILED, ROOT, USAGE, run
 
-COMMANDS = ["import", "info", "reconstruct", "evaluate", "render", "demo", "reference"]
+COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "demo", "reference"]
 
 
 class Help(harness.TestCase):

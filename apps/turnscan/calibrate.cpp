@@ -1,0 +1,100 @@
+#include <turnscan/io/atomic_file.hpp>
+#include <turnscan/recording/calibration_file.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/turntable/detect.hpp>
+#include <turnscan/turntable/picked_points.hpp>
+
+#include "calibration_text.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "output_file.hpp"
+#include "pick_file.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class CalibrateCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positional("RECORDING", recording_, "Recording of the turntable (see turnscan import)");
+    line.option("--points", "PICKS.csv", points_,
+                "Use points on the platter's rim: columns x_mm,y_mm,z_mm (or _m) in the sensor's "
+                "frame, or column,row of the averaged depth image");
+    line.flag("--detect", detect_, "Find the platter's surface and rim in the averaged frames");
+    line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
+    line.option("--save", "FILE.json", save_,
+                "Keep the calibration as a file for reconstruct --turntable (the same content)");
+    line.allow_config();
+    line.group("average", "Averaging", describe(average_));
+    line.group("detect", "Detection", describe(detect_options_));
+  }
+
+  Result<> run(Session& session) override {
+    if (!points_.empty() && detect_)
+      return fail(ErrorCode::kInvalidOption,
+                  "--points and --detect are two ways to calibrate; give one of them");
+    TURNSCAN_TRY(check_output_file(json_, ".json"));
+    TURNSCAN_TRY(check_output_file(save_, ".json"));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
+    TURNSCAN_ASSIGN(const Calibration found, calibrate(recording, session));
+    // What is shown is what the file gives back.
+    TURNSCAN_ASSIGN(const Calibration calibration, parse_calibration(calibration_json(found)));
+    TURNSCAN_TRY(session.context().check());
+    for (const std::string& path : {json_, save_}) {
+      if (!path.empty()) TURNSCAN_TRY(write_calibration(path, calibration));
+    }
+    session.print("{}", calibration_text(calibration));
+    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    for (const std::string& path : {json_, save_}) {
+      if (!path.empty()) session.print("Wrote {}\n", path);
+    }
+    return {};
+  }
+
+ private:
+  Result<Calibration> calibrate(const Recording& recording, Session& session) const {
+    if (!points_.empty()) return from_points(recording, session);
+    TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
+    TURNSCAN_ASSIGN(const DetectedPlatter platter,
+                    detect_platter(scan, detect_options_, session.context()));
+    return calibration_of(platter, scan);
+  }
+
+  Result<AveragedScan> average(const Recording& recording, Session& session) const {
+    return average_frames(recording, spread_positions(recording, 0, std::size_t(average_.frames)),
+                          average_, session.context());
+  }
+
+  Result<Calibration> from_points(const Recording& recording, Session& session) const {
+    TURNSCAN_ASSIGN(const bool pixels, picks_pixels(points_));
+    std::optional<AveragedScan> scan;
+    if (pixels) {
+      TURNSCAN_ASSIGN(scan, average(recording, session));
+    }
+    TURNSCAN_ASSIGN(const auto picks, read_picks(points_, scan ? &*scan : nullptr));
+    const SensorInfo& sensor = recording.header().sensors.front();
+    const Vec3d above =
+        sensor.viewpoint.parallel ? Vec3d(1e6 * sensor.viewpoint.value) : sensor.viewpoint.value;
+    auto calibration = calibrate_from_points(picks, above);
+    if (!calibration) {
+      // What the file holds is data, not the way the command was called.
+      Error error = std::move(calibration).error();
+      if (error.code == ErrorCode::kInvalidOption) error.code = ErrorCode::kFormat;
+      error.path = points_;
+      return tl::unexpected<Error>(std::move(error));
+    }
+    return calibration;
+  }
+
+  std::string recording_, points_, json_, save_;
+  bool detect_ = false;
+  AverageOptions average_;
+  DetectOptions detect_options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_command() { return std::make_unique<CalibrateCommand>(); }
+
+}  // namespace turnscan::cli

@@ -1,0 +1,69 @@
+#include "calibration_text.hpp"
+
+#include <turnscan/core/units.hpp>
+
+#include "text_table.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+/// "12.345 mm", or "12.345 +- 0.012 mm".
+std::string figure(double value, double sigma, double scale, const char* unit, int digits) {
+  if (!std::isfinite(sigma)) return fmt::format("{:.{}f} {}", value * scale, digits, unit);
+  return fmt::format("{:.{}f} +- {:.{}f} {}", value * scale, digits, sigma * scale, digits, unit);
+}
+
+std::string vector_text(const Vec3d& v, double scale, int digits) {
+  return fmt::format("{:.{}f}, {:.{}f}, {:.{}f}", v.x() * scale, digits, v.y() * scale, digits,
+                     v.z() * scale, digits);
+}
+
+std::string spread(double sigma, double scale, const char* unit) {
+  return std::isfinite(sigma) ? fmt::format(" +- {:.3f} {}", sigma * scale, unit) : "";
+}
+
+}  // namespace
+
+std::string calibration_text(const Calibration& c) {
+  TextTable table({0, 1, 2});
+  table.add({"axis", vector_text(c.table.axis, 1.0, 5) + spread(c.axis_sigma_rad, kDegrees, "deg"),
+             c.axis_found});
+  table.add({"centre",
+             vector_text(c.table.center_m, 1e3, 2) + " mm" +
+                 spread(c.center_sigma_m, 1e3, "mm across") +
+                 (std::isfinite(c.height_sigma_m) ? "," : "") +
+                 spread(c.height_sigma_m, 1e3, "mm along the axis"),
+             c.center_found});
+  if (c.table.radius_m)
+    table.add(
+        {"radius", figure(*c.table.radius_m, c.radius_sigma_m, 1e3, "mm", 2), c.radius_found});
+  if (c.table.speed_rad_s)
+    table.add({"speed", figure(*c.table.speed_rad_s, c.speed_sigma_rad_s, kDegrees, "deg/s", 4),
+               c.speed_found});
+  if (!c.angles_rad.empty())
+    table.add({"angles",
+               fmt::format("{}, the last {:.3f} deg", c.angles_rad.size(),
+                           c.angles_rad.back() * kDegrees),
+               c.angles_found});
+  if (c.start_s) table.add({"start", fmt::format("{:.3f} s", *c.start_s), "when it began to turn"});
+  std::string text = fmt::format("Found by: {}\n", name_of(c.method)) + table.text(2);
+  if (std::isfinite(c.residual_rms_m))
+    text += fmt::format("Residuals: {:.3f} mm RMS", c.residual_rms_m * 1e3);
+  if (std::isfinite(c.residual_mean_abs_m))
+    text += fmt::format(", {:.3f} mm mean", c.residual_mean_abs_m * 1e3);
+  if (std::isfinite(c.rim_share)) text += fmt::format(", {:.0f} % of the rim", c.rim_share * 100);
+  if (std::isfinite(c.confidence)) text += fmt::format(", confidence {:.2f}", c.confidence);
+  text += "\n";
+  if (!c.undetermined.empty())
+    text += fmt::format("Not determined by the data: {}\n", fmt::join(c.undetermined, ", "));
+  if (c.depth)
+    text += fmt::format("Depth: {:+.2f} mm, times {:.5f} ({})\n", c.depth->bias_m * 1e3,
+                        c.depth->scale, c.depth->found);
+  for (const std::string& note : c.notes) text += fmt::format("Note: {}\n", note);
+  return text;
+}
+
+}  // namespace turnscan::cli

@@ -1,0 +1,65 @@
+#pragma once
+// What calibration found out about a turntable, each figure with its standard deviation and with
+// how it was found.
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// How a calibration was made.
+enum class CalibrationMethod { kPicked, kDetected, kMotion };
+/// "picked points", "detected platter", "motion".
+std::string_view name_of(CalibrationMethod method);
+
+/// How far a depth camera's raw depth is off: depth = scale * (raw * unit) + bias.
+struct DepthCorrection {
+  double bias_m = 0.0;
+  double scale = 1.0;
+  double bias_sigma_m = std::numeric_limits<double>::quiet_NaN();
+  double scale_sigma = std::numeric_limits<double>::quiet_NaN();
+  std::string found;  ///< how
+};
+
+/// The turntable in the frame of sensor 0. A standard deviation that is not known is NaN. The
+/// texts `..._found` say for people how the figure was found; empty: it is not known.
+struct Calibration {
+  CalibrationMethod method = CalibrationMethod::kDetected;
+  TurntableInfo table;
+  double axis_sigma_rad = std::numeric_limits<double>::quiet_NaN();
+  double center_sigma_m = std::numeric_limits<double>::quiet_NaN();  ///< across the axis
+  double height_sigma_m = std::numeric_limits<double>::quiet_NaN();  ///< along the axis
+  double radius_sigma_m = std::numeric_limits<double>::quiet_NaN();
+  double speed_sigma_rad_s = std::numeric_limits<double>::quiet_NaN();
+  std::string axis_found, center_found, height_found, radius_found, speed_found, angles_found;
+
+  /// One per frame of the recording, in order; empty where only the place is known.
+  std::vector<double> angles_rad;
+  std::vector<double> angle_sigma_rad;
+  std::optional<double> start_s;  ///< when the table began to turn, in the frames' time
+
+  double residual_rms_m = std::numeric_limits<double>::quiet_NaN();
+  double residual_mean_abs_m = std::numeric_limits<double>::quiet_NaN();
+  double rim_share = std::numeric_limits<double>::quiet_NaN();   ///< of the platter's rim seen
+  double confidence = std::numeric_limits<double>::quiet_NaN();  ///< 0 to 1
+  /// What the data could not determine and a prior carried instead: "speed", "angles", "axis".
+  std::vector<std::string> undetermined;
+  std::vector<std::string> notes;
+
+  std::optional<DepthCorrection> depth;  ///< of sensor 0
+};
+
+/// The sequence as it looks with the calibration: its turntable, its angles in place of those of
+/// the frames, its correction of depth. Frames with poses of their own lose them, except with a
+/// calibration without angles and speed. `sequence` must outlive the result. Fails with
+/// kInvalidOption when the number of angles is not that of the frames.
+Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& sequence,
+                                                        const Calibration& calibration);
+
+}  // namespace turnscan

@@ -1,0 +1,21 @@
+#pragma once
+// A calibration as a file that people can read (docs/calibration.md lists the fields).
+
+#include <filesystem>
+#include <turnscan/core/calibration.hpp>
+
+namespace turnscan {
+
+/// JSON text, values with their unit in the name. Reading it back gives the same calibration, and
+/// writing that the same bytes.
+std::string calibration_json(const Calibration& calibration);
+
+/// Fails with kFormat when a field is missing or wrong, kUnsupported for a newer schema. Accepts
+/// also the object "turntable" of a recording, alone or in a recording.json.
+Result<Calibration> parse_calibration(std::string_view text);
+
+/// Fails as parse_calibration and read_file do; the error has the path.
+Result<Calibration> read_calibration(const std::filesystem::path& path);
+Result<> write_calibration(const std::filesystem::path& path, const Calibration& calibration);
+
+}  // namespace turnscan

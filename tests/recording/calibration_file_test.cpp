@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <turnscan/core/random.hpp>
+#include <turnscan/recording/calibration_file.hpp>
+
+#include "tests/support/memory_sequence.hpp"
+
+namespace turnscan {
+namespace {
+
+Calibration some_calibration(std::uint64_t seed) {
+  const auto random = [&](std::uint64_t k) { return uniform01(hash_key(seed, k)); };
+  Calibration c;
+  c.method = CalibrationMethod::kMotion;
+  c.table.axis = Vec3d(random(0), -random(1) - 1, -random(2)).normalized();
+  c.table.center_m = Vec3d(random(3), random(4), random(5));
+  c.table.radius_m = 0.1 + random(6);
+  c.table.speed_rad_s = random(7) - 0.5;
+  c.axis_sigma_rad = random(8) * 1e-3;
+  c.center_sigma_m = random(9) * 1e-3;
+  c.axis_found = "a \"quoted\" reason";
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    c.angles_rad.push_back(7.0 * random(100 + i));
+    c.angle_sigma_rad.push_back(i == 3 ? std::nan("") : 1e-3 * random(200 + i));
+  }
+  c.start_s = random(10);
+  c.undetermined = {"speed"};
+  c.notes = {"one", "two"};
+  c.depth = DepthCorrection{-0.02 * random(11), 1.01, 1e-4, std::nan(""), "gauge"};
+  return c;
+}
+
+TEST(CalibrationFile, ReadAndWrittenAgainIsTheSameText) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::string first = calibration_json(some_calibration(seed));
+    const auto read = parse_calibration(first);
+    ASSERT_TRUE(read) << read.error().text();
+    const std::string second = calibration_json(*read);
+    EXPECT_EQ(second, first);
+    // What came from a file goes back to the last bit.
+    const auto again = parse_calibration(second);
+    EXPECT_EQ(again->table.axis, read->table.axis);
+    EXPECT_EQ(again->angles_rad, read->angles_rad);
+    EXPECT_EQ(again->table.speed_rad_s, read->table.speed_rad_s);
+  }
+}
+
+TEST(CalibrationFile, KeepsLengthsExactlyAndAnglesToARounding) {
+  const Calibration c = some_calibration(5);
+  const auto read = parse_calibration(calibration_json(c));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->table.axis, c.table.axis);
+  EXPECT_EQ(read->table.center_m, c.table.center_m);
+  EXPECT_EQ(read->table.radius_m, c.table.radius_m);
+  EXPECT_EQ(read->start_s, c.start_s);
+  EXPECT_EQ(read->notes, c.notes);
+  EXPECT_EQ(read->depth->bias_m, c.depth->bias_m);
+  EXPECT_TRUE(std::isnan(read->angle_sigma_rad[3]));
+  for (std::size_t i = 0; i < c.angles_rad.size(); ++i)
+    EXPECT_NEAR(read->angles_rad[i], c.angles_rad[i], 1e-15 * 8);
+}
+
+TEST(CalibrationFile, TakesTheTurntableOfARecording) {
+  const char* text = R"({"turntable": {"axis": [0, -2, 0], "center_m": [0, 0, 1],
+                         "speed_rad_s": 0.5}})";
+  const auto read = parse_calibration(text);
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_EQ(read->table.axis, Vec3d(0, -1, 0));
+  EXPECT_EQ(read->table.speed_rad_s, 0.5);
+}
+
+TEST(CalibrationFile, WithWrongFieldsIsRefused) {
+  const std::string good = calibration_json(some_calibration(1));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  EXPECT_TRUE(parse_calibration(good));
+  EXPECT_FALSE(parse_calibration(""));
+  EXPECT_FALSE(parse_calibration("[]"));
+  EXPECT_FALSE(parse_calibration(good.substr(0, good.size() / 2)));
+  EXPECT_EQ(parse_calibration(with("\"schema_version\": 1", "\"schema_version\": 9")).error().code,
+            ErrorCode::kUnsupported);
+  EXPECT_FALSE(parse_calibration(with("\"motion\"", "\"magic\"")));
+  EXPECT_FALSE(parse_calibration(with("\"radius_m\": ", "\"radius_m\": -")));
+  EXPECT_FALSE(parse_calibration(with("\"angles_deg\": [", "\"angles_deg\": [null, ")));
+  EXPECT_FALSE(parse_calibration(with("\"angles_deg\": [", "\"angles_deg\": [1, ")));
+  EXPECT_FALSE(parse_calibration(with("\"axis\"", "\"axes\"")));
+  EXPECT_FALSE(parse_calibration(with("\"scale\": 1.01", "\"scale\": 0")));
+}
+
+TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
+  testing::MemorySequence sequence;
+  sequence.header_value.sensors.resize(1);
+  sequence.header_value.sensors[0].T_table_sensor = Pose::Identity();
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    Frame frame;
+    frame.info.index = i;
+    frame.info.T_table_sensor = Pose::Identity();
+    sequence.add(frame);
+  }
+  const Calibration c = some_calibration(2);
+  const auto seen = with_calibration(sequence, c);
+  ASSERT_TRUE(seen);
+  EXPECT_FALSE((*seen)->header().sensors[0].T_table_sensor);
+  EXPECT_NEAR((*seen)->header().sensors[0].depth_unit_m, 1.01e-4, 1e-12);
+  EXPECT_EQ((*seen)->frames()[7].angle_rad, c.angles_rad[7]);
+  EXPECT_FALSE((*seen)->frames()[7].T_table_sensor);
+  EXPECT_EQ((*seen)->read(7)->info.angle_rad, c.angles_rad[7]);
+  EXPECT_TRUE(sequence.frames()[7].T_table_sensor);
+  Calibration wrong = c;
+  wrong.angles_rad.pop_back();
+  EXPECT_EQ(with_calibration(sequence, wrong).error().code, ErrorCode::kInvalidOption);
+}
+
+}  // namespace
+}  // namespace turnscan

@@ -1,0 +1,54 @@
+#pragma once
+// Turntables with a known place in a room, seen by a noisy depth camera: the truth that
+// calibration is judged by.
+
+#include <functional>
+#include <memory>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::testing {
+
+/// Angle of the platter at a time in seconds; 0 at time 0.
+using AngleLaw = std::function<double(double time_s)>;
+
+struct RigOptions {
+  double distance_m = 0.9, elevation_rad = 0.5, roll_rad = 0.0, aim_height_m = 0.0;
+  double aim_x_m = 0.0, aim_z_m = 0.0;
+  double radius_m = 0.15;
+  bool platter = true;
+  bool room = true;           ///< desk, wall, sides of the platter
+  int clutter = 0;            ///< things that stand about
+  double desk_m = 0.03;       ///< how far the desk lies below the platter
+  double noise_m = 0.0015;    ///< standard deviation of depth
+  double mixed_pixels = 0.5;  ///< share of silhouette pixels
+  std::uint64_t seed = 1;
+  int frames = 30;
+  double fps = 30.0;
+  AngleLaw angle;                     ///< none: stands still
+  std::vector<TriangleMesh> objects;  ///< table frame, angle 0
+};
+
+/// The random rig: 0.6 to 1.2 m away, 10 to 50 deg up, radius 10 to 25 cm, roll to 10 deg.
+RigOptions random_rig(std::uint64_t seed);
+
+/// Frames have times; the header has no turntable and the frames no angles.
+class Rig : public FrameSequence {
+ public:
+  explicit Rig(RigOptions options);
+  ~Rig() override;
+  const SequenceHeader& header() const override;
+  const std::vector<FrameInfo>& frames() const override;
+  Result<Frame> read(std::size_t position) const override;
+
+  /// The truth: axis, centre, radius in the sensor frame.
+  TurntableInfo truth() const;
+  double true_angle(std::size_t position) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace turnscan::testing

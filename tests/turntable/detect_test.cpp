@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/turntable/detect.hpp>
+
+#include "tests/support/rig.hpp"
+
+namespace turnscan {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+AveragedScan scan_of(const testing::RigOptions& options) {
+  const testing::Rig rig(options);
+  auto scan = average_frames(rig, spread_positions(rig, 0, 100), {}, {});
+  EXPECT_TRUE(scan);
+  return std::move(*scan);
+}
+
+struct Errors {
+  double axis_deg, center_mm, radius_mm;
+};
+Errors errors_of(const DetectedPlatter& p, const testing::RigOptions& options) {
+  const TurntableInfo truth = testing::Rig(options).truth();
+  return {std::acos(std::min(1.0, p.axis.dot(truth.axis))) * kDegrees,
+          (p.center_m - truth.center_m).norm() * 1e3,
+          std::abs(p.radius_m - options.radius_m) * 1e3};
+}
+
+// The full set of 50 rigs is bench/calibration_rigs.
+TEST(DetectPlatter, FindsItInARoomWithClutter) {
+  for (const std::uint64_t seed : {2, 8, 14}) {
+    testing::RigOptions options = testing::random_rig(seed);
+    options.frames = 8;
+    const auto platter = detect_platter(scan_of(options), {}, {});
+    ASSERT_TRUE(platter) << seed << ": " << platter.error().text();
+    const Errors errors = errors_of(*platter, options);
+    EXPECT_LT(errors.axis_deg, 0.15) << seed;
+    EXPECT_LT(errors.center_mm, 2.0) << seed;
+    EXPECT_LT(errors.radius_mm, 2.0) << seed;
+    EXPECT_GT(platter->confidence, 0.8) << seed;
+  }
+}
+
+TEST(DetectPlatter, FindsItUnderAnObjectInOneNoisyFrame) {
+  testing::RigOptions options = testing::random_rig(11);
+  options.frames = 1;
+  options.objects = {*builtin_object("cylinder")};
+  const auto platter = detect_platter(scan_of(options), {}, {});
+  ASSERT_TRUE(platter) << platter.error().text();
+  EXPECT_LT(errors_of(*platter, options).axis_deg, 0.15);
+  EXPECT_LT(errors_of(*platter, options).center_mm, 3.0);
+}
+
+TEST(DetectPlatter, RefusesARoomWithoutOne) {
+  testing::RigOptions options = testing::random_rig(3);
+  options.frames = 4;
+  options.platter = false;
+  const auto platter = detect_platter(scan_of(options), {}, {});
+  ASSERT_FALSE(platter);
+  EXPECT_EQ(platter.error().code, ErrorCode::kMissingData);
+}
+
+TEST(DetectPlatter, RefusesOneOfAnotherRadiusThanGiven) {
+  testing::RigOptions options = testing::random_rig(2);
+  options.frames = 4;
+  DetectOptions detect;
+  detect.radius_m = 0.09;
+  EXPECT_FALSE(detect_platter(scan_of(options), detect, {}));
+}
+
+TEST(DetectPlatter, IsTheSameForAnyNumberOfThreads) {
+  testing::RigOptions options = testing::random_rig(5);
+  options.frames = 2;
+  const AveragedScan scan = scan_of(options);
+  const auto many = detect_platter(scan, {}, {});
+  set_thread_count(1);
+  const auto one = detect_platter(scan, {}, {});
+  set_thread_count(0);
+  ASSERT_TRUE(many && one);
+  EXPECT_EQ(many->center_m, one->center_m);
+  EXPECT_EQ(many->axis, one->axis);
+}
+
+TEST(DetectPlatter, RefusesWrongOptionsAndCancelling) {
+  testing::RigOptions options = testing::random_rig(5);
+  options.frames = 1;
+  const AveragedScan scan = scan_of(options);
+  DetectOptions detect;
+  detect.min_radius_m = 0.7;
+  EXPECT_EQ(detect_platter(scan, detect, {}).error().code, ErrorCode::kInvalidOption);
+  detect = {};
+  detect.min_confidence = std::nan("");
+  EXPECT_EQ(detect_platter(scan, detect, {}).error().code, ErrorCode::kInvalidOption);
+  const RunContext context;
+  context.cancel();
+  EXPECT_EQ(detect_platter(scan, {}, context).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan
