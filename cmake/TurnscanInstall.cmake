@@ -15,6 +15,11 @@ install(FILES "${CMAKE_BINARY_DIR}/turnscanConfig.cmake"
               "${CMAKE_BINARY_DIR}/turnscanConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/TurnscanPcl.cmake"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+# In the build tree programs find the presets where they do after installation.
+file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/share")
+file(CREATE_LINK "${CMAKE_SOURCE_DIR}/data" "${CMAKE_BINARY_DIR}/share/turnscan" SYMBOLIC)
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/data/scanners"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/turnscan")
 install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" "${CMAKE_SOURCE_DIR}/README.md"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

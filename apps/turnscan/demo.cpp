@@ -46,8 +46,8 @@ class DemoCommand : public Command {
 
   Result<> run(Session& session) override {
     // "1.5mm" is short for "gaussian:1.5mm".
-    if (parse_quantity(scene_.scan.noise, Quantity::kLength))
-      scene_.scan.noise = "gaussian:" + scene_.scan.noise;
+    std::string& noise = scene_.scan.measure.noise;
+    if (parse_quantity(noise, Quantity::kLength)) noise = "gaussian:" + noise;
     TURNSCAN_ASSIGN(const std::vector<std::string> scenes, scene_names(options_.object));
     const fs::path folder = out_.empty() ? free_folder() : fs::path(out_);
     TURNSCAN_TRY(check_output_folder(folder.string()));

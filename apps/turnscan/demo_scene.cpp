@@ -9,6 +9,7 @@
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
 #include <turnscan/simulator/picture.hpp>
+#include <turnscan/simulator/scanner_file.hpp>
 
 #include "evaluation_text.hpp"
 
@@ -105,6 +106,17 @@ double f_at_1mm(const Evaluation& evaluation) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+Result<VirtualScanOptions> virtual_scan_options(const DemoScanOptions& demo) {
+  VirtualScanOptions options;
+  TURNSCAN_ASSIGN(ScannerModel model, find_scanner(demo.scanner));
+  options.scanners.push_back({std::move(model), demo.placement});
+  options.motion = demo.motion;
+  options.platter = demo.platter;
+  options.measure = demo.measure;
+  options.record.color = demo.color;
+  return options;
+}
+
 Result<Reconstruction> record_and_reconstruct(const VirtualScan& scan, const fs::path& folder,
                                               const ReconstructOptions& options,
                                               const RunContext& context) {
@@ -116,6 +128,24 @@ Result<Reconstruction> record_and_reconstruct(const VirtualScan& scan, const fs:
 }
 
 }  // namespace
+
+DemoScanOptions::DemoScanOptions() {
+  placement.aim_height_m = 0.09;
+  measure.mixed_pixels = 0.5;
+}
+
+OptionTable describe(DemoScanOptions& o) {
+  OptionTable table;
+  table.text("scanner", o.scanner,
+             fmt::format("The virtual scanner: {}, or a file FILE.toml",
+                         fmt::join(scanner_presets(), ", ")));
+  table.append(describe(o.placement))
+      .append(describe(o.motion, "scan-speed"))
+      .append(describe(o.measure))
+      .append(describe(o.platter))
+      .flag("scan-colour", o.color, "Also give a colour image with each depth image.");
+  return table;
+}
 
 Result<std::vector<std::string>> scene_names(const std::string& object) {
   std::vector<std::string> names = builtin_object_names();
@@ -135,7 +165,8 @@ Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name, const f
   std::vector<TriangleMesh> objects;
   objects.reserve(pieces.size());
   for (const Piece& piece : pieces) objects.push_back(piece.truth);
-  TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create(objects, options.scan));
+  TURNSCAN_ASSIGN(const VirtualScanOptions scan_options, virtual_scan_options(options.scan));
+  TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create(objects, scan_options));
   const auto begin = Clock::now();
   TURNSCAN_ASSIGN(const Reconstruction result,
                   record_and_reconstruct(scan, folder, options.reconstruct, context));

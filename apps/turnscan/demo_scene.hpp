@@ -11,8 +11,21 @@
 
 namespace turnscan::cli {
 
+/// One scanner before one turntable.
+struct DemoScanOptions {
+  DemoScanOptions();
+  std::string scanner = "kinect-v2";
+  ScannerPlacement placement;
+  MotionOptions motion;
+  PlatterOptions platter;
+  MeasureOptions measure;
+  bool color = false;
+};
+
+OptionTable describe(DemoScanOptions& options);
+
 struct DemoSceneOptions {
-  VirtualScanOptions scan;
+  DemoScanOptions scan;
   ReconstructOptions reconstruct;
   EvaluateOptions evaluate;
 };

@@ -1,236 +1,303 @@
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
-#include <turnscan/core/random.hpp>
 #include <turnscan/core/version.hpp>
-#include <turnscan/simulator/pinhole_tracer.hpp>
+#include <turnscan/simulator/scan_image.hpp>
+#include <turnscan/simulator/simple_noise.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
 namespace turnscan {
 
 namespace {
 
-constexpr double kDepthUnit_m = 1e-4;
-constexpr std::uint64_t kSensor = 0;
-constexpr Rgb kPlatterColor{72, 74, 78};
-constexpr Rgb kEmptyColor{28, 30, 34};
+constexpr std::size_t kMostScanners = 64;  // that a recording holds
 
-// Independent random numbers of one pixel; the noise takes the pixel's key itself.
-constexpr std::uint64_t kChoiceSalt = 0x6d69786564ULL;
-constexpr std::uint64_t kReachSalt = 0x7265616368ULL;
-
-Pose camera_pose(const VirtualScanOptions& o) {
-  const double c = std::cos(o.elevation_rad), s = std::sin(o.elevation_rad);
-  Pose T = Pose::Identity();
-  T.linear().col(0) = Vec3d(-1.0, 0.0, 0.0);
-  T.linear().col(1) = Vec3d(0.0, -c, -s);
-  T.linear().col(2) = Vec3d(0.0, -s, c);
-  T.translation() = Vec3d(0.0, o.aim_height_m, 0.0) - o.distance_m * T.linear().col(2);
-  return T;
-}
-
-Rgb shaded(const Vec3f& albedo, float light) {
-  const Vec3f c = (light * albedo).cwiseMin(255.0f).cwiseMax(0.0f) + Vec3f::Constant(0.5f);
-  return {std::uint8_t(c.x()), std::uint8_t(c.y()), std::uint8_t(c.z())};
-}
-
-Vec3f as_vector(Rgb c) { return {float(c.r), float(c.g), float(c.b)}; }
-
-}  // namespace
-
-CameraIntrinsics intrinsics_of(ScannerPreset preset) {
-  CameraIntrinsics camera;
-  if (preset == ScannerPreset::kKinectV2) {
-    camera.width = 512, camera.height = 424;
-    camera.fx = camera.fy = 365.5;
-  } else {
-    camera.width = camera.height = 640;
-    camera.fx = camera.fy = 700.0;
-  }
-  camera.cx = 0.5 * (camera.width - 1);
-  camera.cy = 0.5 * (camera.height - 1);
-  return camera;
-}
-
-OptionTable describe(VirtualScanOptions& o) {
-  constexpr double kRight = std::numbers::pi / 2;
-  OptionTable table;
-  table
-      .choice("scanner", o.scanner, {"kinect-v2", "ideal"},
-              "The virtual scanner: kinect-v2 (512 x 424) or ideal (640 x 640, finer).")
-      .number("distance", o.distance_m, Quantity::kLength, {0.01, 100.0},
-              "Distance of the scanner from the point it looks at.")
-      .number("elevation", o.elevation_rad, Quantity::kAngle, {-0.99 * kRight, 0.99 * kRight},
-              "Height of the scanner above the horizontal, as an angle.")
-      .number("aim-height", o.aim_height_m, Quantity::kLength, {-10.0, 10.0},
-              "Height above the platter of the point on the axis that the scanner looks at.")
-      .number("frames", o.frames, {1, 1000000}, "Number of depth images.")
-      .number("turns", o.turns, Quantity::kNone, {-1000.0, 1000.0},
-              "Turns of the platter that the frames are spread over.")
-      .number("fps", o.fps, Quantity::kNone, {1e-3, 1e6}, "Frames a second.")
-      .number("scan-speed", o.speed_rad_s, Quantity::kAngularSpeed, {-1000.0, 1000.0},
-              "Speed of the platter; auto: from turns, frames and fps.")
-      .text("noise", o.noise, "Depth noise: none or gaussian:SIGMA, e.g. gaussian:1.5mm.")
-      .number("mixed-pixels", o.mixed_pixels, Quantity::kNone, {0.0, 1.0},
-              "Share of the silhouette's pixels that return a depth between edge and background.")
-      .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
-              "How far behind the edge a mixed pixel may lie.")
-      .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.")
-      .flag("platter", o.platter, "Whether the scanner sees the platter.")
-      .number("platter-radius", o.platter_radius_m, Quantity::kLength, {1e-3, 10.0},
-              "Radius of the platter.")
-      .flag("scan-colour", o.color, "Also give a colour image with each depth image.");
+TurntableInfo turntable_of(const Pose& T_table_sensor) {
+  const Pose T_sensor_table = T_table_sensor.inverse();
+  TurntableInfo table;
+  table.axis = T_sensor_table.linear() * Vec3d::UnitY();
+  table.center_m = T_sensor_table.translation();
   return table;
 }
 
-Result<double> parse_noise(std::string_view text) {
-  constexpr std::string_view kGaussian = "gaussian:";
-  if (text == "none") return 0.0;
-  if (!text.starts_with(kGaussian))
-    return fail(ErrorCode::kInvalidOption,
-                "noise = {} is not known; write none or gaussian:SIGMA, e.g. gaussian:1.5mm", text);
-  const auto sigma = parse_quantity(text.substr(kGaussian.size()), Quantity::kLength);
-  if (!sigma) return fail(ErrorCode::kInvalidOption, "noise: {}", sigma.error().message);
-  if (!(*sigma >= 0.0 && *sigma <= 1.0))
-    return fail(ErrorCode::kInvalidOption, "noise = {} is outside gaussian:0mm to gaussian:1000mm",
-                text);
-  return *sigma;
+/// Half the height that the objects reach above the platter.
+double middle_of(const std::vector<TriangleMesh>& objects) {
+  double top = 0.0;
+  for (const TriangleMesh& mesh : objects)
+    for (const auto& t : mesh.triangles)
+      for (const std::uint32_t v : t)
+        if (v < mesh.vertices.size()) top = std::max(top, double(mesh.vertices[v].y()));
+  return std::isfinite(top) ? 0.5 * top : 0.0;
+}
+
+void turn(TriangleMesh& mesh, double yaw_rad) {
+  if (yaw_rad == 0.0) return;
+  const Eigen::Matrix3d R = rotation_about_y(yaw_rad).linear();
+  for (Vec3f& p : mesh.vertices) p = (R * p.cast<double>()).cast<float>();
+  for (Vec3f& n : mesh.normals) n = (R * n.cast<double>()).cast<float>();
+}
+
+template <class Options>
+Result<> check(const Options& options) {
+  Options copy = options;
+  return describe(copy).check();
+}
+
+Result<> check_options(const VirtualScanOptions& o) {
+  if (o.scanners.empty() || o.scanners.size() > kMostScanners)
+    return fail(ErrorCode::kInvalidOption, "there are {} scanners; give 1 to {}", o.scanners.size(),
+                kMostScanners);
+  for (const VirtualScanner& scanner : o.scanners) {
+    TURNSCAN_TRY(scanner.model.check());
+    TURNSCAN_TRY(check(scanner.placement));
+  }
+  TURNSCAN_TRY(check(o.platter));
+  TURNSCAN_TRY(check(o.table));
+  TURNSCAN_TRY(check(o.room));
+  TURNSCAN_TRY(check(o.measure));
+  return check(o.record);
+}
+
+Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
+  TURNSCAN_ASSIGN(NoiseOptions noise, parse_noise_options(measure.noise));
+  noise.mixed_pixels = measure.mixed_pixels;
+  noise.mixed_reach_m = measure.mixed_reach_m;
+  return noise;
+}
+
+/// Memory of one frame that the next one uses again.
+struct Workspace {
+  SampleGrid exact;
+  std::vector<float> z;
+};
+
+}  // namespace
+
+OptionTable describe(PlatterOptions& o) {
+  OptionTable table;
+  table.flag("platter", o.visible, "Whether there is a platter to be seen.")
+      .number("platter-radius", o.radius_m, Quantity::kLength, {1e-3, 10.0},
+              "Radius of the platter.")
+      .number("platter-thickness", o.thickness_m, Quantity::kLength, {0.0, 1.0},
+              "Thickness of the platter; 0: a disc.");
+  return table;
+}
+
+OptionTable describe(MeasureOptions& o) {
+  OptionTable table;
+  table
+      .text("noise", o.noise,
+            "Depth noise: none, gaussian:SIGMA (e.g. gaussian:1.5mm), model (the formulae of the "
+            "scanner's file) or physics (the sensor's own measuring, where the file names it).")
+      .number("mixed-pixels", o.mixed_pixels, Quantity::kNone, {0.0, 1.0},
+              "With gaussian noise: share of the silhouette's pixels that return a depth between "
+              "edge and background. The other kinds mix what a pixel really sees.")
+      .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
+              "How far behind the edge such a pixel may lie.")
+      .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
+  return table;
+}
+
+OptionTable describe(RecordOptions& o) {
+  OptionTable table;
+  table
+      .choice("calibration", o.calibration, {"true", "nominal", "none"},
+              "What the recording says of the turntable: where it is; where it was meant to be "
+              "(without the table's offset and tilt); or nothing.")
+      .flag("angles", o.angles, "Whether the recording says how far the platter has turned.")
+      .flag("scan-colour", o.color, "Also record colours.")
+      .number("pass", o.pass, {0, 1000000}, "Number of the way in which the object lies.");
+  return table;
 }
 
 struct VirtualScan::Impl {
   VirtualScanOptions options;
-  double sigma_m = 0.0;
-  std::vector<TriangleMesh> objects;
-  Scene scene;
+  NoiseOptions noise;
+  double aim_height_m = 0.0;
+  double yaw_rad = 0.0;
+  std::vector<PlatterState> states;
+  Pose T_world_table = Pose::Identity();
+  std::vector<TriangleMesh> turning;  ///< objects, then the platter's body; table frame
+  std::size_t object_count = 0;
+  std::vector<TriangleMesh> standing;  ///< the room; empty without
+  std::optional<Scene> scene, room;
+  std::vector<SampleTracer> tracers;
+  TurntableInfo turntable;
   SequenceHeader header;
   std::vector<FrameInfo> frames;
-  PinholeTracer tracer;
+  mutable std::mutex mutex;
+  mutable std::vector<std::unique_ptr<Workspace>> spare;  ///< guarded by mutex
 
-  Impl(const VirtualScanOptions& o, double sigma, std::vector<TriangleMesh> meshes, Scene s)
-      : options(o),
-        sigma_m(sigma),
-        objects(std::move(meshes)),
-        scene(std::move(s)),
-        header(make_header()),
-        tracer(camera()) {
-    make_frames();
+  Impl(const VirtualScanOptions& o, const NoiseOptions& n, std::vector<PlatterState> s)
+      : options(o), noise(n), states(std::move(s)) {}
+
+  std::size_t scanner_count() const { return options.scanners.size(); }
+  std::size_t scanner_of(std::size_t position) const { return position % scanner_count(); }
+  const PlatterState& state_of(std::size_t position) const {
+    return states[position / scanner_count()];
   }
 
-  const CameraIntrinsics& camera() const { return header.sensors[0].intrinsics; }
-
-  double step_rad() const {
-    return options.speed_rad_s ? *options.speed_rad_s / options.fps
-                               : 2.0 * std::numbers::pi * options.turns / options.frames;
+  Pose T_world_sensor(std::size_t scanner, double travel) const {
+    return scanner_pose(options.scanners[scanner].placement, aim_height_m, travel,
+                        T_world_table.linear().col(1));
   }
 
-  SequenceHeader make_header() const {
-    SequenceHeader out;
+  Pose T_world_platter(double angle_rad) const {
+    Pose wobble = Pose::Identity();
+    wobble.linear() = axis_wobble(options.motion, angle_rad);
+    return T_world_table * wobble * rotation_about_y(angle_rad);
+  }
+
+  Pose T_table_sensor(std::size_t position) const {
+    const PlatterState& state = state_of(position);
+    return T_world_platter(state.angle_rad).inverse() *
+           T_world_sensor(scanner_of(position), state.travel);
+  }
+
+  void place(std::vector<TriangleMesh> given) {
+    aim_height_m = middle_of(given);
+    const Pose T = table_pose(options.table);
+    T_world_table = T;  // the travel of scanner 0 may follow its axis
+    yaw_rad = canonical_yaw(T, T_world_sensor(0, states.front().travel));
+    T_world_table = T * rotation_about_y(yaw_rad);
+    for (TriangleMesh& mesh : given) turn(mesh, -yaw_rad);
+    turning = std::move(given);
+    object_count = turning.size();
+  }
+
+  Result<> build_scenes() {
+    const PlatterOptions& platter = options.platter;
+    if (platter.visible && platter.thickness_m > 0.0)
+      turning.push_back(platter_body(platter.radius_m, platter.thickness_m));
+    TURNSCAN_ASSIGN(scene, Scene::create(turning, platter.visible ? std::optional(platter.radius_m)
+                                                                  : std::nullopt));
+    if (options.room.kind == RoomKind::kNone) return {};
+    std::vector<Vec3d> places;
+    for (std::size_t k = 0; k < scanner_count(); ++k)
+      places.push_back(T_world_sensor(k, 0.5).translation());
+    standing.push_back(make_room(options.room, T_world_table.translation(), platter.radius_m,
+                                 platter.thickness_m, places,
+                                 static_cast<std::uint64_t>(options.measure.seed)));
+    TURNSCAN_ASSIGN(room, Scene::create(standing));
+    return {};
+  }
+
+  Result<> make_tracers() {
+    for (const VirtualScanner& scanner : options.scanners) {
+      TURNSCAN_ASSIGN(SampleTracer tracer, SampleTracer::create(scanner.model));
+      tracers.push_back(std::move(tracer));
+    }
+    return {};
+  }
+
+  SensorInfo sensor_info(const VirtualScanner& scanner) const {
     SensorInfo sensor;
-    sensor.model = options.scanner == ScannerPreset::kKinectV2 ? "virtual kinect-v2" : "virtual";
-    sensor.intrinsics = options.intrinsics.value_or(intrinsics_of(options.scanner));
-    sensor.depth_unit_m = kDepthUnit_m;
-    sensor.T_table_sensor = camera_pose(options);
-    const Pose T_sensor_table = sensor.T_table_sensor->inverse();
-    TurntableInfo table;
-    table.axis = T_sensor_table.linear() * Vec3d::UnitY();
-    table.center_m = T_sensor_table.translation();
-    table.radius_m = options.platter_radius_m;
-    table.speed_rad_s = step_rad() * options.fps;
-    out.sensors.push_back(std::move(sensor));
-    out.turntable = table;
-    out.software = std::string("turnscan ") + version();
-    out.source = "virtual scan";
-    for (std::size_t i = 0; i < objects.size(); ++i)
-      out.source += (i == 0 ? " of " : ", ") +
-                    (objects[i].name.empty() ? std::string("object") : objects[i].name);
-    return out;
+    sensor.model = "virtual " + scanner.model.name;
+    if (scanner.model.kind == ScannerKind::kLine) {
+      sensor.kind = SensorKind::kPointScanner;
+    } else {
+      sensor.intrinsics = scanner.model.camera;
+      sensor.depth_unit_m = scanner.model.depth_unit_m;
+    }
+    return sensor;
+  }
+
+  /// Where the table is, as the recording has it.
+  Pose recorded_table() const {
+    if (options.record.calibration == RecordedCalibration::kTrue) return T_world_table;
+    const Pose T = table_pose({});
+    return T * rotation_about_y(canonical_yaw(T, T_world_sensor(0, states.front().travel)));
+  }
+
+  void make_header() {
+    turntable = turntable_of(T_world_table.inverse() * T_world_sensor(0, states.front().travel));
+    turntable.radius_m = options.platter.radius_m;
+    if (states.size() > 1)
+      turntable.speed_rad_s = (states.back().angle_rad - states.front().angle_rad) /
+                              (states.back().time_s - states.front().time_s);
+    for (const VirtualScanner& scanner : options.scanners)
+      header.sensors.push_back(sensor_info(scanner));
+    header.software = std::string("turnscan ") + version();
+    header.source = "virtual scan";
+    for (std::size_t i = 0; i < object_count; ++i)
+      header.source += (i == 0 ? " of " : ", ") +
+                       (turning[i].name.empty() ? std::string("object") : turning[i].name);
+    if (options.record.calibration == RecordedCalibration::kNone) return;
+    const Pose T_table_world = recorded_table().inverse();
+    for (std::size_t k = 0; k < scanner_count(); ++k)
+      header.sensors[k].T_table_sensor = T_table_world * T_world_sensor(k, states.front().travel);
+    header.turntable = turntable_of(*header.sensors[0].T_table_sensor);
+    header.turntable->radius_m = turntable.radius_m;
+    header.turntable->speed_rad_s = turntable.speed_rad_s;
   }
 
   void make_frames() {
-    frames.resize(static_cast<std::size_t>(options.frames));
-    for (std::uint32_t i = 0; i < frames.size(); ++i) {
-      const double angle = step_rad() * i;
-      frames[i].index = i;
-      frames[i].time_s = i / options.fps;
-      frames[i].angle_rad = angle;
+    frames.resize(states.size() * scanner_count());
+    const Pose T_table_world = recorded_table().inverse();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const PlatterState& state = state_of(i);
+      const std::size_t k = scanner_of(i);
+      FrameInfo& frame = frames[i];
+      frame.index = static_cast<std::uint32_t>(i);
+      frame.time_s = state.time_s;
+      frame.sensor = static_cast<std::uint32_t>(k);
+      frame.pass = static_cast<std::uint32_t>(options.record.pass);
+      if (options.record.angles) frame.angle_rad = state.angle_rad;
       // The margin keeps rounding from calling the end of a turn the turn before.
-      const double turns = std::abs(angle) / (2.0 * std::numbers::pi) + 1e-9;
-      frames[i].turn = static_cast<std::uint32_t>(std::min(turns, 4e9));
+      const double turns = std::abs(state.angle_rad) / (2.0 * std::numbers::pi) + 1e-9;
+      frame.turn = static_cast<std::uint32_t>(std::min(turns, 4e9));
+      // A scanner that travels has a pose of its own in each frame.
+      if (options.scanners[k].placement.travel_m != 0.0 &&
+          options.record.calibration != RecordedCalibration::kNone)
+        frame.T_table_sensor =
+            rotation_about_y(-state.angle_rad) * T_table_world * T_world_sensor(k, state.travel);
+      if (frame_dropped(options.motion, static_cast<std::uint64_t>(options.measure.seed),
+                        static_cast<std::uint32_t>(i / scanner_count()), frame.sensor))
+        frame.status = FrameStatus::kDropped;
     }
   }
 
-  Pose T_table_sensor(std::size_t i) const {
-    return rotation_about_y(-*frames[i].angle_rad) * *header.sensors[0].T_table_sensor;
+  std::vector<Body> bodies_at(double angle_rad) const {
+    std::vector<Body> bodies{{&*scene, T_world_platter(angle_rad)}};
+    if (room) bodies.push_back({&*room, Pose::Identity()});
+    return bodies;
   }
 
-  /// How far behind the pixel the deepest of its neighbours lies, 0 if it is no silhouette pixel.
-  double silhouette_step(const Sight& sight, int column, int row) const {
-    constexpr double kEndless = std::numeric_limits<double>::infinity();
-    const RayHit& here = *sight.at(column, row);
-    double step = 0.0;
-    const auto look = [&](int x, int y) {
-      if (x < 0 || y < 0 || x >= camera().width || y >= camera().height) return;
-      const RayHit* there = sight.at(x, y);
-      if (there == nullptr || !there->valid()) {
-        step = kEndless;
-      } else if (there->object != kPlatter || here.object != kPlatter) {
-        const double behind = double(there->t) - double(here.t);
-        if (behind > kSilhouetteStep_m) step = std::max(step, behind);
-      }
-    };
-    look(column - 1, row);
-    look(column + 1, row);
-    look(column, row - 1);
-    look(column, row + 1);
-    return step;
+  std::unique_ptr<Workspace> take_workspace() const {
+    const std::lock_guard lock(mutex);
+    if (spare.empty()) return std::make_unique<Workspace>();
+    auto space = std::move(spare.back());
+    spare.pop_back();
+    return space;
   }
 
-  double measured_depth(const Sight& sight, int column, int row, std::uint32_t frame) const {
-    const std::uint64_t pixel = std::uint64_t(row) * std::uint64_t(camera().width) + column;
-    const std::uint64_t key =
-        hash_key(static_cast<std::uint64_t>(options.seed), kSensor, frame, pixel);
-    double z = sight.at(column, row)->t;
-    const double step = silhouette_step(sight, column, row);
-    if (step > 0.0 && uniform01(mix64(key ^ kChoiceSalt)) < options.mixed_pixels)
-      z += uniform01(mix64(key ^ kReachSalt)) * std::min(options.mixed_reach_m, step);
-    if (sigma_m > 0.0) z += sigma_m * standard_normal(key);
-    return z;
+  void give_back(std::unique_ptr<Workspace> space) const {
+    const std::lock_guard lock(mutex);
+    spare.push_back(std::move(space));
   }
 
-  DepthImage depth_of(const Sight& sight, std::uint32_t frame) const {
-    DepthImage depth(camera().width, camera().height, kNoReturn);
-    for (int y = sight.rect.top; y < sight.rect.bottom; ++y) {
-      for (int x = sight.rect.left; x < sight.rect.right; ++x) {
-        if (!sight.at(x, y)->valid()) continue;
-        const double raw = std::round(measured_depth(sight, x, y, frame) / kDepthUnit_m);
-        if (raw >= 1.0 && raw < double(kOutsideCrop))
-          depth.at(x, y) = static_cast<std::uint16_t>(raw);
-      }
+  Frame render(std::size_t position, Workspace& space) const {
+    const std::size_t k = scanner_of(position);
+    const PlatterState& state = state_of(position);
+    const Pose T = T_world_sensor(k, state.travel);
+    const std::vector<Body> bodies = bodies_at(state.angle_rad);
+    tracers[k].trace(bodies, T, space.exact);
+    measure_simply(space.exact, noise, kSilhouetteStep_m,
+                   static_cast<std::uint64_t>(options.measure.seed), static_cast<std::uint32_t>(k),
+                   static_cast<std::uint32_t>(position / scanner_count()), space.z);
+    const Paint paint({turning, standing});
+    const bool color = options.record.color;
+    Frame frame;
+    frame.info = frames[position];
+    if (options.scanners[k].model.kind == ScannerKind::kLine) {
+      frame.points =
+          scan_points(tracers[k], bodies, T, space.exact, space.z, color ? &paint : nullptr);
+      return frame;
     }
-    return depth;
-  }
-
-  Vec3f albedo(const RayHit& hit) const {
-    if (hit.object == kPlatter) return as_vector(kPlatterColor);
-    const TriangleMesh& mesh = objects[hit.object];
-    if (mesh.colors.size() != mesh.vertices.size()) return Vec3f::Constant(190.0f);
-    const auto& t = mesh.triangles[hit.triangle];
-    return (1.0f - hit.u - hit.v) * as_vector(mesh.colors[t[0]]) +
-           hit.u * as_vector(mesh.colors[t[1]]) + hit.v * as_vector(mesh.colors[t[2]]);
-  }
-
-  /// Lit from the camera.
-  ColorImage color_of(const Sight& sight, const Pose& T) const {
-    ColorImage image(camera().width, camera().height, kEmptyColor);
-    for (int y = sight.rect.top; y < sight.rect.bottom; ++y) {
-      for (int x = sight.rect.left; x < sight.rect.right; ++x) {
-        const RayHit& hit = *sight.at(x, y);
-        if (!hit.valid()) continue;
-        const float facing = std::abs(hit.normal.dot(tracer.ray(x, y, T).direction.normalized()));
-        image.at(x, y) = shaded(albedo(hit), 0.35f + 0.65f * facing);
-      }
-    }
-    return image;
+    frame.depth = depth_image(space.exact, space.z, options.scanners[k].model.depth_unit_m);
+    if (color) frame.color = color_image(tracers[k], bodies, T, space.exact, paint);
+    return frame;
   }
 };
 
@@ -241,35 +308,44 @@ VirtualScan::~VirtualScan() = default;
 
 Result<VirtualScan> VirtualScan::create(std::vector<TriangleMesh> objects,
                                         const VirtualScanOptions& options) {
-  VirtualScanOptions copy = options;
-  TURNSCAN_TRY(describe(copy).check());
-  if (options.intrinsics) TURNSCAN_TRY(options.intrinsics->check());
-  TURNSCAN_ASSIGN(const double sigma, parse_noise(options.noise));
-  std::optional<double> platter;
-  if (options.platter) platter = options.platter_radius_m;
-  TURNSCAN_ASSIGN(Scene scene, Scene::create(objects, platter));
-  return VirtualScan(std::make_unique<Impl>(options, sigma, std::move(objects), std::move(scene)));
+  TURNSCAN_TRY(check_options(options));
+  TURNSCAN_ASSIGN(const NoiseOptions noise, noise_options(options.measure));
+  TURNSCAN_ASSIGN(std::vector<PlatterState> states, platter_states(options.motion));
+  auto impl = std::make_unique<Impl>(options, noise, std::move(states));
+  impl->place(std::move(objects));
+  TURNSCAN_TRY(impl->build_scenes());
+  TURNSCAN_TRY(impl->make_tracers());
+  impl->make_header();
+  impl->make_frames();
+  return VirtualScan(std::move(impl));
 }
 
 const SequenceHeader& VirtualScan::header() const { return impl_->header; }
 const std::vector<FrameInfo>& VirtualScan::frames() const { return impl_->frames; }
-const std::vector<TriangleMesh>& VirtualScan::objects() const { return impl_->objects; }
-const Scene& VirtualScan::scene() const { return impl_->scene; }
+std::span<const TriangleMesh> VirtualScan::objects() const {
+  return std::span(impl_->turning).first(impl_->object_count);
+}
+const Scene& VirtualScan::scene() const { return *impl_->scene; }
+const TurntableInfo& VirtualScan::turntable() const { return impl_->turntable; }
+Pose VirtualScan::T_table_given() const { return rotation_about_y(-impl_->yaw_rad); }
 
 Pose VirtualScan::T_table_sensor(std::size_t position) const {
   return impl_->T_table_sensor(position);
+}
+
+double VirtualScan::angle_rad(std::size_t position) const {
+  return impl_->state_of(position).angle_rad;
 }
 
 Result<Frame> VirtualScan::read(std::size_t position) const {
   if (position >= impl_->frames.size())
     return fail(ErrorCode::kNotFound, "virtual scan: there is no frame {}, only {}", position,
                 impl_->frames.size());
-  const Pose T = impl_->T_table_sensor(position);
-  const Sight sight = impl_->tracer.trace(impl_->scene, T);
-  Frame frame;
-  frame.info = impl_->frames[position];
-  frame.depth = impl_->depth_of(sight, frame.info.index);
-  if (impl_->options.color) frame.color = impl_->color_of(sight, T);
+  if (impl_->frames[position].status == FrameStatus::kDropped)
+    return fail(ErrorCode::kMissingData, "virtual scan: frame {} was dropped", position);
+  auto space = impl_->take_workspace();
+  Frame frame = impl_->render(position, *space);
+  impl_->give_back(std::move(space));
   return frame;
 }
 

@@ -1,71 +1,91 @@
 #pragma once
-// An ideal pinhole depth camera that looks at objects on a turntable. To the rest of turnscan it is
-// a recording like any other.
+// Virtual scanners that look at objects on a turntable. To the rest of turnscan it is a recording
+// like any other.
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/simulator/rig.hpp>
+#include <turnscan/simulator/room.hpp>
+#include <turnscan/simulator/scanner_model.hpp>
 #include <turnscan/simulator/scene.hpp>
+#include <turnscan/simulator/turntable_motion.hpp>
 #include <vector>
 
 namespace turnscan {
 
-enum class ScannerPreset {
-  kKinectV2,  ///< 512 x 424, f = 365.5 px, centre (255.5, 211.5)
-  kIdeal      ///< 640 x 640, f = 700 px, centre (319.5, 319.5)
+struct VirtualScanner {
+  ScannerModel model;
+  ScannerPlacement placement;
 };
 
-CameraIntrinsics intrinsics_of(ScannerPreset preset);
+struct PlatterOptions {
+  bool visible = true;
+  double radius_m = 0.15;
+  double thickness_m = 0.0;  ///< 0: a disc
+};
 
-struct VirtualScanOptions {
-  ScannerPreset scanner = ScannerPreset::kKinectV2;
-  /// Goes before the preset's. Not an option of the command line.
-  std::optional<CameraIntrinsics> intrinsics;
-  double distance_m = 0.9;                     ///< camera to the point it looks at
-  double elevation_rad = 0.29670597283903605;  ///< 17 deg above the horizontal
-  double aim_height_m = 0.09;                  ///< of the point on the axis that it looks at
-  int frames = 920;
-  double turns = 1.0;  ///< the frames are spread over these, the last turn's end left out
-  double fps = 30.0;   ///< frames a second
-  std::optional<double> speed_rad_s;     ///< goes before turns: angle = speed * index / fps
-  std::string noise = "gaussian:1.5mm";  ///< see parse_noise
-  double mixed_pixels = 0.5;             ///< share of the silhouette's pixels, 0 to 1
+OptionTable describe(PlatterOptions& options);
+
+struct MeasureOptions {
+  std::string noise = "gaussian:1.5mm";  ///< see parse_noise_options
+  double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
   double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
   int seed = 1;
-  bool platter = true;
-  double platter_radius_m = 0.15;
-  bool color = false;  ///< also give each frame a colour image, registered to depth
 };
 
-OptionTable describe(VirtualScanOptions& options);
+OptionTable describe(MeasureOptions& options);
 
-/// Depth noise: "none", or "gaussian:SIGMA" (normal, on the depth along z). Returns sigma in
-/// metres; fails with kInvalidOption.
-Result<double> parse_noise(std::string_view text);
+enum class RecordedCalibration {
+  kTrue,     ///< where the turntable is
+  kNominal,  ///< where it was meant to be: without TablePlacement
+  kNone      ///< neither turntable nor poses
+};
+
+/// What the recording says beside the frames.
+struct RecordOptions {
+  RecordedCalibration calibration = RecordedCalibration::kTrue;
+  bool angles = true;
+  bool color = false;  ///< a colour image with each depth image, registered to it
+  int pass = 0;
+};
+
+OptionTable describe(RecordOptions& options);
+
+struct VirtualScanOptions {
+  std::vector<VirtualScanner> scanners;
+  MotionOptions motion;
+  PlatterOptions platter;
+  TablePlacement table;
+  RoomOptions room;
+  MeasureOptions measure;
+  RecordOptions record;
+};
 
 /// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
 /// more than this, is a pixel of the silhouette. Two neighbours on the platter never are.
 inline constexpr double kSilhouetteStep_m = 0.02;
 
-/// Geometry: with the platter at angle 0 the camera is at distance and elevation from the aim
-/// point (0, aim_height, 0), on the side of -Z, its x axis horizontal; this is the table frame that
-/// the turntable's axis and centre give (thesis eq. 3.10: X = axis x centre in the sensor frame).
-/// Frame i shows the objects turned by angle_i about +Y, so that
-/// p_table = Ry(-angle_i) * T_table_sensor * p_sensor.
+/// All scanners take a frame at each instant; in the sequence the frames of one instant follow each
+/// other in the order of the scanners. The object and the platter turn, scanners and room stay
+/// (but for a scanner's travel): at the angle a of a frame
+///   p_world = T_world_table * wobble(a) * Ry(a) * p_table.
 ///
-/// Depth is along z in steps of 0.1 mm, rounded, 0 where nothing is hit or depth is beyond 6.5534
-/// m. Of the silhouette's pixels the share mixed_pixels, chosen at random, is moved backwards by
-/// U(0, min(mixed_reach, step to the deepest of the four neighbours)); then noise is added to all.
-/// Each value is a function of (seed, sensor, frame, pixel) alone.
+/// The table's frame is the one that the turntable's axis and centre give to scanner 0 at the first
+/// frame (thesis eq. 3.10), so that a calibration finds it again: scanner 0 is at x = 0 on the side
+/// of -Z. The objects stand as given while it is there with azimuth and aim 0 and the table in
+/// its place; else they are turned with it.
+///
+/// Depth is along z in steps of the scanner's depth unit, rounded, 0 where no sample counts. Line
+/// scanners give points. Each value is a function of (seed, scanner, frame, sample) alone.
 class VirtualScan : public FrameSequence {
  public:
-  /// objects: table frame, platter at angle 0. Fails with kInvalidOption when an option is out of
-  /// range, and as Scene::create does.
+  /// objects: platter at angle 0. Fails with kInvalidOption when an option is out of range or there
+  /// are no or more than 64 scanners, and as Scene::create does.
   static Result<VirtualScan> create(std::vector<TriangleMesh> objects,
                                     const VirtualScanOptions& options);
   VirtualScan(VirtualScan&&) noexcept;
@@ -73,16 +93,22 @@ class VirtualScan : public FrameSequence {
   ~VirtualScan() override;
 
   const SequenceHeader& header() const override;
-  /// With time, true angle, turn; sensor 0, pass 0.
   const std::vector<FrameInfo>& frames() const override;
-  /// Rendered anew at each call (about a millisecond, on the calling thread).
+  /// Rendered anew at each call, on the calling thread.
   Result<Frame> read(std::size_t position) const override;
 
-  /// The truth: the objects at angle 0.
-  const std::vector<TriangleMesh>& objects() const;
+  // The truth.
+  /// In the table's frame, at angle 0.
+  std::span<const TriangleMesh> objects() const;
+  /// Objects, then the body of the platter if it has a thickness; table frame.
   const Scene& scene() const;
-  /// Ry(-angle) * T_table_sensor of a frame: takes its points to the table frame.
+  /// Takes the points of a frame to the table's frame at angle 0: everything included.
   Pose T_table_sensor(std::size_t position) const;
+  double angle_rad(std::size_t position) const;
+  /// In the frame of scanner 0 at the first frame.
+  const TurntableInfo& turntable() const;
+  /// About the y axis, from the objects as they were given to objects().
+  Pose T_table_given() const;
 
  private:
   struct Impl;

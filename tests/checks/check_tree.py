@@ -36,7 +36,7 @@ LIBRARIES = [
      ("src/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
     ("spdlog (libraries do not log)", r"spdlog/", ("apps/",), False),
     ("CLI11", r"CLI/", ("apps/",), False),
-    ("toml++", r"toml\+\+/|toml\.hpp", ("apps/",), False),
+    ("toml++", r"toml\+\+/|toml\.hpp", ("apps/", "src/simulator/"), False),
     ("nlohmann-json in a public header", r"nlohmann/", ("src/", "apps/", "tests/", "bench/"), False),
     ("GoogleTest", r"gtest/|gmock/|rapidcheck", ("tests/",), False),
 ]

@@ -3,6 +3,7 @@
 #include <turnscan/simulator/coverage.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
+#include "tests/simulator/scans.hpp"
 #include "tests/simulator/shapes.hpp"
 
 namespace turnscan {
@@ -127,9 +128,9 @@ TEST(Coverage, LeavesOutWhatIsOutsideTheImage) {
 // incidences.
 TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
   const TriangleMesh mesh = *builtin_object("cylinder");
-  VirtualScanOptions o;
-  o.frames = 50;
-  o.platter = false;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 50;
+  o.platter.visible = false;
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
@@ -146,8 +147,8 @@ TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
 
 TEST(Coverage, StopsCountingAtEnough) {
   const TriangleMesh mesh = *builtin_object("letter-a");
-  VirtualScanOptions o;
-  o.frames = 37;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 37;
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
@@ -159,8 +160,8 @@ TEST(Coverage, StopsCountingAtEnough) {
 
 TEST(Coverage, IsTheSameForEveryNumberOfThreads) {
   const TriangleMesh mesh = *builtin_object("cylinder");
-  VirtualScanOptions o;
-  o.frames = 20;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 20;
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
@@ -174,8 +175,8 @@ TEST(Coverage, IsTheSameForEveryNumberOfThreads) {
 
 TEST(Coverage, SeesWallsDownToThePlatterButNotTheUnderside) {
   const TriangleMesh mesh = *builtin_object("cylinder");
-  VirtualScanOptions o;
-  o.frames = 36;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 36;
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
   Samples s;

@@ -3,30 +3,26 @@
 #include <turnscan/simulator/builtin_objects.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
+#include "tests/simulator/scans.hpp"
 #include "tests/simulator/shapes.hpp"
 
 namespace turnscan {
 namespace {
 
 using test::kPi;
+using test::scan_of;
 
 constexpr double kUnit = 1e-4;
 // Half a step of the depth image, and what float32 rays lose.
 constexpr double kRounding = 0.5 * kUnit + 1e-6;
 
 VirtualScanOptions clean() {
-  VirtualScanOptions o;
-  o.noise = "none";
-  o.mixed_pixels = 0.0;
-  o.frames = 8;
-  o.platter = false;
+  VirtualScanOptions o = test::plain_scan();
+  o.measure.noise = "none";
+  o.measure.mixed_pixels = 0.0;
+  o.motion.frames = 8;
+  o.platter.visible = false;
   return o;
-}
-
-VirtualScan scan_of(const std::vector<TriangleMesh>& meshes, const VirtualScanOptions& options) {
-  auto scan = VirtualScan::create(meshes, options);
-  EXPECT_TRUE(scan) << (scan ? "" : scan.error().text());
-  return std::move(*scan);
 }
 
 DepthImage depth_of(const VirtualScan& scan, std::size_t position) {
@@ -62,7 +58,7 @@ double nearest_root(double a, double b, double c, double& margin) {
 
 TEST(VirtualScan, SeesThePlatterAsThePlaneItIs) {
   VirtualScanOptions o = clean();
-  o.platter = true;
+  o.platter.visible = true;
   const VirtualScan scan = scan_of({}, o);
   std::size_t seen = 0;
   for_each_pixel(scan, 3, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
@@ -144,11 +140,10 @@ TEST(VirtualScan, SeesWhatReachesBeyondTheCamera) {
 
 TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
   VirtualScanOptions o = clean();
-  o.platter = true;
-  o.distance_m = 0.3;
-  o.aim_height_m = 0.0;
-  o.intrinsics = intrinsics_of(ScannerPreset::kKinectV2);
-  o.intrinsics->distortion = {0.09, -0.27, 0.001, -0.0005, 0.09};
+  o.platter.visible = true;
+  o.scanners[0].placement.distance_m = 0.3;
+  o.scanners[0].placement.aim_height_m = 0.0;
+  o.scanners[0].model.camera.distortion = {0.09, -0.27, 0.001, -0.0005, 0.09};
   const VirtualScan scan = scan_of({}, o);
   for_each_pixel(scan, 0, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
     const double t = -eye.y() / way.y();
@@ -164,7 +159,7 @@ TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
 TEST(VirtualScan, TurnsTheObjectCounterClockwiseSeenFromAbove) {
   // A post on the +X side comes to -Z, before the camera, after a quarter of a turn.
   VirtualScanOptions o = clean();
-  o.frames = 4;
+  o.motion.frames = 4;
   const VirtualScan scan = scan_of({test::box_mesh({0.09, 0, -0.01}, {0.11, 0.18, 0.01})}, o);
   const auto nearest = [&](std::size_t position) {
     double z = 10.0;
@@ -172,8 +167,8 @@ TEST(VirtualScan, TurnsTheObjectCounterClockwiseSeenFromAbove) {
       if (raw != kNoReturn) z = std::min(z, raw * kUnit);
     return z;
   };
-  EXPECT_NEAR(nearest(1), 0.9 - 0.11 * std::cos(o.elevation_rad), 0.03);
-  EXPECT_NEAR(nearest(3), 0.9 + 0.09 * std::cos(o.elevation_rad), 0.03);
+  EXPECT_NEAR(nearest(1), 0.9 - 0.11 * std::cos(o.scanners[0].placement.elevation_rad), 0.03);
+  EXPECT_NEAR(nearest(3), 0.9 + 0.09 * std::cos(o.scanners[0].placement.elevation_rad), 0.03);
   // The camera's x axis is -X of the table at the start, so the post is on the left.
   const DepthImage first = depth_of(scan, 0);
   for (int y = 0; y < first.height; ++y)
@@ -211,8 +206,8 @@ TEST(VirtualScan, SaysWhereItsTurntableIs) {
 
 TEST(VirtualScan, SpreadsFramesOverTheTurns) {
   VirtualScanOptions o = clean();
-  o.frames = 920;
-  o.turns = 2.0;
+  o.motion.frames = 920;
+  o.motion.turns = 2.0;
   const VirtualScan scan = scan_of({}, o);
   EXPECT_DOUBLE_EQ(*scan.frames()[0].angle_rad, 0.0);
   EXPECT_NEAR(*scan.frames()[919].angle_rad, 4.0 * kPi * 919 / 920, 1e-12);
@@ -224,16 +219,16 @@ TEST(VirtualScan, SpreadsFramesOverTheTurns) {
 
 TEST(VirtualScan, TakesTheAngleFromSpeedAndFrameRateWhenTheyAreGiven) {
   VirtualScanOptions o = clean();
-  o.frames = 920;
-  ASSERT_TRUE(describe(o).set("scan-speed", "10.4478deg/s"));
+  o.motion.frames = 920;
+  ASSERT_TRUE(describe(o.motion).set("speed", "10.4478deg/s"));
   const VirtualScan scan = scan_of({}, o);
   EXPECT_NEAR(*scan.frames()[919].angle_rad * 180.0 / kPi, 10.4478 * 919 / 30, 1e-9);
 }
 
 TEST(VirtualScan, GivesTheSameBytesInAnyOrderOnAnyThread) {
-  VirtualScanOptions o;
-  o.frames = 12;
-  o.color = true;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 12;
+  o.record.color = true;
   const VirtualScan scan = scan_of({*builtin_object("letter-a")}, o);
   std::vector<Frame> serial(12), parallel(12);
   for (std::size_t i = 12; i-- > 0;) serial[i] = *scan.read(i);
@@ -249,20 +244,20 @@ TEST(VirtualScan, GivesTheSameBytesInAnyOrderOnAnyThread) {
 
 TEST(VirtualScan, ChangesItsNoiseWithTheSeed) {
   VirtualScanOptions o = clean();
-  o.platter = true;
-  o.noise = "gaussian:1mm";
+  o.platter.visible = true;
+  o.measure.noise = "gaussian:1mm";
   const DepthImage one = depth_of(scan_of({}, o), 0);
-  o.seed = 2;
+  o.measure.seed = 2;
   EXPECT_NE(one.pixels, depth_of(scan_of({}, o), 0).pixels);
 }
 
 /// Noise of each pixel of the platter in units of sigma, frame by frame.
 std::vector<std::vector<double>> residuals(double sigma, int frames) {
   VirtualScanOptions o = clean();
-  o.platter = true;
-  o.frames = frames;
+  o.platter.visible = true;
+  o.motion.frames = frames;
   const VirtualScan truth = scan_of({}, o);
-  o.noise = fmt::format("gaussian:{}m", sigma);
+  o.measure.noise = fmt::format("gaussian:{}m", sigma);
   const VirtualScan noisy = scan_of({}, o);
   std::vector<std::vector<double>> out(frames);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -329,11 +324,11 @@ struct MixedCount {
 /// Two objects behind each other, so that there are silhouettes before both kinds of background.
 MixedCount count_mixed(double share, int frames) {
   VirtualScanOptions o = clean();
-  o.frames = frames;
+  o.motion.frames = frames;
   const std::vector<TriangleMesh> meshes{test::box_mesh({-0.02, 0, -0.08}, {0.02, 0.1, -0.06}),
                                          test::box_mesh({-0.1, 0, 0}, {0.1, 0.2, 0.02})};
   const VirtualScan truth = scan_of(meshes, o);
-  o.mixed_pixels = share;
+  o.measure.mixed_pixels = share;
   const VirtualScan mixed = scan_of(meshes, o);
   MixedCount count;
   for (std::size_t i = 0; i < truth.frames().size(); ++i) {
@@ -347,7 +342,7 @@ MixedCount count_mixed(double share, int frames) {
         const double step = step_behind(a, x, y);
         if (std::abs(step - kSilhouetteStep_m) < 2.0 * kUnit) continue;
         const double moved = (int(b.at(x, y)) - int(a.at(x, y))) * kUnit;
-        const double reach = std::min(o.mixed_reach_m, step);
+        const double reach = std::min(o.measure.mixed_reach_m, step);
         if (step < kSilhouetteStep_m) {
           count.elsewhere += moved != 0.0 ? 1 : 0;
           continue;
@@ -387,11 +382,12 @@ TEST(MixedPixels, LieUniformlyBetweenTheEdgeAndTheReach) {
 
 TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
   VirtualScanOptions o = clean();
-  o.platter = true;
-  o.aim_height_m = 0.0;
-  o.elevation_rad = 4.0 * kPi / 180.0;  // neighbouring rows are more than 2 cm apart
+  o.platter.visible = true;
+  o.scanners[0].placement.aim_height_m = 0.0;
+  o.scanners[0].placement.elevation_rad =
+      4.0 * kPi / 180.0;  // neighbouring rows are more than 2 cm apart
   const DepthImage truth = depth_of(scan_of({}, o), 0);
-  o.mixed_pixels = 1.0;
+  o.measure.mixed_pixels = 1.0;
   const DepthImage mixed = depth_of(scan_of({}, o), 0);
   std::size_t inner = 0;
   for (int y = 1; y + 1 < truth.height; ++y) {
@@ -406,7 +402,7 @@ TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
 
 TEST(VirtualScan, ColoursThePixelsThatSeeSomething) {
   VirtualScanOptions o = clean();
-  o.color = true;
+  o.record.color = true;
   TriangleMesh box = test::box_mesh({-0.05, 0, -0.05}, {0.05, 0.1, 0.05});
   box.colors.assign(8, Rgb{200, 0, 0});
   const VirtualScan scan = scan_of({box}, o);
@@ -439,41 +435,32 @@ TEST(VirtualScanOptionsTest, RefusesValuesOutsideTheirRange) {
     return !scan && scan.error().code == ErrorCode::kInvalidOption &&
            scan.error().message.find(name) != std::string::npos;
   };
-  VirtualScanOptions o;
-  o.frames = 0;
+  VirtualScanOptions o = test::plain_scan();
+  o.motion.frames = 0;
   EXPECT_TRUE(refused(o, "frames = 0"));
-  o = {};
-  o.distance_m = std::numeric_limits<double>::quiet_NaN();
+  o = test::plain_scan();
+  o.scanners[0].placement.distance_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(refused(o, "distance"));
-  o = {};
-  o.mixed_pixels = 1.5;
+  o = test::plain_scan();
+  o.measure.mixed_pixels = 1.5;
   EXPECT_TRUE(refused(o, "mixed-pixels = 1.5"));
-  o = {};
-  o.noise = "physics";
-  EXPECT_TRUE(refused(o, "noise = physics"));
+  o = test::plain_scan();
+  o.measure.noise = "loud";
+  EXPECT_TRUE(refused(o, "noise = loud"));
 }
 
 TEST(VirtualScanOptionsTest, RefusesIntrinsicsThatMakeNoSense) {
-  VirtualScanOptions o;
-  o.intrinsics = CameraIntrinsics();
+  VirtualScanOptions o = test::plain_scan();
+  o.scanners[0].model.camera = CameraIntrinsics();
   EXPECT_FALSE(VirtualScan::create({}, o));
 }
 
-TEST(ParseNoise, ReadsNoneAndGaussian) {
-  EXPECT_EQ(*parse_noise("none"), 0.0);
-  EXPECT_DOUBLE_EQ(*parse_noise("gaussian:1.5mm"), 1.5e-3);
-  for (const char* text : {"", "gaussian", "gaussian:", "gaussian:1", "gaussian:-1mm",
-                           "gaussian:5m", "Gaussian:1mm", "gaussian:nanmm"}) {
-    const auto sigma = parse_noise(text);
-    ASSERT_FALSE(sigma) << text;
-    EXPECT_EQ(sigma.error().code, ErrorCode::kInvalidOption);
-  }
-}
-
-TEST(VirtualScanOptionsTest, HasDefaultsWithinTheirRanges) {
-  VirtualScanOptions o;
-  EXPECT_TRUE(describe(o).check());
-  EXPECT_TRUE(parse_noise(o.noise));
+TEST(VirtualScanOptionsTest, RefusesAScanWithoutScanners) {
+  VirtualScanOptions o = test::plain_scan();
+  o.scanners.clear();
+  const auto scan = VirtualScan::create({}, o);
+  ASSERT_FALSE(scan);
+  EXPECT_EQ(scan.error().code, ErrorCode::kInvalidOption);
 }
 
 }  // namespace
