@@ -2,7 +2,6 @@
 #include <numbers>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/scene.hpp>
-#include <turnscan/simulator/virtual_scan.hpp>
 
 #include "tests/support/rig.hpp"
 
@@ -85,6 +84,14 @@ std::vector<TriangleMesh> room_of(const RigOptions& o) {
   return out;
 }
 
+CameraIntrinsics kinect_v2() {
+  CameraIntrinsics camera;
+  camera.width = 512, camera.height = 424;
+  camera.fx = camera.fy = 365.5;
+  camera.cx = 255.5, camera.cy = 211.5;
+  return camera;
+}
+
 }  // namespace
 
 struct Rig::Impl {
@@ -101,9 +108,9 @@ struct Rig::Impl {
         T_table_sensor(camera_pose(options)),
         room(std::move(r)),
         moving(std::move(m)),
-        rays(intrinsics_of(ScannerPreset::kKinectV2)) {
+        rays(kinect_v2()) {
     SensorInfo sensor;
-    sensor.intrinsics = intrinsics_of(ScannerPreset::kKinectV2);
+    sensor.intrinsics = kinect_v2();
     sensor.depth_unit_m = kUnit;
     header.sensors.push_back(sensor);
     for (int i = 0; i < options.frames; ++i) {
