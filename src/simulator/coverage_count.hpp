@@ -1,0 +1,22 @@
+#pragma once
+// The two passes of a coverage map over the frames (private).
+
+#include <turnscan/simulator/coverage_patches.hpp>
+
+namespace turnscan {
+
+struct CoverageJob {
+  const Scene& scene;
+  std::span<const ScannerModel> scanners;
+  std::span<const CoveragePose> poses;
+  const CoverageMapOptions& options;
+};
+
+/// Fills samples, views, best incidence and sigma of patches and cells from the frames' samples.
+Result<std::uint64_t> count_samples(const CoverageJob& job, CoveragePatches& surface,
+                                    const RunContext& context);
+
+/// Fills state and reason of the cells.
+Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface, const RunContext& context);
+
+}  // namespace turnscan

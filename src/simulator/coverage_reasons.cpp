@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/simulator/coverage_count.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::size_t kTestedPoses = 64;  // of a matrix scanner
+constexpr int kDirections = 48;           // around the table
+constexpr double kHeightStep_m = 0.05;
+constexpr int kMostHeights = 9;
+constexpr double kLift_m = 20e-6;   // rays start so far outside the surface
+constexpr std::size_t kChunk = 64;  // cells looked at together
+
+/// A point that is looked at, with its normal.
+struct Spot {
+  std::uint32_t cell;
+  Vec3d p, normal;
+};
+
+/// How far a sample would have come; the farthest counts.
+int stage_of(Miss miss) {
+  constexpr std::array kStages{Miss::kNothing,        Miss::kOutOfView, Miss::kTooNear,
+                               Miss::kTooFar,         Miss::kGrazing,   Miss::kReceiverBlocked,
+                               Miss::kEmitterBlocked, Miss::kTooDark,   Miss::kNone};
+  return static_cast<int>(std::find(kStages.begin(), kStages.end(), miss) - kStages.begin());
+}
+
+/// A frame that cells are looked at from. For a line scanner the frame before it, too: its line has
+/// passed over what lies between the two.
+struct Look {
+  const ScannerModel* model;
+  Pose T_sensor_table, T_sensor_table_before;
+  bool line = false;
+  Vec3d origin, other;  ///< table frame
+
+  Miss in_view(const Spot& spot) const {
+    const Vec3d q = T_sensor_table * spot.p;
+    if (!(q.z() > 0.0)) return Miss::kOutOfView;
+    if (line && q.x() * (T_sensor_table_before * spot.p).x() > 0.0) return Miss::kOutOfView;
+    const CameraIntrinsics& camera = model->camera;
+    const Eigen::Vector2d uv = camera.project(q);
+    const bool inside = (line || (uv.x() >= -0.5 && uv.x() < camera.width - 0.5)) &&
+                        uv.y() >= -0.5 && uv.y() < camera.height - 0.5;
+    if (!inside) return Miss::kOutOfView;
+    if (q.z() < model->near_m) return Miss::kTooNear;
+    if (q.z() > model->far_m) return Miss::kTooFar;
+    const double cosine = spot.normal.dot((origin - spot.p).normalized());
+    return cosine < std::cos(model->max_incidence_rad) ? Miss::kGrazing : Miss::kNone;
+  }
+};
+
+std::vector<Look> looks_of(const CoverageJob& job) {
+  std::vector<std::vector<const CoveragePose*>> of_scanner(job.scanners.size());
+  for (const CoveragePose& pose : job.poses) of_scanner[pose.scanner].push_back(&pose);
+  std::vector<Look> looks;
+  for (std::size_t s = 0; s < of_scanner.size(); ++s) {
+    const auto& poses = of_scanner[s];
+    const bool line = job.scanners[s].kind == ScannerKind::kLine;
+    const std::size_t step = line ? 1 : std::max<std::size_t>(1, poses.size() / kTestedPoses);
+    for (std::size_t i = 0; i < poses.size(); i += step) {
+      const Pose& T = poses[i]->T_table_sensor;
+      const Pose& before = poses[i > 0 ? i - 1 : 0]->T_table_sensor;
+      looks.push_back({&job.scanners[s], T.inverse(), before.inverse(), line, T.translation(),
+                       T * job.scanners[s].other_eye_m()});
+    }
+  }
+  return looks;
+}
+
+Ray ray_to(const Spot& spot, const Vec3d& eye) {
+  Ray ray;
+  const Vec3d start = spot.p + kLift_m * spot.normal;
+  ray.origin = start.cast<float>();
+  ray.direction = (eye - start).cast<float>();
+  ray.t_max = 1.0f;
+  return ray;
+}
+
+/// Spots that something is asked about, and whether anything lies between each and a point.
+class Blocked {
+ public:
+  explicit Blocked(const Scene& scene) : scene_(scene) {}
+  void clear() { rays_.clear(), who.clear(); }
+  void ask(std::size_t spot, const Ray& ray) { rays_.push_back(ray), who.push_back(spot); }
+  void answer() {
+    blocked.resize(rays_.size());
+    scene_.occluded(rays_, blocked, RayOrder::kCoherent);
+  }
+  std::vector<std::size_t> who;
+  std::vector<std::uint8_t> blocked;
+
+ private:
+  const Scene& scene_;
+  std::vector<Ray> rays_;
+};
+
+/// Raises reasons to what this look gives.
+void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Blocked& second,
+             std::span<Miss> reasons) {
+  const auto advance = [&](std::size_t i, Miss miss) {
+    if (stage_of(miss) > stage_of(reasons[i])) reasons[i] = miss;
+  };
+  // What neither eye sees is hidden from the eye that the rays start from.
+  const bool line = look.model->kind == ScannerKind::kLine;
+  const Miss own = line ? Miss::kEmitterBlocked : Miss::kReceiverBlocked;
+  const Miss others = line ? Miss::kReceiverBlocked : Miss::kEmitterBlocked;
+  first.clear(), second.clear();
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    if (reasons[i] == Miss::kNone) continue;
+    if (!(spots[i].normal.dot(look.origin - spots[i].p) > 0.0)) continue;
+    const Miss miss = look.in_view(spots[i]);
+    if (miss != Miss::kNone)
+      advance(i, miss);
+    else
+      first.ask(i, ray_to(spots[i], look.origin));
+  }
+  first.answer();
+  for (std::size_t k = 0; k < first.who.size(); ++k) {
+    const std::size_t i = first.who[k];
+    if (first.blocked[k])
+      advance(i, own);
+    else if (!look.model->two_eyed())
+      advance(i, Miss::kNone);
+    else if (!(spots[i].normal.dot(look.other - spots[i].p) > 0.0))
+      advance(i, others);
+    else
+      second.ask(i, ray_to(spots[i], look.other));
+  }
+  second.answer();
+  for (std::size_t k = 0; k < second.who.size(); ++k)
+    advance(second.who[k], second.blocked[k] ? others : Miss::kNone);
+}
+
+/// Places around the table at the scanners' heights.
+std::vector<Vec3d> places_around(const CoverageJob& job) {
+  double low = 1e300, high = -1e300, radius = 0.0;
+  for (const CoveragePose& pose : job.poses) {
+    const Vec3d p = pose.T_table_sensor.translation();
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+    radius = std::max(radius, std::hypot(p.x(), p.z()));
+  }
+  const int heights =
+      std::clamp(1 + static_cast<int>(std::ceil((high - low) / kHeightStep_m)), 1, kMostHeights);
+  std::vector<Vec3d> places;
+  for (int h = 0; h < heights; ++h) {
+    for (int d = 0; d < kDirections; ++d) {
+      const double angle = 2.0 * std::numbers::pi * d / kDirections;
+      const double y = heights > 1 ? low + (high - low) * h / (heights - 1) : low;
+      places.emplace_back(radius * std::sin(angle), y, radius * std::cos(angle));
+    }
+  }
+  return places;
+}
+
+/// Marks in `reached` the spots that any of the places sees.
+void reach(const Scene& scene, std::span<const Vec3d> places, double least_cosine,
+           std::span<const Spot> spots, std::span<std::uint8_t> reached) {
+  Blocked rays(scene);
+  for (const Vec3d& place : places) {
+    rays.clear();
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      if (reached[i]) continue;
+      if (spots[i].normal.dot((place - spots[i].p).normalized()) > least_cosine)
+        rays.ask(i, ray_to(spots[i], place));
+    }
+    rays.answer();
+    for (std::size_t k = 0; k < rays.who.size(); ++k)
+      if (!rays.blocked[k]) reached[rays.who[k]] = 1;
+  }
+}
+
+std::vector<Spot> empty_cells(const CoveragePatches& surface) {
+  std::vector<Spot> spots;
+  for (std::uint32_t c = 0; c < surface.cells.size(); ++c) {
+    if (surface.cells[c].samples > 0) continue;
+    const CoveragePatch& patch = surface.patches[surface.largest[c]];
+    const Vec3f middle = (patch.corners[0] + patch.corners[1] + patch.corners[2]) / 3.0f;
+    spots.push_back(
+        {c, middle.cast<double>(), surface.normal(patch.object, patch.face).cast<double>()});
+  }
+  return spots;
+}
+
+void judge(CoverageCell& cell, Miss reason, bool reached, bool noise) {
+  cell.reason = reason == Miss::kNone && noise ? Miss::kTooDark : reason;
+  if (cell.reason == Miss::kNone)
+    cell.state = CoverageState::kThin;
+  else
+    cell.state = reached ? CoverageState::kMissed : CoverageState::kUnreachable;
+  // Seen by none of the frames on its side, or by none at all: the object itself is in the way.
+  if (cell.reason == Miss::kNothing) cell.reason = Miss::kReceiverBlocked;
+}
+
+}  // namespace
+
+Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface,
+                       const RunContext& context) {
+  for (CoverageCell& cell : surface.cells)
+    cell.state = cell.density_per_mm2() < job.options.thin_per_mm2 ? CoverageState::kThin
+                                                                   : CoverageState::kCovered;
+  const std::vector<Spot> spots = empty_cells(surface);
+  const std::vector<Look> looks = looks_of(job);
+  const std::vector<Vec3d> places = places_around(job);
+  double flattest = 0.0;
+  for (const ScannerModel& model : job.scanners)
+    flattest = std::max(flattest, model.max_incidence_rad);
+  context.begin_phase("reasons", spots.size());
+  parallel_for((spots.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
+    const std::size_t begin = chunk * kChunk, n = std::min(kChunk, spots.size() - begin);
+    const auto mine = std::span(spots).subspan(begin, n);
+    std::vector<Miss> reasons(n, Miss::kNothing);
+    std::vector<std::uint8_t> reached(n, 0);
+    Blocked first(job.scene), second(job.scene);
+    for (const Look& look : looks) {
+      if (context.cancelled()) return;
+      look_at(look, mine, first, second, reasons);
+    }
+    reach(job.scene, places, std::cos(flattest), mine, reached);
+    for (std::size_t i = 0; i < n; ++i)
+      judge(surface.cells[mine[i].cell], reasons[i], reached[i] != 0, job.options.noise);
+    context.advance(n);
+  });
+  return context.check();
+}
+
+}  // namespace turnscan
