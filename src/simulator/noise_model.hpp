@@ -56,10 +56,10 @@ struct NoiseModel {
   SensorPhysics physics = SensorPhysics::kNone;
 
   // Kinect v2, in the units of the driver's correlations (11 bit, expanded to 16).
-  double tof_amplitude = 1250.0;  ///< of 16 MHz, from a white surface at 1 m that faces the sensor
-  double tof_read_noise = 3.15;   ///< one sigma; read-out and ambient light
-  double tof_shot_noise = 0.062;  ///< variance for each unit of amplitude
-  double tof_relative_noise = 0.0233;  ///< one sigma, of the amplitude
+  double tof_amplitude = 500.0;  ///< of 16 MHz, from a white surface at 1 m that faces the sensor
+  double tof_read_noise = 1.2;   ///< one sigma; read-out and ambient light
+  double tof_shot_noise = 0.02;  ///< variance for each unit of amplitude
+  double tof_relative_noise = 0.023;  ///< one sigma, of the amplitude
 
   // Laser line.
   double line_width_m = 0.0;  ///< full width at half maximum, at every distance
