@@ -1,4 +1,5 @@
 #include <turnscan/core/random.hpp>
+#include <turnscan/simulator/sample_kernel.hpp>
 #include <turnscan/simulator/samples.hpp>
 
 #include "tests/simulator/shapes.hpp"
@@ -318,6 +319,131 @@ TEST(Samples, ThrowWithoutAScene) {
   const Body body;
   EXPECT_THROW(tracer_of(scanner()).trace({&body, 1}, Pose::Identity(), grid),
                std::invalid_argument);
+}
+
+/// Where the line of sight enters a box: the slabs of its three pairs of faces.
+TEST(Samples, OfABoxLieWhereTheSlabsSay) {
+  const Vec3d low(-0.15, -0.1, -0.12), high(0.15, 0.2, 0.1);
+  const Scene scene = scene_of({test::box_mesh(low, high)});
+  const SampleTracer tracer = tracer_of(scanner());
+  Pose T = Pose::Identity();
+  T.translation() = Vec3d(0.5, 0.6, -0.7);
+  T.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), -T.translation()).toRotationMatrix();
+  const SampleGrid grid = trace(tracer, {{&scene}}, T);
+  std::size_t hits = 0;
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      const Vec3d d = T.linear() * tracer.direction(column, row);
+      const Vec3d a = (low - T.translation()).cwiseQuotient(d);
+      const Vec3d b = (high - T.translation()).cwiseQuotient(d);
+      const double in = a.cwiseMin(b).maxCoeff(), out = a.cwiseMax(b).minCoeff();
+      if (std::abs(out - in) < 1e-5) continue;  // an edge
+      ASSERT_EQ(miss_at(grid, column, row) == Miss::kNone, in < out);
+      if (in > out) continue;
+      ASSERT_NEAR(grid.z[grid.index(column, row)], in, 4e-7);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 2500u);
+}
+
+/// The plane of a line scanner cuts a cylinder along an ellipse.
+TEST(Samples, OfALineAreTheSectionOfACylinder) {
+  const double radius = 0.1, tilt = 0.4;
+  TriangleMesh cylinder;  // along x
+  constexpr std::uint32_t n = 2000;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double a = 2 * test::kPi * i / n;
+    for (const double x : {-0.5, 0.5})
+      cylinder.vertices.push_back(
+          Vec3d(x, radius * std::sin(a), radius * std::cos(a)).cast<float>());
+    const std::uint32_t p = 2 * i, q = 2 * ((i + 1) % n);
+    cylinder.triangles.push_back({p, q, q + 1});
+    cylinder.triangles.push_back({p, q + 1, p + 1});
+  }
+  const Scene scene = scene_of({cylinder});
+  ScannerModel g = scanner();
+  g.kind = ScannerKind::kLine;
+  g.camera = camera(1, 401, 900.0);
+  g.camera.cx = 0.0;
+  const SampleTracer tracer = tracer_of(g);
+  Pose T = Pose::Identity();  // looks down +z, turned about its axis
+  T.linear() = Eigen::AngleAxisd(tilt, Vec3d::UnitZ()).toRotationMatrix();
+  T.translation() = Vec3d(0.05, 0.0, -0.6);
+  const std::vector<Body> bodies{{&scene}};
+  const SampleGrid grid = trace(tracer, bodies, T);
+  std::size_t hits = 0;
+  for (int row = 0; row < 401; ++row) {
+    if (miss_at(grid, 0, row) != Miss::kNone) continue;
+    ++hits;
+    const std::size_t i = grid.index(0, row);
+    const Vec3d p = double(grid.z[i]) * tracer.direction(0, row);
+    ASSERT_NEAR(p.x(), 0.0, 1e-12);
+    // In the scanner's plane: half axes radius / cos(tilt) and radius.
+    const double along = p.y() * std::cos(tilt) / radius, deep = (p.z() - 0.6) / radius;
+    if (std::abs(along) > 0.95) continue;
+    ASSERT_NEAR(along * along + deep * deep, 1.0, 1e-5);
+  }
+  // What a pinhole at 0.6 m sees of it.
+  const double edge = radius / std::sqrt(0.36 - 0.01) / std::cos(tilt);
+  EXPECT_NEAR(double(hits), 2 * 900.0 * edge, 2.0);
+}
+
+TEST(Samples, AreTheSameForEveryInstructionSet) {
+  using namespace sampling;
+  const Scene turning = scene_of({test::sphere_mesh({0.05, 0.1, 0}, 0.08, 30)}, 0.15);
+  const Scene room = scene_of({test::box_mesh({-1, -.3, -1}, {1, -.2, 1})});
+  const SampleTracer tracer = tracer_of(scanner({0.3, 0.1, 0.0}));
+  Pose T = Pose::Identity();
+  T.translation() = Vec3d(0.1, 0.5, -0.8);
+  T.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), -T.translation()).toRotationMatrix();
+  const std::vector<Body> bodies{{&turning, rotation_about_y(0.3)}, {&room}};
+  const SampleGrid widest = trace(tracer, bodies, T);
+  EXPECT_GT(count(widest, Miss::kEmitterBlocked), 10u);
+  for (const auto set :
+       {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    if (kernel_for(set) == nullptr) continue;
+    const Kernel* const before = &kernel();
+    use_instruction_set(set);
+    const SampleGrid grid = trace(tracer, bodies, T);
+    for (const auto other :
+         {InstructionSet::kPortable, InstructionSet::kAvx2, InstructionSet::kAvx512})
+      if (kernel_for(other) == before) use_instruction_set(other);
+    EXPECT_EQ(grid.z, widest.z);
+    EXPECT_EQ(grid.surface, widest.surface);
+    EXPECT_EQ(grid.triangle, widest.triangle);
+    EXPECT_EQ(grid.miss, widest.miss);
+  }
+}
+
+TEST(Samples, OfAMeshWithDegenerateDoubleAndInvertedTrianglesAreThoseOfTheCleanOne) {
+  const TriangleMesh clean = test::sphere_mesh({0, 0, 0.8}, 0.2, 40);
+  TriangleMesh dirty = clean;
+  for (std::size_t t = 0; t < clean.triangles.size(); ++t) {
+    const auto& c = clean.triangles[t];
+    if (t % 3 == 0) dirty.triangles[t] = {c[0], c[2], c[1]};
+    if (t % 5 == 0) dirty.triangles.push_back(c);
+    dirty.triangles.push_back({c[0], c[0], c[1]});
+    dirty.triangles.push_back({c[2], c[2], c[2]});
+  }
+  const Scene good = scene_of({clean}), bad = scene_of({dirty});
+  const SampleTracer tracer = tracer_of(scanner({0.1, 0, 0}));
+  const SampleGrid a = trace(tracer, {{&good}}), b = trace(tracer, {{&bad}});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a.miss[i], b.miss[i]);
+    ASSERT_NEAR(a.z[i], b.z[i], 2e-7);
+  }
+}
+
+TEST(Samples, FromWithinAnObjectSeeItsInside) {
+  const Scene scene = scene_of({test::sphere_mesh({0, 0, 0}, 0.5, 40)});
+  const SampleTracer tracer = tracer_of(scanner({0.1, 0, 0}));
+  const SampleGrid grid = trace(tracer, {{&scene}});
+  EXPECT_EQ(count(grid, Miss::kNone), 160u * 120u);
+  EXPECT_NEAR(grid.z[grid.index(80, 60)], 0.5f, 2e-3);
 }
 
 TEST(Samples, NeedAScannerThatCanBe) {
