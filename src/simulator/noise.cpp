@@ -89,21 +89,6 @@ std::vector<float> triangle_albedos(const TriangleMesh& mesh) {
   return albedos;
 }
 
-DepthImage depth_image(const MeasuredGrid& measured, int width, int height, double unit_m) {
-  DepthImage image(width, height, kNoReturn);
-  const PixelRect& r = measured.rect;
-  const double per_metre = 1.0 / unit_m;
-  std::size_t i = 0;
-  for (int v = r.top; v < r.bottom; ++v) {
-    for (int u = r.left; u < r.right; ++u, ++i) {
-      const double raw = measured.z[i] * per_metre + 0.5;
-      if (raw >= 1.0 && raw < double(kOutsideCrop))
-        image.at(u, v) = static_cast<std::uint16_t>(raw);
-    }
-  }
-  return image;
-}
-
 double focal_baseline(const ScannerModel& model) {
   if (model.kind == ScannerKind::kLine)
     return model.noise.line_focal_px * std::abs(model.receiver_m.x());
@@ -140,9 +125,6 @@ void SensorNoise::apply(const SensorView& view, const SampleGrid& exact, std::ui
   noise::Job job{setup, view, exact, frame, measured};
   switch (setup.options.kind) {
     case NoiseKind::kNone:
-      for (std::size_t i = 0; i < exact.size(); ++i)
-        if (exact.counts(i)) measured.z[i] = exact.z[i];
-      break;
     case NoiseKind::kGaussian:
       noise::apply_gaussian(job);
       break;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <turnscan/core/image.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
@@ -26,12 +25,16 @@ enum class NoiseKind {
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::kNone;
   double sigma_m = 0.0;  ///< of kGaussian
-  /// kGaussian only. Share of the silhouette's pixels (0 to 1) that lie anywhere between the edge
-  /// and what is behind it, at most mixed_reach behind the edge: a caricature of mixed pixels that
-  /// needs no rays. kModel and kPhysics mix what the pixel really sees.
+  /// kNone and kGaussian only. Share of the silhouette's pixels (0 to 1) that lie anywhere between
+  /// the edge and what is behind it, at most mixed_reach behind the edge: a caricature of mixed
+  /// pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
   double mixed_pixels = 0.0;
   double mixed_reach_m = 0.08;
 };
+
+/// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
+/// more than this, is a pixel of the silhouette. Two neighbours on the platter never are.
+inline constexpr double kSilhouetteStep_m = 0.02;
 
 /// "none", "gaussian:SIGMA" (SIGMA a length up to 1 m), "model" or "physics". Fails with
 /// kInvalidOption.
@@ -88,9 +91,6 @@ class SensorNoise {
   explicit SensorNoise(std::unique_ptr<const Impl> impl);
   std::unique_ptr<const Impl> impl_;
 };
-
-/// Steps of unit_m, rounded; kNoReturn where there is none or it does not fit 16 bits.
-DepthImage depth_image(const MeasuredGrid& measured, int width, int height, double unit_m);
 
 /// f * b of a scanner, pixel * metres: of the camera's fx and the distance of its eyes; of a laser
 /// line, of its own camera and the receiver's distance from the sheet of light. 0 with one eye.

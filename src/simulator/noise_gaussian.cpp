@@ -8,10 +8,6 @@ namespace turnscan::noise {
 namespace {
 
 constexpr std::uint64_t kAxial = 1, kChoice = 2, kReach = 3;
-/// A pixel one of whose four neighbours sees nothing, or something farther by more than this, is
-/// one of the silhouette.
-constexpr float kSilhouetteStep_m = 0.02f;
-
 /// How far behind the pixel the deepest of its neighbours lies, 0 if it is no silhouette pixel.
 /// Two neighbours on the platter never are: seen flat, it is no edge.
 float silhouette_step(const SampleGrid& exact, int u, int v) {
@@ -22,11 +18,11 @@ float silhouette_step(const SampleGrid& exact, int u, int v) {
   const auto look = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= exact.width || y >= exact.height) return;
     const std::size_t there = exact.contains(x, y) ? exact.index(x, y) : exact.size();
-    if (there == exact.size() || !exact.counts(there)) {
+    if (there == exact.size() || !exact.hit(there)) {
       step = kEndless;
     } else if (!on_platter || exact.object(there) != kPlatter) {
       const float behind = exact.z[there] - exact.z[here];
-      if (behind > kSilhouetteStep_m) step = std::max(step, behind);
+      if (double(behind) > kSilhouetteStep_m) step = std::max(step, behind);
     }
   };
   look(u - 1, v);
@@ -52,21 +48,27 @@ void mix_silhouette(Job& job) {
   }
 }
 
-}  // namespace
-
-void apply_gaussian(Job& job) {
+/// Without sigma nothing is drawn.
+void add_noise(Job& job, float sigma) {
   const PixelRect& r = job.exact.rect;
   const Key key = job.key_of(kAxial);
-  const auto sigma = static_cast<float>(job.setup.options.sigma_m);
   const int n = r.width();
-  std::vector<float> normals(static_cast<std::size_t>(n));
+  std::vector<float> normals(static_cast<std::size_t>(n), 0.0f);
   for (int v = r.top; v < r.bottom && n > 0; ++v) {
     const std::size_t row = job.exact.index(r.left, v);
-    kernel().normals(key, static_cast<std::uint32_t>(job.setup.pixel(r.left, v)), 1, n,
-                     normals.data());
+    if (sigma > 0.0f)
+      kernel().normals(key, static_cast<std::uint32_t>(job.setup.pixel(r.left, v)), 1, n,
+                       normals.data());
     for (std::size_t k = 0; k < normals.size(); ++k)
       if (job.exact.counts(row + k)) job.out.z[row + k] = job.exact.z[row + k] + sigma * normals[k];
   }
+}
+
+}  // namespace
+
+void apply_gaussian(Job& job) {
+  const NoiseOptions& options = job.setup.options;
+  add_noise(job, options.kind == NoiseKind::kGaussian ? float(options.sigma_m) : 0.0f);
   if (job.setup.options.mixed_pixels > 0.0) mix_silhouette(job);
   for (std::size_t i = 0; i < job.out.z.size(); ++i) {
     if (job.out.miss[i] != Miss::kNone || job.out.z[i] > 0.0f) continue;

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <turnscan/core/version.hpp>
 #include <turnscan/simulator/scan_image.hpp>
-#include <turnscan/simulator/simple_noise.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
 namespace turnscan {
@@ -69,7 +68,7 @@ Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
 /// Memory of one frame that the next one uses again.
 struct Workspace {
   SampleGrid exact;
-  std::vector<float> z;
+  MeasuredGrid measured;
 };
 
 }  // namespace
@@ -123,6 +122,9 @@ struct VirtualScan::Impl {
   std::vector<TriangleMesh> standing;  ///< the room; empty without
   std::optional<Scene> scene, room;
   std::vector<SampleTracer> tracers;
+  std::vector<SensorNoise> noises;
+  std::vector<std::vector<std::vector<float>>> albedos;  ///< by body, object, triangle
+  Albedo albedo;                                         ///< none where nothing has a colour
   TurntableInfo turntable;
   SequenceHeader header;
   std::vector<FrameInfo> frames;
@@ -186,9 +188,32 @@ struct VirtualScan::Impl {
   Result<> make_tracers() {
     for (const VirtualScanner& scanner : options.scanners) {
       TURNSCAN_ASSIGN(SampleTracer tracer, SampleTracer::create(scanner.model));
+      TURNSCAN_ASSIGN(SensorNoise measure,
+                      SensorNoise::create(scanner.model, noise,
+                                          static_cast<std::uint64_t>(options.measure.seed),
+                                          static_cast<std::uint32_t>(tracers.size())));
       tracers.push_back(std::move(tracer));
+      noises.push_back(std::move(measure));
     }
     return {};
+  }
+
+  /// How light things are, by their colours.
+  void find_albedos() {
+    bool any = false;
+    for (const auto* meshes : {&turning, &standing}) {
+      albedos.emplace_back();
+      for (const TriangleMesh& mesh : *meshes) {
+        albedos.back().push_back(triangle_albedos(mesh));
+        any |= !albedos.back().back().empty();
+      }
+    }
+    if (!any) return;
+    albedo = [this](std::uint32_t body, std::uint32_t object, std::uint32_t triangle) {
+      const auto& objects = albedos[body];
+      if (object >= objects.size() || objects[object].empty()) return float(kDefaultAlbedo);
+      return objects[object][triangle];
+    };
   }
 
   SensorInfo sensor_info(const VirtualScanner& scanner) const {
@@ -283,19 +308,19 @@ struct VirtualScan::Impl {
     const Pose T = T_world_sensor(k, state.travel);
     const std::vector<Body> bodies = bodies_at(state.angle_rad);
     tracers[k].trace(bodies, T, space.exact);
-    measure_simply(space.exact, noise, kSilhouetteStep_m,
-                   static_cast<std::uint64_t>(options.measure.seed), static_cast<std::uint32_t>(k),
-                   static_cast<std::uint32_t>(position / scanner_count()), space.z);
+    noises[k].apply({tracers[k], bodies, T, &albedo}, space.exact,
+                    static_cast<std::uint32_t>(position / scanner_count()), space.measured);
     const Paint paint({turning, standing});
     const bool color = options.record.color;
     Frame frame;
     frame.info = frames[position];
     if (options.scanners[k].model.kind == ScannerKind::kLine) {
-      frame.points =
-          scan_points(tracers[k], bodies, T, space.exact, space.z, color ? &paint : nullptr);
+      frame.points = scan_points(tracers[k], bodies, T, space.exact, space.measured.z,
+                                 color ? &paint : nullptr);
       return frame;
     }
-    frame.depth = depth_image(space.exact, space.z, options.scanners[k].model.depth_unit_m);
+    frame.depth =
+        depth_image(space.exact, space.measured.z, options.scanners[k].model.depth_unit_m);
     if (color) frame.color = color_image(tracers[k], bodies, T, space.exact, paint);
     return frame;
   }
@@ -315,6 +340,7 @@ Result<VirtualScan> VirtualScan::create(std::vector<TriangleMesh> objects,
   impl->place(std::move(objects));
   TURNSCAN_TRY(impl->build_scenes());
   TURNSCAN_TRY(impl->make_tracers());
+  impl->find_albedos();
   impl->make_header();
   impl->make_frames();
   return VirtualScan(std::move(impl));

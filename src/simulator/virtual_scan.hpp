@@ -9,6 +9,7 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/simulator/noise.hpp>
 #include <turnscan/simulator/rig.hpp>
 #include <turnscan/simulator/room.hpp>
 #include <turnscan/simulator/scanner_model.hpp>
@@ -65,10 +66,6 @@ struct VirtualScanOptions {
   MeasureOptions measure;
   RecordOptions record;
 };
-
-/// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
-/// more than this, is a pixel of the silhouette. Two neighbours on the platter never are.
-inline constexpr double kSilhouetteStep_m = 0.02;
 
 /// All scanners take a frame at each instant; in the sequence the frames of one instant follow each
 /// other in the order of the scanners. The object and the platter turn, scanners and room stay

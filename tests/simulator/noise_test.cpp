@@ -324,19 +324,6 @@ TEST(SensorNoise, PredictedSigmaIsThatOfTheSample) {
   EXPECT_EQ(gaussian.predicted_sigma_m(1.0, 0.3), 2e-3);
 }
 
-TEST(SensorNoise, DepthImageIsInUnitsAndEmptyWhereNothingIs) {
-  MeasuredGrid grid;
-  grid.rect = {1, 0, 4, 1};
-  grid.z = {0.0f, 1.00006f, 7.0f};
-  const DepthImage image = depth_image(grid, 5, 2, 1e-4);
-  EXPECT_EQ(image.width, 5);
-  EXPECT_EQ(image.height, 2);
-  EXPECT_EQ(image.at(1, 0), kNoReturn);
-  EXPECT_EQ(image.at(2, 0), 10001);
-  EXPECT_EQ(image.at(3, 0), kNoReturn);
-  EXPECT_EQ(image.at(2, 1), kNoReturn);
-}
-
 TEST(SensorNoise, AnEmptyViewGivesNothing) {
   for (const char* kind : {"none", "gaussian:1mm", "model"}) {
     const Bench bench(fankhauser(), {TriangleMesh()});
