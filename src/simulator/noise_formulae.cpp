@@ -9,8 +9,9 @@ namespace turnscan::noise {
 namespace {
 
 constexpr double kRight = std::numbers::pi / 2;
-constexpr int kSide = 4;        // rays across a mixed pixel
-constexpr int kMostRadius = 8;  // pixels about a step that its lateral noise reaches
+constexpr int kSide = 4;           // rays across a mixed pixel
+constexpr double kSteepest = 4.0;  // slope, along which depth is carried at most
+constexpr int kMostRadius = 8;     // pixels about a step that its lateral noise reaches
 
 // Purposes of random numbers.
 constexpr std::uint64_t kAxial = 1, kDisparity = 2, kDark = 3, kDrop = 4, kAcross = 5, kAlong = 6;
@@ -101,6 +102,19 @@ class Formulae {
     return s;
   }
 
+  /// A ray within a pixel, its depth carried along the surface to the line of sight through the
+  /// pixel's centre: lateral noise decides which surface is seen; what it does on a slope is part
+  /// of the axial formula.
+  Seen seen_in_line(std::size_t k, std::size_t pixel) const {
+    Seen s = seen(rays_.samples, k, rays_.x[k], rays_.y[k]);
+    const double x = job_.setup.rays.x()[pixel], y = job_.setup.rays.y()[pixel];
+    const double there = s.facing * std::hypot(rays_.x[k], rays_.y[k], 1.0);
+    const double here = surfaces_.facing(rays_.samples, k, x, y) * std::hypot(x, y, 1.0);
+    const double most = kSteepest * s.z * std::hypot(rays_.x[k] - x, rays_.y[k] - y);
+    s.z += std::clamp(s.z * (there / std::max(here, 1e-9) - 1.0), -most, most);
+    return s;
+  }
+
   Seen seen_alone(int u, int v, std::size_t i) const {
     const std::size_t pixel = job_.setup.pixel(u, v);
     return seen(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel]);
@@ -151,7 +165,7 @@ class Formulae {
     Miss miss = rays_.samples.miss[p * rays_.each];
     for (std::size_t k = p * rays_.each; k < (p + 1) * rays_.each; ++k) {
       if (!rays_.samples.counts(k)) continue;
-      const Seen s = seen(rays_.samples, k, rays_.x[k], rays_.y[k]);
+      const Seen s = seen_in_line(k, pixel_of(i));
       light += s.signal;
       z += s.signal * s.z;
       facing += s.signal * s.facing;

@@ -242,6 +242,22 @@ TEST(SensorNoise, LateralNoiseRoughensEdgesByItsSigma) {
     EXPECT_NEAR(seen[side], expected[side], 4.5 * std::sqrt(expected[side]) + 2.0) << side;
 }
 
+TEST(SensorNoise, LateralNoiseDoesNotRoughenSlopes) {
+  // Within reach of an edge, on a wall turned away by 60 degrees.
+  ScannerModel m = camera(80, 60, 400.0);
+  m.noise.lateral_px = 0.8;
+  TriangleMesh slope = wall(1.0, 1.05, 0.05);
+  const Bench bench(m, {slope});
+  const MeasuredGrid out = bench.measure(noise_of("model"));
+  int seen = 0;
+  for (std::size_t i = 0; i < out.z.size(); ++i) {
+    if (!bench.exact().counts(i) || !(out.z[i] > 0.0f)) continue;
+    ++seen;
+    EXPECT_NEAR(out.z[i], bench.exact().z[i], 1e-5f);
+  }
+  EXPECT_GT(seen, 300);
+}
+
 TEST(SensorNoise, SilhouetteCaricatureStaysWithinItsReach) {
   const Bench bench(camera(80, 60, 400.0), {half_wall(1.0, 0.0), wall(1.5)});
   NoiseOptions options;
