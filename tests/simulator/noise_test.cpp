@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tests/simulator/noise_scenes.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/simulator/scanner_file.hpp>
 
 namespace turnscan {
 namespace {
@@ -370,6 +371,33 @@ TEST(SensorNoise, RefusesOptionsOutOfRange) {
   m = fankhauser();
   m.noise.physics = SensorPhysics::kLaserLine;
   refused(m, noise_of("physics"), "line");
+}
+
+TEST(NoisePresets, PredictWhatIsPublished) {
+  const auto sigma_mm = [](const char* preset, double z, double incidence) {
+    const ScannerModel model = find_scanner(preset).value();
+    return 1e3 * SensorNoise::create(model, noise_of("model"), 1, 0)
+                     .value()
+                     .predicted_sigma_m(z, incidence);
+  };
+  EXPECT_NEAR(sigma_mm("kinect-v1", 1.4, 0.3), 1.2 + 1.9, 1e-6);
+  EXPECT_NEAR(sigma_mm("kinect-v2", 0.8, 0.0), 1.292, 1e-3);
+  EXPECT_NEAR(sigma_mm("azure-kinect", 1.5, 0.0), 1.5, 1e-6);
+  const ScannerModel d435 = find_scanner("realsense-d435").value();
+  EXPECT_NEAR(sigma_mm("realsense-d435", 0.8, 0.0), 640.0 * 0.08 / (d435.camera.fx * 0.05), 1e-6);
+  // A profile scanner of this kind repeats to a few hundredths of a millimetre.
+  EXPECT_GT(sigma_mm("gocator", 0.5, 0.0), 0.005);
+  EXPECT_LT(sigma_mm("gocator", 0.5, 0.0), 0.05);
+  EXPECT_EQ(sigma_mm("ideal", 1.0, 0.0), 0.0);
+}
+
+TEST(NoisePresets, HavePhysicsWhereTheyClaimIt) {
+  for (const std::string& preset : scanner_presets()) {
+    const ScannerModel model = find_scanner(preset).value();
+    EXPECT_EQ(SensorNoise::create(model, noise_of("physics"), 1, 0).has_value(),
+              preset == "kinect-v2" || preset == "gocator")
+        << preset;
+  }
 }
 
 TEST(TriangleAlbedos, AreLinearMeansOfTheCorners) {
