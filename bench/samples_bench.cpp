@@ -265,13 +265,16 @@ std::vector<Setup> setups() {
   kinect.camera.cx = 255.5, kinect.camera.cy = 211.5;
   kinect.emitter_m = {0.08, 0.0, 0.0};
   kinect.max_incidence_rad = std::numbers::pi / 2;
+  ScannerModel narrow = kinect;
+  narrow.camera.fx = narrow.camera.fy = 850.0;
   ScannerModel line = kinect;
   line.kind = turnscan::ScannerKind::kLine;
   line.camera.width = 1, line.camera.height = 1280;
   line.camera.cx = 0.0, line.camera.cy = 639.5;
   line.camera.fx = line.camera.fy = 1600.0;
   line.receiver_m = {0.1, 0.0, 0.0};
-  return {{"matrix, object fills the view", kinect, 0.30, 12},
+  return {{"matrix, object fills the view", narrow, 0.7, 12},
+          {"matrix, from 0.3 m", kinect, 0.30, 12},
           {"matrix, object small in the view", kinect, 0.9, 12},
           {"line of 1280", line, 0.6, 400}};
 }
@@ -288,10 +291,11 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
   const Embree open3d(mesh, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   const auto scene = turnscan::Scene::create({&mesh, 1});
   const auto tracer = SampleTracer::create(setup.model);
+  const auto by_rays = SampleTracer::create(setup.model, turnscan::OcclusionMethod::kAllRays);
   const Body body{&*scene, Pose::Identity()};
   std::vector<Output> bare(poses.size());
   std::vector<CastRays> theirs(poses.size());
-  std::vector<SampleGrid> ours(poses.size());
+  std::vector<SampleGrid> ours(poses.size()), rays_only(poses.size());
   std::vector<std::vector<float>> rays(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (int v = 0; v < setup.model.camera.height; ++v) {
@@ -308,6 +312,10 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
        [&] {
          each([&](std::size_t i) { bare_pose(robust, view_of(setup.model, poses[i]), bare[i]); });
        }},
+      {"SampleTracer, all rays",
+       [&] { each([&](std::size_t i) {
+               by_rays->trace({&body, 1}, poses[i], rays_only[i]);
+             }); }},
       {"SampleTracer",
        [&] { each([&](std::size_t i) {
                tracer->trace({&body, 1}, poses[i], ours[i]);
@@ -336,9 +344,14 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
              100.0 * double(seen) / double(hits));
   for (const Way& way : ways)
     fmt::print(
-        "  {:<22} {:8.3f} ms a pose and core  {:6.2f} Mrays/s  {:6.2f} Msamples/s  {:5.2f}\n",
+        "  {:<23} {:8.3f} ms a pose and core  {:6.2f} Mrays/s  {:6.2f} Msamples/s  {:5.2f}\n",
         way.name, 1e3 * way.best / n, 1e-6 * double(pixels + hits) / way.best,
         1e-6 * double(pixels) / way.best, ways[0].best / way.best);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    for (std::size_t i = 0; i < ours[k].size(); ++i)
+      changed += ours[k].miss[i] != rays_only[k].miss[i] || ours[k].z[i] != rays_only[k].z[i] ||
+                 ours[k].triangle[i] != rays_only[k].triangle[i];
   std::size_t other_hit = 0, other_triangle = 0, other_seen = 0, far = 0;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const SampleGrid& g = ours[k];
@@ -356,6 +369,7 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
       }
     }
   }
+  fmt::print("  differences between the two: {} samples\n", changed);
   fmt::print(
       "  differences to bare Embree: {} hit or not, {} triangle, {} seen or not, {} farther "
       "than 1 um, of {} pixels\n",

@@ -19,9 +19,17 @@ struct Frame {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// The triangles of an object.
+struct ObjectView {
+  const float* vertices = nullptr;  ///< x y z each
+  const std::uint32_t* indices = nullptr;
+  std::uint32_t vertex_count = 0, triangle_count = 0;
+};
+
 /// A body as one pose of the sensor sees it.
 struct BodyView {
   RTCScene scene = nullptr;
+  const ObjectView* objects = nullptr;
   float platter_radius_squared = -1.0f;  ///< negative: there is none
   std::uint32_t id = 0;                  ///< position in the bodies << kObjectBits
   Frame frame;                           ///< outside of it no pixel sees the body
@@ -40,6 +48,13 @@ struct View {
   float near_m = 0.0f, far_m = 0.0f;
   float least_cosine = 0.0f;
   float size = 0.0f;  ///< largest coordinate of an origin
+
+  // Where the other eye lies beside the origin along the rows or columns of an image without
+  // distortion (see sample_occlusion.hpp); baseline = 0: elsewhere.
+  float baseline = 0.0f;            ///< its coordinate there, m
+  bool baseline_along_rows = true;  ///< or along the columns
+  float pixel = 0.0f;               ///< distance of the samples there, in directions
+  float border_nearness = 0.0f;     ///< 1 / depth of the nearest thing beyond that border; 0: none
 };
 
 /// Directions (x, y, 1) of the pixels: x[v * x_row + u], y[v * y_row + u * y_column]. NaN: no ray.

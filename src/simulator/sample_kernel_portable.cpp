@@ -4,6 +4,8 @@ namespace turnscan::sampling {
 namespace {
 
 #include <turnscan/simulator/sample_packet.hpp>
+// Needs the one above.
+#include <turnscan/simulator/sample_occlusion.hpp>
 
 }  // namespace
 

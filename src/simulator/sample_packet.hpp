@@ -149,7 +149,9 @@ inline bool overlap(const Frame& a, const Frame& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-inline void trace(const View& view, const Frame* where, RTCIntersectContext& context, Packet& p) {
+/// other_eye: whether to look from there, too.
+inline void trace(const View& view, const Frame* where, bool other_eye,
+                  RTCIntersectContext& context, Packet& p) {
   const I valid = (p.x == p.x) & (p.y == p.y);
   p.z = all(kInfinity);
   p.surface = all(-1);
@@ -160,7 +162,7 @@ inline void trace(const View& view, const Frame* where, RTCIntersectContext& con
       intersect(view.bodies[b], valid, context, p);
   Target target;
   judge(view, valid, p, target);
-  if (!view.two_eyed) return;
+  if (!other_eye) return;
   const I seen = p.miss == int(kCounts);
   I left = seen;
   for (int b = 0; b < view.body_count && any(left); ++b)
@@ -205,6 +207,7 @@ template <int kTileWidth>
 void trace_tiles(const View& view, const Directions& directions, const Frame& frame,
                  const Output& out) {
   constexpr int kTileHeight = kLanes / kTileWidth;
+  const bool by_rays = view.two_eyed && view.baseline == 0.0f;
   RTCIntersectContext context = coherent();
   const int width = frame.right - frame.left;
   for (int top = frame.top; top < frame.bottom; top += kTileHeight) {
@@ -212,7 +215,7 @@ void trace_tiles(const View& view, const Directions& directions, const Frame& fr
       const Frame tile{left, top, left + kTileWidth, top + kTileHeight};
       Packet p;
       load<kTileWidth>(directions, frame, left, top, p);
-      trace(view, &tile, context, p);
+      trace(view, &tile, by_rays, context, p);
       const int rows = frame.bottom - top < kTileHeight ? frame.bottom - top : kTileHeight;
       for (int row = 0; row < rows; ++row) {
         const std::size_t at = std::size_t(top + row - frame.top) * std::size_t(width) +
@@ -226,16 +229,6 @@ void trace_tiles(const View& view, const Directions& directions, const Frame& fr
   }
 }
 
-void trace_image(const View& view, const Directions& directions, const Frame& frame, int tile_width,
-                 const Output& out) {
-  if (tile_width >= 4)
-    trace_tiles<4>(view, directions, frame, out);
-  else if (tile_width == 2)
-    trace_tiles<2>(view, directions, frame, out);
-  else
-    trace_tiles<1>(view, directions, frame, out);
-}
-
 void trace_list(const View& view, const float* x, const float* y, std::size_t n,
                 const Output& out) {
   RTCIntersectContext context = coherent();
@@ -247,7 +240,7 @@ void trace_list(const View& view, const float* x, const float* y, std::size_t n,
       p.x[i] = x[ray];
       p.y[i] = y[ray];
     }
-    trace(view, nullptr, context, p);
+    trace(view, nullptr, view.two_eyed, context, p);
     store(p, 0, count, at, out);
   }
 }

@@ -67,6 +67,7 @@ BodyView view_of(const Body& body, std::size_t position, const ScannerModel& mod
   const Pose T = body.T_world_body.inverse() * T_world_sensor;
   BodyView view;
   view.scene = body.scene->impl().scene.get();
+  view.objects = body.scene->impl().objects.data();
   view.platter_radius_squared = body.scene->impl().platter_radius_squared;
   view.id = static_cast<std::uint32_t>(position << sampling::kObjectBits);
   for (int i = 0; i < 9; ++i) view.rotation[i] = static_cast<float>(T.linear()(i / 3, i % 3));
@@ -104,6 +105,43 @@ struct Views {
   }
 };
 
+/// Depth of the nearest corner of what the body holds.
+double nearest_of(const Body& body, const Pose& T_world_sensor) {
+  const Pose T = T_world_sensor.inverse() * body.T_world_body;
+  const Box box = body.scene->box();
+  double nearest = 1e300;
+  for (int corner = 0; corner < 8; ++corner)
+    nearest = std::min(nearest, (T * Vec3d((corner & 1 ? box.max : box.min).x(),
+                                           (corner & 2 ? box.max : box.min).y(),
+                                           (corner & 4 ? box.max : box.min).z()))
+                                    .z());
+  return nearest;
+}
+
+/// Whether the frame ends at the border of the image on the side of the other eye: the body may go
+/// on beyond it.
+bool cut_off(const Frame& frame, const sampling::View& view, const CameraIntrinsics& camera) {
+  if (view.baseline_along_rows)
+    return view.baseline > 0.0f ? frame.right >= camera.width : frame.left <= 0;
+  return view.baseline > 0.0f ? frame.bottom >= camera.height : frame.top <= 0;
+}
+
+void set_baseline(std::span<const Body> bodies, const ScannerModel& model,
+                  const Pose& T_world_sensor, sampling::View& view) {
+  const Vec3d& eye = model.other_eye_m();
+  const CameraIntrinsics& camera = model.camera;
+  const bool rows = eye.x() != 0.0;
+  if (eye.z() != 0.0 || (rows && eye.y() != 0.0) || camera.distorted()) return;
+  view.baseline_along_rows = rows;
+  view.baseline = static_cast<float>(rows ? eye.x() : eye.y());
+  view.pixel = static_cast<float>(1.0 / (rows ? camera.fx : camera.fy));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].scene->box().empty() || !cut_off(view.bodies[b].frame, view, camera)) continue;
+    const double nearest = std::max(nearest_of(bodies[b], T_world_sensor), 1e-6);
+    view.border_nearness = std::max(view.border_nearness, static_cast<float>(1.0 / nearest));
+  }
+}
+
 sampling::Output output_of(Samples& samples) {
   static_assert(sizeof(Miss) == 1);
   return {samples.z.data(), samples.surface.data(), samples.triangle.data(),
@@ -123,12 +161,13 @@ void Samples::resize(std::size_t n) {
 
 struct SampleTracer::Impl {
   ScannerModel model;
+  OcclusionMethod occlusion;
   int tile_width;           ///< of a packet: a square, or as near to it as the image allows
   std::vector<float> x, y;  ///< per column and row, or with distortion per pixel
   sampling::Directions directions;
 
-  explicit Impl(const ScannerModel& m)
-      : model(m), tile_width(m.camera.width >= 3 ? 4 : m.camera.width) {
+  Impl(const ScannerModel& m, OcclusionMethod o)
+      : model(m), occlusion(o), tile_width(m.camera.width >= 3 ? 4 : m.camera.width) {
     const CameraIntrinsics& camera = m.camera;
     if (camera.distorted()) {
       const RayTable table(camera);
@@ -148,9 +187,9 @@ SampleTracer::SampleTracer(SampleTracer&&) noexcept = default;
 SampleTracer& SampleTracer::operator=(SampleTracer&&) noexcept = default;
 SampleTracer::~SampleTracer() = default;
 
-Result<SampleTracer> SampleTracer::create(const ScannerModel& model) {
+Result<SampleTracer> SampleTracer::create(const ScannerModel& model, OcclusionMethod occlusion) {
   TURNSCAN_TRY(model.check());
-  return SampleTracer(std::make_unique<Impl>(model));
+  return SampleTracer(std::make_unique<Impl>(model, occlusion));
 }
 
 const ScannerModel& SampleTracer::model() const { return impl_->model; }
@@ -159,7 +198,9 @@ Vec3d SampleTracer::direction(double u, double v) const { return impl_->model.ca
 
 void SampleTracer::trace(std::span<const Body> bodies, const Pose& T_world_sensor,
                          SampleGrid& out) const {
-  const Views views(bodies, impl_->model, T_world_sensor);
+  Views views(bodies, impl_->model, T_world_sensor);
+  if (impl_->occlusion == OcclusionMethod::kDoubtful && impl_->model.kind == ScannerKind::kMatrix)
+    set_baseline(bodies, impl_->model, T_world_sensor, views.view);
   out.width = impl_->model.camera.width;
   out.height = impl_->model.camera.height;
   out.rect = {};

@@ -98,11 +98,20 @@ struct SampleHit {
   double u = 0.0, v = 0.0;            ///< barycentric, as RayHit
 };
 
+enum class OcclusionMethod {
+  /// A ray to the other eye only from those samples of an image that something in it could hide.
+  /// Nothing is taken to hide a sample that is itself thinner than the distance of two samples.
+  /// For images whose other eye lies along their rows or columns, and without distortion.
+  kDoubtful,
+  kAllRays  ///< from every sample
+};
+
 /// Immutable; all members may be called from several threads at once.
 class SampleTracer {
  public:
   /// Fails as ScannerModel::check does.
-  static Result<SampleTracer> create(const ScannerModel& model);
+  static Result<SampleTracer> create(const ScannerModel& model,
+                                     OcclusionMethod occlusion = OcclusionMethod::kDoubtful);
   SampleTracer(SampleTracer&&) noexcept;
   SampleTracer& operator=(SampleTracer&&) noexcept;
   ~SampleTracer();

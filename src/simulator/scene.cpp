@@ -202,7 +202,7 @@ bool Scene::occluded(const Ray& ray) const {
 
 std::size_t Scene::object_count() const { return impl_->objects.size(); }
 std::array<Vec3f, 3> Scene::corners(std::uint32_t object, std::uint32_t triangle) const {
-  const SceneObject& o = impl_->objects[object];
+  const sampling::ObjectView& o = impl_->objects[object];
   std::array<Vec3f, 3> out;
   for (std::size_t k = 0; k < 3; ++k) {
     const float* p = o.vertices + 3 * std::size_t(o.indices[3 * std::size_t(triangle) + k]);

@@ -4,6 +4,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <turnscan/simulator/sample_kernel.hpp>
 #include <turnscan/simulator/scene.hpp>
 #include <type_traits>
 #include <vector>
@@ -19,17 +20,10 @@ struct SceneDeleter {
 using DevicePtr = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
 
-/// The buffers of one object, which Embree owns.
-struct SceneObject {
-  const float* vertices = nullptr;  ///< x y z each
-  const std::uint32_t* indices = nullptr;
-  std::uint32_t vertex_count = 0, triangle_count = 0;
-};
-
 struct Scene::Impl {
   DevicePtr device;
   ScenePtr scene;
-  std::vector<SceneObject> objects;
+  std::vector<sampling::ObjectView> objects;  ///< their buffers are Embree's
   std::optional<double> platter_radius_m;
   float platter_radius_squared = -1.0f;  ///< negative: there is none
   Box object_box;

@@ -446,6 +446,63 @@ TEST(Samples, FromWithinAnObjectSeeItsInside) {
   EXPECT_NEAR(grid.z[grid.index(80, 60)], 0.5f, 2e-3);
 }
 
+/// How many samples of the two methods differ; both of `bodies` seen from T.
+std::size_t differences(const ScannerModel& model, const std::vector<Body>& bodies, const Pose& T,
+                        std::size_t& blocked) {
+  auto all = SampleTracer::create(model, OcclusionMethod::kAllRays);
+  EXPECT_TRUE(all);
+  const SampleGrid fast = trace(tracer_of(model), bodies, T), slow = trace(*all, bodies, T);
+  EXPECT_EQ(fast.z, slow.z);
+  EXPECT_EQ(fast.triangle, slow.triangle);
+  blocked += count(slow, Miss::kEmitterBlocked);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < fast.size(); ++i) n += fast.miss[i] != slow.miss[i] ? 1 : 0;
+  return n;
+}
+
+TEST(Samples, NeedNoRayToTheEmitterWhereNothingInTheImageCanHideThem) {
+  const Scene turning = scene_of(
+      {test::sphere_mesh({0.05, 0.1, 0}, 0.08, 60), test::box_mesh({-.12, 0, -.1}, {-.05, .2, .0})},
+      0.2);
+  const Scene room =
+      scene_of({test::box_mesh({-1, -.3, -1}, {1, -.2, 1}), wall(-3, 3, -3, 3, 1.5)});
+  for (const Vec3d& emitter : {Vec3d(0.08, 0, 0), Vec3d(-0.2, 0, 0), Vec3d(0, 0.1, 0),
+                               Vec3d(0, -0.3, 0), Vec3d(0.1, 0.1, 0), Vec3d(0.1, 0, 0.05)}) {
+    ScannerModel model = scanner(emitter);
+    model.camera = camera(320, 240, 300.0);
+    std::size_t blocked = 0, other = 0, samples = 0;
+    for (std::uint64_t k = 0; k < 6; ++k) {
+      Pose T = Pose::Identity();
+      T.translation() = Vec3d(0.2 * double(k) - 0.5, 0.5, -0.7);
+      T.linear() =
+          Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), Vec3d(0, 0.1, 0) - T.translation())
+              .toRotationMatrix();
+      other += differences(model, {{&turning, rotation_about_y(double(k))}, {&room}}, T, blocked);
+      samples += 320 * 240;
+    }
+    EXPECT_GT(blocked, 2000u);
+    EXPECT_LE(other, samples / 20000) << emitter.transpose();
+  }
+}
+
+TEST(Samples, AreHiddenFromTheEmitterByWhatLiesOutsideTheImage) {
+  const Scene back = scene_of({wall(-3, 3, -3, 3, 1.0)});
+  for (const double side : {-1.0, 1.0}) {
+    // Halfway to the emitter, and beyond the image's border.
+    const double x0 = 0.35 * side, x1 = 0.39 * side;
+    const Scene beside = scene_of({wall(std::min(x0, x1), std::max(x0, x1), -1, 1, 0.4)});
+    for (const bool vertical : {false, true}) {
+      ScannerModel model = scanner(vertical ? Vec3d(0, 0.5 * side, 0) : Vec3d(0.5 * side, 0, 0));
+      Pose turn = Pose::Identity();
+      if (vertical)
+        turn.linear() = Eigen::AngleAxisd(test::kPi / 2, Vec3d::UnitZ()).toRotationMatrix();
+      std::size_t blocked = 0;
+      EXPECT_EQ(differences(model, {{&back}, {&beside, turn}}, Pose::Identity(), blocked), 0u);
+      EXPECT_GT(blocked, 1000u);
+    }
+  }
+}
+
 TEST(Samples, NeedAScannerThatCanBe) {
   ScannerModel g = scanner();
   g.near_m = 6.0;
