@@ -22,7 +22,8 @@ double blurred_px(const NoiseModel& m, double line_px) {
 }
 
 std::uint64_t cell(double value, double size) {
-  return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / size)));
+  const double place = std::clamp(std::floor(value / size), -9e18, 9e18);
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(place));
 }
 
 /// The pixels that the spots reach.

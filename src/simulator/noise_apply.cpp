@@ -39,21 +39,26 @@ Key Job::key_of(std::uint64_t purpose) const {
 }
 
 Surfaces::Surfaces(const SensorView& view) : view_(view) {
-  R_body_sensor_.reserve(view.bodies.size());
+  R_sensor_body_.reserve(view.bodies.size());
   for (const Body& body : view.bodies)
-    R_body_sensor_.push_back(body.T_world_body.linear().transpose() * view.T_world_sensor.linear());
+    R_sensor_body_.emplace_back(view.T_world_sensor.linear().transpose() *
+                                body.T_world_body.linear());
 }
 
-double Surfaces::facing(const Samples& samples, std::size_t i, double x, double y) const {
+Vec3d Surfaces::normal(const Samples& samples, std::size_t i) const {
   const std::uint32_t body = samples.body(i);
-  const Vec3d d = R_body_sensor_[body] * Vec3d(x, y, 1.0);
-  const double length2 = x * x + y * y + 1.0;
-  if (samples.object(i) == kPlatter) return std::abs(d.y()) / std::sqrt(length2);
+  if (samples.object(i) == kPlatter) return R_sensor_body_[body].col(1);
   const auto c = view_.bodies[body].scene->corners(samples.object(i), samples.triangle[i]);
   const Vec3d a = c[0].cast<double>();
   const Vec3d n = (c[1].cast<double>() - a).cross(c[2].cast<double>() - a);
-  const double scale2 = n.squaredNorm() * length2;
-  return scale2 > 0.0 ? std::min(std::abs(n.dot(d)) / std::sqrt(scale2), 1.0) : 0.0;
+  const double length2 = n.squaredNorm();
+  if (!(length2 > 0.0)) return Vec3d::Zero();
+  return R_sensor_body_[body] * n / std::sqrt(length2);
+}
+
+double Surfaces::facing(const Samples& samples, std::size_t i, double x, double y) const {
+  const Vec3d d(x, y, 1.0);
+  return std::min(std::abs(normal(samples, i).dot(d)) / d.norm(), 1.0);
 }
 
 double Surfaces::albedo(const Samples& samples, std::size_t i) const {

@@ -42,13 +42,16 @@ struct Job {
 class Surfaces {
  public:
   explicit Surfaces(const SensorView& view);
+  /// Unit normal in the sensor frame, of either sign; zero for a triangle without area.
+  /// Precondition: samples.hit(i).
+  Vec3d normal(const Samples& samples, std::size_t i) const;
   /// Cosine between line of sight (x, y, 1) and normal, 0 to 1. Precondition: samples.hit(i).
   double facing(const Samples& samples, std::size_t i, double x, double y) const;
   double albedo(const Samples& samples, std::size_t i) const;
 
  private:
   const SensorView& view_;
-  std::vector<Eigen::Matrix3d> R_body_sensor_;
+  std::vector<Eigen::Matrix3d> R_sensor_body_;
 };
 
 /// Which samples count, as an array of 0 and 1.

@@ -36,14 +36,18 @@ class Formulae {
 
   void run() {
     radius_ = radius();
-    const Mask mixed = mixes() ? steps_of(job_.exact, counts_, radius_) : Mask();
+    Mask reached;
+    if (mixes()) {
+      steps_ = steps_of(job_.exact, counts_, 0);
+      reached = steps_of(job_.exact, counts_, radius_);
+    }
     const PixelRect& r = job_.exact.rect;
     for (int v = r.top; v < r.bottom; ++v) {
       draw_row(v);
       for (int u = r.left; u < r.right; ++u) {
         const std::size_t i = job_.exact.index(u, v);
-        if (!mixed.empty() && mixed[i] != 0)
-          add_mixed(u, v, i);
+        if (!reached.empty() && reached[i] != 0)
+          look_aside(u, v, i);
         else if (counts_[i] != 0)
           measure(i, job_.setup.pixel(u, v), u - r.left, seen_alone(u, v, i));
       }
@@ -95,24 +99,27 @@ class Formulae {
   }
 
   Seen seen(const Samples& samples, std::size_t i, double x, double y) const {
+    return seen_in_line(samples, i, Vec3d(x, y, 1.0), Vec3d(x, y, 1.0));
+  }
+
+  /// What a ray `there` sees, its depth carried along the surface to the line of sight `here`:
+  /// lateral noise decides which surface is seen; what it does on a slope is part of the axial
+  /// formula.
+  Seen seen_in_line(const Samples& samples, std::size_t i, const Vec3d& there,
+                    const Vec3d& here) const {
+    const Vec3d n = surfaces_.normal(samples, i);
+    const double along_there = std::abs(n.dot(there)), along_here = std::abs(n.dot(here));
     Seen s;
     s.z = samples.z[i];
-    s.facing = surfaces_.facing(samples, i, x, y);
+    s.facing = std::min(along_there / there.norm(), 1.0);
     s.signal = surfaces_.albedo(samples, i) * s.facing / (s.z * s.z);
+    const double most = kSteepest * s.z * (there - here).norm();
+    s.z += std::clamp(s.z * (along_there / std::max(along_here, 1e-9) - 1.0), -most, most);
     return s;
   }
 
-  /// A ray within a pixel, its depth carried along the surface to the line of sight through the
-  /// pixel's centre: lateral noise decides which surface is seen; what it does on a slope is part
-  /// of the axial formula.
-  Seen seen_in_line(std::size_t k, std::size_t pixel) const {
-    Seen s = seen(rays_.samples, k, rays_.x[k], rays_.y[k]);
-    const double x = job_.setup.rays.x()[pixel], y = job_.setup.rays.y()[pixel];
-    const double there = s.facing * std::hypot(rays_.x[k], rays_.y[k], 1.0);
-    const double here = surfaces_.facing(rays_.samples, k, x, y) * std::hypot(x, y, 1.0);
-    const double most = kSteepest * s.z * std::hypot(rays_.x[k] - x, rays_.y[k] - y);
-    s.z += std::clamp(s.z * (there / std::max(here, 1e-9) - 1.0), -most, most);
-    return s;
+  Vec3d line_of_sight(std::size_t pixel) const {
+    return {job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel], 1.0};
   }
 
   Seen seen_alone(int u, int v, std::size_t i) const {
@@ -120,7 +127,9 @@ class Formulae {
     return seen(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel]);
   }
 
-  void add_mixed(int u, int v, std::size_t i) {
+  /// A pixel within reach of a step looks where lateral noise sends it; rays are traced only if its
+  /// footprint there meets the step.
+  void look_aside(int u, int v, std::size_t i) {
     const std::size_t pixel = job_.setup.pixel(u, v);
     const double z = job_.exact.hit(i) ? double(job_.exact.z[i]) : nearest_around(u, v);
     if (!(z > 0.0)) return;
@@ -129,8 +138,31 @@ class Formulae {
     const double sigma =
         std::min(lateral_sigma_px(noise_, job_.setup.model.camera.fx, z, std::acos(facing)),
                  2.0 * lateral(z));
-    rays_.add(job_.setup, u, v, i, noise_.footprint_px > 0.0 ? kSide : 1, noise_.footprint_px,
-              sigma * normal_of(kAcross, pixel), sigma * normal_of(kAlong, pixel));
+    const double du = sigma * normal_of(kAcross, pixel), dv = sigma * normal_of(kAlong, pixel);
+    if (meets_step(u + du, v + dv)) {
+      rays_.add(job_.setup, u, v, i, noise_.footprint_px > 0.0 ? kSide : 1, noise_.footprint_px, du,
+                dv);
+      return;
+    }
+    // Beyond the image's border things go on as at the border.
+    const int x = std::clamp(int(std::lround(u + du)), 0, job_.exact.width - 1);
+    const int y = std::clamp(int(std::lround(v + dv)), 0, job_.exact.height - 1);
+    if (!job_.exact.contains(x, y)) return lose(i, Miss::kNothing);
+    const std::size_t there = job_.exact.index(x, y);
+    if (counts_[there] == 0) return lose(i, job_.exact.miss[there]);
+    job_.out.miss[i] = Miss::kNone;
+    measure(i, pixel, u - job_.exact.rect.left,
+            seen_in_line(job_.exact, there, line_of_sight(job_.setup.pixel(x, y)),
+                         line_of_sight(pixel)));
+  }
+
+  /// Whether one of the pixels under the footprint about (u, v) is at a step.
+  bool meets_step(double u, double v) const {
+    const double half = 0.5 * noise_.footprint_px;
+    for (int y = int(std::lround(v - half)); y <= int(std::lround(v + half)); ++y)
+      for (int x = int(std::lround(u - half)); x <= int(std::lround(u + half)); ++x)
+        if (job_.exact.contains(x, y) && steps_[job_.exact.index(x, y)] != 0) return true;
+    return false;
   }
 
   /// Of what lies within reach of the noise.
@@ -163,9 +195,10 @@ class Formulae {
   Seen mixed(std::size_t p, std::size_t i) {
     double light = 0.0, z = 0.0, facing = 0.0, nearest = 1e9, farthest = 0.0;
     Miss miss = rays_.samples.miss[p * rays_.each];
+    const Vec3d centre = line_of_sight(pixel_of(i));
     for (std::size_t k = p * rays_.each; k < (p + 1) * rays_.each; ++k) {
       if (!rays_.samples.counts(k)) continue;
-      const Seen s = seen_in_line(k, pixel_of(i));
+      const Seen s = seen_in_line(rays_.samples, k, Vec3d(rays_.x[k], rays_.y[k], 1.0), centre);
       light += s.signal;
       z += s.signal * s.z;
       facing += s.signal * s.facing;
@@ -234,6 +267,7 @@ class Formulae {
   const NoiseModel& noise_;
   Surfaces surfaces_;
   Mask counts_;
+  Mask steps_;  ///< pixels at a step
   std::uint64_t drop_seed_;
   int radius_ = 0;                             ///< pixels about a step that are looked into
   std::array<std::vector<float>, 4> normals_;  ///< by purpose
