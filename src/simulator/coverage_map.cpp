@@ -154,7 +154,7 @@ Rgb color_of(const CoverageCell& cell, double thin_per_mm2) {
       break;
   }
   const double floor = std::max(thin_per_mm2, 1e-3);
-  return ramp(std::floor(std::log2(std::max(1.0, cell.density_per_mm2() / floor))) / kSteps);
+  return ramp(std::log2(std::max(1.0, cell.density_per_mm2() / floor)) / kSteps);
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ inline constexpr std::size_t kCoverageStateCount = 4;
 /// "covered", "thin", "missed", "unreachable".
 std::string_view name_of(CoverageState state);
 
-/// What lies within a cube of cell_m and faces the same of the six directions along the axes.
+/// What lies within a cube of cell_m and faces the same of the six directions along the axes; a
+/// sliver that a cube cuts off belongs to its neighbour.
 struct CoverageCell {
   double area_m2 = 0.0;
   Vec3d center = Vec3d::Zero();  ///< of its surface; table frame
@@ -107,8 +108,8 @@ Result<CoverageMap> coverage_map(const Scene& scene, std::span<const TriangleMes
                                  const CoverageMapOptions& options, const RunContext& context);
 
 /// The patches, each with corners of its own, coloured: covered from blue over green to yellow by
-/// density (a step for each factor of two above thin_per_mm2), thin orange, missed red, unreachable
-/// grey.
+/// the logarithm of density (from thin_per_mm2 to 256 times that), thin orange, missed red,
+/// unreachable grey.
 TriangleMesh coverage_mesh(const CoverageMap& map, const CoverageMapOptions& options);
 
 }  // namespace turnscan

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t kMostPatches = 4'000'000;
 constexpr double kPlainAlbedo = 0.8;
+constexpr double kSliver = 0.4;  // of a cell's face
 
 /// Its first corner; the longest of equal ones is the first.
 int longest_edge(const std::array<Vec3f, 3>& c) {
@@ -57,22 +58,48 @@ std::uint8_t albedo_of(const TriangleMesh& mesh, std::size_t face) {
   return static_cast<std::uint8_t>(std::lround(albedo * (CoveragePatches::kAlbedoSteps - 1)));
 }
 
-/// Cube and direction of a patch.
-struct CellKey {
-  std::array<std::int64_t, 3> cube;
-  int side;
-  auto operator<=>(const CellKey&) const = default;
-};
+using CellKey = CoveragePatches::CellKey;
+
+Vec3f middle_of(const CoveragePatch& patch) {
+  return (patch.corners[0] + patch.corners[1] + patch.corners[2]) / 3.0f;
+}
 
 CellKey key_of(const CoveragePatch& patch, const Vec3f& normal, double cell_m) {
   CellKey key{};
-  const Vec3f center = (patch.corners[0] + patch.corners[1] + patch.corners[2]) / 3.0f;
+  const Vec3f center = middle_of(patch);
   for (int k = 0; k < 3; ++k)
     key.cube[std::size_t(k)] = static_cast<std::int64_t>(std::floor(double(center[k]) / cell_m));
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   key.side = 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
   return key;
+}
+
+/// The largest of the cells that touch the one with this key and face the same way; `self` if none
+/// is larger than least.
+std::uint32_t largest_neighbour(std::span<const CellKey> keys, std::span<const double> areas,
+                                std::uint32_t self, double least) {
+  std::uint32_t best = self;
+  for (int n = 0; n < 27; ++n) {
+    CellKey key = keys[self];
+    key.cube[0] += n % 3 - 1;
+    key.cube[1] += n / 3 % 3 - 1;
+    key.cube[2] += n / 9 - 1;
+    const auto found = std::lower_bound(keys.begin(), keys.end(), key);
+    if (found == keys.end() || *found != key) continue;
+    const auto c = static_cast<std::uint32_t>(found - keys.begin());
+    if (areas[c] >= least && areas[c] > areas[best]) best = c;
+  }
+  return best;
+}
+
+/// For each cell the one that takes its place: itself unless it is smaller than least.
+std::vector<std::uint32_t> absorb_slivers(std::span<const CellKey> keys,
+                                          std::span<const double> areas, double least) {
+  std::vector<std::uint32_t> kept(keys.size());
+  for (std::uint32_t c = 0; c < keys.size(); ++c)
+    kept[c] = areas[c] < least ? largest_neighbour(keys, areas, c, least) : c;
+  return kept;
 }
 
 }  // namespace
@@ -135,29 +162,51 @@ std::int32_t CoveragePatches::cut(const std::array<Vec3f, 3>& corners, std::uint
   return ~static_cast<std::int32_t>(node);
 }
 
-/// Cells in the order of their cubes, so that neighbours lie together.
+/// Cells in the order of their cubes, so that neighbours lie together. What a cube's border cuts
+/// off as a sliver goes to the largest cell next to it, so that cells have enough samples to tell a
+/// density.
 void CoveragePatches::gather() {
-  std::vector<std::pair<CellKey, std::uint32_t>> keys(patches.size());
-  for (std::uint32_t p = 0; p < patches.size(); ++p)
-    keys[p] = {key_of(patches[p], normal(patches[p].object, patches[p].face), cell_m), p};
-  std::sort(keys.begin(), keys.end());
-  double largest_area = 0.0;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i == 0 || keys[i].first != keys[i - 1].first) {
-      cells.emplace_back();
-      largest.push_back(keys[i].second);
-      largest_area = 0.0;
-    }
-    CoveragePatch& patch = patches[keys[i].second];
-    patch.cell = static_cast<std::uint32_t>(cells.size() - 1);
+  std::vector<CellKey> keys;
+  std::vector<double> areas;
+  std::vector<std::uint32_t> place = place_by_key(keys, areas);
+  const std::vector<std::uint32_t> kept = absorb_slivers(keys, areas, kSliver * cell_m * cell_m);
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> number(areas.size(), 0);
+  for (std::uint32_t c = 0; c < areas.size(); ++c)
+    if (kept[c] == c) number[c] = count++;
+  cells.assign(count, {});
+  largest.assign(count, 0);
+  std::vector<double> largest_area(count, -1.0);
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    CoveragePatch& patch = patches[p];
+    patch.cell = number[kept[place[p]]];
     const double area = 0.5 * doubled_area(patch.corners).norm();
-    const Vec3f middle = (patch.corners[0] + patch.corners[1] + patch.corners[2]) / 3.0f;
-    cells.back().area_m2 += area;
-    cells.back().center += area * middle.cast<double>();
-    if (area > largest_area) largest.back() = keys[i].second, largest_area = area;
+    CoverageCell& cell = cells[patch.cell];
+    cell.area_m2 += area;
+    cell.center += area * middle_of(patch).cast<double>();
+    if (area > largest_area[patch.cell]) largest[patch.cell] = p, largest_area[patch.cell] = area;
   }
   for (CoverageCell& cell : cells)
     if (cell.area_m2 > 0.0) cell.center /= cell.area_m2;
+}
+
+/// The position of each patch's key in the sorted keys, and the area of each.
+std::vector<std::uint32_t> CoveragePatches::place_by_key(std::vector<CellKey>& keys,
+                                                         std::vector<double>& areas) const {
+  std::vector<std::pair<CellKey, std::uint32_t>> sorted(patches.size());
+  for (std::uint32_t p = 0; p < patches.size(); ++p)
+    sorted[p] = {key_of(patches[p], normal(patches[p].object, patches[p].face), cell_m), p};
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> place(patches.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || sorted[i].first != sorted[i - 1].first) {
+      keys.push_back(sorted[i].first);
+      areas.push_back(0.0);
+    }
+    place[sorted[i].second] = static_cast<std::uint32_t>(keys.size() - 1);
+    areas.back() += 0.5 * doubled_area(patches[sorted[i].second].corners).norm();
+  }
+  return place;
 }
 
 std::uint32_t CoveragePatches::patch_at(std::uint32_t object, std::uint32_t triangle,

@@ -32,6 +32,13 @@ class CoveragePatches {
 
   static constexpr int kAlbedoSteps = 16;
 
+  /// Cube and direction of a patch.
+  struct CellKey {
+    std::array<std::int64_t, 3> cube;
+    int side;
+    auto operator<=>(const CellKey&) const = default;
+  };
+
  private:
   /// An edge that is halved: of the children the first has the edge's first corner.
   struct Node {
@@ -43,6 +50,8 @@ class CoveragePatches {
   void cut(const TriangleMesh& mesh, std::uint32_t object);
   std::int32_t cut(const std::array<Vec3f, 3>& corners, std::uint32_t object, std::uint32_t face);
   void gather();
+  std::vector<std::uint32_t> place_by_key(std::vector<CellKey>& keys,
+                                          std::vector<double>& areas) const;
 
   std::vector<std::size_t> first_;   ///< face of each object in roots_, and the end
   std::vector<std::int32_t> roots_;  ///< of each face: a patch, or ~node
