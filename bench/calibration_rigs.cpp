@@ -22,8 +22,6 @@ struct Outcome {
 Outcome try_rig(std::uint64_t seed, int frames) {
   testing::RigOptions options = testing::random_rig(seed);
   options.frames = frames;
-  if (getenv("NONOISE")) options.noise_m = 0;
-  if (getenv("NOMIX")) options.mixed_pixels = 0;
   const testing::Rig rig(options);
   Outcome out;
   out.elevation_deg = options.elevation_rad * kDegrees;

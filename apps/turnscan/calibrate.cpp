@@ -2,6 +2,7 @@
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/detect.hpp>
+#include <turnscan/turntable/motion.hpp>
 #include <turnscan/turntable/picked_points.hpp>
 
 #include "calibration_text.hpp"
@@ -22,18 +23,22 @@ class CalibrateCommand : public Command {
                 "Use points on the platter's rim: columns x_mm,y_mm,z_mm (or _m) in the sensor's "
                 "frame, or column,row of the averaged depth image");
     line.flag("--detect", detect_, "Find the platter's surface and rim in the averaged frames");
+    line.flag("--from-motion", from_motion_,
+              "Find axis, speed and angles from the motion of what stands on the platter");
     line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
     line.option("--save", "FILE.json", save_,
                 "Keep the calibration as a file for reconstruct --turntable (the same content)");
     line.allow_config();
     line.group("average", "Averaging", describe(average_));
     line.group("detect", "Detection", describe(detect_options_));
+    line.group("motion", "Motion", describe(motion_options_));
   }
 
   Result<> run(Session& session) override {
-    if (!points_.empty() && detect_)
+    if (int(!points_.empty()) + int(detect_) + int(from_motion_) > 1)
       return fail(ErrorCode::kInvalidOption,
-                  "--points and --detect are two ways to calibrate; give one of them");
+                  "--points, --detect and --from-motion are different ways to calibrate; give one "
+                  "of them");
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
@@ -55,10 +60,37 @@ class CalibrateCommand : public Command {
  private:
   Result<Calibration> calibrate(const Recording& recording, Session& session) const {
     if (!points_.empty()) return from_points(recording, session);
+    if (from_motion_) return motion(recording, session);
+    if (detect_) return detected(recording, session);
+    return automatic(recording, session);
+  }
+
+  Result<Calibration> motion(const Recording& recording, Session& session) const {
+    return calibrate_from_motion(recording, motion_options_, detect_options_, session.context());
+  }
+
+  Result<Calibration> detected(const Recording& recording, Session& session) const {
     TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
     TURNSCAN_ASSIGN(const DetectedPlatter platter,
                     detect_platter(scan, detect_options_, session.context()));
-    return calibration_of(platter, scan);
+    Calibration out = calibration_of(platter, scan);
+    out.table.speed_rad_s = motion_options_.speed_rad_s;
+    if (motion_options_.speed_rad_s) out.speed_found = "stated";
+    return out;
+  }
+
+  /// From motion; where nothing turns or nothing about the turn can be seen, from the platter.
+  Result<Calibration> automatic(const Recording& recording, Session& session) const {
+    auto moving = motion(recording, session);
+    if (moving || moving.error().code == ErrorCode::kCancelled) return moving;
+    auto still = detected(recording, session);
+    if (!still) {
+      if (still.error().code == ErrorCode::kCancelled) return still;
+      return fail(ErrorCode::kMissingData, "neither motion nor platter: {} ({})",
+                  moving.error().message, still.error().message);
+    }
+    still->notes.push_back("not from motion: " + moving.error().message);
+    return still;
   }
 
   Result<AveragedScan> average(const Recording& recording, Session& session) const {
@@ -88,9 +120,10 @@ class CalibrateCommand : public Command {
   }
 
   std::string recording_, points_, json_, save_;
-  bool detect_ = false;
+  bool detect_ = false, from_motion_ = false;
   AverageOptions average_;
   DetectOptions detect_options_;
+  MotionOptions motion_options_;
 };
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+// The turntable from the motion of what stands on it.
+
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/turntable/detect.hpp>
+
+namespace turnscan {
+
+struct MotionOptions {
+  /// Signed, counter-clockwise seen from above is positive. It is found from the recording; this is
+  /// what is used where the object's shape says nothing about its turn.
+  std::optional<double> speed_rad_s;
+  bool use_angles = true;  ///< start from the frames' own angles, where all have one
+  bool use_table = true;   ///< start from the recording's turntable where no platter is seen
+  int key_frames = 160;    ///< frames whose depth images are kept; each is compared with some
+  double angle_sigma_rad = 0.0174532925;  ///< of the frames' own angles
+};
+/// Fields speed, motion-angles, motion-table, motion-keys, motion-angle-sigma.
+OptionTable describe(MotionOptions& options);
+
+/// One least-squares problem over all frames of sensor 0: they share the axis, each has one angle,
+/// and the motor's law (the speed changes slowly) is the angles' prior. What is compared are
+/// distances of a frame's points from another frame's surface; the platter, when it is seen, gives
+/// the first place of the axis and its height along it. Speed, its sign and the moment the table
+/// started come from the recording's times. What the data do not determine is listed in
+/// `undetermined`, and was left to the prior.
+/// Fails with kTooFewPoints when nothing turns, kMissingData when the shape says nothing about the
+/// speed and none is given, kInvalidOption, kLibrary when no start leads to frames that fit,
+/// kCancelled, and what reading fails with.
+Result<Calibration> calibrate_from_motion(const FrameSequence& sequence,
+                                          const MotionOptions& options, const DetectOptions& detect,
+                                          const RunContext& context);
+
+}  // namespace turnscan

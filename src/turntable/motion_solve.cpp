@@ -1,0 +1,396 @@
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion_solve.hpp>
+
+namespace turnscan::detail {
+
+namespace {
+
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kHuber = 1.5;
+constexpr double kStart = 0.5;  // of the speed in a second, while the table starts or stops
+
+std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
+  int least = 0;
+  n.cwiseAbs().minCoeff(&least);
+  const Vec3d u = n.cross(Vec3d::Unit(least)).normalized();
+  return {u, n.cross(u)};
+}
+
+/// Normal equations of one pair. Unknowns: two tilts of the axis, two shifts of the centre, angle
+/// of `to` less angle of `from`.
+struct PairSum {
+  Matrix5 normal = Matrix5::Zero();
+  Vector5 right = Vector5::Zero();
+  double squares = 0.0, cost = 0.0;
+  std::size_t count = 0;
+  std::vector<float> sizes;  ///< some of the residuals
+};
+
+struct Weighing {
+  double reach_m, huber_m;
+  std::size_t stride;
+};
+
+PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePair& pair,
+                 const Weighing& weighing) {
+  PairSum out;
+  const MotionFrame& from = data.frames[pair.from];
+  const MotionView& view = data.frames[pair.to].view;
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(state.angle[pair.to] - state.angle[pair.from], state.axis)
+          .toRotationMatrix();
+  const auto [u, v] = across(state.axis);
+  const Eigen::Matrix3d shift = Eigen::Matrix3d::Identity() - R;
+  const Vec3d shift_u = shift * u, shift_v = shift * v;
+  for (std::size_t s = pair.to % weighing.stride; s < from.samples.size(); s += weighing.stride) {
+    const MotionSample& sample = from.samples[s];
+    const Vec3d n = sample.n.cast<double>(), d = sample.p.cast<double>() - state.center;
+    const Vec3d turned = R * d, m = R * n, q = state.center + turned;
+    // Turned away from the sensor it cannot be seen.
+    if (data.projective && -m.dot(q) < 0.25 * q.norm()) continue;
+    Vec3d found;
+    if (!data.look_up(view, q, weighing.reach_m, found)) continue;
+    const double r = m.dot(q - found), size = std::abs(r);
+    const double limit = weighing.huber_m;
+    if (size > 4.0 * limit) {
+      out.cost += 7.0 * limit * limit;
+      continue;
+    }
+    out.cost += size > limit ? limit * (2.0 * size - limit) : size * size;
+    const Vec3d sweep = state.axis.cross(turned);
+    const Vec3d tilt = turned.cross(m) - d.cross(n);
+    Vector5 row;
+    row << tilt.dot(u), tilt.dot(v), m.dot(shift_u), m.dot(shift_v), m.dot(sweep);
+    const double weight = size > limit ? limit / size : 1.0;
+    out.normal.noalias() += weight * row * row.transpose();
+    out.right.noalias() -= weight * r * row;
+    out.squares += weight * r * r;
+    if (out.count % 8 == 0) out.sizes.push_back(float(size));
+    ++out.count;
+  }
+  return out;
+}
+
+double median_of(std::vector<float>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Solver {
+ public:
+  Solver(const MotionData& data, const MotionState& start, const std::vector<FramePair>& pairs,
+         const AngleLaw& law, const SolveOptions& options)
+      : data_(data), pairs_(pairs), law_(law), options_(options), n_(data.frames.size()) {
+    out_.state = start;
+    std::set<std::uint32_t> used;
+    for (const FramePair& pair : pairs) used.insert(pair.from);
+    // A sample takes part in several pairs, and smoothing shares noise among neighbours.
+    uses_ = 4.0 * std::max(1.0, 0.5 * double(pairs.size()) / double(used.size() + 1));
+  }
+
+  Result<MotionSolution> run(const RunContext& context) {
+    Weighing weighing{options_.reach_m, 0.5 * options_.reach_m, options_.stride};
+    for (int i = 0; i < options_.iterations; ++i) {
+      TURNSCAN_TRY(context.check());
+      TURNSCAN_TRY(accumulate(weighing));
+      TURNSCAN_TRY(solve());
+      const double moved = apply();
+      const double limit = std::max({kHuber * out_.scale_m, 0.2 * data_.noise_m, options_.floor_m});
+      weighing.huber_m = std::max(limit, 0.5 * weighing.huber_m);
+      weighing.reach_m = std::max(0.6 * weighing.reach_m, 8.0 * limit);
+      if (i > 2 && moved < 2e-6) break;
+    }
+    out_.misfit = cost_ / unit_ + law_cost_ + factors_.vectorD().array().log().sum() -
+                  double(n_ + 4) * std::log(unit_);
+    if (options_.covariance) find_covariance();
+    return std::move(out_);
+  }
+
+ private:
+  Result<> accumulate(const Weighing& weighing) {
+    std::vector<PairSum> sums(pairs_.size());
+    parallel_for(pairs_.size(), 4, [&](std::size_t k) {
+      sums[k] = sum_pair(data_, out_.state, pairs_[k], weighing);
+    });
+    triplets_.clear();
+    right_ = Eigen::VectorXd::Zero(Eigen::Index(n_ + 4));
+    shared_.setZero();
+    std::vector<float> sizes;
+    double squares = 0.0;
+    out_.residuals = 0;
+    cost_ = 0.0;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      add(pairs_[k], sums[k]);
+      squares += sums[k].squares;
+      cost_ += sums[k].cost;
+      out_.residuals += sums[k].count;
+      sizes.insert(sizes.end(), sums[k].sizes.begin(), sums[k].sizes.end());
+    }
+    if (out_.residuals < 100)
+      return fail(ErrorCode::kTooFewPoints,
+                  "motion: the frames do not overlap, only {} points of them meet; take more "
+                  "frames a turn, or say where the axis is with a calibration",
+                  out_.residuals);
+    out_.scale_m = options_.scale_m.value_or(std::max(1.4826 * median_of(sizes), 1e-7));
+    out_.rms_m = std::sqrt(squares / double(out_.residuals));
+    return {};
+  }
+
+  void add(const FramePair& pair, const PairSum& sum) {
+    shared_ += sum.normal.topLeftCorner<4, 4>();
+    right_.tail<4>() += sum.right.head<4>();
+    if (options_.hold_angles) return;
+    const auto from = int(pair.from), to = int(pair.to), first = int(n_);
+    const double h = sum.normal(4, 4);
+    triplets_.emplace_back(to, to, h);
+    triplets_.emplace_back(from, from, h);
+    triplets_.emplace_back(std::max(from, to), std::min(from, to), -h);
+    for (int k = 0; k < 4; ++k) {
+      triplets_.emplace_back(first + k, to, sum.normal(k, 4));
+      triplets_.emplace_back(first + k, from, -sum.normal(k, 4));
+    }
+    right_[to] += sum.right[4];
+    right_[from] -= sum.right[4];
+  }
+
+  /// One equation: sum of coefficient * step = -error, in units of its standard deviation.
+  void add_row(std::initializer_list<std::pair<int, double>> terms, double error, double weight) {
+    for (const auto& [i, a] : terms) {
+      right_[i] -= weight * a * error;
+      for (const auto& [k, b] : terms) {
+        if (i >= k) triplets_.emplace_back(i, k, weight * a * b);
+      }
+    }
+  }
+
+  /// weight: how many residuals' worth; equations of the law are in units of the residuals' scale.
+  void add_law() {
+    const double unit = unit_;
+    const auto& angle = out_.state.angle;
+    add_row({{0, 1.0}}, angle[0], unit / (1e-7 * 1e-7));
+    if (law_.nominal_sigma_rad > 0.0) {
+      const double zero = *data_.frames[0].nominal_rad;
+      for (int i = 1; i < int(n_); ++i) {
+        const double nominal =
+            law_.nominal_sign * (*data_.frames[std::size_t(i)].nominal_rad - zero);
+        add_row({{i, 1.0}}, angle[std::size_t(i)] - nominal,
+                unit / (law_.nominal_sigma_rad * law_.nominal_sigma_rad));
+      }
+    }
+    if (law_.timed) add_speed_law(unit);
+    // Keeps a frame that shows nothing from being without any equation.
+    for (int i = 0; i < int(n_); ++i) triplets_.emplace_back(i, i, unit * 1e-2);
+  }
+
+  void add_speed_law(double unit) {
+    const auto& angle = out_.state.angle;
+    const auto time = [&](int i) { return data_.frames[std::size_t(i)].time_s; };
+    const double wander = law_.wander * std::abs(law_.speed_rad_s);
+    for (int i = 1; i + 1 < int(n_); ++i) {
+      const double h = time(i) - time(i - 1), g = time(i + 1) - time(i);
+      if (!(h > 0.0 && g > 0.0)) continue;
+      const double error = (angle[std::size_t(i) + 1] - angle[std::size_t(i)]) / g -
+                           (angle[std::size_t(i)] - angle[std::size_t(i) - 1]) / h;
+      const bool loose = !law_.loose.empty() && law_.loose[std::size_t(i)] != 0;
+      const double sigma =
+          (loose ? kStart * std::abs(law_.speed_rad_s) : wander) * std::sqrt(0.5 * (g + h));
+      // A start or a stop is a large change at one moment.
+      const double robust = 1.0 / (1.0 + std::pow(error / (4.0 * sigma), 2));
+      law_cost_ += 16.0 * std::log1p(std::pow(error / (4.0 * sigma), 2)) + 2.0 * std::log(sigma);
+      add_row({{i + 1, 1.0 / g}, {i, -1.0 / g - 1.0 / h}, {i - 1, 1.0 / h}}, error,
+              robust * unit / (sigma * sigma));
+    }
+    if (!law_.stated_rad_s) return;
+    const int last = int(n_) - 1;
+    const double span = time(last) - time(0);
+    const double sigma = std::max(1e-3 * std::abs(*law_.stated_rad_s) * span, 1e-4);
+    add_row({{last, 1.0}}, angle.back() - *law_.stated_rad_s * span, unit / (sigma * sigma));
+  }
+
+  Result<> solve() {
+    unit_ = uses_ * out_.scale_m * out_.scale_m;
+    law_cost_ = 0.0;
+    add_law();
+    const int first = int(n_);
+    // Where the platter was seen it says roughly where the axis is; a platter may wobble.
+    const double unit = unit_;
+    Eigen::Matrix4d shared = shared_;
+    double tilt = 0.35, shift = 0.2;
+    if (data_.platter) tilt = 0.01, shift = 0.005;
+    shared(0, 0) += unit / (tilt * tilt);
+    shared(1, 1) += unit / (tilt * tilt);
+    shared(2, 2) += unit / (shift * shift);
+    shared(3, 3) += unit / (shift * shift);
+    add_axis_prior(unit, tilt, shift);
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k <= i; ++k) triplets_.emplace_back(first + i, first + k, shared(i, k));
+    }
+    matrix_.resize(first + 4, first + 4);
+    matrix_.setFromTriplets(triplets_.begin(), triplets_.end());
+    factors_.compute(matrix_);
+    if (factors_.info() != Eigen::Success)
+      return fail(ErrorCode::kLibrary, "motion: the system of equations cannot be solved");
+    step_ = factors_.solve(right_);
+    if (!step_.allFinite())
+      return fail(ErrorCode::kLibrary, "motion: the system of equations has no finite solution");
+    return {};
+  }
+
+  /// Pulls towards the platter, where one was seen.
+  void add_axis_prior(double unit, double tilt, double shift) {
+    if (!data_.platter) return;
+    const auto [u, v] = across(out_.state.axis);
+    const Vec3d lean = out_.state.axis.cross(data_.platter->axis);  // the turn that would get there
+    const auto first = Eigen::Index(n_);
+    right_[first] += unit / (tilt * tilt) * lean.dot(u);
+    right_[first + 1] += unit / (tilt * tilt) * lean.dot(v);
+    const Vec3d off = data_.platter->center_m - out_.state.center;
+    right_[first + 2] += unit / (shift * shift) * off.dot(u);
+    right_[first + 3] += unit / (shift * shift) * off.dot(v);
+  }
+
+  /// Returns how far the farthest point moved, about.
+  double apply() {
+    const auto [u, v] = across(out_.state.axis);
+    const auto first = Eigen::Index(n_);
+    const Vec3d turn = step_[first] * u + step_[first + 1] * v;
+    const Vec3d shift = step_[first + 2] * u + step_[first + 3] * v;
+    const double size = std::min(turn.norm(), 0.2);
+    if (size > 0.0)
+      out_.state.axis = (Eigen::AngleAxisd(size, turn.normalized()) * out_.state.axis).normalized();
+    out_.state.center += shift * std::min(1.0, 0.05 / std::max(shift.norm(), 1e-12));
+    double most = 0.0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double step = std::clamp(step_[Eigen::Index(i)], -0.3, 0.3);
+      out_.state.angle[i] += step;
+      most = std::max(most, std::abs(step));
+    }
+    return std::max({0.1 * most, 0.1 * size, shift.norm()});
+  }
+
+  void find_covariance() {
+    const double variance = unit_;
+    const auto size = Eigen::Index(n_) + 4;
+    const auto first = Eigen::Index(n_);
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      const Eigen::VectorXd column = factors_.solve(Eigen::VectorXd::Unit(size, first + k));
+      out_.covariance.col(k) = variance * column.tail<4>();
+    }
+    out_.angle_sigma.assign(n_, 0.0);
+    parallel_for(n_, 16, [&](std::size_t i) {
+      const Eigen::VectorXd column = factors_.solve(Eigen::VectorXd::Unit(size, Eigen::Index(i)));
+      out_.angle_sigma[i] = std::sqrt(std::max(0.0, variance * column[Eigen::Index(i)]));
+    });
+  }
+
+  const MotionData& data_;
+  const std::vector<FramePair>& pairs_;
+  const AngleLaw& law_;
+  const SolveOptions& options_;
+  std::size_t n_;
+  double uses_ = 1.0;  ///< how often the same noise is counted
+  double unit_ = 1.0;  ///< what a residual of one standard deviation weighs
+  double cost_ = 0.0, law_cost_ = 0.0;
+  MotionSolution out_;
+  std::vector<Eigen::Triplet<double>> triplets_;
+  Eigen::Matrix4d shared_ = Eigen::Matrix4d::Zero();
+  Eigen::VectorXd right_, step_;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors_;
+};
+
+}  // namespace
+
+double pair_cost(const MotionData& data, const MotionState& state, const FramePair& pair,
+                 double angle_rad, double gate_m, std::size_t most_samples) {
+  const MotionFrame& from = data.frames[pair.from];
+  const MotionView& view = data.frames[pair.to].view;
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(angle_rad, state.axis).toRotationMatrix();
+  const std::size_t n = std::min(most_samples, from.samples.size());
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const MotionSample& sample = from.samples[k * from.samples.size() / n];
+    const Vec3d q = state.center + R * (sample.p.cast<double>() - state.center);
+    const Vec3d m = R * sample.n.cast<double>();
+    if (data.projective && -m.dot(q) < 0.25 * q.norm()) continue;
+    Vec3d found;
+    count += 1.0;
+    if (!data.look_up(view, q, 4.0 * gate_m, found)) {
+      sum += 0.6;
+      continue;
+    }
+    sum += std::min(1.0, std::pow(m.dot(q - found) / gate_m, 2));
+  }
+  // A turn that shows next to nothing of the samples explains nothing.
+  if (count < 0.2 * double(n) || count == 0.0) return 1.0;
+  return sum / count;
+}
+
+std::vector<FramePair> choose_pairs(const MotionData& data, const std::vector<double>& angle,
+                                    bool all_frames) {
+  // Near frames say how it turned, far ones where the axis is and that the steps add up.
+  constexpr std::array<double, 5> kApart{0.0, 0.2, 0.5, 0.95, 1.4};
+  std::set<std::pair<std::uint32_t, std::uint32_t>> chosen;
+  std::vector<std::uint8_t> is_key(data.frames.size(), 0);
+  for (const std::size_t k : data.keys) is_key[k] = 1;
+  const auto nearest = [&](std::size_t frame, double target, double reach) {
+    std::size_t best = frame;
+    double least = reach;
+    for (const std::size_t k : data.keys) {
+      const double off = std::abs(angle[k] - target);
+      if (k == frame || data.frames[k].pass != data.frames[frame].pass || off >= least) continue;
+      best = k, least = off;
+    }
+    return best;
+  };
+  const auto add = [&](std::size_t from, std::size_t to) {
+    if (from == to) return;
+    if (!data.frames[from].samples.empty() && !data.frames[to].view.empty())
+      chosen.emplace(std::uint32_t(from), std::uint32_t(to));
+    if (is_key[from] && !data.frames[to].samples.empty() && !data.frames[from].view.empty())
+      chosen.emplace(std::uint32_t(to), std::uint32_t(from));
+  };
+  const double few = data.keys.size() <= 24 ? 1.0 : 0.1;
+  for (std::size_t i = 0; i < data.frames.size(); ++i) {
+    if (!is_key[i] && !all_frames) continue;
+    for (std::size_t k = 0; k < kApart.size(); ++k) {
+      if (!is_key[i] && k >= 2) continue;
+      add(i, nearest(i, angle[i] + kApart[k], few));
+      if ((!is_key[i] && k > 0) || data.keys.size() <= 24)
+        add(i, nearest(i, angle[i] - kApart[k], few));
+    }
+    for (const double turn : {kTurn, -kTurn, 2 * kTurn}) {
+      for (const double apart : {0.0, 0.25}) {
+        if (!is_key[i] && apart != 0.0) continue;
+        add(i, nearest(i, angle[i] + turn + apart, few));
+      }
+    }
+  }
+  // Neighbours in the order of the frames always hang together.
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k) {
+    if (data.frames[data.keys[k]].pass == data.frames[data.keys[k + 1]].pass)
+      add(data.keys[k], data.keys[k + 1]);
+  }
+  std::vector<FramePair> out;
+  for (const auto& [from, to] : chosen) out.push_back({from, to});
+  return out;
+}
+
+Result<MotionSolution> solve_motion(const MotionData& data, const MotionState& start,
+                                    const std::vector<FramePair>& pairs, const AngleLaw& law,
+                                    const SolveOptions& options, const RunContext& context) {
+  return Solver(data, start, pairs, law, options).run(context);
+}
+
+}  // namespace turnscan::detail

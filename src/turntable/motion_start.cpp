@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion_start.hpp>
+
+namespace turnscan::detail {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Wide enough for surfaces a step apart, narrow enough to tell them from others.
+double gate_of(const MotionData& data) { return std::max(3.0 * data.noise_m, 0.004); }
+
+Vec3d behind_surface(const MotionData& data, const Vec3d& axis) {
+  // What is seen of a thing lies in front of its middle by about half its half width.
+  const Vec3d view = (data.middle - data.middle.dot(axis) * axis).normalized();
+  const Vec3d side = axis.cross(view);
+  double width = 0.0;
+  for (const Vec3f& p : data.cloud) width += std::abs(side.dot(p.cast<double>() - data.middle));
+  width /= double(std::max<std::size_t>(1, data.cloud.size()));
+  return data.middle + 0.9 * width * view;
+}
+
+std::vector<FramePair> spread_pairs(const MotionData& data, std::size_t gap, std::size_t most) {
+  std::vector<FramePair> out;
+  const std::size_t n = data.keys.size() - gap;
+  for (std::size_t k = 0; k < std::min(n, most); ++k) {
+    const std::size_t i = k * n / std::min(n, most);
+    const std::size_t a = data.keys[i], b = data.keys[i + gap];
+    if (data.frames[a].samples.size() < 30 || data.frames[b].view.empty()) continue;
+    if (data.frames[a].pass != data.frames[b].pass) continue;
+    out.push_back({std::uint32_t(a), std::uint32_t(b)});
+  }
+  return out;
+}
+
+struct Grid {
+  std::vector<double> speed, cost;
+};
+
+void evaluate(const MotionData& data, const MotionState& axis, const std::vector<FramePair>& pairs,
+              Grid& grid) {
+  grid.cost.assign(grid.speed.size(), 1.0);
+  parallel_for(grid.speed.size(), 1, [&](std::size_t k) {
+    double sum = 0.0;
+    for (const FramePair& pair : pairs) {
+      const double dt = data.frames[pair.to].time_s - data.frames[pair.from].time_s;
+      sum += pair_cost(data, axis, pair, grid.speed[k] * dt, gate_of(data), 200);
+    }
+    grid.cost[k] = sum / double(pairs.size());
+  });
+}
+
+/// Best turn between two frames near a guess, by golden section after a coarse walk.
+double best_turn(const MotionData& data, const MotionState& state,
+                 const std::vector<FramePair>& pairs, const std::vector<double>& offset,
+                 double guess, double reach, double loose_rad) {
+  const auto cost = [&](double turn) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      sum += pair_cost(data, state, pairs[k], turn + offset[k], gate_of(data), 150);
+    return sum / double(pairs.size()) + 1e-3 * std::pow((turn - guess) / loose_rad, 2);
+  };
+  const int steps = 6;
+  double best = guess, least = cost(guess);
+  for (int k = -steps; k <= steps; ++k) {
+    const double turn = guess + reach * k / steps, here = cost(turn);
+    if (here < least) best = turn, least = here;
+  }
+  double low = best - reach / steps, high = best + reach / steps;
+  for (int i = 0; i < 6; ++i) {
+    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
+    (cost(a) < cost(b) ? high : low) = cost(a) < cost(b) ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Angles of the frames between key frames.
+void interpolate(const MotionData& data, std::vector<double>& angle) {
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k) {
+    const std::size_t a = data.keys[k], b = data.keys[k + 1];
+    const double ta = data.frames[a].time_s, tb = data.frames[b].time_s;
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const double t = data.frames[i].time_s;
+      const bool timed = std::isfinite(t) && tb > ta;
+      const double share = timed ? (t - ta) / (tb - ta) : double(i - a) / double(b - a);
+      angle[i] = angle[a] + share * (angle[b] - angle[a]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MotionState> start_axes(const MotionData& data,
+                                    const std::optional<TurntableInfo>& hint) {
+  std::vector<MotionState> out;
+  MotionState state;
+  state.angle.assign(data.frames.size(), 0.0);
+  if (data.platter || hint) {
+    state.axis = data.platter ? data.platter->axis : hint->axis.normalized();
+    state.center = data.platter ? data.platter->center_m : hint->center_m;
+    // The point of the axis beside the object: tilting about it moves the object least.
+    state.center += state.axis.dot(data.middle - state.center) * state.axis;
+    out.push_back(state);
+    return out;
+  }
+  const double up = data.projective ? -1.0 : 1.0;  // scans of points have y up
+  for (const double tilt : {20.0, 40.0, 0.0, 60.0}) {
+    for (const double roll : {0.0, 15.0, -15.0}) {
+      const double e = tilt * kDegree, r = roll * kDegree;
+      if (roll != 0.0 && tilt > 50.0) continue;
+      state.axis = Vec3d(std::cos(e) * std::sin(r), up * std::cos(e) * std::cos(r),
+                         (data.projective ? -1.0 : 1.0) * std::sin(e));
+      if (data.projective) {
+        state.center = behind_surface(data, state.axis);
+      } else {
+        state.center = data.middle;
+      }
+      out.push_back(state);
+    }
+  }
+  return out;
+}
+
+double turn_information(const MotionData& data, const MotionState& axis) {
+  double signal = 0.0, noise = 0.0;
+  for (const std::size_t k : data.keys) {
+    for (const MotionSample& sample : data.frames[k].samples) {
+      const Vec3d sweep = axis.axis.cross(sample.p.cast<double>() - axis.center);
+      signal += std::pow(sample.n.cast<double>().dot(sweep), 2);
+      noise += sweep.squaredNorm() * std::pow(double(sample.normal_sigma), 2);
+    }
+  }
+  return signal / std::max(noise, 1e-12);
+}
+
+SpeedGuess guess_speed(const MotionData& data, const MotionState& axis) {
+  SpeedGuess out;
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)
+    steps.push_back(data.frames[data.keys[k + 1]].time_s - data.frames[data.keys[k]].time_s);
+  std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
+  const double dt = steps[steps.size() / 2];
+  if (!(dt > 0.0)) return out;
+  double center = 0.0, reach = 60.0 * kDegree / dt;
+  for (std::size_t gap = 1; gap < data.keys.size(); gap *= 2) {
+    const double span = dt * double(gap);
+    const auto pairs = spread_pairs(data, gap, 24);
+    if (pairs.size() < 2) break;
+    Grid grid;
+    const double step = 0.5 * kDegree / span;
+    const int half = int(std::ceil(reach / step));
+    for (int k = -half; k <= half; ++k) grid.speed.push_back(center + step * k);
+    evaluate(data, axis, pairs, grid);
+    const auto best = std::min_element(grid.cost.begin(), grid.cost.end());
+    center = grid.speed[std::size_t(best - grid.cost.begin())];
+    out.speed_rad_s = center;
+    out.cost = *best;
+    reach = 3.0 * step;
+    if (std::abs(center) * span > 20.0 * kDegree) break;
+  }
+  return out;
+}
+
+void follow(const MotionData& data, MotionState& state, double loose) {
+  const std::vector<double> predicted = state.angle;
+  for (std::size_t k = 1; k < data.keys.size(); ++k) {
+    const std::size_t now = data.keys[k], last = data.keys[k - 1];
+    const double guess = predicted[now] - predicted[last];
+    std::vector<FramePair> pairs;
+    std::vector<double> offset;
+    for (const std::size_t back : {1U, 3U, 6U}) {
+      if (back > k) continue;
+      const std::size_t then = data.keys[k - back];
+      if (data.frames[then].view.empty() || data.frames[now].samples.size() < 30) continue;
+      if (data.frames[then].pass != data.frames[now].pass) continue;
+      // From now back to then, so that the turn is the negative one.
+      pairs.push_back({std::uint32_t(now), std::uint32_t(then)});
+      offset.push_back(-(state.angle[last] - state.angle[then]));
+    }
+    double turn = guess;
+    if (!pairs.empty()) {
+      const double reach = std::max(1.2 * std::abs(guess), 1.0 * kDegree);
+      turn = -best_turn(data, state, pairs, offset, -guess, std::min(reach, 15.0 * kDegree),
+                        std::max(loose * std::abs(guess), 0.2 * kDegree));
+    }
+    state.angle[now] = state.angle[last] + turn;
+  }
+  interpolate(data, state.angle);
+}
+
+double search_steps(const MotionData& data, MotionState& state) {
+  double total = 0.0;
+  for (std::size_t k = 1; k < data.keys.size(); ++k) {
+    const std::size_t now = data.keys[k], last = data.keys[k - 1];
+    const FramePair pair{std::uint32_t(last), std::uint32_t(now)};
+    const FramePair back{std::uint32_t(now), std::uint32_t(last)};
+    std::vector<double> costs(180, 1.0);
+    const auto cost = [&](double turn) {
+      return 0.5 * (pair_cost(data, state, pair, turn, gate_of(data), 800) +
+                    pair_cost(data, state, back, -turn, gate_of(data), 800));
+    };
+    parallel_for(costs.size(), 1,
+                 [&](std::size_t i) { costs[i] = cost((2.0 * double(i) - 179.0) * kDegree); });
+    const auto best = std::min_element(costs.begin(), costs.end());
+    double turn = (2.0 * double(best - costs.begin()) - 179.0) * kDegree, least = *best;
+    for (int i = -10; i <= 10; ++i) {
+      const double near = turn + 0.2 * i * kDegree, here = cost(near);
+      if (here < least) least = here, turn = near;
+    }
+    state.angle[now] = state.angle[last] + turn;
+    total += least;
+  }
+  interpolate(data, state.angle);
+  return total / double(data.keys.size() - 1);
+}
+
+}  // namespace turnscan::detail

@@ -1,0 +1,37 @@
+#pragma once
+// A first guess of axis, speed and angles, good enough for least squares. Internal to turntable:
+// not installed.
+
+#include <turnscan/turntable/motion_solve.hpp>
+
+namespace turnscan::detail {
+
+/// Axes to start from: the platter's or the given one; else some that a sensor which looks down on
+/// a table sees, through the middle of what turns.
+std::vector<MotionState> start_axes(const MotionData& data,
+                                    const std::optional<TurntableInfo>& hint);
+
+/// How much the shape says about its turn: the sum of the squared speeds at which the samples'
+/// planes would move along their normals, over what noisy normals alone would make of it. About 1
+/// or less for a round object.
+double turn_information(const MotionData& data, const MotionState& axis);
+
+struct SpeedGuess {
+  double speed_rad_s = 0.0;
+  double cost = 1.0;  ///< mean of pair_cost at the best speed
+};
+
+/// The constant speed at which pairs of key frames fit best: pairs next to each other first, over
+/// all speeds up to 60 degrees between them, then pairs twice as far apart, near the best so far.
+SpeedGuess guess_speed(const MotionData& data, const MotionState& axis);
+
+/// Angles of all frames by following the key frames one after the other, from what `angle` predicts
+/// for each step; frames between key frames are interpolated in time. `loose`: relative standard
+/// deviation of a step.
+void follow(const MotionData& data, MotionState& state, double loose);
+
+/// Angles of key frames by trying all turns from each to the next. Needs neither times nor angles.
+/// Returns the mean cost.
+double search_steps(const MotionData& data, MotionState& state);
+
+}  // namespace turnscan::detail
