@@ -11,7 +11,7 @@ namespace turnscan {
 
 struct AverageOptions {
   int frames = 30;         ///< how many are averaged, at most
-  double min_share = 0.5;  ///< of the frames in which a pixel must have a return to be valid
+  double min_share = 0.3;  ///< of the frames in which a pixel must have a return to be valid
 };
 /// Fields average-frames, average-share.
 OptionTable describe(AverageOptions& options);

@@ -251,7 +251,8 @@ class Calibrator {
   }
 
   Result<Calibration> result() {
-    if (cost_of(state_) > 0.75)
+    if (cost_of(state_) > 0.85 ||
+        solution_.scale_m > std::max({0.003, 4.0 * data_.noise_m, 2.0 * data_.spacing_m}))
       return fail(ErrorCode::kLibrary,
                   "motion: no axis was found about which the frames fit; calibrate with --detect "
                   "or --points, or take more frames a turn");

@@ -255,7 +255,7 @@ class Loader {
 
   std::size_t samples_of(bool key) const {
     const std::size_t n = data_.frames.size();
-    return std::clamp<std::size_t>(300000 / n, key ? 1200 : 350, 4000);
+    return std::clamp<std::size_t>(150000 / n, key ? 1200 : 350, n > 24 ? 1500 : 4000);
   }
 
   Result<> read_all() {
@@ -434,6 +434,7 @@ class Loader {
       count += 1.0;
     }
     data_.middle /= count;
+    data_.to_sensor = sequence_.header().sensors.front().viewpoint.direction_from(data_.middle);
     if (data_.projective) {
       data_.spacing_m = spacing / count / data_.camera.fx;
     } else {

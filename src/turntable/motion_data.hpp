@@ -46,8 +46,9 @@ struct MotionData {
   double noise_m = 0.0;             ///< of one depth value
   double spacing_m = 0.0;           ///< between neighbouring pixels on the object
   std::optional<DetectedPlatter> platter;
-  Vec3d middle = Vec3d::Zero();  ///< of the foreground's points
-  std::vector<Vec3f> cloud;      ///< some of the foreground's points, for its lowest ones
+  Vec3d middle = Vec3d::Zero();       ///< of the foreground's points
+  Vec3d to_sensor = -Vec3d::UnitZ();  ///< from there, unit
+  std::vector<Vec3f> cloud;           ///< some of the foreground's points, for its lowest ones
   std::vector<std::string> notes;
 
   /// The place of a key frame's surface that a point of the same ray or the nearest one meets.

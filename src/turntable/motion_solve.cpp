@@ -227,7 +227,7 @@ class Solver {
     const double unit = unit_;
     Eigen::Matrix4d shared = shared_;
     double tilt = 0.35, shift = 0.2;
-    if (data_.platter) tilt = 0.01, shift = 0.005;
+    if (data_.platter) tilt = 0.003, shift = 0.003;
     shared(0, 0) += unit / (tilt * tilt);
     shared(1, 1) += unit / (tilt * tilt);
     shared(2, 2) += unit / (shift * shift);

@@ -12,14 +12,14 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// Wide enough for surfaces a step apart, narrow enough to tell them from others.
 double gate_of(const MotionData& data) { return std::max(3.0 * data.noise_m, 0.004); }
 
-Vec3d behind_surface(const MotionData& data, const Vec3d& axis) {
-  // What is seen of a thing lies in front of its middle by about half its half width.
-  const Vec3d view = (data.middle - data.middle.dot(axis) * axis).normalized();
+/// What is seen of a thing lies in front of its middle, by about half its half width.
+Vec3d behind_surface(const MotionData& data, const Vec3d& axis, double depth) {
+  const Vec3d view = (data.to_sensor - data.to_sensor.dot(axis) * axis).normalized();
   const Vec3d side = axis.cross(view);
   double width = 0.0;
   for (const Vec3f& p : data.cloud) width += std::abs(side.dot(p.cast<double>() - data.middle));
   width /= double(std::max<std::size_t>(1, data.cloud.size()));
-  return data.middle + 0.9 * width * view;
+  return data.middle - depth * width * view;
 }
 
 std::vector<FramePair> spread_pairs(const MotionData& data, std::size_t gap, std::size_t most) {
@@ -105,19 +105,20 @@ std::vector<MotionState> start_axes(const MotionData& data,
     out.push_back(state);
     return out;
   }
-  const double up = data.projective ? -1.0 : 1.0;  // scans of points have y up
-  for (const double tilt : {20.0, 40.0, 0.0, 60.0}) {
+  // Upright for the sensor: y down for a camera, y up for scans of points; the sensor looks down.
+  const Vec3d up = data.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
+  const Vec3d right = up.cross(data.to_sensor).normalized();
+  for (const double tilt : {0.0, 20.0, 40.0, 60.0}) {
     for (const double roll : {0.0, 15.0, -15.0}) {
-      const double e = tilt * kDegree, r = roll * kDegree;
       if (roll != 0.0 && tilt > 50.0) continue;
-      state.axis = Vec3d(std::cos(e) * std::sin(r), up * std::cos(e) * std::cos(r),
-                         (data.projective ? -1.0 : 1.0) * std::sin(e));
-      if (data.projective) {
-        state.center = behind_surface(data, state.axis);
-      } else {
-        state.center = data.middle;
+      // Looking down tilts the axis towards the sensor.
+      state.axis = Eigen::AngleAxisd(roll * kDegree, data.to_sensor) *
+                   (Eigen::AngleAxisd(tilt * kDegree, right) * up);
+      for (const double depth : {0.9, 0.3, 1.6}) {
+        if (depth != 0.9 && (roll != 0.0 || data.projective)) continue;
+        state.center = behind_surface(data, state.axis, depth);
+        out.push_back(state);
       }
-      out.push_back(state);
     }
   }
   return out;

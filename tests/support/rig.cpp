@@ -60,6 +60,17 @@ Pose camera_pose(const RigOptions& o) {
   return T;
 }
 
+CameraIntrinsics camera_of(const RigOptions& o) {
+  CameraIntrinsics camera = intrinsics_of(ScannerPreset::kKinectV2);
+  camera.width /= o.shrink;
+  camera.height /= o.shrink;
+  camera.fx /= o.shrink;
+  camera.fy /= o.shrink;
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  return camera;
+}
+
 std::vector<TriangleMesh> room_of(const RigOptions& o) {
   std::vector<TriangleMesh> out;
   if (!o.room) return out;

@@ -25,6 +25,7 @@ struct RigOptions {
   double mixed_pixels = 0.5;  ///< share of silhouette pixels
   std::uint64_t seed = 1;
   int frames = 30;
+  int shrink = 1;  ///< the camera has 512 / shrink by 424 / shrink pixels
   double fps = 30.0;
   AngleLaw angle;                     ///< none: stands still
   std::vector<TriangleMesh> objects;  ///< table frame, angle 0

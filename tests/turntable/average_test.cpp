@@ -30,7 +30,9 @@ testing::MemorySequence sequence_of(const std::vector<std::vector<int>>& frames)
 
 TEST(AverageFrames, TakesTheMeanOverValidSamplesAndKeepsTheNoise) {
   const auto sequence = sequence_of({{1000, 0, 500}, {1002, 65535, 0}, {1004, 700, 502}});
-  const auto scan = average_frames(sequence, {0, 1, 2}, {}, {});
+  AverageOptions half;
+  half.min_share = 0.5;
+  const auto scan = average_frames(sequence, {0, 1, 2}, half, {});
   ASSERT_TRUE(scan) << scan.error().text();
   EXPECT_NEAR(scan->depth_m.at(0, 0), 1.012, 1e-6);
   EXPECT_NEAR(scan->noise_m.at(0, 0), 0.002, 1e-6);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
@@ -15,15 +16,19 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kDegrees = 180.0 / kPi;
 
 testing::RigOptions rig_options(const std::string& object, int frames, double turns) {
+  static std::map<std::string, TriangleMesh> meshes;
+  if (meshes.count(object) == 0) meshes[object] = *builtin_object(object);
   testing::RigOptions o;
-  o.distance_m = 0.7;
+  o.shrink = 2;
+  o.noise_m = 0.001;
+  o.distance_m = 0.6;
   o.elevation_rad = 0.45;
   o.roll_rad = 0.08;
   o.aim_height_m = 0.07;
   o.clutter = 3;
   o.frames = frames;
   o.fps = frames / 30.0;
-  o.objects = {*builtin_object(object)};
+  o.objects = {meshes[object]};
   const double speed = turns * 2.0 * kPi / 30.0;
   o.angle = [speed](double t) { return speed * t; };
   return o;
@@ -50,7 +55,7 @@ double mean_angle_error_deg(const testing::Rig& rig, const Calibration& c) {
 // The full set is bench/calibration_motion.
 TEST(CalibrateFromMotion, FindsAxisSpeedAndSignWithoutAHint) {
   for (const double turns : {1.1, -1.1}) {
-    const testing::Rig rig(rig_options("doll", 80, turns));
+    const testing::Rig rig(rig_options("doll", turns > 0 ? 60 : 40, turns));
     const auto found = calibrate_from_motion(rig, {}, {}, {});
     ASSERT_TRUE(found) << found.error().text();
     EXPECT_LT(axis_error_deg(rig, *found), 0.1);
@@ -62,7 +67,7 @@ TEST(CalibrateFromMotion, FindsAxisSpeedAndSignWithoutAHint) {
 }
 
 TEST(CalibrateFromMotion, FollowsASlowStart) {
-  testing::RigOptions o = rig_options("doll", 120, 1.1);
+  testing::RigOptions o = rig_options("doll", 90, 1.1);
   const double speed = 1.1 * 2.0 * kPi / 30.0;
   o.angle = [speed](double t) {
     t -= 2.0;
@@ -76,7 +81,7 @@ TEST(CalibrateFromMotion, FollowsASlowStart) {
 }
 
 TEST(CalibrateFromMotion, LeavesARoundObjectsAnglesToTheStatedSpeedAndSaysSo) {
-  const testing::Rig rig(rig_options("cylinder", 60, 1.1));
+  const testing::Rig rig(rig_options("cylinder", 40, 1.1));
   EXPECT_EQ(calibrate_from_motion(rig, {}, {}, {}).error().code, ErrorCode::kMissingData);
   MotionOptions options;
   options.speed_rad_s = 1.1 * 2.0 * kPi / 30.0;

@@ -1,0 +1,329 @@
+#include <algorithm>
+#include <numbers>
+#include <turnscan/geometry/registration.hpp>
+#include <turnscan/turntable/check.hpp>
+#include <turnscan/turntable/motion_solve.hpp>
+#include <turnscan/turntable/table_frame.hpp>
+
+namespace turnscan {
+
+namespace {
+
+using namespace detail;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::size_t kPairs = 6;
+
+/// Some frames of another sequence.
+class Excerpt : public FrameSequence {
+ public:
+  Excerpt(const FrameSequence& sequence, std::vector<std::size_t> positions)
+      : sequence_(sequence), positions_(std::move(positions)) {
+    for (const std::size_t i : positions_) frames_.push_back(sequence.frames()[i]);
+  }
+  const SequenceHeader& header() const override { return sequence_.header(); }
+  const std::vector<FrameInfo>& frames() const override { return frames_; }
+  Result<Frame> read(std::size_t position) const override {
+    return sequence_.read(positions_.at(position));
+  }
+
+ private:
+  const FrameSequence& sequence_;
+  std::vector<std::size_t> positions_;
+  std::vector<FrameInfo> frames_;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What the recording says of a frame's angle; NaN: nothing.
+std::vector<double> recorded_angles(const FrameSequence& sequence) {
+  const auto& table = sequence.header().turntable;
+  std::vector<double> out;
+  for (const FrameInfo& frame : sequence.frames()) {
+    double angle = frame.angle_rad.value_or(std::nan(""));
+    if (!frame.angle_rad && table && table->speed_rad_s)
+      angle = *table->speed_rad_s * (frame.time_s - sequence.frames().front().time_s);
+    out.push_back(frame.status == FrameStatus::kOk && frame.sensor == 0 ? angle : std::nan(""));
+  }
+  return out;
+}
+
+struct TurnPair {
+  std::size_t first, second;
+};
+
+/// Frames one turn apart, spread over those that have a partner.
+std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vector<double>& angle) {
+  std::vector<TurnPair> all;
+  const auto& frames = sequence.frames();
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    std::size_t best = i;
+    double least = 1.5 / kDegrees;
+    for (std::size_t k = i + 1; k < angle.size(); ++k) {
+      const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
+      if (frames[k].pass == frames[i].pass && off < least) best = k, least = off;
+    }
+    if (best != i) all.push_back({i, best});
+  }
+  if (all.size() <= kPairs) return all;
+  std::vector<TurnPair> out;
+  for (std::size_t k = 0; k < kPairs; ++k) out.push_back(all[k * (all.size() - 1) / (kPairs - 1)]);
+  return out;
+}
+
+struct PairClosure {
+  double turn_rad, shift_m;
+};
+
+/// Where free registration moves the first frame's points from where the calibration puts them.
+std::optional<PairClosure> compare(const MotionFrame& first, const MotionFrame& second,
+                                   const TurntableInfo& table, double turn,
+                                   const RunContext& context) {
+  if (first.samples.size() < 100 || second.samples.size() < 100) return std::nullopt;
+  std::vector<Vec3f> points, targets, normals;
+  const Eigen::AngleAxisd R(turn, table.axis.normalized());
+  for (const MotionSample& s : first.samples)
+    points.push_back((table.center_m + R * (s.p.cast<double>() - table.center_m)).cast<float>());
+  for (const MotionSample& s : second.samples) {
+    targets.push_back(s.p);
+    normals.push_back(s.n);
+  }
+  IcpOptions options;
+  options.max_distance_m = 0.02;
+  options.tolerance_m = 2e-5;
+  const auto found = icp(points, targets, normals, Pose::Identity(), options, context);
+  if (!found) return std::nullopt;
+  double shift = 0.0;
+  for (const Vec3f& p : points) {
+    const Vec3d at = p.cast<double>();
+    shift += (found->T_target_source * at - at).norm() / double(points.size());
+  }
+  const Eigen::AngleAxisd rotation(found->T_target_source.linear());
+  return PairClosure{rotation.angle() * rotation.axis().dot(table.axis.normalized()), shift};
+}
+
+class Checker {
+ public:
+  Checker(const FrameSequence& sequence, const CheckOptions& options, const RunContext& context)
+      : sequence_(sequence), options_(options), context_(context) {}
+
+  Result<std::vector<Finding>> run() {
+    TURNSCAN_TRY(look_at_closure());
+    TURNSCAN_TRY(look_at_drift());
+    auto found = calibrate_from_motion(sequence_, options_.motion, options_.detect, context_);
+    if (!found) {
+      if (found.error().code == ErrorCode::kCancelled) return tl::unexpected<Error>(found.error());
+      say(false, "Motion: {}.", found.error().message);
+      return std::move(findings_);
+    }
+    look_at_place(*found);
+    look_at_direction(*found);
+    look_at_speed(*found);
+    look_at_stops(*found);
+    return std::move(findings_);
+  }
+
+ private:
+  template <class... Args>
+  void say(bool good, fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back({good, fmt::format(format, std::forward<Args>(args)...)});
+  }
+
+  Result<> look_at_closure() {
+    auto closure = measure_closure(sequence_, context_);
+    if (!closure) {
+      if (closure.error().code != ErrorCode::kMissingData)
+        return tl::unexpected<Error>(closure.error());
+      say(false, "Closure: {}.", closure.error().message);
+      return {};
+    }
+    if (!*closure) {
+      say(true,
+          "Closure: the recording does not come back to a view that it had before, so that "
+          "nothing can be said.");
+      return {};
+    }
+    const ClosureError& e = **closure;
+    const std::string turn = std::isfinite(e.turn_rad)
+                                 ? fmt::format(" and {:+.2f} deg", e.turn_rad * kDegrees)
+                                 : std::string();
+    say(!e.bad(),
+        "Closure: one turn later the object lies {:.2f} mm{} from where it was ({} pairs "
+        "of frames).{}",
+        e.shift_m * 1e3, turn, e.pairs,
+        e.bad() ? " Axis, centre or speed of the recording are wrong." : "");
+    return {};
+  }
+
+  /// Still pixels: mean depth of the first tenth of the frames and of the last.
+  Result<> look_at_drift() {
+    if (sequence_.header().sensors.front().kind != SensorKind::kDepthCamera) return {};
+    const auto all = spread_positions(sequence_, 0, sequence_.frames().size());
+    const std::size_t n = std::clamp<std::size_t>(all.size() / 10, 1, 20);
+    if (all.size() < 8) return {};
+    TURNSCAN_ASSIGN(
+        const AveragedScan first,
+        average_frames(sequence_, {all.begin(), all.begin() + std::ptrdiff_t(n)}, {}, context_));
+    TURNSCAN_ASSIGN(
+        const AveragedScan last,
+        average_frames(sequence_, {all.end() - std::ptrdiff_t(n), all.end()}, {}, context_));
+    TURNSCAN_ASSIGN(const AveragedScan whole,
+                    average_frames(sequence_, spread_positions(sequence_, 0, 30), {}, context_));
+    const ScanPixels pixels = pixels_of(whole);
+    std::vector<double> moved;
+    for (std::size_t i = 0; i < pixels.still.size(); ++i) {
+      const float a = first.depth_m.pixels[i], b = last.depth_m.pixels[i];
+      if (pixels.still[i] && a > 0.0f && b > 0.0f && std::abs(b - a) < 0.03f)
+        moved.push_back(double(b) - double(a));
+    }
+    if (moved.size() < 500) return {};
+    const double drift = median(std::move(moved));
+    const bool good = std::abs(drift) < 0.001;
+    say(good, "Warm-up: what stands still moved by {:+.2f} mm from the first frames to the last.{}",
+        drift * 1e3, good ? "" : " The sensor was still warming up; let it run for half an hour.");
+    return {};
+  }
+
+  void look_at_place(const Calibration& found) {
+    const auto& table = sequence_.header().turntable;
+    if (!table) {
+      say(false, "Place: the recording does not say where the turntable is; its motion does.");
+      return;
+    }
+    const Vec3d a = table->axis.normalized(), b = found.table.axis;
+    const double tilt = std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+    const Vec3d off = table->center_m - found.table.center_m;
+    const double aside = (off - off.dot(b) * b).norm() * 1e3;
+    const bool good = tilt < 0.5 && aside < 1.5;
+    say(good,
+        "Place: the recorded axis leans by {:.2f} deg and lies {:.2f} mm beside the one that "
+        "the motion shows.",
+        tilt, aside);
+  }
+
+  bool told(const Calibration& found, const char* what) const {
+    const auto& list = found.undetermined;
+    return std::find(list.begin(), list.end(), what) == list.end();
+  }
+
+  void look_at_direction(const Calibration& found) {
+    if (!told(found, "angles")) {
+      say(true,
+          "Direction: the object looks the same from all sides, so that nothing can be said.");
+      return;
+    }
+    const auto angle = recorded_angles(sequence_);
+    const double recorded = angle.back(), seen = found.angles_rad.back();
+    if (!std::isfinite(recorded) || std::abs(seen) < 0.05) return;
+    const bool good = recorded * seen > 0.0;
+    say(good, "Direction: seen from above the platter turns {}clockwise{}.",
+        seen > 0.0 ? "counter-" : "",
+        good ? ", as recorded" : ", but the recording says the opposite: everything is mirrored");
+  }
+
+  void look_at_speed(const Calibration& found) {
+    std::optional<double> stated = options_.motion.speed_rad_s;
+    const auto& table = sequence_.header().turntable;
+    if (!stated && table) stated = table->speed_rad_s;
+    if (!stated || !found.table.speed_rad_s || !told(found, "speed")) return;
+    const double ratio = *found.table.speed_rad_s / *stated;
+    const bool good = std::abs(ratio - 1.0) < 0.005;
+    say(good, "Speed: stated are {:.4f} deg/s, the data show {:.4f} deg/s{}.", *stated * kDegrees,
+        *found.table.speed_rad_s * kDegrees,
+        good ? "" : fmt::format(", {:+.2f} % off", 100.0 * (ratio - 1.0)));
+  }
+
+  /// Stretches in which the table hardly turned, or jumped, after it had started.
+  void look_at_stops(const Calibration& found) {
+    if (!told(found, "angles") || !found.table.speed_rad_s) return;
+    const auto& frames = sequence_.frames();
+    const double usual = *found.table.speed_rad_s;
+    const double span = frames.back().time_s - frames.front().time_s;
+    const double window = std::max(0.8, span / 60.0);
+    const double from = found.start_s.value_or(frames.front().time_s) + 2.0;
+    std::size_t a = 0;
+    for (std::size_t b = 0; b < frames.size(); ++b) {
+      while (frames[b].time_s - frames[a].time_s > window) ++a;
+      const double dt = frames[b].time_s - frames[a].time_s;
+      if (frames[a].time_s < from || dt < 0.8 * window) continue;
+      if (frames[b].time_s > frames.back().time_s - 0.5) break;
+      const double share = (found.angles_rad[b] - found.angles_rad[a]) / dt / usual;
+      if (share > 0.5 && share < 1.7) continue;
+      say(false,
+          "Motor: about {:.1f} s the table {}; frames from there on have other angles than "
+          "a constant speed gives.",
+          frames[a].time_s, share <= 0.5 ? "slowed down or stopped" : "jumped ahead");
+      return;
+    }
+    say(true, "Motor: the table kept turning without a slip or a stop.");
+  }
+
+  const FrameSequence& sequence_;
+  const CheckOptions& options_;
+  const RunContext& context_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+bool ClosureError::bad() const {
+  return shift_m > 0.0015 || (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegrees > 1.0);
+}
+
+Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
+                                                    const RunContext& context) {
+  const auto& table = sequence.header().turntable;
+  if (!table)
+    return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
+  const auto angle = recorded_angles(sequence);
+  if (std::none_of(angle.begin(), angle.end(), [](double a) { return std::isfinite(a); }))
+    return fail(ErrorCode::kMissingData, "the recording has neither angles nor a speed");
+  const auto pairs = turn_pairs(sequence, angle);
+  if (pairs.empty()) return std::nullopt;
+  std::vector<std::size_t> positions;
+  for (const TurnPair& pair : pairs) {
+    positions.push_back(pair.first);
+    positions.push_back(pair.second);
+  }
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  if (positions.size() < 3) return std::nullopt;
+  MotionDataOptions loading;
+  loading.hint = table;
+  const Excerpt excerpt(sequence, positions);
+  const auto data = load_motion(excerpt, loading, context);
+  if (!data) {
+    if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;
+    return tl::unexpected<Error>(data.error());
+  }
+  std::vector<double> turns, shifts;
+  const auto frame_at = [&](std::size_t position) -> const MotionFrame& {
+    const auto at = std::lower_bound(positions.begin(), positions.end(), position);
+    return data->frames[std::size_t(at - positions.begin())];
+  };
+  for (const TurnPair& pair : pairs) {
+    TURNSCAN_TRY(context.check());
+    const double turn = angle[pair.second] - angle[pair.first];
+    const auto closure =
+        compare(frame_at(pair.first), frame_at(pair.second), *table, turn, context);
+    if (!closure) continue;
+    turns.push_back(closure->turn_rad);
+    shifts.push_back(closure->shift_m);
+  }
+  if (shifts.size() < 2) return std::nullopt;
+  return ClosureError{median(turns), median(shifts), shifts.size()};
+}
+
+Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,
+                                             const CheckOptions& options,
+                                             const RunContext& context) {
+  return Checker(sequence, options, context).run();
+}
+
+}  // namespace turnscan

@@ -1,0 +1,41 @@
+#pragma once
+// Is the calibration of a recording right, and if not, what is wrong?
+
+#include <turnscan/turntable/motion.hpp>
+
+namespace turnscan {
+
+/// How far the same view, one turn later, lies from where the calibration puts it.
+struct ClosureError {
+  double turn_rad = 0.0;  ///< median turn about the axis that is missing; NaN where the shape does
+                          ///< not show it
+  double shift_m = 0.0;   ///< median of the mean distance of the object's points
+  std::size_t pairs = 0;  ///< pairs of frames that were compared
+  bool bad() const;       ///< over 1.5 mm or 1 degree
+};
+
+/// Compares up to six pairs of frames whose angles, as recorded or from the recorded speed, differ
+/// by one turn. nullopt where there are none, or where the object is not seen well enough.
+/// Fails with kMissingData when the recording has no turntable or no angles, kCancelled, and what
+/// reading fails with.
+Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
+                                                    const RunContext& context);
+
+/// One thing that was looked at.
+struct Finding {
+  bool good = true;
+  std::string text;  ///< one sentence
+};
+
+struct CheckOptions {
+  MotionOptions motion;
+  DetectOptions detect;
+};
+
+/// Looks at closure, direction, speed, slips and stops, and at drift of what stands still. What
+/// cannot be looked at is said, too. Fails with kCancelled and what reading fails with.
+Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,
+                                             const CheckOptions& options,
+                                             const RunContext& context);
+
+}  // namespace turnscan
