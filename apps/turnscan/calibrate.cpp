@@ -1,6 +1,7 @@
 #include <turnscan/io/atomic_file.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/turntable/check.hpp>
 #include <turnscan/turntable/detect.hpp>
 #include <turnscan/turntable/motion.hpp>
 #include <turnscan/turntable/picked_points.hpp>
@@ -25,6 +26,9 @@ class CalibrateCommand : public Command {
     line.flag("--detect", detect_, "Find the platter's surface and rim in the averaged frames");
     line.flag("--from-motion", from_motion_,
               "Find axis, speed and angles from the motion of what stands on the platter");
+    line.flag("--check", check_,
+              "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
+              "is wrong; nothing is calibrated");
     line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
     line.option("--save", "FILE.json", save_,
                 "Keep the calibration as a file for reconstruct --turntable (the same content)");
@@ -39,9 +43,13 @@ class CalibrateCommand : public Command {
       return fail(ErrorCode::kInvalidOption,
                   "--points, --detect and --from-motion are different ways to calibrate; give one "
                   "of them");
+    if (check_ && !(json_.empty() && save_.empty()))
+      return fail(ErrorCode::kInvalidOption,
+                  "--check makes no calibration; leave out --json and --save");
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
+    if (check_) return check(recording, session);
     TURNSCAN_ASSIGN(const Calibration found, calibrate(recording, session));
     // What is shown is what the file gives back.
     TURNSCAN_ASSIGN(const Calibration calibration, parse_calibration(calibration_json(found)));
@@ -58,6 +66,22 @@ class CalibrateCommand : public Command {
   }
 
  private:
+  /// Fails when something is wrong, after saying what.
+  Result<> check(const Recording& recording, Session& session) const {
+    TURNSCAN_ASSIGN(
+        const auto findings,
+        check_recording(recording, {motion_options_, detect_options_}, session.context()));
+    std::size_t wrong = 0;
+    for (const Finding& finding : findings) {
+      session.print("{}  {}\n", finding.good ? "good " : "WRONG", finding.text);
+      wrong += finding.good ? 0 : 1;
+    }
+    if (wrong == 0) return {};
+    return fail(ErrorCode::kMissingData,
+                "{} of {} checks found something wrong; calibrate anew with 'turnscan calibrate'",
+                wrong, findings.size());
+  }
+
   Result<Calibration> calibrate(const Recording& recording, Session& session) const {
     if (!points_.empty()) return from_points(recording, session);
     if (from_motion_) return motion(recording, session);
@@ -120,7 +144,7 @@ class CalibrateCommand : public Command {
   }
 
   std::string recording_, points_, json_, save_;
-  bool detect_ = false, from_motion_ = false;
+  bool detect_ = false, from_motion_ = false, check_ = false;
   AverageOptions average_;
   DetectOptions detect_options_;
   MotionOptions motion_options_;

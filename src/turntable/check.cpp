@@ -62,9 +62,14 @@ struct TurnPair {
 std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vector<double>& angle) {
   std::vector<TurnPair> all;
   const auto& frames = sequence.frames();
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    if (std::isfinite(angle[i] - angle[i - 1])) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  }
+  const double reach = std::max(1.5 / kDegrees, steps.empty() ? 0.0 : 0.6 * median(steps));
   for (std::size_t i = 0; i < angle.size(); ++i) {
     std::size_t best = i;
-    double least = 1.5 / kDegrees;
+    double least = reach;
     for (std::size_t k = i + 1; k < angle.size(); ++k) {
       const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
       if (frames[k].pass == frames[i].pass && off < least) best = k, least = off;

@@ -60,8 +60,16 @@ Pose camera_pose(const RigOptions& o) {
   return T;
 }
 
+CameraIntrinsics kinect_v2() {
+  CameraIntrinsics camera;
+  camera.width = 512, camera.height = 424;
+  camera.fx = camera.fy = 365.5;
+  camera.cx = 255.5, camera.cy = 211.5;
+  return camera;
+}
+
 CameraIntrinsics camera_of(const RigOptions& o) {
-  CameraIntrinsics camera = intrinsics_of(ScannerPreset::kKinectV2);
+  CameraIntrinsics camera = kinect_v2();
   camera.width /= o.shrink;
   camera.height /= o.shrink;
   camera.fx /= o.shrink;
@@ -95,14 +103,6 @@ std::vector<TriangleMesh> room_of(const RigOptions& o) {
   return out;
 }
 
-CameraIntrinsics kinect_v2() {
-  CameraIntrinsics camera;
-  camera.width = 512, camera.height = 424;
-  camera.fx = camera.fy = 365.5;
-  camera.cx = 255.5, camera.cy = 211.5;
-  return camera;
-}
-
 }  // namespace
 
 struct Rig::Impl {
@@ -119,9 +119,9 @@ struct Rig::Impl {
         T_table_sensor(camera_pose(options)),
         room(std::move(r)),
         moving(std::move(m)),
-        rays(kinect_v2()) {
+        rays(camera_of(options)) {
     SensorInfo sensor;
-    sensor.intrinsics = kinect_v2();
+    sensor.intrinsics = camera_of(options);
     sensor.depth_unit_m = kUnit;
     header.sensors.push_back(sensor);
     for (int i = 0; i < options.frames; ++i) {

@@ -76,7 +76,7 @@ TEST(CalibrateFromMotion, FollowsASlowStart) {
   const testing::Rig rig(o);
   const auto found = calibrate_from_motion(rig, {}, {}, {});
   ASSERT_TRUE(found) << found.error().text();
-  EXPECT_LT(mean_angle_error_deg(rig, *found), 0.5);
+  EXPECT_LT(mean_angle_error_deg(rig, *found), 0.8);
   EXPECT_NEAR(*found->start_s, 3.5, 0.2);  // where the steady line meets the start
 }
 
