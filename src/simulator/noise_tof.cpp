@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kSide = 4;  // rays across a mixed pixel
 constexpr std::uint64_t kCorrelations = 1;
+constexpr double kFarthest_m = 1e4;  // no light comes back from there
 
 /// Light comes back from what is out of range, too.
 bool lit(const Samples& samples, std::size_t i) {
@@ -65,7 +66,9 @@ class TimeOfFlight {
 
   Return returned(const Samples& samples, std::size_t i, double x, double y) const {
     const Vec3d p = double(samples.z[i]) * Vec3d(x, y, 1.0);
-    const double range = p.norm(), back = (p - job_.setup.model.emitter_m).norm();
+    const double range = p.norm();
+    if (range > kFarthest_m) return {0.0f, 0.0f};
+    const double back = (p - job_.setup.model.emitter_m).norm();
     const double amplitude = job_.setup.model.noise.tof_amplitude * surfaces_.albedo(samples, i) *
                              surfaces_.facing(samples, i, x, y) / (range * range);
     return {float(0.5 * (range + back)), float(amplitude)};

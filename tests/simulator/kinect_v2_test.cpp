@@ -113,6 +113,54 @@ TEST(KinectV2, WithoutNoiseEveryDepthInRangeComesBack) {
   }
 }
 
+TEST(KinectV2, PhasesAreUnwrappedUpToEighteenMetres) {
+  // The three frequencies repeat together after 18.74 m; 16 MHz alone after 9.37 m.
+  const Layout layout{8, 8};
+  for (double z = 0.2; z < 18.5; z += 0.0731) {
+    NoiseModel m = quiet();
+    m.tof_amplitude = 2000.0 * z * z;
+    Light light = light_of(m, layout, plane_at(z));
+    Raw raw;
+    expose(light, m, kKey, 0, 8, raw);
+    Workspace work;
+    Decoded out;
+    decode(raw, straight(layout), {0.1f, 20.0f}, work, out);
+    EXPECT_EQ(out.verdict[layout.at(4, 4)], noise::kGood) << z;
+    EXPECT_NEAR(out.z[layout.at(4, 4)], z, 2e-3) << z;
+  }
+}
+
+TEST(KinectV2, CorrelationsAreWholeOrHaveEightBits) {
+  const Layout layout{64, 1};
+  NoiseModel m = quiet();
+  Light light = light_of(m, layout, [](int x, int) {
+    return std::vector<Seen>{{0.1 + 0.03 * x, 1.0, 0.8}};
+  });
+  Raw raw;
+  expose(light, m, kKey, 0, 64, raw);
+  int coarse = 0;
+  for (int x = 0; x < 64; ++x) {
+    for (int f = 0; f < 3; ++f) {
+      for (int k = 0; k < 3; ++k) {
+        constexpr double kGain[3] = {1.322581, 1.0, 1.612903};
+        const std::size_t i = layout.at(x, 0);
+        const double phase = 2.0 * 3.141592653589793 * k / 3.0;
+        const double exact = light.re[std::size_t(f)][i] * std::cos(phase) -
+                             light.im[std::size_t(f)][i] * std::sin(phase);
+        const double coded = raw.correlations[std::size_t(3 * f + k)][i];
+        EXPECT_LE(std::abs(exact), double(light.amplitude[i]) / kGain[f] + 1e-2);
+        if (std::abs(exact) > 32704.0) continue;
+        const double step =
+            std::max(1.0, std::exp2(std::floor(std::log2(std::abs(coded) + 1e-9)) - 7.0));
+        EXPECT_EQ(std::fmod(coded, step), 0.0) << coded;
+        EXPECT_LE(std::abs(coded - exact), 0.51 * step) << exact;
+        coarse += step > 1.0;
+      }
+    }
+  }
+  EXPECT_GT(coarse, 50);
+}
+
 TEST(KinectV2, AxialSigmaIsThePublishedOne) {
   // Fankhauser et al. 2015, frontal: 1.5 - 0.5 z + 0.3 z^2 mm.
   const Layout layout{120, 100};
