@@ -59,12 +59,25 @@ std::string help_text(const ArgumentInfo& info) {
   return wrapped(text, kHelpWidth);
 }
 
+std::string without_full_stop(std::string text) {
+  if (!text.empty() && text.back() == '.') text.pop_back();
+  return text;
+}
+
 Error as_usage_error(Error error) {
   error.code = ErrorCode::kInvalidOption;
   return error;
 }
 
 }  // namespace
+
+ArgumentGroup keys_of(const std::string& name, const std::string& title, const OptionTable& table) {
+  ArgumentGroup group{name, title, {}};
+  for (const OptionField& field : table.fields())
+    group.arguments.push_back(
+        {field.name, without_full_stop(field.help), field.get(), allowed_text(field)});
+  return group;
+}
 
 std::string wrapped(const std::string& text, std::size_t width) {
   std::string out;
@@ -140,8 +153,7 @@ void CommandLine::flag(const std::string& names, bool& value, const std::string&
 
 void CommandLine::bind(const OptionField& field, const std::string& title, ArgumentGroup& group) {
   ArgumentInfo info;
-  info.help = field.help;
-  if (!info.help.empty() && info.help.back() == '.') info.help.pop_back();
+  info.help = without_full_stop(field.help);
   info.default_value = field.get();
   CLI::Option* option = nullptr;
   const std::string flag = "--" + field.name;

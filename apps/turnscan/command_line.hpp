@@ -31,6 +31,9 @@ struct ArgumentGroup {
   std::vector<ArgumentInfo> arguments;
 };
 
+/// The keys of a table in a file that is no command's --config, for the reference page.
+ArgumentGroup keys_of(const std::string& name, const std::string& title, const OptionTable& table);
+
 /// A named stage's options, as the TOML file sees them.
 struct OptionGroup {
   std::string name;

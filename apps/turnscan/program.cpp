@@ -8,6 +8,7 @@
 #include <new>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/version.hpp>
+#include <turnscan/simulator/scanner_model.hpp>
 
 #include "command_line.hpp"
 #include "interrupt.hpp"
@@ -176,6 +177,19 @@ Program::Program() : parts_(std::make_unique<Parts>()) {
 
 Program::~Program() = default;
 
+namespace {
+
+FileReference scanner_file() {
+  ScannerParameters parameters;
+  return {"Scanner files",
+          "A virtual scanner is a TOML file; the presets are in data/scanners. A quantity with a "
+          "unit is a text: `near = \"0.5m\"`.",
+          {keys_of("", "Scanner", describe(parameters)),
+           keys_of("noise", "Noise", describe(parameters.noise))}};
+}
+
+}  // namespace
+
 void Program::add(const std::string& name, const std::string& help,
                   std::unique_ptr<Command> command) {
   CLI::App* app = parts_->app.add_subcommand(name, help);
@@ -187,7 +201,7 @@ std::string Program::reference() const {
   std::vector<CommandReference> commands;
   for (const Entry& entry : parts_->entries)
     commands.push_back({entry.app->get_name(), entry.help, entry.line.groups()});
-  return reference_page(commands);
+  return reference_page(commands, {scanner_file()});
 }
 
 void Program::add_reference() {

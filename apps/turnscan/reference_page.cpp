@@ -34,6 +34,15 @@ void append_group(std::string& page, const ArgumentGroup& group) {
                         code_cell(info.default_value), cell(info.allowed), cell(info.help));
 }
 
+void append_keys(std::string& page, const ArgumentGroup& group) {
+  page += fmt::format("\n### {}{}\n\n", group.title,
+                      group.name.empty() ? "" : fmt::format(" `[{}]`", group.name));
+  page += "| key | default | allowed | meaning |\n|---|---|---|---|\n";
+  for (const ArgumentInfo& info : group.arguments)
+    page += fmt::format("| `{}` | {} | {} | {} |\n", cell(info.usage),
+                        code_cell(info.default_value), cell(info.allowed), cell(info.help));
+}
+
 std::string usage(const CommandReference& command) {
   std::string text = "turnscan " + command.name;
   for (const ArgumentGroup& group : command.groups) {
@@ -45,7 +54,8 @@ std::string usage(const CommandReference& command) {
 
 }  // namespace
 
-std::string reference_page(const std::vector<CommandReference>& commands) {
+std::string reference_page(const std::vector<CommandReference>& commands,
+                           const std::vector<FileReference>& files) {
   std::string page =
       "# Reference of commands and options\n\n"
       "<!-- Printed by `turnscan reference`. Change the option tables in the sources, not this "
@@ -65,6 +75,10 @@ std::string reference_page(const std::vector<CommandReference>& commands) {
         append_group(page, group);
       }
     }
+  }
+  for (const FileReference& file : files) {
+    page += fmt::format("\n## {}\n\n{}\n", file.title, file.help);
+    for (const ArgumentGroup& group : file.groups) append_keys(page, group);
   }
   return page;
 }
