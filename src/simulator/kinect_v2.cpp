@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <turnscan/simulator/kinect_v2.hpp>
 
 namespace turnscan::kinect_v2 {
@@ -91,6 +95,23 @@ void decode(const Raw& raw, const Rays& rays, noise::Gate gate, Workspace& work,
     kernel.edges(layout.width, layout.stride(), out.z.data() + row, out.amplitude.data() + row,
                  work.unlike.data() + row, out.verdict.data() + row);
   }
+}
+
+double sigma_m(const NoiseModel& m, double range_m, double incidence_rad, double albedo) {
+  const double amplitude =
+      m.tof_amplitude * albedo * std::max(std::cos(incidence_rad), 0.0) / (range_m * range_m);
+  constexpr double kLeast = 10.0 / 3.0;  // in each frequency, for the driver's sum of 10
+  if (!(amplitude >= kLeast)) return std::numeric_limits<double>::quiet_NaN();
+  double phases = 0.0;
+  for (const double gain : {1.322581, 1.0, 1.612903}) {
+    const double relative = m.tof_relative_noise * amplitude / gain;
+    const double variance =
+        m.tof_read_noise * m.tof_read_noise + m.tof_shot_noise * amplitude + relative * relative;
+    phases += 2.0 / 3.0 * variance * gain * gain / (amplitude * amplitude);
+  }
+  constexpr double kMetresPerTurn = 299792458.0 / (2.0 * 216e6);  // of each phase
+  constexpr double kFilter = 1.0 / 3.0;                           // nine nearly equal weights
+  return kFilter * kMetresPerTurn / (2.0 * std::numbers::pi) * std::sqrt(phases);
 }
 
 }  // namespace turnscan::kinect_v2

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <turnscan/simulator/kinect_v2.hpp>
 
 namespace turnscan::noise {
 
@@ -117,6 +118,8 @@ void SubSamples::add(const Setup& setup, int column, int row, std::size_t index_
 double predicted_sigma_m(const Setup& s, double z_m, double incidence_rad, double albedo) {
   if (s.options.kind == NoiseKind::kNone) return 0.0;
   if (s.options.kind == NoiseKind::kGaussian) return s.options.sigma_m;
+  if (s.options.kind == NoiseKind::kPhysics && s.model.noise.physics == SensorPhysics::kKinectV2)
+    return kinect_v2::sigma_m(s.model.noise, z_m, incidence_rad, albedo);
   return turnscan::predicted_sigma_m(s.model.noise, s.focal_baseline, z_m, incidence_rad, albedo);
 }
 

@@ -54,6 +54,28 @@ TEST(KinectV2Sensor, DepthIsUnbiasedOverDistanceAndAngle) {
   }
 }
 
+TEST(KinectV2Sensor, PredictedSigmaIsTheMeasuredOneForDarkAndSlantedWallsToo) {
+  const auto noise = SensorNoise::create(kinect_v2(), noise_of("physics"), 1, 0).value();
+  for (const double z : {0.8, 1.5, 3.0}) {
+    for (const double tilt : {0.0, 0.9}) {
+      for (const double albedo : {0.8, 0.4}) {
+        Bench bench(kinect_v2(), {wall(z, tilt)});
+        bench.set_albedo([albedo](auto, auto, auto) { return float(albedo); });
+        const MeasuredGrid out = bench.measure(noise_of("physics"));
+        const auto w = std::size_t(out.rect.width()), h = std::size_t(out.rect.height());
+        const Spread s = spread_of(out.z.size(), [&](std::size_t i) {
+          const std::size_t x = i % w, y = i / w;
+          if (x < 2 || y < 2 || x + 2 >= w || y + 2 >= h || !(out.z[i] > 0.0f)) return kNaN;
+          const double d = bench.exact().z[i];
+          return (out.z[i] - d) / noise.predicted_sigma_m(d, bench.incidence(i), albedo);
+        });
+        EXPECT_NEAR(s.sigma, 1.0, 0.15) << z << " " << tilt << " " << albedo;
+      }
+    }
+  }
+  EXPECT_TRUE(std::isnan(noise.predicted_sigma_m(3.0, 0.0, 0.01)));
+}
+
 TEST(KinectV2Sensor, FlyingPixelsLieOnTheirLinesOfSightBetweenTheSurfaces) {
   const Bench bench(kinect_v2(), {half_wall(1.0, 0.0, 0.03), wall(1.07)});
   const MeasuredGrid out = bench.measure(noise_of("physics"));
