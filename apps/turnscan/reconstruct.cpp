@@ -6,6 +6,7 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/recording/recording.hpp>
 
+#include "calibration_choice.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "output_file.hpp"
@@ -29,8 +30,12 @@ class ReconstructCommand : public Command {
     line.repeatable("--save-stage", "NAME[=FILE.ply]", save_stages_,
                     fmt::format("Write a stage's cloud, by default beside the mesh: {}",
                                 fmt::join(saveable_stages(), ", ")));
-    line.option("--turntable", "FILE.json", turntable_,
-                "Turntable to use instead of the recording's");
+    line.option(
+        "--turntable", "FILE.json", turntable_,
+        "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
+    line.option("--calibration", "auto|recorded|motion", calibration_,
+                "Where turntable and angles come from. auto: from the object's motion where the "
+                "recording has none, or one that does not fit one turn later");
     line.flag("--allow-open", allow_open_, "Write meshes that are not watertight, too");
     line.allow_config();
     for (StageOptions& stage : describe_stages(options_))
@@ -41,13 +46,24 @@ class ReconstructCommand : public Command {
     TURNSCAN_TRY(check_outputs());
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
     TURNSCAN_ASSIGN(const auto sequence, with_turntable(recording, turntable_));
+    ReconstructOptions options = options_;
+    TURNSCAN_ASSIGN(const CalibrationChoice choice,
+                    choose_calibration(
+                        *sequence, {calibration_, options.merge.speed_rad_s, !turntable_.empty()},
+                        session.context()));
+    std::unique_ptr<FrameSequence> calibrated;
+    if (choice.calibration) {
+      TURNSCAN_ASSIGN(calibrated, with_calibration(*sequence, *choice.calibration));
+      options.merge.speed_rad_s.reset();  // it is in the angles
+    }
+    const FrameSequence& frames = calibrated ? *calibrated : *sequence;
     // Saved only at the end, with the mesh: a run that fails leaves nothing behind.
     const StageSink sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
       if (stage_files_.count(stage) > 0) clouds_[stage] = cloud;
       return {};
     };
-    TURNSCAN_ASSIGN(const Reconstruction result,
-                    reconstruct(*sequence, options_, sink, session.context()));
+    TURNSCAN_ASSIGN(Reconstruction result, reconstruct(frames, options, sink, session.context()));
+    if (!choice.note.empty()) result.notes.insert(result.notes.begin(), choice.note);
     if (!allow_open_) TURNSCAN_TRY(check_watertight(result));
     TURNSCAN_TRY(session.context().check());
     TURNSCAN_ASSIGN(const auto files, write_all(result));
@@ -99,7 +115,7 @@ class ReconstructCommand : public Command {
     return files;
   }
 
-  std::string recording_, out_, report_, turntable_;
+  std::string recording_, out_, report_, turntable_, calibration_ = "auto";
   std::vector<std::string> save_stages_;
   bool allow_open_ = false;
   ReconstructOptions options_;
