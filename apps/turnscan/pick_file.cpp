@@ -87,7 +87,7 @@ Result<std::vector<Vec3d>> read_picks(const std::string& path, const AveragedSca
   while (const auto line = lines.next_content()) {
     auto point = parse_pick(columns, line->text, scan);
     if (!point)
-      return fail_at(path, point.error().code, "line {}: {}", line->number, point.error().message);
+      return fail_at(path, ErrorCode::kFormat, "line {}: {}", line->number, point.error().message);
     points.push_back(*point);
   }
   return points;

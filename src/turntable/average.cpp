@@ -83,9 +83,9 @@ double AveragedScan::typical_noise_m() const {
       values.push_back(noise_m.pixels[i]);
   }
   if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto quarter = values.begin() + std::ptrdiff_t(values.size() / 4);
+  std::nth_element(values.begin(), quarter, values.end());
+  return 1.1 * *quarter;
 }
 
 Result<AveragedScan> average_frames(const FrameSequence& sequence,

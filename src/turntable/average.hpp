@@ -24,7 +24,8 @@ struct AveragedScan {
   Image<std::uint16_t> count;  ///< frames with a return there
   std::size_t frames = 0;
 
-  /// Median noise of the valid pixels; 0 with one frame.
+  /// Noise of what stands still: from the lower quartile of the valid pixels, since what moves may
+  /// fill most of the image; 0 with one frame.
   double typical_noise_m() const;
 };
 

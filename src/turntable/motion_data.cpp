@@ -132,8 +132,8 @@ class Loader {
     TURNSCAN_ASSIGN(const AveragedScan scan,
                     average_frames(sequence_, positions, average, context_));
     pixels_ = pixels_of(scan);
-    // Pixels that the object passes are not noise: the lower half of the values decides.
-    data_.noise_m = std::max(noise_of(scan), sequence_.header().sensors[0].depth_unit_m * 0.3);
+    data_.noise_m =
+        std::max(scan.typical_noise_m(), sequence_.header().sensors[0].depth_unit_m * 0.3);
     const auto platter = detect_platter(scan, options_.detect, context_);
     if (!platter && platter.error().code == ErrorCode::kCancelled)
       return tl::unexpected<Error>(platter.error());
@@ -150,18 +150,6 @@ class Loader {
       return find_moving(scan);
     }
     return {};
-  }
-
-  static double noise_of(const AveragedScan& scan) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < scan.noise_m.pixels.size(); ++i) {
-      if (scan.depth_m.pixels[i] > 0.0f && std::isfinite(scan.noise_m.pixels[i]))
-        values.push_back(scan.noise_m.pixels[i]);
-    }
-    if (values.empty()) return 0.0;
-    const auto at = values.begin() + std::ptrdiff_t(values.size() * 3 / 10);
-    std::nth_element(values.begin(), at, values.end());
-    return 1.1 * *at;
   }
 
   void crop_to(const Vec3d& axis, const Vec3d& center, double radius, double spread) {

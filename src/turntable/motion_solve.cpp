@@ -30,7 +30,7 @@ std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
 struct PairSum {
   Matrix5 normal = Matrix5::Zero();
   Vector5 right = Vector5::Zero();
-  double squares = 0.0, cost = 0.0;
+  double squares = 0.0, cost = 0.0, sum = 0.0;
   std::size_t count = 0;
   std::vector<float> sizes;  ///< some of the residuals
 };
@@ -74,6 +74,7 @@ PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePa
     out.normal.noalias() += weight * row * row.transpose();
     out.right.noalias() -= weight * r * row;
     out.squares += weight * r * r;
+    out.sum += weight * r;
     if (out.count % 8 == 0) out.sizes.push_back(float(size));
     ++out.count;
   }
@@ -137,6 +138,7 @@ class Solver {
       out_.residuals += sums[k].count;
       sizes.insert(sizes.end(), sums[k].sizes.begin(), sums[k].sizes.end());
     }
+    find_excess(sums, sizes);
     if (out_.residuals < 100)
       return fail(ErrorCode::kTooFewPoints,
                   "motion: the frames do not overlap, only {} points of them meet; take more "
@@ -145,6 +147,20 @@ class Solver {
     out_.scale_m = options_.scale_m.value_or(std::max(1.4826 * median_of(sizes), 1e-7));
     out_.rms_m = std::sqrt(squares / double(out_.residuals));
     return {};
+  }
+
+  /// Errors that neighbouring pixels share (a sensor's warped depth, fur) do not average out: the
+  /// mean residual of a pair is then larger than independent noise would make it, and every
+  /// residual says so much less.
+  void find_excess(const std::vector<PairSum>& sums, std::vector<float>& sizes) {
+    const double scale = options_.scale_m.value_or(1.4826 * median_of(sizes));
+    std::vector<float> ratios;
+    for (const PairSum& sum : sums) {
+      if (sum.count >= 50)
+        ratios.push_back(float(sum.sum * sum.sum / (double(sum.count) * scale * scale)));
+    }
+    constexpr double kMedianOfSquare = 0.455;  // of a standard normal
+    excess_ = std::max(1.0, median_of(ratios) / kMedianOfSquare);
   }
 
   void add(const FramePair& pair, const PairSum& sum) {
@@ -219,7 +235,7 @@ class Solver {
   }
 
   Result<> solve() {
-    unit_ = uses_ * out_.scale_m * out_.scale_m;
+    unit_ = uses_ * std::max(1.0, 0.25 * excess_) * out_.scale_m * out_.scale_m;
     law_cost_ = 0.0;
     add_law();
     const int first = int(n_);
@@ -227,7 +243,7 @@ class Solver {
     const double unit = unit_;
     Eigen::Matrix4d shared = shared_;
     double tilt = 0.35, shift = 0.2;
-    if (data_.platter) tilt = 0.003, shift = 0.003;
+    if (data_.platter) tilt = 0.002, shift = 0.003;
     shared(0, 0) += unit / (tilt * tilt);
     shared(1, 1) += unit / (tilt * tilt);
     shared(2, 2) += unit / (shift * shift);
@@ -299,8 +315,9 @@ class Solver {
   const AngleLaw& law_;
   const SolveOptions& options_;
   std::size_t n_;
-  double uses_ = 1.0;  ///< how often the same noise is counted
-  double unit_ = 1.0;  ///< what a residual of one standard deviation weighs
+  double uses_ = 1.0;    ///< how often the same noise is counted
+  double excess_ = 1.0;  ///< of the spread of pairs' mean residuals over that of noise
+  double unit_ = 1.0;    ///< what a residual of one standard deviation weighs
   double cost_ = 0.0, law_cost_ = 0.0;
   MotionSolution out_;
   std::vector<Eigen::Triplet<double>> triplets_;

@@ -302,6 +302,9 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
     const Vector2d uv = view.camera.project(p);
     const int x = int(std::lround(uv.x())), y = int(std::lround(uv.y()));
     if (x < 0 || y < 0 || x >= view.scan.width || y >= view.scan.height) return std::nullopt;
+    // What flickers, a turning object or an edge, says nothing.
+    const auto i = std::size_t(y) * std::size_t(view.scan.width) + std::size_t(x);
+    if (!view.scan.still[i] && view.scan.point[i].z() > 0.0f) return std::nullopt;
     return view.side(x, y);
   };
   /// Radial length of this many pixels at a place of the rim.

@@ -1,0 +1,107 @@
+"""turnscan calibrate, and what reconstruct does with and without a calibration."""
+
+import json
+import shutil
+import unittest
+
+import harness
+from harness import DATA, FAILED, USAGE, shared_recording
+
+CENTER_M, AXIS = (0.0, 0.0861, 0.9262), (0.0, -0.9563, -0.2924)  # of the demo's virtual camera
+
+
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) ** 0.5
+
+
+class Calibrate(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.rec = shared_recording("letter-a", 60)
+
+    def calibrate(self, *args):
+        self.ok("calibrate", *args, "--json", "c.json")
+        return json.loads((self.dir / "c.json").read_text())
+
+    def assert_true_place(self, found, metres):
+        self.assertLess(distance(found["axis"], AXIS), 0.004)
+        self.assertLess(distance(found["center_m"], CENTER_M), metres)
+
+    def bare(self):
+        """The recording without turntable and angles."""
+        shutil.copytree(self.rec, self.dir / "bare")
+        path = self.dir / "bare" / "recording.json"
+        recording = json.loads(path.read_text())
+        del recording["turntable"]
+        for sensor in recording["sensors"]:
+            sensor.pop("T_table_sensor", None)
+        path.write_text(json.dumps(recording))
+        path = self.dir / "bare" / "frames.csv"
+        rows = [line.split(",") for line in path.read_text().splitlines()]
+        column = rows[0].index("angle_deg")
+        for row in rows[1:]:
+            row[column] = ""
+        path.write_text("".join(",".join(row) + "\n" for row in rows))
+        return "bare"
+
+    def test_motion_alone_gives_place_speed_and_angles(self):
+        found = self.calibrate(self.bare(), "--from-motion")
+        self.assert_true_place(found, 0.001)
+        self.assertEqual(found["method"], "motion")
+        self.assertAlmostEqual(found["speed_deg_s"], 180.0, delta=1.0)  # 6 degrees a frame, 30 fps
+        self.assertEqual(len(found["angles_deg"]), 60)
+        self.assertAlmostEqual(found["angles_deg"][30], 180.0, delta=0.5)
+
+    def test_detection_gives_place_and_radius(self):
+        found = self.calibrate(self.rec, "--detect")
+        self.assert_true_place(found, 0.003)
+        self.assertAlmostEqual(found["radius_m"], 0.15, delta=0.003)
+        self.assertGreater(found["confidence"], 0.7)
+
+    def test_picked_points_and_what_is_wrong_with_them(self):
+        rim = "x_m,y_m,z_m\n0.15,0.0861,0.9262\n-0.15,0.0861,0.9262\n0,0.04222,1.06965\n"
+        (self.dir / "p.csv").write_text(rim)
+        self.assert_true_place(self.calibrate(self.rec, "--points", "p.csv"), 0.001)
+        (self.dir / "same.csv").write_text(rim + "0.15,0.0861,0.9262\n")
+        self.refused(FAILED, "calibrate", self.rec, "--points", "same.csv", says="points 1 and 4")
+        (self.dir / "word.csv").write_text(rim + "a,b,c\n")
+        self.refused(FAILED, "calibrate", self.rec, "--points", "word.csv", says="line 5")
+        (self.dir / "columns.csv").write_text("a,b\n1,2\n")
+        self.refused(FAILED, "calibrate", self.rec, "--points", "columns.csv", says="x_mm")
+
+    def test_a_saved_calibration_is_used_and_reads_back_the_same(self):
+        self.ok("calibrate", self.bare(), "--save", "a.json")
+        self.ok("reconstruct", "bare", "-o", "m.ply", "--turntable", "a.json", *harness.FAST)
+        self.ok("info", "m.ply")
+
+    def test_a_recording_without_calibration_is_reconstructed_and_that_is_said(self):
+        out = self.ok("reconstruct", self.bare(), "-o", "m.ply", *harness.FAST).stdout
+        self.assertIn("found from motion", out)
+        self.refused(FAILED, "reconstruct", "bare", "-o", "n.ply", "--calibration", "recorded")
+        self.refused(USAGE, "reconstruct", "bare", "-o", "n.ply", "--calibration", "magic")
+
+    def test_ways_that_exclude_each_other(self):
+        self.refused(USAGE, "calibrate", self.rec, "--detect", "--from-motion")
+        self.refused(USAGE, "calibrate", self.rec, "--check", "--json", "c.json")
+
+    def test_check_says_what_is_right(self):
+        out = self.ok("calibrate", self.rec, "--check").stdout
+        self.assertIn("Direction", out)
+        self.assertNotIn("WRONG", out)
+
+    @unittest.skipUnless((DATA / "d435_bear").is_dir(), "the data are not there")
+    def test_a_real_bear_from_eight_depth_images_alone(self):
+        estimate = json.loads((DATA / "d435_bear" / "poses_estimated.json").read_text())
+        self.ok("import", DATA / "d435_bear" / "poses_estimated.json", "-o", "bear")
+        found = self.calibrate("bear", "--from-motion", "--no-motion-angles", "--no-motion-table")
+        self.assertLess(distance(found["axis"], estimate["axis_dir"]), 0.0175)
+        off = [c - p for c, p in zip(found["center_m"], estimate["axis_point"])]
+        along = sum(o * a for o, a in zip(off, estimate["axis_dir"]))
+        self.assertLess(sum(o * o for o in off) - along * along, 0.0021 ** 2)
+        self.assertAlmostEqual(found["radius_m"], 0.126, delta=0.001)
+        for angle, truth in zip(found["angles_deg"], estimate["angle_rad_closed"]):
+            self.assertAlmostEqual(angle, truth * 57.29578, delta=1.5)
+
+
+if __name__ == "__main__":
+    harness.main()
