@@ -130,6 +130,7 @@ class Formulae {
   /// A pixel within reach of a step looks where lateral noise sends it; rays are traced only if its
   /// footprint there meets the step.
   void look_aside(int u, int v, std::size_t i) {
+    if (job_.exact.miss[i] == Miss::kOutOfView) return;
     const std::size_t pixel = job_.setup.pixel(u, v);
     const double z = job_.exact.hit(i) ? double(job_.exact.z[i]) : nearest_around(u, v);
     if (!(z > 0.0)) return;

@@ -156,6 +156,27 @@ TEST(KinectV2Sensor, SameSeedGivesTheSameBytes) {
   EXPECT_NE(bench.measure(noise_of("physics"), 4, 2).z, a.z);
 }
 
+TEST(KinectV2Sensor, PixelsWithoutALineOfSightStayOutOfView) {
+  // A lens so strong that the corners of the image belong to no ray.
+  ScannerModel m = kinect_v2();
+  m.camera.fx = m.camera.fy = 60.0;
+  m.camera.distortion = {-0.25, 0.0, 0.0, 0.0, 0.0};
+  m.noise.lateral_m = 0.0016;
+  const Bench bench(m, {half_wall(0.8, 0.0, 0.1), wall(1.2)});
+  for (const char* kind : {"model", "physics"}) {
+    const MeasuredGrid out = bench.measure(noise_of(kind));
+    int outside = 0;
+    for (std::size_t i = 0; i < out.z.size(); ++i) {
+      ASSERT_TRUE(std::isfinite(out.z[i]));
+      EXPECT_EQ(out.z[i] > 0.0f, out.miss[i] == Miss::kNone);
+      if (bench.exact().miss[i] != Miss::kOutOfView) continue;
+      EXPECT_EQ(out.miss[i], Miss::kOutOfView);
+      ++outside;
+    }
+    EXPECT_GT(outside, 100);
+  }
+}
+
 /// 12 cm of line at 0.3 m, camera 12 cm beside the sheet of light.
 ScannerModel profiler() {
   ScannerModel m = camera(1, 400, 1000.0);
