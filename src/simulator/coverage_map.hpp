@@ -94,7 +94,8 @@ struct CoverageMap {
 /// A cell without a sample is looked at from its largest patch: of the frames whose sensor is on
 /// its side (at most about 64 of a matrix scanner; of a line scanner those whose line passes over
 /// it), the reason is that of the one which came farthest: out of view, out of range, grazing,
-/// receiver blocked, other eye blocked. None on its side: receiver blocked, by the object itself.
+/// first eye blocked (that of the rays), other eye blocked. None on its side: receiver blocked, by the
+/// object itself.
 /// A cell that such a frame does see lies between the samples and is thin. It is unreachable when
 /// nothing on 48 directions around the table sees it within the scanners' largest incidence, from
 /// their greatest distance and from their lowest height to their highest.

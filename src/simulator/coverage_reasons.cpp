@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/parallel.hpp>
@@ -22,13 +21,22 @@ struct Spot {
   Vec3d p, normal;
 };
 
-/// How far a sample would have come; the farthest counts.
-int stage_of(Miss miss) {
-  constexpr std::array kStages{Miss::kNothing,        Miss::kOutOfView, Miss::kTooNear,
-                               Miss::kTooFar,         Miss::kGrazing,   Miss::kReceiverBlocked,
-                               Miss::kEmitterBlocked, Miss::kTooDark,   Miss::kNone};
-  return static_cast<int>(std::find(kStages.begin(), kStages.end(), miss) - kStages.begin());
-}
+/// How far a sample of a cell came in the best frame; the farthest counts.
+struct Outcome {
+  enum Stage { kUntried, kInView, kInRange, kFlat, kFirstEye, kSecondEye, kSeen };
+  Stage stage = kUntried;
+  Miss miss = Miss::kNothing;
+
+  void raise(Stage to, Miss why) {
+    if (to > stage) stage = to, miss = why;
+  }
+  void raise(Miss in_view) {
+    raise(in_view == Miss::kOutOfView ? kInView
+          : in_view == Miss::kGrazing ? kFlat
+                                      : kInRange,
+          in_view);
+  }
+};
 
 /// A frame that cells are looked at from. For a line scanner the frame before it, too: its line has
 /// passed over what lies between the two.
@@ -99,23 +107,20 @@ class Blocked {
   std::vector<Ray> rays_;
 };
 
-/// Raises reasons to what this look gives.
+/// Raises the outcomes to what this look gives.
 void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Blocked& second,
-             std::span<Miss> reasons) {
-  const auto advance = [&](std::size_t i, Miss miss) {
-    if (stage_of(miss) > stage_of(reasons[i])) reasons[i] = miss;
-  };
-  // What neither eye sees is hidden from the eye that the rays start from.
+             std::span<Outcome> outcomes) {
+  // The eye that the rays start from is asked first.
   const bool line = look.model->kind == ScannerKind::kLine;
   const Miss own = line ? Miss::kEmitterBlocked : Miss::kReceiverBlocked;
   const Miss others = line ? Miss::kReceiverBlocked : Miss::kEmitterBlocked;
   first.clear(), second.clear();
   for (std::size_t i = 0; i < spots.size(); ++i) {
-    if (reasons[i] == Miss::kNone) continue;
+    if (outcomes[i].stage == Outcome::kSeen) continue;
     if (!(spots[i].normal.dot(look.origin - spots[i].p) > 0.0)) continue;
     const Miss miss = look.in_view(spots[i]);
     if (miss != Miss::kNone)
-      advance(i, miss);
+      outcomes[i].raise(miss);
     else
       first.ask(i, ray_to(spots[i], look.origin));
   }
@@ -123,17 +128,20 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
   for (std::size_t k = 0; k < first.who.size(); ++k) {
     const std::size_t i = first.who[k];
     if (first.blocked[k])
-      advance(i, own);
+      outcomes[i].raise(Outcome::kFirstEye, own);
     else if (!look.model->two_eyed())
-      advance(i, Miss::kNone);
+      outcomes[i].raise(Outcome::kSeen, Miss::kNone);
     else if (!(spots[i].normal.dot(look.other - spots[i].p) > 0.0))
-      advance(i, others);
+      outcomes[i].raise(Outcome::kSecondEye, others);
     else
       second.ask(i, ray_to(spots[i], look.other));
   }
   second.answer();
   for (std::size_t k = 0; k < second.who.size(); ++k)
-    advance(second.who[k], second.blocked[k] ? others : Miss::kNone);
+    if (second.blocked[k])
+      outcomes[second.who[k]].raise(Outcome::kSecondEye, others);
+    else
+      outcomes[second.who[k]].raise(Outcome::kSeen, Miss::kNone);
 }
 
 /// Places around the table at the scanners' heights.
@@ -214,16 +222,16 @@ Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface,
   parallel_for((spots.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
     const std::size_t begin = chunk * kChunk, n = std::min(kChunk, spots.size() - begin);
     const auto mine = std::span(spots).subspan(begin, n);
-    std::vector<Miss> reasons(n, Miss::kNothing);
+    std::vector<Outcome> outcomes(n);
     std::vector<std::uint8_t> reached(n, 0);
     Blocked first(job.scene), second(job.scene);
     for (const Look& look : looks) {
       if (context.cancelled()) return;
-      look_at(look, mine, first, second, reasons);
+      look_at(look, mine, first, second, outcomes);
     }
     reach(job.scene, places, std::cos(flattest), mine, reached);
     for (std::size_t i = 0; i < n; ++i)
-      judge(surface.cells[mine[i].cell], reasons[i], reached[i] != 0, job.options.noise);
+      judge(surface.cells[mine[i].cell], outcomes[i].miss, reached[i] != 0, job.options.noise);
     context.advance(n);
   });
   return context.check();

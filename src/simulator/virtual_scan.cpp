@@ -302,6 +302,29 @@ struct VirtualScan::Impl {
     spare.push_back(std::move(space));
   }
 
+  TrueSamples true_samples(std::size_t position) const {
+    const std::size_t k = scanner_of(position);
+    const PlatterState& state = state_of(position);
+    const Pose T = T_world_sensor(k, state.travel);
+    const std::vector<Body> bodies = bodies_at(state.angle_rad);
+    TrueSamples out;
+    out.scanner = static_cast<std::uint32_t>(k);
+    tracers[k].trace(bodies, T, out.exact);
+    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, out.exact,
+                    static_cast<std::uint32_t>(position / scanner_count()), out.measured);
+    out.hits.resize(out.exact.size());
+    const PixelRect& rect = out.exact.rect;
+    for (int row = rect.top; row < rect.bottom; ++row) {
+      for (int column = rect.left; column < rect.right; ++column) {
+        const std::size_t i = out.exact.index(column, row);
+        if (out.exact.hit(i))
+          out.hits[i] =
+              tracers[k].hit_of(bodies, T, out.exact, i, tracers[k].direction(column, row));
+      }
+    }
+    return out;
+  }
+
   Frame render(std::size_t position, Workspace& space) const {
     const std::size_t k = scanner_of(position);
     const PlatterState& state = state_of(position);
@@ -373,6 +396,13 @@ Result<Frame> VirtualScan::read(std::size_t position) const {
   Frame frame = impl_->render(position, *space);
   impl_->give_back(std::move(space));
   return frame;
+}
+
+Result<TrueSamples> VirtualScan::samples(std::size_t position) const {
+  if (position >= impl_->frames.size())
+    return fail(ErrorCode::kNotFound, "virtual scan: there is no frame {}, only {}", position,
+                impl_->frames.size());
+  return impl_->true_samples(position);
 }
 
 }  // namespace turnscan

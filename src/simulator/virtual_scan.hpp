@@ -67,6 +67,16 @@ struct VirtualScanOptions {
   RecordOptions record;
 };
 
+/// All about one frame that the recording does not say. Of the arrays of exact, hits has the same
+/// places; it says something where exact.hit(). A hit's p_body and normal_body are in the table's
+/// frame at angle 0 for body 0 (objects and platter), in the world's for body 1 (the room).
+struct TrueSamples {
+  std::uint32_t scanner = 0;
+  SampleGrid exact;       ///< without noise
+  MeasuredGrid measured;  ///< what is recorded (before it is rounded), or why nothing is
+  std::vector<SampleHit> hits;
+};
+
 /// All scanners take a frame at each instant; in the sequence the frames of one instant follow each
 /// other in the order of the scanners. The object and the platter turn, scanners and room stay
 /// (but for a scanner's travel): at the angle a of a frame
@@ -95,6 +105,8 @@ class VirtualScan : public FrameSequence {
   Result<Frame> read(std::size_t position) const override;
 
   // The truth.
+  /// Every sample of a frame, also of a dropped one. Fails with kNotFound.
+  Result<TrueSamples> samples(std::size_t position) const;
   /// In the table's frame, at angle 0.
   std::span<const TriangleMesh> objects() const;
   /// Objects, then the body of the platter if it has a thickness; table frame.

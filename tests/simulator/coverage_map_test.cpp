@@ -202,6 +202,36 @@ TEST(CoverageMap, OfALineScannerThatSweepsIsThatOfWhatItsLineCrosses) {
   EXPECT_GT(area_with(map, [](const auto& c) { return c.reason == Miss::kGrazing; }), 0.0);
 }
 
+/// A line scanner's rays start at the laser. What lies in the shadow of a rod beside the line of
+/// sight of its camera only, the camera misses.
+TEST(CoverageMap, TellsLaserAndCameraOfALineScannerApart) {
+  ScannerModel line = scanner();
+  line.kind = ScannerKind::kLine;
+  line.camera.width = 1;
+  line.camera.cx = 0.0;
+  line.emitter_m = Vec3d::Zero();
+  line.receiver_m = {0.3, 0, 0};
+  TriangleMesh plate;
+  plate.vertices = {{-.1f, .1f, 0}, {.1f, .1f, 0}, {.1f, .3f, 0}, {-.1f, .3f, 0}};
+  plate.triangles = {{0, 2, 1}, {0, 3, 2}};
+  // Sweeps over the plate without turning; the camera is at its side, behind a wall that moves not.
+  std::vector<CoveragePose> poses;
+  for (int i = 0; i <= 200; ++i) {
+    poses.push_back({0, looking(0.8, 0.0, 0.2)});
+    poses.back().T_table_sensor.translation().x() = -0.12 + 0.24 * i / 200.0;
+  }
+  const TriangleMesh wall = test::box_mesh({-0.5, 0, -0.45}, {-0.13, 0.4, -0.4});
+  const CoverageMap map = map_of({plate, wall}, line, poses, coarse(), {});
+  double receiver = 0.0, emitter = 0.0;
+  for (const CoveragePatch& patch : map.patches) {
+    if (patch.object != 0) continue;
+    receiver += map.cells[patch.cell].reason == Miss::kReceiverBlocked ? 1 : 0;
+    emitter += map.cells[patch.cell].reason == Miss::kEmitterBlocked ? 1 : 0;
+  }
+  EXPECT_GT(receiver, 10.0);
+  EXPECT_EQ(emitter, 0.0);
+}
+
 TEST(CoverageMap, IsTheSameForEveryNumberOfThreads) {
   const auto map = [] {
     return map_of(

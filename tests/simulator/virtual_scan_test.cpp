@@ -56,6 +56,48 @@ double nearest_root(double a, double b, double c, double& margin) {
   return (-b - std::sqrt(b * b - a * c)) / a;
 }
 
+TEST(VirtualScan, TellsTheTruthOfEverySampleThatItRecords) {
+  VirtualScanOptions o = clean();
+  o.measure.noise = "gaussian:2mm";
+  o.platter.visible = true;
+  const double radius = 0.06;
+  const Vec3d centre(0.03, 0.08, 0.02);
+  const VirtualScan scan = scan_of({test::sphere_mesh(centre, radius, 200)}, o);
+  for (const std::size_t position : {0u, 5u}) {
+    const auto truth = scan.samples(position);
+    ASSERT_TRUE(truth);
+    const SampleGrid& exact = truth->exact;
+    const DepthImage depth = depth_of(scan, position);
+    const Pose T = scan.T_table_sensor(position);
+    std::size_t of_sphere = 0;
+    for (int y = 0; y < depth.height; ++y) {
+      for (int x = 0; x < depth.width; ++x) {
+        if (!exact.contains(x, y)) {
+          ASSERT_EQ(depth.at(x, y), kNoReturn);
+          continue;
+        }
+        const std::size_t i = exact.index(x, y);
+        ASSERT_NEAR(depth.at(x, y) * kUnit, truth->measured.z[i], kRounding);
+        ASSERT_EQ(depth.at(x, y) != kNoReturn, truth->measured.miss[i] == Miss::kNone);
+        if (!exact.hit(i)) continue;
+        const SampleHit& hit = truth->hits[i];
+        ASSERT_LT((T * hit.p_sensor - hit.p_body).norm(), 1e-9);
+        // Rounding of the ray counts for more the flatter it meets the surface.
+        ASSERT_NEAR(hit.p_sensor.z(), exact.z[i], 5e-7 / std::cos(hit.incidence_rad));
+        if (exact.object(i) == kPlatter) {
+          ASSERT_NEAR(hit.p_body.y(), 0.0, 1e-12);
+          continue;
+        }
+        ++of_sphere;
+        ASSERT_NEAR((hit.p_body - centre).norm(), radius, 1e-5);
+        ASSERT_GT(hit.normal_body.dot((hit.p_body - centre).normalized()), 0.999);
+      }
+    }
+    EXPECT_GT(of_sphere, 500u);
+  }
+  EXPECT_FALSE(scan.samples(8));
+}
+
 TEST(VirtualScan, SeesThePlatterAsThePlaneItIs) {
   VirtualScanOptions o = clean();
   o.platter.visible = true;
