@@ -94,11 +94,10 @@ struct CoverageMap {
 /// A cell without a sample is looked at from its largest patch: of the frames whose sensor is on
 /// its side (at most about 64 of a matrix scanner; of a line scanner those whose line passes over
 /// it), the reason is that of the one which came farthest: out of view, out of range, grazing,
-/// first eye blocked (that of the rays), other eye blocked. None on its side: receiver blocked, by the
-/// object itself.
-/// A cell that such a frame does see lies between the samples and is thin. It is unreachable when
-/// nothing on 48 directions around the table sees it within the scanners' largest incidence, from
-/// their greatest distance and from their lowest height to their highest.
+/// first eye blocked (that of the rays), other eye blocked. None on its side: receiver blocked, by
+/// the object itself. A cell that such a frame does see lies between the samples and is thin. It is
+/// unreachable when nothing on 48 directions around the table sees it within the scanners' largest
+/// incidence, from their greatest distance and from their lowest height to their highest.
 ///
 /// cell_m is enlarged where it would give more than 4 million patches. The same for every number of
 /// threads. Fails with kInvalidOption (options, no scanner, a pose of a scanner that is not there),
