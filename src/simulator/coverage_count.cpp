@@ -6,6 +6,7 @@
 #include <numbers>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/coverage_count.hpp>
+#include <turnscan/simulator/noise.hpp>
 
 namespace turnscan {
 
@@ -19,13 +20,13 @@ class SigmaTable {
  public:
   explicit SigmaTable(const ScannerModel& model)
       : near_(float(model.near_m)), scale_(float(kDistances / (model.far_m - model.near_m))) {
-    const double focal_baseline = model.camera.fx * model.other_eye_m().norm();
+    const double scale = focal_baseline(model);
     values_.reserve(std::size_t(kDistances) * kAngles * CoveragePatches::kAlbedoSteps);
     for (int albedo = 0; albedo < CoveragePatches::kAlbedoSteps; ++albedo)
       for (int angle = 0; angle < kAngles; ++angle)
         for (int distance = 0; distance < kDistances; ++distance)
           values_.push_back(static_cast<float>(
-              predicted_sigma_m(model.noise, focal_baseline, near_ + (distance + 0.5) / scale_,
+              predicted_sigma_m(model.noise, scale, near_ + (distance + 0.5) / scale_,
                                 std::acos((angle + 0.5) / kAngles),
                                 double(albedo) / (CoveragePatches::kAlbedoSteps - 1))));
   }

@@ -373,6 +373,17 @@ TEST(SensorNoise, RefusesOptionsOutOfRange) {
   refused(m, noise_of("physics"), "line");
 }
 
+TEST(FocalBaseline, IsOfTheCameraOrOfTheLinesOwn) {
+  ScannerModel m = camera(10, 10, 400.0);
+  EXPECT_EQ(focal_baseline(m), 0.0);
+  m.emitter_m = Vec3d(0.03, 0.04, 0.0);
+  EXPECT_DOUBLE_EQ(focal_baseline(m), 400.0 * 0.05);
+  m.kind = ScannerKind::kLine;
+  m.noise.line_focal_px = 2000.0;
+  m.receiver_m = Vec3d(-0.1, 0.02, 0.0);
+  EXPECT_DOUBLE_EQ(focal_baseline(m), 2000.0 * 0.1);
+}
+
 TEST(NoisePresets, PredictWhatIsPublished) {
   const auto sigma_mm = [](const char* preset, double z, double incidence) {
     const ScannerModel model = find_scanner(preset).value();
