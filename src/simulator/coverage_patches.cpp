@@ -68,10 +68,10 @@ CellKey key_of(const CoveragePatch& patch, const Vec3f& normal, double cell_m) {
   CellKey key{};
   const Vec3f center = middle_of(patch);
   for (int k = 0; k < 3; ++k)
-    key.cube[std::size_t(k)] = static_cast<std::int64_t>(std::floor(double(center[k]) / cell_m));
+    key[std::size_t(k)] = static_cast<std::int64_t>(std::floor(double(center[k]) / cell_m));
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
-  key.side = 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
+  key[3] = 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
   return key;
 }
 
@@ -82,9 +82,9 @@ std::uint32_t largest_neighbour(std::span<const CellKey> keys, std::span<const d
   std::uint32_t best = self;
   for (int n = 0; n < 27; ++n) {
     CellKey key = keys[self];
-    key.cube[0] += n % 3 - 1;
-    key.cube[1] += n / 3 % 3 - 1;
-    key.cube[2] += n / 9 - 1;
+    key[0] += n % 3 - 1;
+    key[1] += n / 3 % 3 - 1;
+    key[2] += n / 9 - 1;
     const auto found = std::lower_bound(keys.begin(), keys.end(), key);
     if (found == keys.end() || *found != key) continue;
     const auto c = static_cast<std::uint32_t>(found - keys.begin());

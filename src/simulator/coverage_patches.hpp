@@ -32,12 +32,8 @@ class CoveragePatches {
 
   static constexpr int kAlbedoSteps = 16;
 
-  /// Cube and direction of a patch.
-  struct CellKey {
-    std::array<std::int64_t, 3> cube;
-    int side;
-    auto operator<=>(const CellKey&) const = default;
-  };
+  /// Cube (three numbers) and direction of a patch.
+  using CellKey = std::array<std::int64_t, 4>;
 
  private:
   /// An edge that is halved: of the children the first has the edge's first corner.
