@@ -1,7 +1,8 @@
-#include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/iai_kinect2.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/check.hpp>
+#include <turnscan/turntable/depth_bias.hpp>
 #include <turnscan/turntable/detect.hpp>
 #include <turnscan/turntable/motion.hpp>
 #include <turnscan/turntable/picked_points.hpp>
@@ -16,6 +17,22 @@ namespace turnscan::cli {
 
 namespace {
 
+/// A recording with another offset of depth.
+class Corrected : public FrameSequence {
+ public:
+  Corrected(const FrameSequence& sequence, const std::optional<DepthCorrection>& depth)
+      : sequence_(sequence), header_(sequence.header()) {
+    if (depth && !header_.sensors.empty()) header_.sensors[0].depth_bias_m = depth->bias_m;
+  }
+  const SequenceHeader& header() const override { return header_; }
+  const std::vector<FrameInfo>& frames() const override { return sequence_.frames(); }
+  Result<Frame> read(std::size_t position) const override { return sequence_.read(position); }
+
+ private:
+  const FrameSequence& sequence_;
+  SequenceHeader header_;
+};
+
 class CalibrateCommand : public Command {
  public:
   void declare(CommandLine& line) override {
@@ -26,6 +43,11 @@ class CalibrateCommand : public Command {
     line.flag("--detect", detect_, "Find the platter's surface and rim in the averaged frames");
     line.flag("--from-motion", from_motion_,
               "Find axis, speed and angles from the motion of what stands on the platter");
+    line.flag("--depth-bias", depth_bias_,
+              "First find the constant offset of the sensor's depth, from --platter-radius");
+    line.option(
+        "--iai-kinect2", "FOLDER", iai_folder_,
+        "First add the depth offset of a Kinect v2 calibration in the layout of iai_kinect2");
     line.flag("--check", check_,
               "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
               "is wrong; nothing is calibrated");
@@ -46,11 +68,20 @@ class CalibrateCommand : public Command {
     if (check_ && !(json_.empty() && save_.empty()))
       return fail(ErrorCode::kInvalidOption,
                   "--check makes no calibration; leave out --json and --save");
+    if (depth_bias_ && !iai_folder_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--depth-bias and --iai-kinect2 both give the offset of depth; use one of them");
+    if (depth_bias_ && !detect_options_.radius_m)
+      return fail(ErrorCode::kInvalidOption,
+                  "--depth-bias needs a known size; give --platter-radius");
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
     if (check_) return check(recording, session);
-    TURNSCAN_ASSIGN(const Calibration found, calibrate(recording, session));
+    TURNSCAN_ASSIGN(const auto depth, depth_correction(recording, session));
+    const Corrected corrected(recording, depth);
+    TURNSCAN_ASSIGN(Calibration found, calibrate(corrected, session));
+    found.depth = depth;
     // What is shown is what the file gives back.
     TURNSCAN_ASSIGN(const Calibration calibration, parse_calibration(calibration_json(found)));
     TURNSCAN_TRY(session.context().check());
@@ -82,18 +113,34 @@ class CalibrateCommand : public Command {
                 wrong, findings.size());
   }
 
-  Result<Calibration> calibrate(const Recording& recording, Session& session) const {
+  Result<std::optional<DepthCorrection>> depth_correction(const FrameSequence& recording,
+                                                          Session& session) const {
+    const SensorInfo& sensor = recording.header().sensors.front();
+    if (!iai_folder_.empty()) {
+      TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(iai_folder_));
+      DepthCorrection depth;
+      depth.bias_m = kinect.depth_shift_m;
+      depth.found = "iai_kinect2 calibration " + iai_folder_;
+      return depth;
+    }
+    if (!depth_bias_) return std::nullopt;
+    TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
+    return estimate_depth_bias(scan, *detect_options_.radius_m, sensor.depth_bias_m,
+                               detect_options_, session.context());
+  }
+
+  Result<Calibration> calibrate(const FrameSequence& recording, Session& session) const {
     if (!points_.empty()) return from_points(recording, session);
     if (from_motion_) return motion(recording, session);
     if (detect_) return detected(recording, session);
     return automatic(recording, session);
   }
 
-  Result<Calibration> motion(const Recording& recording, Session& session) const {
+  Result<Calibration> motion(const FrameSequence& recording, Session& session) const {
     return calibrate_from_motion(recording, motion_options_, detect_options_, session.context());
   }
 
-  Result<Calibration> detected(const Recording& recording, Session& session) const {
+  Result<Calibration> detected(const FrameSequence& recording, Session& session) const {
     TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
     TURNSCAN_ASSIGN(const DetectedPlatter platter,
                     detect_platter(scan, detect_options_, session.context()));
@@ -104,7 +151,7 @@ class CalibrateCommand : public Command {
   }
 
   /// From motion; where nothing turns or nothing about the turn can be seen, from the platter.
-  Result<Calibration> automatic(const Recording& recording, Session& session) const {
+  Result<Calibration> automatic(const FrameSequence& recording, Session& session) const {
     auto moving = motion(recording, session);
     if (moving || moving.error().code == ErrorCode::kCancelled) return moving;
     auto still = detected(recording, session);
@@ -117,12 +164,12 @@ class CalibrateCommand : public Command {
     return still;
   }
 
-  Result<AveragedScan> average(const Recording& recording, Session& session) const {
+  Result<AveragedScan> average(const FrameSequence& recording, Session& session) const {
     return average_frames(recording, spread_positions(recording, 0, std::size_t(average_.frames)),
                           average_, session.context());
   }
 
-  Result<Calibration> from_points(const Recording& recording, Session& session) const {
+  Result<Calibration> from_points(const FrameSequence& recording, Session& session) const {
     TURNSCAN_ASSIGN(const bool pixels, picks_pixels(points_));
     std::optional<AveragedScan> scan;
     if (pixels) {
@@ -143,8 +190,8 @@ class CalibrateCommand : public Command {
     return calibration;
   }
 
-  std::string recording_, points_, json_, save_;
-  bool detect_ = false, from_motion_ = false, check_ = false;
+  std::string recording_, points_, json_, save_, iai_folder_;
+  bool detect_ = false, from_motion_ = false, check_ = false, depth_bias_ = false;
   AverageOptions average_;
   DetectOptions detect_options_;
   MotionOptions motion_options_;

@@ -1,7 +1,9 @@
 #include "calibration_choice.hpp"
 
 #include <algorithm>
+#include <map>
 #include <turnscan/turntable/check.hpp>
+#include <turnscan/turntable/free_motion.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace turnscan::cli {
@@ -9,6 +11,51 @@ namespace turnscan::cli {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
+
+class Posed : public FrameSequence {
+ public:
+  Posed(const FrameSequence& sequence, const std::vector<Pose>& poses)
+      : sequence_(sequence), frames_(sequence.frames()) {
+    for (std::size_t i = 0; i < poses.size(); ++i) frames_[i].T_table_sensor = poses[i];
+  }
+  const SequenceHeader& header() const override { return sequence_.header(); }
+  const std::vector<FrameInfo>& frames() const override { return frames_; }
+  Result<Frame> read(std::size_t position) const override {
+    auto frame = sequence_.read(position);
+    if (frame) frame->info = frames_.at(position);
+    return frame;
+  }
+
+ private:
+  const FrameSequence& sequence_;
+  std::vector<FrameInfo> frames_;
+};
+
+struct FreeWay {
+  FreeMethod method;
+  FreeScheme scheme;
+};
+
+const std::map<std::string, FreeWay>& free_ways() {
+  static const std::map<std::string, FreeWay> ways{
+      {"icp-consecutive", {FreeMethod::kIcp, FreeScheme::kConsecutive}},
+      {"icp-global", {FreeMethod::kIcp, FreeScheme::kGlobal}},
+      {"gicp-consecutive", {FreeMethod::kGicp, FreeScheme::kConsecutive}},
+      {"gicp-global", {FreeMethod::kGicp, FreeScheme::kGlobal}}};
+  return ways;
+}
+
+Result<CalibrationChoice> by_free_registration(const FrameSequence& sequence,
+                                               const CalibrationWish& wish, const FreeWay& way,
+                                               const RunContext& context) {
+  TURNSCAN_ASSIGN(const FramePoses start,
+                  frame_poses(sequence.header(), sequence.frames(), wish.speed_rad_s));
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(out.poses, register_frames_freely(sequence, start.T_table_sensor, way.method,
+                                                    way.scheme, context));
+  out.note = fmt::format("frames placed by free registration ({}), for comparison only", wish.mode);
+  return out;
+}
 
 Result<CalibrationChoice> from_motion(const FrameSequence& sequence, const CalibrationWish& wish,
                                       const std::string& why, const RunContext& context) {
@@ -75,8 +122,18 @@ Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
   if (wish.mode == "motion")
     return from_motion(sequence, wish, "--calibration motion was given", context);
   if (wish.mode == "auto") return automatic(sequence, wish, context);
+  if (const auto way = free_ways().find(wish.mode); way != free_ways().end())
+    return by_free_registration(sequence, wish, way->second, context);
   return fail(ErrorCode::kInvalidOption,
-              "--calibration {}: there is no such way; use auto, recorded or motion", wish.mode);
+              "--calibration {}: there is no such way; use auto, recorded, motion or a "
+              "free registration",
+              wish.mode);
+}
+
+Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
+                                                   const CalibrationChoice& choice) {
+  if (choice.calibration) return with_calibration(sequence, *choice.calibration);
+  return std::make_unique<Posed>(sequence, choice.poses);
 }
 
 }  // namespace turnscan::cli

@@ -33,9 +33,12 @@ class ReconstructCommand : public Command {
     line.option(
         "--turntable", "FILE.json", turntable_,
         "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
-    line.option("--calibration", "auto|recorded|motion", calibration_,
-                "Where turntable and angles come from. auto: from the object's motion where the "
-                "recording has none, or one that does not fit one turn later");
+    line.option(
+        "--calibration", "WAY", calibration_,
+        "Where turntable and angles come from: auto, recorded or motion. auto: from the object's "
+        "motion where the "
+        "recording has none, or one that does not fit one turn later. For comparison also free "
+        "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
     line.flag("--allow-open", allow_open_, "Write meshes that are not watertight, too");
     line.allow_config();
     for (StageOptions& stage : describe_stages(options_))
@@ -51,18 +54,14 @@ class ReconstructCommand : public Command {
                     choose_calibration(
                         *sequence, {calibration_, options.merge.speed_rad_s, !turntable_.empty()},
                         session.context()));
-    std::unique_ptr<FrameSequence> calibrated;
-    if (choice.calibration) {
-      TURNSCAN_ASSIGN(calibrated, with_calibration(*sequence, *choice.calibration));
-      options.merge.speed_rad_s.reset();  // it is in the angles
-    }
-    const FrameSequence& frames = calibrated ? *calibrated : *sequence;
+    TURNSCAN_ASSIGN(const auto frames, with_choice(*sequence, choice));
+    if (choice.calibration) options.merge.speed_rad_s.reset();  // it is in the angles
     // Saved only at the end, with the mesh: a run that fails leaves nothing behind.
     const StageSink sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
       if (stage_files_.count(stage) > 0) clouds_[stage] = cloud;
       return {};
     };
-    TURNSCAN_ASSIGN(Reconstruction result, reconstruct(frames, options, sink, session.context()));
+    TURNSCAN_ASSIGN(Reconstruction result, reconstruct(*frames, options, sink, session.context()));
     if (!choice.note.empty()) result.notes.insert(result.notes.begin(), choice.note);
     if (!allow_open_) TURNSCAN_TRY(check_watertight(result));
     TURNSCAN_TRY(session.context().check());

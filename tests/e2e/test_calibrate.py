@@ -80,6 +80,21 @@ class Calibrate(harness.TestCase):
         self.refused(FAILED, "reconstruct", "bare", "-o", "n.ply", "--calibration", "recorded")
         self.refused(USAGE, "reconstruct", "bare", "-o", "n.ply", "--calibration", "magic")
 
+    def test_free_registration_is_there_to_compare_with(self):
+        out = self.ok("reconstruct", self.rec, "-o", "m.ply", "--calibration", "gicp-global",
+                      *harness.FAST).stdout
+        self.assertIn("free registration", out)
+
+    def test_the_offset_of_depth_is_found_kept_and_used(self):
+        found = self.calibrate(self.rec, "--detect", "--depth-bias", "--platter-radius", "150mm")
+        self.assertLess(abs(found["depth"]["bias_m"]), 0.01)
+        self.refused(USAGE, "calibrate", self.rec, "--depth-bias", says="--platter-radius")
+        (self.dir / "k").mkdir()
+        (self.dir / "k" / "calib_depth.yaml").write_text("%YAML:1.0\n---\ndepthShift: -25.5\n")
+        found = self.calibrate(self.rec, "--detect", "--iai-kinect2", "k")
+        self.assertAlmostEqual(found["depth"]["bias_m"], -0.0255)
+        self.refused(FAILED, "calibrate", self.rec, "--iai-kinect2", "none", says="calib_depth.yaml")
+
     def test_ways_that_exclude_each_other(self):
         self.refused(USAGE, "calibrate", self.rec, "--detect", "--from-motion")
         self.refused(USAGE, "calibrate", self.rec, "--check", "--json", "c.json")

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/turntable/depth_bias.hpp>
 #include <turnscan/turntable/detect.hpp>
 
 #include "tests/support/rig.hpp"
@@ -97,6 +98,27 @@ TEST(DetectPlatter, RefusesWrongOptionsAndCancelling) {
   const RunContext context;
   context.cancel();
   EXPECT_EQ(detect_platter(scan, {}, context).error().code, ErrorCode::kCancelled);
+}
+
+TEST(EstimateDepthBias, FindsWhatWasTakenOffTheDepth) {
+  for (const double bias_m : {0.02, -0.03}) {
+    testing::RigOptions options = testing::random_rig(5);
+    options.frames = 4;
+    const AveragedScan scan = shifted(scan_of(options), -bias_m);
+    const auto found = estimate_depth_bias(scan, options.radius_m, 0.001, {}, {});
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_NEAR(found->bias_m, 0.001 + bias_m, std::max(0.004, 2.5 * found->bias_sigma_m));
+    EXPECT_LT(found->bias_sigma_m, 0.006);
+  }
+}
+
+TEST(EstimateDepthBias, RefusesARadiusThatCannotBe) {
+  testing::RigOptions options = testing::random_rig(5);
+  options.frames = 1;
+  const AveragedScan scan = scan_of(options);
+  EXPECT_FALSE(estimate_depth_bias(scan, 2.0 * options.radius_m, 0.0, {}, {}));
+  EXPECT_EQ(estimate_depth_bias(scan, std::nan(""), 0.0, {}, {}).error().code,
+            ErrorCode::kInvalidOption);
 }
 
 }  // namespace
