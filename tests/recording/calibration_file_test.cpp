@@ -3,7 +3,7 @@
 #include <turnscan/core/random.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 
-#include "tests/support/memory_sequence.hpp"
+#include "tests/recording/sequences.hpp"
 
 namespace turnscan {
 namespace {
@@ -92,15 +92,14 @@ TEST(CalibrationFile, WithWrongFieldsIsRefused) {
 }
 
 TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
-  testing::MemorySequence sequence;
-  sequence.header_value.sensors.resize(1);
-  sequence.header_value.sensors[0].T_table_sensor = Pose::Identity();
+  SequenceHeader header = testing::small_header();
+  header.sensors[0].T_table_sensor = Pose::Identity();
+  std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < 50; ++i) {
-    Frame frame;
-    frame.info.index = i;
-    frame.info.T_table_sensor = Pose::Identity();
-    sequence.add(frame);
+    frames.push_back(testing::depth_frame(i));
+    frames.back().info.T_table_sensor = Pose::Identity();
   }
+  const testing::MemorySequence sequence(header, frames);
   const Calibration c = some_calibration(2);
   const auto seen = with_calibration(sequence, c);
   ASSERT_TRUE(seen);
