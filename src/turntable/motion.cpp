@@ -223,7 +223,7 @@ class Calibrator {
     options.reach_m = std::max(0.004, 12.0 * solution_.scale_m);
     std::optional<MotionSolution> best;
     double wander = law_.wander;
-    for (const double share : {2e-4, 1e-3, 4e-3, 1.5e-2}) {
+    for (const double share : {2e-4, 1e-3, 2.5e-3, 6e-3, 1.5e-2}) {
       law_.wander = share;
       TURNSCAN_ASSIGN(MotionSolution tried,
                       solve_motion(data_, state_, pairs, law_, options, context_));
