@@ -23,6 +23,11 @@ class Run {
 
   Result<Reconstruction> operator()() {
     TURNSCAN_TRY(timed("look at the data", [&] { return survey(); }));
+    if (options_.surface.method == SurfaceMethod::kVolumetric) {
+      TURNSCAN_TRY(timed("read", [&] { return read_views(); }));
+      TURNSCAN_TRY(timed("volume", [&] { return build_volume(); }));
+      return std::move(out_);
+    }
     TURNSCAN_TRY(timed("merge", [&] { return merge(); }));
     TURNSCAN_TRY(timed("voxels", [&] { return count_voxels(); }));
     TURNSCAN_TRY(timed("candidates", [&] { return choose_candidates(); }));
@@ -59,6 +64,8 @@ class Run {
 
   Result<> survey();
   Result<> choose_crop(const std::vector<Vec3f>& sample);
+  Result<> read_views();
+  Result<> build_volume();
   Result<> merge();
   Result<> count_voxels();
   Result<> choose_candidates();
@@ -81,6 +88,7 @@ class Run {
   Components components_;
   Candidates candidates_;
   std::vector<PointCloud> objects_;  ///< oriented points, with base
+  VolumetricInput volume_;
 };
 
 /// Poses, spacing, noise and crop, from a few frames spread over the scan.
@@ -167,6 +175,56 @@ Result<> Run::choose_crop(const std::vector<Vec3f>& sample) {
   }
   cylinder.margin_m = length_or(options_.crop.margin_m, "crop-margin", margin, reason);
   recipe_.cylinder = cylinder;
+  return {};
+}
+
+/// Windows of all frames for the volumetric method.
+Result<> Run::read_views() {
+  const double noise = out_.sensor_noise_m, apart = out_.frame_spacing_m;
+  volume_.noise_m = noise;
+  volume_.spacing_m = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  volume_.cylinder = recipe_.cylinder;
+  const ViewScale scale{std::max(8.0 * noise, 4.0 * volume_.spacing_m), volume_.spacing_m};
+  const auto& frames = sequence_.frames();
+  context_.begin_phase("read frames", frames.size());
+  std::vector<Result<DepthView>> views(frames.size());
+  parallel_for(frames.size(), 1, [&](std::size_t i) {
+    if (frames[i].status == FrameStatus::kDropped || context_.cancelled()) return;
+    std::optional<SensorCrop> crop;
+    if (recipe_.cylinder) crop.emplace(*recipe_.cylinder, poses_[i]);
+    const std::size_t s = frames[i].sensor;
+    views[i] = sequence_.read(i).and_then([&](const Frame& frame) {
+      return make_view(frame, sequence_.header().sensors.at(s), recipe_.rays.at(s), poses_[i],
+                       scale, [&](const Vec3f& p) { return !crop || crop->keeps(p); });
+    });
+    context_.advance();
+  });
+  TURNSCAN_TRY(context_.check());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    TURNSCAN_TRY(views[i]);
+    if (frames[i].status == FrameStatus::kDropped) {
+      ++out_.dropped_frames;
+      continue;
+    }
+    ++out_.frames;
+    if (!views[i]->empty()) volume_.views.push_back(std::move(*views[i]));
+  }
+  return {};
+}
+
+Result<> Run::build_volume() {
+  TURNSCAN_ASSIGN(VolumetricResult result,
+                  reconstruct_volume(volume_, options_.volumetric, options_.components.min_share,
+                                     context_));
+  for (const VolumetricChoice& c : result.choices) choose(c.option, c.value, c.reason);
+  for (const auto& [name, seconds] : result.seconds) out_.stages.push_back({name, seconds});
+  for (VolumetricPiece& piece : result.pieces) {
+    ObjectResult object;
+    object.mesh = std::move(piece.mesh);
+    object.mesh.name = fmt::format("object {}", out_.objects.size() + 1);
+    object.check = check_mesh(object.mesh);
+    out_.objects.push_back(std::move(object));
+  }
   return {};
 }
 
@@ -391,7 +449,8 @@ std::vector<StageOptions> describe_stages(ReconstructOptions& o) {
           {"normals", describe(o.normals)},
           {"refine", describe(o.refine)},
           {"base", describe(o.base)},
-          {"surface", describe(o.surface)}};
+          {"surface", describe(o.surface)},
+          {"volumetric", describe(o.volumetric)}};
 }
 
 OptionTable describe(ReconstructOptions& options) {

@@ -11,6 +11,7 @@
 #include <turnscan/reconstruction/normals.hpp>
 #include <turnscan/reconstruction/refine.hpp>
 #include <turnscan/reconstruction/surface.hpp>
+#include <turnscan/reconstruction/volumetric.hpp>
 #include <turnscan/reconstruction/voxel_grid.hpp>
 
 namespace turnscan {
@@ -26,6 +27,7 @@ struct ReconstructOptions {
   RefineOptions refine;
   BaseOptions base;
   SurfaceOptions surface;
+  VolumetricOptions volumetric;
   bool color = false;
 };
 

@@ -9,7 +9,7 @@
 
 namespace turnscan {
 
-enum class SurfaceMethod { kPoisson, kConcaveHull };
+enum class SurfaceMethod { kPoisson, kConcaveHull, kVolumetric };
 
 struct SurfaceOptions {
   SurfaceMethod method = SurfaceMethod::kPoisson;

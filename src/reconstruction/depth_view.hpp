@@ -1,0 +1,68 @@
+#pragma once
+// One frame as the volumetric method looks things up in it: the window of a depth image in which
+// the object lies, with what each pixel saw and how far it saw for sure that nothing is there.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// Depth of a window of an image, packed one word a pixel, with an empty border of one pixel.
+/// p_view = rotation * p_table + translation; z forward. The image point of p_view is
+/// (fx x/z + cx, fy y/z + cy) in window pixels, after the lens's distortion; for parallel rays the
+/// division is left out and fx, fy are pixels per metre.
+struct DepthView {
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Vec3f translation = Vec3f::Zero();
+  float fx = 1.0f, fy = 1.0f, cx = 0.0f, cy = 0.0f;
+  std::array<float, 5> distortion{};  ///< as CameraIntrinsics::distortion
+  bool distorted = false;
+  bool parallel = false;
+  float unit_m = 1e-4f, bias_m = 0.0f;  ///< depth = raw * unit + bias
+  int width = 0, height = 0;            ///< with the border
+  /// Bits 0 to 15: raw depth, 0 where nothing was measured. Bits 17 to 31: half the raw depth in
+  /// front of which the pixel and its neighbours saw nothing, 0 where that is not known. Bit 16: on
+  /// the edge of something, hence perhaps a mixture of both sides.
+  std::vector<std::uint32_t> pixels;
+  ColorImage color;  ///< of the same window; may be empty
+
+  /// Smallest and largest of what the pixels of a tile hold, raw; tiles of 4 x 4 pixels.
+  struct Tile {
+    std::uint16_t nearest = 65535;    ///< measured; 65535 where nothing was
+    std::uint16_t farthest = 0;       ///< measured
+    std::uint16_t clear = 65535;      ///< least of the free depths; 0 where one is not known
+    std::uint16_t clear_most = 0;     ///< largest of them
+  };
+  static constexpr int kTile = 4;
+  int tiles_x = 0, tiles_y = 0;
+  std::vector<Tile> tiles;
+
+  static constexpr std::uint32_t kEdge = 1u << 16;
+  static std::uint32_t pack(std::uint32_t raw, bool edge, std::uint32_t clear) {
+    return raw | (edge ? kEdge : 0u) | (clear >> 1 << 17);
+  }
+  bool empty() const { return pixels.empty(); }
+  /// Position of the sensor, or direction towards it, in the table frame.
+  Viewpoint viewpoint() const;
+};
+
+/// What makes a view out of a frame.
+struct ViewScale {
+  double edge_step_m = 0.012;  ///< a neighbour farther than this makes an edge
+  double spacing_m = 0.001;    ///< of the points of one frame; the pixel of resampled scans
+};
+
+/// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the
+/// frame's own. Range scans are resampled to an image as their viewpoint sees them: the triangles
+/// between neighbours in their grid, or the points alone where there is none.
+/// An empty view if nothing is accepted. rays must fit the sensor. Fails as points_of does.
+using KeepPoint = std::function<bool(const Vec3f& p_sensor)>;
+Result<DepthView> make_view(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
+                            const Pose& T_table_sensor, const ViewScale& scale,
+                            const KeepPoint& keep);
+
+}  // namespace turnscan

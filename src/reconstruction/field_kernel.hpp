@@ -1,0 +1,64 @@
+#pragma once
+// The inner loops of the volumetric method: what one view says about the samples of a brick, and
+// about vertices of a mesh. Plain arrays, so that they can be compiled for several instruction
+// sets; the same bytes for all of them.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace turnscan::detail {
+
+/// A DepthView as the loops need it. Rows of rotation: x, y, z of the view.
+struct ViewKernel {
+  const std::uint32_t* pixels;
+  int width, height;
+  float rotation[9], translation[3];
+  float fx, fy, cx, cy;
+  float k1, k2, p1, p2, k3;
+  float unit, bias;
+  int distorted, parallel;
+};
+
+inline constexpr std::size_t kBrickSide = 8;
+inline constexpr std::size_t kBrickCells = 512;
+
+/// Sums of a brick's samples, i fastest.
+struct BrickSums {
+  float distance[kBrickCells];  ///< weight times distance along the ray; positive in front
+  float weight[kBrickCells];    ///< of the measurements within the truncation
+  float clear[kBrickCells];     ///< how many views saw past the sample
+};
+
+struct FieldScale {
+  float truncation;     ///< metres along the ray
+  float behind;         ///< from here on, behind a surface, the weight falls to 0 at truncation
+  float edge_weight;    ///< of measurements beside an edge
+};
+
+/// Adds what a view says about the samples at origin + cell * (i, j, k), table frame.
+void add_view(const ViewKernel& view, const float origin[3], float cell, const FieldScale& scale,
+              BrickSums& sums);
+
+/// Vertices of a mesh, structure of arrays.
+struct VertexColumns {
+  const float *x, *y, *z, *nx, *ny, *nz;
+};
+/// Sums over views: of weights, of weight times distance along the vertex's normal.
+struct VertexSums {
+  float* weight;
+  float* offset;
+};
+struct FitScale {
+  float inverse_reach2;  ///< of the kernel across the normal
+  float noise;           ///< of a depth along its ray
+  float noise_floor;     ///< of a distance along the normal, added in quadrature
+  float cut;             ///< Tukey's biweight ends at this many standard deviations
+  float facing;          ///< least cosine between normal and ray
+  float edge_weight;
+};
+/// Adds the measurement nearest to each of the vertices [begin, end): its distance from the tangent
+/// plane along the normal.
+void add_view_to_vertices(const ViewKernel& view, const VertexColumns& vertices, std::size_t begin,
+                          std::size_t end, const FitScale& scale, VertexSums& sums);
+
+}  // namespace turnscan::detail

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh_repair.hpp>
+#include <turnscan/reconstruction/mesh_fit.hpp>
+#include <turnscan/reconstruction/volume.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::size_t kBlock = 512;  // vertices that are looked up together
+constexpr double kTukey = 4.685;     // standard deviations; 95 % efficient for normal noise
+constexpr float kFacing = 0.2f;      // rays that graze the surface say little about it
+
+/// Who is joined to whom, by an edge.
+struct Neighbours {
+  std::vector<std::uint32_t> begin, list;
+
+  explicit Neighbours(const TriangleMesh& mesh) : begin(mesh.vertices.size() + 1, 0) {
+    // Each edge of a closed mesh runs once in each direction.
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t v : t) ++begin[v + 1];
+    }
+    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+    list.resize(3 * mesh.triangles.size());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (const auto& t : mesh.triangles) {
+      for (std::size_t c = 0; c < 3; ++c) list[next[t[c]]++] = t[(c + 1) % 3];
+    }
+  }
+  template <class T>
+  T mean(const std::vector<T>& values, std::size_t v, const T& zero) const {
+    T sum = zero;
+    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) sum += values[list[k]];
+    return begin[v + 1] > begin[v] ? T(sum / float(begin[v + 1] - begin[v])) : values[v];
+  }
+};
+
+class Fitter {
+ public:
+  Fitter(const TriangleMesh& mesh, std::span<const DepthView> views, const MeshFitScale& scale)
+      : views_(views), scale_(scale), neighbours_(mesh) {
+    fit_.mesh = mesh;
+    for (const DepthView& view : views) kernels_.push_back(kernel_of(view));
+  }
+
+  Result<MeshFit> run(const RunContext& context) {
+    const std::size_t n = fit_.mesh.vertices.size();
+    const std::size_t blocks = (n + kBlock - 1) / kBlock;
+    context.begin_phase("fit", blocks * std::size_t(scale_.iterations));
+    for (int iteration = 0; iteration < scale_.iterations; ++iteration) {
+      take_columns(iteration);
+      fit_.support.assign(n, 0.0f);
+      offset_.assign(n, 0.0f);
+      parallel_for(blocks, 1, [&](std::size_t b) {
+        if (context.cancelled()) return;
+        measure(b * kBlock, std::min(n, (b + 1) * kBlock));
+        context.advance();
+      });
+      TURNSCAN_TRY(context.check());
+      move();
+    }
+    return std::move(fit_);
+  }
+
+ private:
+  /// Positions and smoothed normals as the kernel reads them.
+  void take_columns(int iteration) {
+    const std::size_t n = fit_.mesh.vertices.size();
+    normals_ = vertex_normals(fit_.mesh);
+    for (int round = 0; round < (iteration == 0 ? 3 : 2); ++round) {
+      std::vector<Vec3f> next(n);
+      parallel_for(n, 4096, [&](std::size_t v) {
+        const Vec3f sum = normals_[v] + neighbours_.mean(normals_, v, Vec3f(Vec3f::Zero()));
+        next[v] = sum.norm() > 1e-3f ? Vec3f(sum.normalized()) : normals_[v];
+      });
+      normals_.swap(next);
+    }
+    for (auto& column : columns_) column.resize(n);
+    parallel_for(n, 4096, [&](std::size_t v) {
+      for (int a = 0; a < 3; ++a) {
+        columns_[std::size_t(a)][v] = fit_.mesh.vertices[v][a];
+        columns_[std::size_t(a + 3)][v] = normals_[v][a];
+      }
+    });
+  }
+
+  void measure(std::size_t begin, std::size_t end) {
+    Box box;
+    for (std::size_t v = begin; v < end; ++v) box.add(fit_.mesh.vertices[v].cast<double>());
+    const Vec3f center = box.center().cast<float>();
+    const float radius = float(0.5 * box.size().norm());
+    const detail::VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
+                                        columns_[3].data(), columns_[4].data(), columns_[5].data()};
+    const detail::FitScale scale{float(1.0 / (scale_.reach_m * scale_.reach_m)),
+                                 float(scale_.noise_m),
+                                 float(scale_.floor_m),
+                                 float(kTukey),
+                                 kFacing,
+                                 scale_.edge_weight};
+    detail::VertexSums sums{fit_.support.data(), offset_.data()};
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      if (outside_window(views_[v], center, radius)) continue;
+      detail::add_view_to_vertices(kernels_[v], columns, begin, end, scale, sums);
+    }
+  }
+
+  static bool outside_window(const DepthView& view, const Vec3f& center, float radius) {
+    const Vec3f c = view.rotation * center + view.translation;
+    if (view.parallel || view.distorted) return false;
+    if (c.z() <= radius) return true;
+    const float reach = 1.1f * radius / (c.z() - radius);
+    const float u = c.x() / c.z() * view.fx + view.cx, v = c.y() / c.z() * view.fy + view.cy;
+    return u + reach * view.fx < 0.0f || v + reach * view.fy < 0.0f ||
+           u - reach * view.fx > float(view.width) || v - reach * view.fy > float(view.height);
+  }
+
+  /// Offsets from the sums: each vertex weighs its own measurements against its neighbours'
+  /// offsets; a few rounds of Jacobi.
+  void move() {
+    const std::size_t n = fit_.mesh.vertices.size();
+    // So many measurements bring a vertex to the target.
+    const float enough = float(std::pow(scale_.noise_m / scale_.target_m, 2.0));
+    std::vector<float> own(n), delta(n), next(n);
+    for (std::size_t v = 0; v < n; ++v)
+      own[v] = delta[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
+    for (int round = 0; round < 10; ++round) {
+      parallel_for(n, 4096, [&](std::size_t v) {
+        const float w = fit_.support[v];
+        next[v] = (w * own[v] + enough * neighbours_.mean(delta, v, 0.0f)) / (w + enough);
+      });
+      delta.swap(next);
+    }
+    const float limit = float(scale_.limit_m);
+    parallel_for(n, 4096, [&](std::size_t v) {
+      Vec3f step = std::clamp(delta[v], -limit, limit) * normals_[v];
+      Vec3f& p = fit_.mesh.vertices[v];
+      if (scale_.floor_height_m && p.y() < float(*scale_.floor_height_m)) step.y() = 0.0f;
+      p += step;
+    });
+  }
+
+  std::span<const DepthView> views_;
+  MeshFitScale scale_;
+  Neighbours neighbours_;
+  std::vector<detail::ViewKernel> kernels_;
+  MeshFit fit_;
+  std::vector<Vec3f> normals_;
+  std::vector<float> offset_;
+  std::array<std::vector<float>, 6> columns_;
+};
+
+}  // namespace
+
+Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const DepthView> views,
+                         const MeshFitScale& scale, const RunContext& context) {
+  return Fitter(mesh, views, scale).run(context);
+}
+
+}  // namespace turnscan

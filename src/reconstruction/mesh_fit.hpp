@@ -1,0 +1,35 @@
+#pragma once
+// The last step of the volumetric method: vertices move along their normals to where all depth
+// frames together say the surface is.
+
+#include <span>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/reconstruction/depth_view.hpp>
+
+namespace turnscan {
+
+struct MeshFitScale {
+  double noise_m = 0.001;    ///< of a depth along its ray
+  double reach_m = 0.0013;   ///< measurements farther across the normal do not count
+  double floor_m = 0.0002;   ///< of errors that do not fall with the angle of incidence
+  double target_m = 0.0001;  ///< noise of a vertex from which on its neighbours are not asked
+  double limit_m = 0.002;    ///< a vertex moves at most so far in one iteration
+  float edge_weight = 0.1f;
+  int iterations = 3;
+  std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others
+};
+
+struct MeshFit {
+  TriangleMesh mesh;
+  std::vector<float> support;  ///< per vertex: sum of the weights of its measurements
+};
+
+/// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
+/// the measurements around each vertex and its tangent plane, of the views that face it, and a
+/// membrane term between neighbours, which decides where few measurements are. Triangles stay as
+/// they are. Fails with kCancelled. The same bytes for any number of threads.
+Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const DepthView> views,
+                         const MeshFitScale& scale, const RunContext& context);
+
+}  // namespace turnscan
