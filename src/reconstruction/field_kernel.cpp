@@ -15,46 +15,60 @@ namespace {
 
 constexpr std::size_t kRow = 64;  // samples of a layer, or vertices of a round
 
-/// Image coordinates and pixel of points of a view; the ones outside land on the empty border.
-struct Lookup {
-  float u[kRow], v[kRow];  // exact
-  float x[kRow], y[kRow];  // x / z and y / z
-  float pu[kRow], pv[kRow];
-  std::uint32_t word[kRow];
-};
-
 #define TURNSCAN_INLINE inline __attribute__((always_inline))
 
-TURNSCAN_INLINE void look_up(const ViewKernel& f, const float* x, const float* y, const float* z,
-                             Lookup& out) {
+/// Points of a view, and what its pixel there holds; points outside land on the empty border.
+struct Row {
+  float x[kRow], y[kRow], z[kRow];  // position
+  float a[kRow], b[kRow];           // x / z and y / z
+  float du[kRow], dv[kRow];         // from the exact image point to the pixel's centre
+  float raw[kRow], past[kRow], edge[kRow];
+};
+
+/// Perspective as arithmetic: parallel rays divide by one.
+struct Perspective {
+  float on, off;
+};
+
+TURNSCAN_INLINE void look_up(const ViewKernel& f, const Perspective& perspective, Row& row) {
   const float right = static_cast<float>(f.width - 1), bottom = static_cast<float>(f.height - 1);
+  float u[kRow], v[kRow];
+  int at[kRow];
+  std::uint32_t word[kRow];
   for (std::size_t i = 0; i < kRow; ++i) {
-    const float scale = f.parallel ? 1.0f : 1.0f / std::max(z[i], 1e-6f);
-    out.x[i] = x[i] * scale;
-    out.y[i] = y[i] * scale;
+    const float z = std::max(row.z[i], 1e-6f) * perspective.on + perspective.off;
+    row.a[i] = row.x[i] / z;
+    row.b[i] = row.y[i] / z;
   }
-  if (f.distorted) {
+  if (f.distorted != 0) {
     for (std::size_t i = 0; i < kRow; ++i) {
-      const float a = out.x[i], b = out.y[i], r2 = a * a + b * b;
+      const float a = row.a[i], b = row.b[i], r2 = a * a + b * b;
       const float radial = 1.0f + r2 * (f.k1 + r2 * (f.k2 + r2 * f.k3));
       const float da = a * radial + 2.0f * f.p1 * a * b + f.p2 * (r2 + 2.0f * a * a);
       const float db = b * radial + f.p1 * (r2 + 2.0f * b * b) + 2.0f * f.p2 * a * b;
-      out.u[i] = da * f.fx + f.cx;
-      out.v[i] = db * f.fy + f.cy;
+      u[i] = da * f.fx + f.cx;
+      v[i] = db * f.fy + f.cy;
     }
   } else {
     for (std::size_t i = 0; i < kRow; ++i) {
-      out.u[i] = out.x[i] * f.fx + f.cx;
-      out.v[i] = out.y[i] * f.fy + f.cy;
+      u[i] = row.a[i] * f.fx + f.cx;
+      v[i] = row.b[i] * f.fy + f.cy;
     }
   }
   for (std::size_t i = 0; i < kRow; ++i) {
-    const float cu = std::min(std::max(out.u[i] + 0.5f, 0.0f), right);
-    const float cv = std::min(std::max(out.v[i] + 0.5f, 0.0f), bottom);
+    const float cu = std::min(std::max(u[i] + 0.5f, 0.0f), right);
+    const float cv = std::min(std::max(v[i] + 0.5f, 0.0f), bottom);
     const int pu = static_cast<int>(cu), pv = static_cast<int>(cv);
-    out.pu[i] = static_cast<float>(pu);
-    out.pv[i] = static_cast<float>(pv);
-    out.word[i] = f.pixels[pv * f.width + pu];
+    row.du[i] = static_cast<float>(pu) - u[i];
+    row.dv[i] = static_cast<float>(pv) - v[i];
+    at[i] = pv * f.width + pu;
+  }
+  const std::uint32_t* pixels = f.pixels;
+  for (std::size_t i = 0; i < kRow; ++i) word[i] = pixels[at[i]];
+  for (std::size_t i = 0; i < kRow; ++i) {
+    row.raw[i] = static_cast<float>(static_cast<int>(word[i] & 0xffffu));
+    row.past[i] = static_cast<float>(static_cast<int>(word[i] >> 17 << 1));
+    row.edge[i] = static_cast<float>(static_cast<int>(word[i] >> 16 & 1u));
   }
 }
 
@@ -63,38 +77,47 @@ TURNSCAN_INLINE void look_up(const ViewKernel& f, const float* x, const float* y
 TURNSCAN_CLONES
 void add_view(const ViewKernel& f, const float origin[3], float cell, const FieldScale& scale,
               BrickSums& sums) {
-  const float* r = f.rotation;
+  const Perspective perspective{f.parallel != 0 ? 0.0f : 1.0f, f.parallel != 0 ? 1.0f : 0.0f};
   const float inverse_fall = 1.0f / std::max(scale.truncation - scale.behind, 1e-9f);
-  float x[kRow], y[kRow], z[kRow];
-  Lookup at;
+  const float truncation = scale.truncation, less = 1.0f - scale.edge_weight;
+  const float unit = f.unit, bias = f.bias;
+  float local[9];
+  for (int c = 0; c < 9; ++c) local[c] = cell * f.rotation[c];
+  const float* r = f.rotation;
+  const float ox = r[0] * origin[0] + r[1] * origin[1] + r[2] * origin[2] + f.translation[0];
+  const float oy = r[3] * origin[0] + r[4] * origin[1] + r[5] * origin[2] + f.translation[1];
+  const float oz = r[6] * origin[0] + r[7] * origin[1] + r[8] * origin[2] + f.translation[2];
+  Row row;
+  float step_x[kRow], step_y[kRow];
+  for (std::size_t i = 0; i < kRow; ++i) {
+    step_x[i] = static_cast<float>(static_cast<int>(i & 7));
+    step_y[i] = static_cast<float>(static_cast<int>(i >> 3));
+  }
   for (std::size_t k = 0; k < kBrickSide; ++k) {
-    const float pz = origin[2] + cell * static_cast<float>(k);
+    const auto kk = static_cast<float>(static_cast<int>(k));
+    const float lx = ox + kk * local[2], ly = oy + kk * local[5], lz = oz + kk * local[8];
     for (std::size_t i = 0; i < kRow; ++i) {
-      const float px = origin[0] + cell * static_cast<float>(i & 7);
-      const float py = origin[1] + cell * static_cast<float>(i >> 3);
-      x[i] = r[0] * px + r[1] * py + r[2] * pz + f.translation[0];
-      y[i] = r[3] * px + r[4] * py + r[5] * pz + f.translation[1];
-      z[i] = r[6] * px + r[7] * py + r[8] * pz + f.translation[2];
+      row.x[i] = lx + step_x[i] * local[0] + step_y[i] * local[1];
+      row.y[i] = ly + step_x[i] * local[3] + step_y[i] * local[4];
+      row.z[i] = lz + step_x[i] * local[6] + step_y[i] * local[7];
     }
-    look_up(f, x, y, z, at);
+    look_up(f, perspective, row);
     float* distance = sums.distance + k * kRow;
     float* weight = sums.weight + k * kRow;
     float* clear = sums.clear + k * kRow;
     for (std::size_t i = 0; i < kRow; ++i) {
-      const std::uint32_t word = at.word[i];
-      const auto raw = static_cast<float>(static_cast<int>(word & 0xffffu));
-      const auto past = static_cast<float>(static_cast<int>(word >> 17 << 1));
-      const float slant =
-          f.parallel ? 1.0f : std::sqrt(1.0f + at.x[i] * at.x[i] + at.y[i] * at.y[i]);
-      const float d = (raw * f.unit + f.bias - z[i]) * slant;
-      const float c = (past * f.unit + f.bias - z[i]) * slant;
-      const float fade = std::min((scale.truncation + d) * inverse_fall, 1.0f);
-      const float base = (word & 0x10000u) != 0 ? scale.edge_weight : 1.0f;
-      const bool near = raw > 0.0f && d < scale.truncation && fade > 0.0f;
-      const float w = near ? base * fade : 0.0f;
+      const float aside = row.a[i] * row.a[i] + row.b[i] * row.b[i];
+      const float slant = std::sqrt(1.0f + perspective.on * aside);
+      const float d = (row.raw[i] * unit + bias - row.z[i]) * slant;
+      const float c = (row.past[i] * unit + bias - row.z[i]) * slant;
+      const float fade = std::max(0.0f, std::min((truncation + d) * inverse_fall, 1.0f));
+      const float seen = row.raw[i] > 0.0f ? fade : 0.0f;
+      const float near = d < truncation ? seen : 0.0f;
+      const float w = near * (1.0f - less * row.edge[i]);
+      const float known = row.past[i] > 0.0f ? 1.0f : 0.0f;
       distance[i] += w * d;
       weight[i] += w;
-      clear[i] += past > 0.0f && c > scale.truncation ? 1.0f : 0.0f;
+      clear[i] += c > truncation ? known : 0.0f;
     }
   }
 }
@@ -102,60 +125,51 @@ void add_view(const ViewKernel& f, const float origin[3], float cell, const Fiel
 TURNSCAN_CLONES
 void add_view_to_vertices(const ViewKernel& f, const VertexColumns& in, std::size_t begin,
                           std::size_t end, const FitScale& scale, VertexSums& sums) {
+  const Perspective perspective{f.parallel != 0 ? 0.0f : 1.0f, f.parallel != 0 ? 1.0f : 0.0f};
   const float* r = f.rotation;
-  const float pixel_x = 1.0f / f.fx, pixel_y = 1.0f / f.fy;
+  const float pixel_x = 1.0f / f.fx, pixel_y = 1.0f / f.fy, unit = f.unit, bias = f.bias;
   const float noise2 = scale.noise * scale.noise, floor2 = scale.noise_floor * scale.noise_floor;
-  const float inverse_cut2 = 1.0f / (scale.cut * scale.cut);
-  float x[kRow], y[kRow], z[kRow], nx[kRow], ny[kRow], nz[kRow];
-  Lookup at;
+  const float inverse_cut2 = 1.0f / (scale.cut * scale.cut), less = 1.0f - scale.edge_weight;
+  float nx[kRow], ny[kRow], nz[kRow];
+  Row row;
   for (std::size_t base = begin; base < end; base += kRow) {
-    const std::size_t count = std::min(kRow, end - base);
+    const float *qx = in.x + base, *qy = in.y + base, *qz = in.z + base;
+    const float *mx = in.nx + base, *my = in.ny + base, *mz = in.nz + base;
     for (std::size_t i = 0; i < kRow; ++i) {
-      // The last, short round looks at its last vertex again and leaves it.
-      const std::size_t s = base + std::min(i, count - 1);
-      const float px = in.x[s], py = in.y[s], pz = in.z[s];
-      const float qx = in.nx[s], qy = in.ny[s], qz = in.nz[s];
-      x[i] = r[0] * px + r[1] * py + r[2] * pz + f.translation[0];
-      y[i] = r[3] * px + r[4] * py + r[5] * pz + f.translation[1];
-      z[i] = r[6] * px + r[7] * py + r[8] * pz + f.translation[2];
-      nx[i] = r[0] * qx + r[1] * qy + r[2] * qz;
-      ny[i] = r[3] * qx + r[4] * qy + r[5] * qz;
-      nz[i] = r[6] * qx + r[7] * qy + r[8] * qz;
+      row.x[i] = r[0] * qx[i] + r[1] * qy[i] + r[2] * qz[i] + f.translation[0];
+      row.y[i] = r[3] * qx[i] + r[4] * qy[i] + r[5] * qz[i] + f.translation[1];
+      row.z[i] = r[6] * qx[i] + r[7] * qy[i] + r[8] * qz[i] + f.translation[2];
+      nx[i] = r[0] * mx[i] + r[1] * my[i] + r[2] * mz[i];
+      ny[i] = r[3] * mx[i] + r[4] * my[i] + r[5] * mz[i];
+      nz[i] = r[6] * mx[i] + r[7] * my[i] + r[8] * mz[i];
     }
-    look_up(f, x, y, z, at);
-    float weight[kRow], offset[kRow];
+    look_up(f, perspective, row);
+    float* weight = sums.weight + base;
+    float* offset = sums.offset + base;
     for (std::size_t i = 0; i < kRow; ++i) {
-      const std::uint32_t word = at.word[i];
-      const auto raw = static_cast<float>(static_cast<int>(word & 0xffffu));
-      const float depth = raw * f.unit + f.bias;
+      const float depth = row.raw[i] * unit + bias;
       // The pixel's own ray: the vertex's, moved by the rest of the rounding.
-      const float rx = at.x[i] + (at.pu[i] - at.u[i]) * pixel_x;
-      const float ry = at.y[i] + (at.pv[i] - at.v[i]) * pixel_y;
-      const float scale_xy = f.parallel ? 1.0f : depth;
-      const float dx = rx * scale_xy - x[i], dy = ry * scale_xy - y[i], dz = depth - z[i];
-      const float ax = f.parallel ? 0.0f : rx, ay = f.parallel ? 0.0f : ry;
+      const float rx = row.a[i] + row.du[i] * pixel_x, ry = row.b[i] + row.dv[i] * pixel_y;
+      const float spread = depth * perspective.on + perspective.off;
+      const float dx = rx * spread - row.x[i], dy = ry * spread - row.y[i], dz = depth - row.z[i];
+      const float ax = rx * perspective.on, ay = ry * perspective.on;
       const float length = std::sqrt(ax * ax + ay * ay + 1.0f);
       const float cosine = -(nx[i] * ax + ny[i] * ay + nz[i]) / length;
       const float h = dx * nx[i] + dy * ny[i] + dz * nz[i];
       // Across: the pixel's place on the vertex's plane, whatever its noise along the ray. The
       // vertex's ray and the pixel's are almost parallel.
-      const float ox = (rx - at.x[i]) * (f.parallel ? 1.0f : z[i]);
-      const float oy = (ry - at.y[i]) * (f.parallel ? 1.0f : z[i]);
-      const float safe = std::max(cosine, 0.05f);
-      const float tilt = (ox * nx[i] + oy * ny[i]) / safe;
-      const float across2 = ox * ox + oy * oy + tilt * tilt;
+      const float apart = row.z[i] * perspective.on + perspective.off;
+      const float px = (rx - row.a[i]) * apart, py = (ry - row.b[i]) * apart;
+      const float tilt = (px * nx[i] + py * ny[i]) / std::max(cosine, 0.05f);
+      const float across2 = px * px + py * py + tilt * tilt;
       const float k = std::max(0.0f, 1.0f - across2 * scale.inverse_reach2);
       const float variance = noise2 * cosine * cosine + floor2;
       const float t = std::max(0.0f, 1.0f - h * h / variance * inverse_cut2);
-      const float own = (word & 0x10000u) != 0 ? scale.edge_weight : 1.0f;
-      const bool use = raw > 0.0f && cosine > scale.facing;
-      const float w = use ? own * k * k * t * t * cosine : 0.0f;
-      weight[i] = w;
-      offset[i] = w * h;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      sums.weight[base + i] += weight[i];
-      sums.offset[base + i] += offset[i];
+      const float seen = row.raw[i] > 0.0f ? cosine : 0.0f;
+      const float facing = cosine > scale.facing ? seen : 0.0f;
+      const float w = facing * (1.0f - less * row.edge[i]) * k * k * t * t;
+      weight[i] += w;
+      offset[i] += w * h;
     }
   }
 }

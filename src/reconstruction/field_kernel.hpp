@@ -39,7 +39,9 @@ struct FieldScale {
 void add_view(const ViewKernel& view, const float origin[3], float cell, const FieldScale& scale,
               BrickSums& sums);
 
-/// Vertices of a mesh, structure of arrays.
+/// Vertices of a mesh, structure of arrays; all arrays, those of the sums included, are padded to a
+/// multiple of kVertexRow.
+inline constexpr std::size_t kVertexRow = 64;
 struct VertexColumns {
   const float *x, *y, *z, *nx, *ny, *nz;
 };
@@ -56,8 +58,8 @@ struct FitScale {
   float facing;          ///< least cosine between normal and ray
   float edge_weight;
 };
-/// Adds the measurement nearest to each of the vertices [begin, end): its distance from the tangent
-/// plane along the normal.
+/// Adds the measurement nearest to each of the vertices [begin, end), multiples of kVertexRow:
+/// its distance from the tangent plane along the normal.
 void add_view_to_vertices(const ViewKernel& view, const VertexColumns& vertices, std::size_t begin,
                           std::size_t end, const FitScale& scale, VertexSums& sums);
 

@@ -51,8 +51,8 @@ class Fitter {
     context.begin_phase("fit", blocks * std::size_t(scale_.iterations));
     for (int iteration = 0; iteration < scale_.iterations; ++iteration) {
       take_columns(iteration);
-      fit_.support.assign(n, 0.0f);
-      offset_.assign(n, 0.0f);
+      fit_.support.assign(pad(n), 0.0f);
+      offset_.assign(pad(n), 0.0f);
       parallel_for(blocks, 1, [&](std::size_t b) {
         if (context.cancelled()) return;
         measure(b * kBlock, std::min(n, (b + 1) * kBlock));
@@ -61,10 +61,15 @@ class Fitter {
       TURNSCAN_TRY(context.check());
       move();
     }
+    fit_.support.resize(n);
     return std::move(fit_);
   }
 
  private:
+  static std::size_t pad(std::size_t n) {
+    return (n + detail::kVertexRow - 1) / detail::kVertexRow * detail::kVertexRow;
+  }
+
   /// Positions and smoothed normals as the kernel reads them.
   void take_columns(int iteration) {
     const std::size_t n = fit_.mesh.vertices.size();
@@ -77,7 +82,8 @@ class Fitter {
       });
       normals_.swap(next);
     }
-    for (auto& column : columns_) column.resize(n);
+    const std::size_t padded = pad(n);
+    for (auto& column : columns_) column.assign(padded, 0.0f);
     parallel_for(n, 4096, [&](std::size_t v) {
       for (int a = 0; a < 3; ++a) {
         columns_[std::size_t(a)][v] = fit_.mesh.vertices[v][a];
@@ -102,7 +108,7 @@ class Fitter {
     detail::VertexSums sums{fit_.support.data(), offset_.data()};
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (outside_window(views_[v], center, radius)) continue;
-      detail::add_view_to_vertices(kernels_[v], columns, begin, end, scale, sums);
+      detail::add_view_to_vertices(kernels_[v], columns, begin, pad(end), scale, sums);
     }
   }
 

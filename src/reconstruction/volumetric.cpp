@@ -4,6 +4,7 @@
 #include <turnscan/geometry/isosurface.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
+#include <turnscan/geometry/simplify.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
@@ -91,6 +92,10 @@ class Run {
     if (out_.pieces.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: the frames show no surface");
     for (VolumetricPiece& piece : out_.pieces) {
+      TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&] {
+                        return simplify(piece.mesh, {piece.mesh.triangles.size() / 4,
+                                                     0.5 * scale_.cell_m});
+                      }));
       if (!options_.fit) continue;
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(piece.mesh, input_.views, fit_scale(), context_);
@@ -111,8 +116,8 @@ class Run {
 
   void choose_scale(const Box& box) {
     const double longest = box.size().maxCoeff();
-    double cell = 0.4 * input_.spacing_m;
-    std::string reason = fmt::format("0.4 times the spacing of a frame's points, {}",
+    double cell = 0.5 * input_.spacing_m;
+    std::string reason = fmt::format("half the spacing of a frame's points, {}",
                                      mm(input_.spacing_m));
     if (cell < longest / 600.0) {
       cell = longest / 600.0;

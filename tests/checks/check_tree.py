@@ -31,6 +31,7 @@ LIBRARIES = [
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/", ("apps/turnscan-studio/",), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
     ("nanoflann", r"nanoflann", ("src/geometry/", "tests/", "bench/"), False),
+    ("meshoptimizer", r"meshoptimizer", ("src/geometry/",), False),
     ("TBB (loops go through core/parallel.hpp)", r"(oneapi/)?tbb/", ("src/core/",), True),
     ("a file library", r"png\.h|jpeglib\.h|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
      ("src/io/", "apps/turnscan-mesh-convert/", "tests/"), False),

@@ -1,0 +1,21 @@
+#pragma once
+// Fewer triangles for the same shape.
+
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+
+namespace turnscan {
+
+struct SimplifyGoal {
+  std::size_t triangles = 0;  ///< as few as this, unless the error would be larger
+  double max_error_m = 1e30;  ///< largest distance that the quadrics estimate
+};
+
+/// Collapses edges by quadric error (Garland and Heckbert 1997; meshoptimizer) until the goal is
+/// met. Vertices stay where they are, with their attributes; triangles keep their order of
+/// vertices. A watertight mesh stays watertight, which is checked: where collapsing so far would
+/// break it, it ends sooner, at worst where it began. Other meshes keep their borders.
+/// Fails with kFormat as validate_mesh does. Deterministic.
+Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal);
+
+}  // namespace turnscan
