@@ -13,8 +13,9 @@ struct SimplifyGoal {
 
 /// Collapses edges by quadric error (Garland and Heckbert 1997; meshoptimizer) until the goal is
 /// met. Vertices stay where they are, with their attributes; triangles keep their order of
-/// vertices. A watertight mesh stays watertight, which is checked: where collapsing so far would
-/// break it, it ends sooner, at worst where it began. Other meshes keep their borders.
+/// vertices. A watertight mesh stays watertight, which is checked: where edges fold together,
+/// the surface is parted and the cuts are closed, and if that does not help it ends sooner, at
+/// worst where it began. Other meshes keep their borders.
 /// Fails with kFormat as validate_mesh does. Deterministic.
 Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal);
 

@@ -101,8 +101,7 @@ struct PixelBox {
 constexpr int kRim = 6;  // pixels
 
 DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
-                        const Pose& T_table_sensor, const ViewScale& scale,
-                        const KeepPoint& keep) {
+                        const Pose& T_table_sensor, const ViewScale& scale, const KeepPoint& keep) {
   const DepthImage& depth = frame.depth;
   DepthView view;
   PixelBox box;
@@ -111,8 +110,12 @@ DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayT
       const std::size_t i = std::size_t(y) * std::size_t(depth.width) + std::size_t(x);
       const std::uint16_t raw = depth.pixels[i];
       if (!measured(raw)) continue;
+      ++view.returns;
       const auto z = static_cast<float>(raw * sensor.depth_unit_m + sensor.depth_bias_m);
-      if (keep(Vec3f(rays.x()[i] * z, rays.y()[i] * z, z))) box.add(x, y);
+      if (keep(Vec3f(rays.x()[i] * z, rays.y()[i] * z, z))) {
+        ++view.kept;
+        box.add(x, y);
+      }
     }
   }
   if (box.empty()) return view;
@@ -126,8 +129,7 @@ DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayT
   view.fy = static_cast<float>(camera.fy);
   view.cx = static_cast<float>(camera.cx - box.x0 + 1);
   view.cy = static_cast<float>(camera.cy - box.y0 + 1);
-  for (std::size_t k = 0; k < 5; ++k)
-    view.distortion[k] = static_cast<float>(camera.distortion[k]);
+  for (std::size_t k = 0; k < 5; ++k) view.distortion[k] = static_cast<float>(camera.distortion[k]);
   view.distorted = camera.distorted();
   view.unit_m = static_cast<float>(sensor.depth_unit_m);
   view.bias_m = static_cast<float>(sensor.depth_bias_m);
@@ -280,7 +282,10 @@ DepthView view_of_points(FramePoints points, const Pose& T_table_sensor, const V
   Resampler resampler(kept, pixel);
   if (!resampler.usable()) return {};
   resampler.draw(scale.edge_step_m);
-  return resampler.view(T_table_sensor, scale.edge_step_m);
+  DepthView view = resampler.view(T_table_sensor, scale.edge_step_m);
+  view.returns = std::uint32_t(points.cloud.size());
+  view.kept = std::uint32_t(kept.cloud.size());
+  return view;
 }
 
 }  // namespace
@@ -299,9 +304,8 @@ Result<DepthView> make_view(const Frame& frame, const SensorInfo& sensor, const 
         frame.depth.height != sensor.intrinsics.height ||
         rays.x().size() != frame.depth.pixels.size())
       return fail_at(frame.info.file, ErrorCode::kFormat,
-                     "depth image is {} x {} pixels, but its sensor has {} x {}",
-                     frame.depth.width, frame.depth.height, sensor.intrinsics.width,
-                     sensor.intrinsics.height);
+                     "depth image is {} x {} pixels, but its sensor has {} x {}", frame.depth.width,
+                     frame.depth.height, sensor.intrinsics.width, sensor.intrinsics.height);
     return view_of_depth(frame, sensor, rays, T_table_sensor, scale, keep);
   }
   TURNSCAN_ASSIGN(FramePoints points, points_of(frame, sensor, rays));

@@ -30,9 +30,9 @@ struct BrickSums {
 };
 
 struct FieldScale {
-  float truncation;     ///< metres along the ray
-  float behind;         ///< from here on, behind a surface, the weight falls to 0 at truncation
-  float edge_weight;    ///< of measurements beside an edge
+  float truncation;   ///< metres along the ray
+  float behind;       ///< from here on, behind a surface, the weight falls to 0 at truncation
+  float edge_weight;  ///< of measurements beside an edge
 };
 
 /// Adds what a view says about the samples at origin + cell * (i, j, k), table frame.

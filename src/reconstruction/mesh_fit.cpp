@@ -33,7 +33,12 @@ struct Neighbours {
   T mean(const std::vector<T>& values, std::size_t v, const T& zero) const {
     T sum = zero;
     for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) sum += values[list[k]];
-    return begin[v + 1] > begin[v] ? T(sum / float(begin[v + 1] - begin[v])) : values[v];
+    return begin[v + 1] > begin[v] ? T(sum / count(v)) : values[v];
+  }
+  float count(std::size_t v) const { return float(begin[v + 1] - begin[v]); }
+  template <class Visit>
+  void each(std::size_t v, const Visit& visit) const {
+    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) visit(list[k]);
   }
 };
 
@@ -48,8 +53,8 @@ class Fitter {
   Result<MeshFit> run(const RunContext& context) {
     const std::size_t n = fit_.mesh.vertices.size();
     const std::size_t blocks = (n + kBlock - 1) / kBlock;
-    context.begin_phase("fit", blocks * std::size_t(scale_.iterations));
-    for (int iteration = 0; iteration < scale_.iterations; ++iteration) {
+    context.begin_phase("fit", blocks * std::size_t(std::max(1, scale_.iterations)));
+    for (int iteration = 0; iteration < std::max(1, scale_.iterations); ++iteration) {
       take_columns(iteration);
       fit_.support.assign(pad(n), 0.0f);
       offset_.assign(pad(n), 0.0f);
@@ -59,7 +64,7 @@ class Fitter {
         context.advance();
       });
       TURNSCAN_TRY(context.check());
-      move();
+      if (scale_.iterations > 0) move();
     }
     fit_.support.resize(n);
     return std::move(fit_);
@@ -122,24 +127,65 @@ class Fitter {
            u - reach * view.fx > float(view.width) || v - reach * view.fy > float(view.height);
   }
 
-  /// Offsets from the sums: each vertex weighs its own measurements against its neighbours'
-  /// offsets; a few rounds of Jacobi.
-  void move() {
-    const std::size_t n = fit_.mesh.vertices.size();
-    // So many measurements bring a vertex to the target.
-    const float enough = float(std::pow(scale_.noise_m / scale_.target_m, 2.0));
-    std::vector<float> own(n), delta(n), next(n);
-    for (std::size_t v = 0; v < n; ++v)
-      own[v] = delta[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
-    for (int round = 0; round < 10; ++round) {
-      parallel_for(n, 4096, [&](std::size_t v) {
-        const float w = fit_.support[v];
-        next[v] = (w * own[v] + enough * neighbours_.mean(delta, v, 0.0f)) / (w + enough);
-      });
-      delta.swap(next);
+  /// Median of the supports that there are.
+  float typical_support() const {
+    std::vector<float> some;
+    for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
+      if (fit_.support[v] > 0.01f) some.push_back(fit_.support[v]);
     }
-    const float limit = float(scale_.limit_m);
+    if (some.empty()) return 1.0f;
+    const auto middle = some.begin() + std::ptrdiff_t(some.size() / 2);
+    std::nth_element(some.begin(), middle, some.end());
+    return *middle;
+  }
+
+  /// How far each vertex lies below the mean of its neighbours, along its normal.
+  std::vector<float> bends() const {
+    const auto& p = fit_.mesh.vertices;
+    std::vector<float> out(p.size());
+    parallel_for(p.size(), 4096, [&](std::size_t v) {
+      out[v] = (neighbours_.mean(p, v, Vec3f(Vec3f::Zero())) - p[v]).dot(normals_[v]);
+    });
+    return out;
+  }
+
+  /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2,
+  /// by damped Jacobi. A bend that is too large to be noise is a feature, and m fades (Geman and
+  /// McClure).
+  std::vector<float> offsets() const {
+    const std::size_t n = fit_.mesh.vertices.size();
+    const float typical = typical_support();
+    const float noise = float(scale_.noise_m) / std::sqrt(typical);
+    const std::vector<float> bend = bends();
+    std::vector<float> own(n), stiff(n), diagonal(n), delta(n), rest(n);
     parallel_for(n, 4096, [&](std::size_t v) {
+      own[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
+      const float s = bend[v] / (float(scale_.feature) * noise);
+      stiff[v] = float(scale_.stiffness) * typical / ((1.0f + s * s) * (1.0f + s * s));
+    });
+    parallel_for(n, 4096, [&](std::size_t v) {
+      diagonal[v] = fit_.support[v] + stiff[v] + 1e-6f;
+      neighbours_.each(v, [&](std::uint32_t u) {
+        diagonal[v] += stiff[u] / (neighbours_.count(u) * neighbours_.count(u));
+      });
+    });
+    for (int round = 0; round < 40; ++round) {
+      parallel_for(n, 4096, [&](std::size_t v) {
+        rest[v] = stiff[v] * (bend[v] + neighbours_.mean(delta, v, 0.0f) - delta[v]);
+      });
+      parallel_for(n, 4096, [&](std::size_t v) {
+        float gradient = fit_.support[v] * (own[v] - delta[v]) + rest[v];
+        neighbours_.each(v, [&](std::uint32_t u) { gradient -= rest[u] / neighbours_.count(u); });
+        delta[v] += 0.35f * gradient / diagonal[v];
+      });
+    }
+    return delta;
+  }
+
+  void move() {
+    const std::vector<float> delta = offsets();
+    const float limit = float(scale_.limit_m);
+    parallel_for(fit_.mesh.vertices.size(), 4096, [&](std::size_t v) {
       Vec3f step = std::clamp(delta[v], -limit, limit) * normals_[v];
       Vec3f& p = fit_.mesh.vertices[v];
       if (scale_.floor_height_m && p.y() < float(*scale_.floor_height_m)) step.y() = 0.0f;

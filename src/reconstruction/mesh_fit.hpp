@@ -10,13 +10,14 @@
 namespace turnscan {
 
 struct MeshFitScale {
-  double noise_m = 0.001;    ///< of a depth along its ray
-  double reach_m = 0.0013;   ///< measurements farther across the normal do not count
-  double floor_m = 0.0002;   ///< of errors that do not fall with the angle of incidence
-  double target_m = 0.0001;  ///< noise of a vertex from which on its neighbours are not asked
-  double limit_m = 0.002;    ///< a vertex moves at most so far in one iteration
+  double noise_m = 0.001;   ///< of a depth along its ray
+  double reach_m = 0.0013;  ///< measurements farther across the normal do not count
+  double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
+  double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
+  double feature = 0.2;     ///< a bend of so many deviations of a vertex alone counts a quarter
+  double limit_m = 0.002;   ///< a vertex moves at most so far in one iteration
   float edge_weight = 0.1f;
-  int iterations = 3;
+  int iterations = 3;                    ///< 0: only measures the support
   std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others
 };
 
@@ -27,7 +28,8 @@ struct MeshFit {
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a
-/// membrane term between neighbours, which decides where few measurements are. Triangles stay as
+/// bending term, which averages noise away where the surface is smooth, fades at edges, and decides
+/// where few measurements are. Triangles stay as
 /// they are. Fails with kCancelled. The same bytes for any number of threads.
 Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const DepthView> views,
                          const MeshFitScale& scale, const RunContext& context);

@@ -184,6 +184,9 @@ Result<> Run::read_views() {
   volume_.noise_m = noise;
   volume_.spacing_m = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
   volume_.cylinder = recipe_.cylinder;
+  volume_.cell_m = options_.voxels.size_m;
+  volume_.grid = options_.voxels.grid;
+  TURNSCAN_ASSIGN(volume_.keep, objects_to_keep(options_.components));
   const ViewScale scale{std::max(8.0 * noise, 4.0 * volume_.spacing_m), volume_.spacing_m};
   const auto& frames = sequence_.frames();
   context_.begin_phase("read frames", frames.size());
@@ -207,25 +210,42 @@ Result<> Run::read_views() {
       continue;
     }
     ++out_.frames;
+    out_.returns += views[i]->returns;
+    out_.cropped += views[i]->kept;
     if (!views[i]->empty()) volume_.views.push_back(std::move(*views[i]));
   }
   return {};
 }
 
 Result<> Run::build_volume() {
-  TURNSCAN_ASSIGN(VolumetricResult result,
-                  reconstruct_volume(volume_, options_.volumetric, options_.components.min_share,
-                                     context_));
+  out_.points = out_.cropped;
+  if (out_.cropped < 100)
+    return fail(ErrorCode::kTooFewPoints,
+                "{} of {} returns are left after the crop; check the turntable's place, "
+                "--crop-margin and --crop-radius",
+                out_.cropped, out_.returns);
+  TURNSCAN_ASSIGN(
+      VolumetricResult result,
+      reconstruct_volume(volume_, options_.volumetric, options_.components.min_share, context_));
   for (const VolumetricChoice& c : result.choices) choose(c.option, c.value, c.reason);
   for (const auto& [name, seconds] : result.seconds) out_.stages.push_back({name, seconds});
+  PointCloud fitted;
   for (VolumetricPiece& piece : result.pieces) {
     ObjectResult object;
     object.mesh = std::move(piece.mesh);
     object.mesh.name = fmt::format("object {}", out_.objects.size() + 1);
     object.check = check_mesh(object.mesh);
+    object.points = piece.points;
+    object.invented_area_m2 = piece.invented_area_m2;
+    if (piece.base_area_m2 > 0.0)
+      object.notes.push_back(
+          fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+    fitted.points.insert(fitted.points.end(), object.mesh.vertices.begin(),
+                         object.mesh.vertices.end());
+    fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());
     out_.objects.push_back(std::move(object));
   }
-  return {};
+  return save("fitted", fitted);
 }
 
 Result<> Run::merge() {
@@ -460,8 +480,8 @@ OptionTable describe(ReconstructOptions& options) {
 }
 
 const std::vector<std::string>& saveable_stages() {
-  static const std::vector<std::string> stages{"merged", "voxels", "candidates", "refined",
-                                               "oriented"};
+  static const std::vector<std::string> stages{"merged",  "voxels",   "candidates",
+                                               "refined", "oriented", "fitted"};
   return stages;
 }
 
@@ -472,6 +492,9 @@ Result<Reconstruction> reconstruct(const FrameSequence& sequence, const Reconstr
   TURNSCAN_TRY(objects_to_keep(options.components));
   if (options.voxels.size_m && options.voxels.grid)
     return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
+  if (options.surface.method == SurfaceMethod::kVolumetric && options.color)
+    return fail(ErrorCode::kInvalidOption,
+                "colour: --method volumetric carries none; use --method poisson");
   TURNSCAN_TRY(context.check());
   return Run(sequence, options, sink, context)();
 }

@@ -72,7 +72,8 @@ struct Reconstruction {
   double sensor_noise_m = 0.0, merged_noise_m = 0.0, frame_spacing_m = 0.0;
 };
 
-/// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented.
+/// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented;
+/// fitted (volumetric only: vertices, weighted by their support).
 const std::vector<std::string>& saveable_stages();
 /// Called with a stage's cloud (all objects together), table frame.
 using StageSink = std::function<Result<>(const std::string& stage, const PointCloud& cloud)>;

@@ -16,8 +16,8 @@ constexpr std::size_t kCells = detail::kBrickCells;
 /// One clear view outweighs this many measured distances: passing through is certain, being behind
 /// a surface is not.
 constexpr float kClearWeight = 0.5f;
-constexpr float kLeastWeight = 0.3f;   // below, a sample counts as not seen
-constexpr float kLeastShare = 0.02f;   // of the typical weight, likewise
+constexpr float kLeastWeight = 0.3f;  // below, a sample counts as not seen
+constexpr float kLeastShare = 0.02f;  // of the typical weight, likewise
 
 enum class Sight { kNothing, kClear, kMixed };
 
@@ -46,7 +46,8 @@ class BallTest {
     const int y1 = std::min(view_.tiles_y - 1, int(v + dv) / DepthView::kTile);
     DepthView::Tile all;
     for (int ty = y0; ty <= y1; ++ty) {
-      for (int tx = x0; tx <= x1; ++tx) join(all, view_.tiles[std::size_t(ty * view_.tiles_x + tx)]);
+      for (int tx = x0; tx <= x1; ++tx)
+        join(all, view_.tiles[std::size_t(ty * view_.tiles_x + tx)]);
     }
     return judge(all, c.z());
   }
@@ -111,10 +112,20 @@ class Accumulator {
       if (!out.sums) out.sums = std::make_unique<detail::BrickSums>();
       detail::add_view(kernels_[v], origin, float(volume_.cell_m), scale_, *out.sums);
     }
+    drop_if_empty(out);
     return out;
   }
 
  private:
+  /// Where nothing was measured, the least clear sample stands for all.
+  static void drop_if_empty(BrickResult& r) {
+    if (!r.sums) return;
+    const auto& sums = *r.sums;
+    if (std::any_of(sums.weight, sums.weight + kCells, [](float w) { return w > 0.0f; })) return;
+    r.clear += *std::min_element(sums.clear, sums.clear + kCells);
+    r.sums.reset();
+  }
+
   std::span<const DepthView> views_;
   const Volume& volume_;
   detail::FieldScale scale_{};
@@ -196,7 +207,7 @@ Result<Volume> accumulate(std::span<const DepthView> views, const Box& box,
   }
   if (!(count < 2e7))
     return fail(ErrorCode::kResourceLimit,
-                "volumetric: {:.0f} bricks of samples; choose a larger --cell", count);
+                "volumetric: {:.0f} bricks of samples; choose a larger --voxel-size", count);
   volume.slot.assign(std::size_t(count), -1);
   volume.uniform.assign(std::size_t(count), 0.0f);
   context.begin_phase("distances", volume.brick_count());
@@ -212,7 +223,7 @@ Result<Volume> accumulate(std::span<const DepthView> views, const Box& box,
   TURNSCAN_TRY(context.check());
   if (bytes > scale.max_bytes)
     return fail(ErrorCode::kResourceLimit,
-                "volumetric: the samples need more than {} MB; choose a larger --cell",
+                "volumetric: the samples need more than {} MB; choose a larger --voxel-size",
                 scale.max_bytes >> 20);
   const float truncation = float(scale.truncation_m);
   const float least =
@@ -237,12 +248,11 @@ Result<Volume> accumulate(std::span<const DepthView> views, const Box& box,
 }
 
 Result<BrickGrid> to_grid(const Volume& volume, std::size_t max_bytes) {
-  TURNSCAN_ASSIGN(
-      BrickGrid grid,
-      BrickGrid::create(volume.origin_m, volume.cell_m,
-                        {volume.bricks[0] * kSide, volume.bricks[1] * kSide,
-                         volume.bricks[2] * kSide},
-                        1.0f, max_bytes));
+  TURNSCAN_ASSIGN(BrickGrid grid,
+                  BrickGrid::create(volume.origin_m, volume.cell_m,
+                                    {volume.bricks[0] * kSide, volume.bricks[1] * kSide,
+                                     volume.bricks[2] * kSide},
+                                    1.0f, max_bytes));
   std::vector<std::size_t> touched;
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
     if (volume.slot[b] >= 0)

@@ -12,10 +12,10 @@ namespace turnscan {
 
 struct VolumeScale {
   double cell_m = 0.001;
-  double truncation_m = 0.005;      ///< measurements farther than this from a sample say nothing
-  double behind_m = 0.003;          ///< beyond this behind a surface they fade
-  float edge_weight = 0.1f;         ///< of measurements beside an edge
-  std::optional<double> floor_m;    ///< on a platter: lowest height at which samples are looked up
+  double truncation_m = 0.005;    ///< measurements farther than this from a sample say nothing
+  double behind_m = 0.003;        ///< beyond this behind a surface they fade
+  float edge_weight = 0.1f;       ///< of measurements beside an edge
+  std::optional<double> floor_m;  ///< on a platter: lowest height at which samples are looked up
   std::size_t max_bytes = std::size_t(600) << 20;
 };
 
@@ -29,16 +29,16 @@ class Volume {
   Vec3d origin_m = Vec3d::Zero();
   double cell_m = 0.0;
   double truncation_m = 0.0;
-  Index bricks{};                   ///< along each axis
-  std::vector<std::int32_t> slot;   ///< per brick: number of its samples, or -1
-  std::vector<float> uniform;       ///< per brick without samples: +1 clear, -1 inside, 0 unknown
-  std::vector<float> value;         ///< 512 per slot, metres
-  std::vector<float> weight;        ///< 512 per slot; 0: unknown
+  Index bricks{};                  ///< along each axis
+  std::vector<std::int32_t> slot;  ///< per brick: number of its samples, or -1
+  std::vector<float> uniform;      ///< per brick without samples: +1 clear, -1 inside, 0 unknown
+  std::vector<float> value;        ///< 512 per slot, metres
+  std::vector<float> weight;       ///< 512 per slot; 0: unknown
 
   std::size_t brick_count() const { return slot.size(); }
   std::size_t brick_index(const Index& b) const {
-    return std::size_t(b[0]) +
-           std::size_t(bricks[0]) * (std::size_t(b[1]) + std::size_t(bricks[1]) * std::size_t(b[2]));
+    return std::size_t(b[0]) + std::size_t(bricks[0]) *
+                                   (std::size_t(b[1]) + std::size_t(bricks[1]) * std::size_t(b[2]));
   }
   Index brick_at(std::size_t brick) const {
     const auto nx = std::size_t(bricks[0]), ny = std::size_t(bricks[1]);

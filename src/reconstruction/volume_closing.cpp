@@ -35,8 +35,7 @@ class Samples {
   }
   float value(int i, int j, int k) const {
     const std::ptrdiff_t s = at(i, j, k);
-    return s >= 0 ? v_.value[std::size_t(s)]
-                  : v_.uniform[brick(i, j, k)] * float(v_.truncation_m);
+    return s >= 0 ? v_.value[std::size_t(s)] : v_.uniform[brick(i, j, k)] * float(v_.truncation_m);
   }
 
  private:
@@ -122,8 +121,8 @@ class Coarse {
     float sum = 0.0f;
     for (int corner = 0; corner < 8; ++corner) {
       const int p = corner & 1, q = corner >> 1 & 1, r = corner >> 2;
-      sum += (p ? u : 1.0f - u) * (q ? v : 1.0f - v) * (r ? w : 1.0f - w) *
-             cell(a + p, b + q, c + r);
+      sum +=
+          (p ? u : 1.0f - u) * (q ? v : 1.0f - v) * (r ? w : 1.0f - w) * cell(a + p, b + q, c + r);
     }
     return sum;
   }
@@ -268,8 +267,7 @@ class Closing {
           if (known > 0.0f)
             v_.weight[s] = 1.0f;  // seen empty, and stays so
           else
-            v_.value[s] =
-                coarse.at_sample(at[0] * kSide + i, at[1] * kSide + j, at[2] * kSide + k);
+            v_.value[s] = coarse.at_sample(at[0] * kSide + i, at[1] * kSide + j, at[2] * kSide + k);
         }
       }
     }
@@ -294,7 +292,7 @@ class Closing {
         for (int j = -1; j < 3; ++j) {
           for (int i = -1; i < 3; ++i)
             (coarse.cell(2 * at[0] + i, 2 * at[1] + j, 2 * at[2] + k) < 0.0f ? negative
-                                                                              : positive) = true;
+                                                                             : positive) = true;
         }
       }
       if (negative && positive)
@@ -335,18 +333,17 @@ class Closing {
           for (int j = 0; j < kSide; ++j) {
             for (int i = 0; i < kSide; ++i) {
               const std::size_t c = Halo::at(i, j, k);
-              const float sum =
-                  halo.value[c - 1] + halo.value[c + 1] + halo.value[c - Halo::kWide] +
-                  halo.value[c + Halo::kWide] + halo.value[c - Halo::kWide * Halo::kWide] +
-                  halo.value[c + Halo::kWide * Halo::kWide];
+              const float sum = halo.value[c - 1] + halo.value[c + 1] +
+                                halo.value[c - Halo::kWide] + halo.value[c + Halo::kWide] +
+                                halo.value[c - Halo::kWide * Halo::kWide] +
+                                halo.value[c + Halo::kWide * Halo::kWide];
               out[within(i, j, k)] = halo.weight[c] > 0.0f ? halo.value[c] : sum / 6.0f;
             }
           }
         }
       });
       parallel_for(work.size(), 64, [&](std::size_t w) {
-        std::copy_n(&next[w * kCells], kCells,
-                    &v_.value[std::size_t(v_.slot[work[w]]) * kCells]);
+        std::copy_n(&next[w * kCells], kCells, &v_.value[std::size_t(v_.slot[work[w]]) * kCells]);
       });
     }
   }
@@ -505,7 +502,8 @@ void smooth(Volume& volume, int rounds) {
             for (int n = 0; n < 27; ++n) {
               const int p = n % 3 - 1, q = n / 3 % 3 - 1, r = n / 9 - 1;
               const std::size_t c = Halo::at(i + p, j + q, k + r);
-              const float w = halo.weight[c] / float(1 << (std::abs(p) + std::abs(q) + std::abs(r)));
+              const float w =
+                  halo.weight[c] / float(1 << (std::abs(p) + std::abs(q) + std::abs(r)));
               sum += w * halo.value[c];
               total += w;
             }

@@ -15,10 +15,10 @@ using Clock = std::chrono::steady_clock;
 
 std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
-/// Calls take(p_table) for what some views measured, edges left out.
+/// Calls take(p_table) for what about most_views of the views measured, edges left out.
 template <class Take>
-void for_each_point(const VolumetricInput& input, const Take& take) {
-  const std::size_t step = std::max<std::size_t>(1, input.views.size() / 64);
+void for_each_point(const VolumetricInput& input, std::size_t most_views, const Take& take) {
+  const std::size_t step = std::max<std::size_t>(1, input.views.size() / most_views);
   for (std::size_t v = 0; v < input.views.size(); v += step) {
     const DepthView& view = input.views[v];
     const Eigen::Matrix3f back = view.rotation.transpose();
@@ -41,7 +41,7 @@ void for_each_point(const VolumetricInput& input, const Take& take) {
 Box measured_box(const VolumetricInput& input) {
   constexpr double kStray = 2e-4;
   std::array<std::vector<float>, 3> values;
-  for_each_point(input, [&](const Vec3f& p) {
+  for_each_point(input, 64, [&](const Vec3f& p) {
     for (int a = 0; a < 3; ++a) values[std::size_t(a)].push_back(p[a]);
   });
   Box box;
@@ -60,9 +60,8 @@ Box measured_box(const VolumetricInput& input) {
 double area_of(const TriangleMesh& mesh) {
   double area = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
-    area += 0.5 * (mesh.vertices[b] - mesh.vertices[a])
-                      .cross(mesh.vertices[c] - mesh.vertices[a])
-                      .norm();
+    area += 0.5 *
+            (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
   }
   return area;
 }
@@ -92,16 +91,16 @@ class Run {
     if (out_.pieces.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: the frames show no surface");
     for (VolumetricPiece& piece : out_.pieces) {
-      TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&] {
-                        return simplify(piece.mesh, {piece.mesh.triangles.size() / 4,
-                                                     0.5 * scale_.cell_m});
-                      }));
-      if (!options_.fit) continue;
+      TURNSCAN_ASSIGN(
+          piece.mesh, timed("simplify", [&] {
+            return simplify(piece.mesh, {piece.mesh.triangles.size() / 4, 0.5 * scale_.cell_m});
+          }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(piece.mesh, input_.views, fit_scale(), context_);
                       }));
       piece.mesh = std::move(fitted.mesh);
       piece.support = std::move(fitted.support);
+      TURNSCAN_TRY(finish(piece));
     }
     return std::move(out_);
   }
@@ -117,17 +116,20 @@ class Run {
   void choose_scale(const Box& box) {
     const double longest = box.size().maxCoeff();
     double cell = 0.5 * input_.spacing_m;
-    std::string reason = fmt::format("half the spacing of a frame's points, {}",
-                                     mm(input_.spacing_m));
+    std::string reason =
+        fmt::format("half the spacing of a frame's points, {}", mm(input_.spacing_m));
     if (cell < longest / 600.0) {
       cell = longest / 600.0;
       reason = fmt::format("a 600th of the longest side, {}", mm(longest));
     }
-    scale_.cell_m = choose("cell", options_.cell_m, cell, reason);
-    scale_.truncation_m = choose("truncation", options_.truncation_m,
-                                 std::max(3.0 * input_.noise_m, 2.5 * scale_.cell_m),
-                                 fmt::format("the larger of 3 times the noise of {} and 2.5 cells",
-                                             mm(input_.noise_m)));
+    if (input_.grid) {
+      cell = longest / *input_.grid;
+      reason = fmt::format("voxel-grid {} along {}", *input_.grid, mm(longest));
+    }
+    scale_.cell_m = choose("voxel-size", input_.cell_m, cell, reason);
+    scale_.truncation_m = choose(
+        "truncation", options_.truncation_m, std::max(3.0 * input_.noise_m, 2.5 * scale_.cell_m),
+        fmt::format("the larger of 3 times the noise of {} and 2.5 voxels", mm(input_.noise_m)));
     scale_.behind_m = scale_.truncation_m * 2.0 / 3.0;
     if (input_.cylinder) scale_.floor_m = std::max(input_.cylinder->margin_m, 0.0);
     out_.cell_m = scale_.cell_m;
@@ -156,6 +158,41 @@ class Run {
     return isosurface(grid, IsosurfaceOptions(), context_);
   }
 
+  /// Fewer triangles if asked for; what no frame measured; how many points there are.
+  Result<> finish(VolumetricPiece& piece) {
+    if (options_.triangles && piece.mesh.triangles.size() > std::size_t(*options_.triangles)) {
+      TURNSCAN_ASSIGN(piece.mesh, simplify(piece.mesh, {std::size_t(*options_.triangles), 1e30}));
+      MeshFitScale measure = fit_scale();
+      measure.iterations = 0;
+      TURNSCAN_ASSIGN(MeshFit measured, fit_mesh(piece.mesh, input_.views, measure, context_));
+      piece.support = std::move(measured.support);
+    }
+    std::vector<float> sorted = piece.support;
+    const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const float least = 0.02f * *middle;
+    const float base = scale_.floor_m ? float(*scale_.floor_m) : -1e30f;
+    for (const auto& t : piece.mesh.triangles) {
+      const auto& p = piece.mesh.vertices;
+      const double area = 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+      const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+      const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+      if (high < base && high - low < 0.1f * float(scale_.cell_m))
+        piece.base_area_m2 += area;
+      else if (std::any_of(t.begin(), t.end(),
+                           [&](std::uint32_t v) { return piece.support[v] < least; }))
+        piece.invented_area_m2 += area;
+    }
+    Box box = bounds(piece.mesh.vertices);
+    box.min.array() -= scale_.truncation_m;
+    box.max.array() += scale_.truncation_m;
+    for_each_point(input_, input_.views.size(), [&](const Vec3f& p) {
+      const auto q = p.cast<double>().array();
+      if ((q >= box.min.array()).all() && (q <= box.max.array()).all()) ++piece.points;
+    });
+    return {};
+  }
+
   void keep_pieces(std::vector<TriangleMesh> pieces) {
     std::vector<double> areas;
     for (const TriangleMesh& piece : pieces) areas.push_back(area_of(piece));
@@ -164,8 +201,9 @@ class Run {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
     for (const std::size_t i : order) {
+      if (input_.keep > 0 && out_.pieces.size() >= std::size_t(input_.keep)) break;
       if (areas[i] >= min_share_ * areas[order[0]])
-        out_.pieces.push_back({std::move(pieces[i]), {}});
+        out_.pieces.push_back({std::move(pieces[i]), {}, 0.0, 0.0, 0});
     }
   }
 
@@ -174,9 +212,8 @@ class Run {
     scale.noise_m = input_.noise_m;
     scale.reach_m = fit_reach_;
     scale.floor_m = 0.1 * input_.noise_m + 0.1 * scale_.cell_m;
-    scale.target_m = std::max(0.1 * scale_.cell_m, 1e-5);
     scale.limit_m = 2.0 * scale_.cell_m;
-    scale.iterations = options_.fit_iterations;
+    scale.iterations = options_.fit ? options_.fit_iterations : 0;
     if (scale_.floor_m) scale.floor_height_m = *scale_.floor_m;
     return scale;
   }
@@ -195,19 +232,20 @@ class Run {
 OptionTable describe(VolumetricOptions& o) {
   OptionTable table;
   table
-      .number("cell", o.cell_m, Quantity::kLength, {1e-5, 0.1},
-              "Volumetric: distance between the samples of the volume; automatic: from the spacing "
-              "of a frame's points")
       .number("truncation", o.truncation_m, Quantity::kLength, {1e-5, 1.0},
               "Volumetric: how far along its ray a measurement counts; automatic: from its noise")
-      .number("field-frames", o.field_frames, {1, 100000},
-              "Volumetric: at most so many frames, evenly spread, make the volume; all of them take "
-              "part in the fit")
+      .number(
+          "field-frames", o.field_frames, {1, 100000},
+          "Volumetric: at most so many frames, evenly spread, make the volume; all of them take "
+          "part in the fit")
       .flag("fit", o.fit, "Volumetric: move the vertices onto the measurements of all frames")
       .number("fit-reach", o.fit_reach_m, Quantity::kLength, {1e-5, 0.1},
               "Volumetric: measurements farther from a vertex, across its normal, do not count in "
               "the fit; automatic: from the spacing")
-      .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit");
+      .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
+      .number("triangles", o.triangles, {4, 1000000000},
+              "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
+              "of what the volume gives");
   return table;
 }
 

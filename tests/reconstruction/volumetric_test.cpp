@@ -1,0 +1,335 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <set>
+#include <tests/support/memory_sequence.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/volume.hpp>
+
+namespace turnscan {
+namespace {
+
+using ::testing::HasSubstr;
+using turnscan::testing::MemorySequence;
+
+/// Distance along a ray (from the table frame's origin o, direction d) to what stands there, or 0.
+using Trace = std::function<double(const Vec3d& o, const Vec3d& d)>;
+
+double to_ball(const Vec3d& o, const Vec3d& d, const Vec3d& center, double radius) {
+  const Vec3d m = o - center;
+  const double a = d.squaredNorm(), b = m.dot(d);
+  const double q = b * b - a * (m.squaredNorm() - radius * radius);
+  const double t = (-b - std::sqrt(std::max(0.0, q))) / a;
+  return q > 0.0 && t > 0.0 ? t : 0.0;
+}
+
+double to_box(const Vec3d& o, const Vec3d& d, const Vec3d& low, const Vec3d& high) {
+  double in = 0.0, out = 1e9;
+  for (int a = 0; a < 3; ++a) {
+    const double p = (low[a] - o[a]) / d[a], q = (high[a] - o[a]) / d[a];
+    in = std::max(in, std::min(p, q));
+    out = std::min(out, std::max(p, q));
+  }
+  return in < out ? in : 0.0;
+}
+
+double nearer(double a, double b) { return a > 0.0 && (b == 0.0 || a < b) ? a : b; }
+
+struct Rig {
+  int frames = 24;
+  double noise_m = 0.0005;
+  double flying = 0.0;  ///< share of silhouette pixels that are moved back by up to 80 mm
+  double dropped = 0.0;
+  std::uint64_t seed = 1;
+  bool platter = true;
+};
+
+/// Depth images, 160 x 120, of things on a turning platter, from 0.6 m away and 25 degrees up.
+MemorySequence scan(const Trace& things, const Rig& rig) {
+  MemorySequence sequence;
+  SensorInfo sensor;
+  sensor.intrinsics.width = 160, sensor.intrinsics.height = 120;
+  sensor.intrinsics.fx = sensor.intrinsics.fy = 260.0;
+  sensor.intrinsics.cx = 79.5, sensor.intrinsics.cy = 59.5;
+  const double up = 25.0 * std::numbers::pi / 180.0;
+  const Vec3d aim(0, 0.04, 0);
+  const Vec3d eye = aim + 0.6 * Vec3d(0, std::sin(up), -std::cos(up));
+  const Vec3d z = (aim - eye).normalized(), x = z.cross(Vec3d::UnitY()).normalized();
+  Pose pose = Pose::Identity();
+  pose.linear().col(0) = x;
+  pose.linear().col(1) = z.cross(x);
+  pose.linear().col(2) = z;
+  pose.translation() = eye;
+  sensor.T_table_sensor = pose;
+  sequence.header_value.sensors = {sensor};
+  TurntableInfo table;
+  table.axis = pose.linear().transpose() * Vec3d::UnitY();
+  table.center_m = pose.inverse() * Vec3d::Zero();
+  table.radius_m = 0.12;
+  sequence.header_value.turntable = table;
+  for (std::uint32_t f = 0; f < std::uint32_t(rig.frames); ++f) {
+    Frame frame;
+    frame.info.index = f;
+    frame.info.angle_rad = 2.0 * std::numbers::pi * f / rig.frames;
+    if (uniform01(hash_key(rig.seed, f, 77)) < rig.dropped)
+      frame.info.status = FrameStatus::kDropped;
+    const Pose view = rotation_about_y(-*frame.info.angle_rad) * pose;
+    frame.depth = DepthImage(160, 120);
+    std::vector<double> depth(160 * 120, 0.0);
+    for (int v = 0; v < 120; ++v) {
+      for (int u = 0; u < 160; ++u) {
+        const Vec3d ray = sensor.intrinsics.ray(u, v);
+        const Vec3d d = view.linear() * ray;
+        double t = things(view.translation(), d);
+        const double floor = -view.translation().y() / d.y();
+        const Vec3d hit = view.translation() + floor * d;
+        if (rig.platter && floor > 0.0 && std::hypot(hit.x(), hit.z()) < 0.12) t = nearer(floor, t);
+        depth[std::size_t(v * 160 + u)] = t;
+      }
+    }
+    for (int i = 0; i < 160 * 120; ++i) {
+      double t = depth[std::size_t(i)];
+      if (t == 0.0) continue;
+      const int u = i % 160;
+      const double beside = u + 1 < 160 ? depth[std::size_t(i + 1)] : 0.0;
+      const bool edge = beside == 0.0 || beside > t + 0.02;
+      const std::uint64_t key = hash_key(rig.seed, f, std::uint64_t(i));
+      if (edge && uniform01(hash_key(key, 1, 0)) < rig.flying)
+        t += 0.08 * uniform01(hash_key(key, 2, 0));
+      t += rig.noise_m * standard_normal(hash_key(key, 3, 0));
+      frame.depth.pixels[std::size_t(i)] = std::uint16_t(std::lround(t * 1e4));
+    }
+    sequence.add(std::move(frame));
+  }
+  return sequence;
+}
+
+const Vec3d kCenter(0.01, 0.05, -0.005);
+constexpr double kRadius = 0.03;
+
+double ball(const Vec3d& o, const Vec3d& d) {
+  // On a stand, so that it is closed below by what is seen.
+  return nearer(to_ball(o, d, kCenter, kRadius), to_box(o, d, kCenter - Vec3d(0.015, 0.05, 0.015),
+                                                        kCenter + Vec3d(0.015, 0, 0.015)));
+}
+
+ReconstructOptions volumetric() {
+  ReconstructOptions options;
+  options.surface.method = SurfaceMethod::kVolumetric;
+  return options;
+}
+
+/// Closed, 2-manifold and of positive volume, told from the triangles alone: every edge runs once
+/// each way, and the triangles around every vertex are one ring.
+::testing::AssertionResult is_solid(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
+  std::vector<std::map<std::uint32_t, std::uint32_t>> around(mesh.vertices.size());
+  double volume = 0.0;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (++runs[{t[c], t[(c + 1) % 3]}] > 1) return ::testing::AssertionFailure() << "edge twice";
+      around[t[c]][t[(c + 1) % 3]] = t[(c + 2) % 3];
+    }
+    volume += mesh.vertices[t[0]].cast<double>().dot(
+        mesh.vertices[t[1]].cast<double>().cross(mesh.vertices[t[2]].cast<double>()));
+  }
+  for (const auto& [edge, count] : runs) {
+    if (runs.count({edge.second, edge.first}) == 0)
+      return ::testing::AssertionFailure() << "open edge";
+  }
+  for (const auto& next : around) {
+    if (next.empty()) continue;
+    std::uint32_t v = next.begin()->first;
+    std::size_t steps = 0;
+    do {
+      v = next.at(v);
+      ++steps;
+    } while (v != next.begin()->first && steps <= next.size());
+    if (steps != next.size()) return ::testing::AssertionFailure() << "two fans at a vertex";
+  }
+  if (!(volume > 0.0)) return ::testing::AssertionFailure() << "not outward";
+  return ::testing::AssertionSuccess();
+}
+
+double median_error_to_ball(const TriangleMesh& mesh) {
+  std::vector<double> errors;
+  for (const Vec3f& v : mesh.vertices) {
+    if (v.y() > kCenter.y())
+      errors.push_back(std::abs((v.cast<double>() - kCenter).norm() - kRadius));
+  }
+  std::nth_element(errors.begin(), errors.begin() + std::ptrdiff_t(errors.size() / 2),
+                   errors.end());
+  return errors[errors.size() / 2];
+}
+
+TEST(Volumetric, IsFarBelowTheNoiseOfTheSensor) {
+  const auto result = reconstruct(scan(ball, {60, 0.001}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.00025);
+}
+
+TEST(MeshFit, BringsVerticesBackToWhatWasMeasured) {
+  const MemorySequence sequence = scan(ball, {60, 0.001});
+  ReconstructOptions options = volumetric();
+  options.volumetric.fit = false;
+  auto result = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  TriangleMesh mesh = result->objects[0].mesh;
+  for (Vec3f& v : mesh.vertices) v += 0.0007f * (v - kCenter.cast<float>()).normalized();
+  const SensorInfo& sensor = sequence.header().sensors[0];
+  const RayTable rays(sensor.intrinsics);
+  std::vector<DepthView> views;
+  for (std::size_t f = 0; f < sequence.frames().size(); ++f) {
+    const Pose pose = rotation_about_y(-*sequence.frames()[f].angle_rad) * *sensor.T_table_sensor;
+    auto view = make_view(*sequence.read(f), sensor, rays, pose, {},
+                          [&](const Vec3f& p) { return (pose * p.cast<double>()).y() > 0.005; });
+    ASSERT_TRUE(view) << view.error().text();
+    views.push_back(std::move(*view));
+  }
+  MeshFitScale scale;
+  scale.noise_m = 0.001;
+  scale.reach_m = 0.0015;
+  const auto fitted = fit_mesh(mesh, views, scale, RunContext());
+  ASSERT_TRUE(fitted) << fitted.error().text();
+  EXPECT_GT(median_error_to_ball(mesh), 0.0005);
+  EXPECT_LT(median_error_to_ball(fitted->mesh), 0.0002);
+}
+
+TEST(Volumetric, FlyingPixelsLeaveNothingBehind) {
+  const auto result = reconstruct(scan(ball, {40, 0.001, 0.5}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  for (const Vec3f& v : result->objects[0].mesh.vertices)
+    EXPECT_LT((v.cast<double>() - kCenter).norm(), 0.056);  // the stand's corners are at 0.0543
+}
+
+TEST(Volumetric, StandsFlatOnThePlatter) {
+  const auto result = reconstruct(scan(ball, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const TriangleMesh& mesh = result->objects[0].mesh;
+  EXPECT_NEAR(bounds(mesh.vertices).min.y(), 0.0, 1e-6);
+  double flat = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3f &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    if (std::max({a.y(), b.y(), c.y()}) < 1e-6f) flat += 0.5 * (b - a).cross(c - a).norm();
+  }
+  EXPECT_NEAR(flat, 0.03 * 0.03, 0.15 * 0.03 * 0.03);
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
+}
+
+TEST(Volumetric, BothSidesOfAThinPlateSurvive) {
+  const auto plate = [](const Vec3d& o, const Vec3d& d) {
+    return to_box(o, d, Vec3d(-0.03, 0, -0.0025), Vec3d(0.03, 0.07, 0.0025));
+  };
+  const auto result = reconstruct(scan(plate, {60, 0.001}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  double sum = 0.0;
+  std::size_t n = 0;
+  for (const Vec3f& v : result->objects[0].mesh.vertices) {
+    if (std::abs(v.x()) > 0.022f || v.y() < 0.01f || v.y() > 0.06f) continue;
+    sum += std::abs(double(v.z()));
+    ++n;
+  }
+  ASSERT_GT(n, 100u);
+  EXPECT_NEAR(2.0 * sum / double(n), 0.005, 0.0005);
+}
+
+TEST(Volumetric, IsSolidWhateverWasRecorded) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const auto random = [&](int k) { return uniform01(hash_key(seed, std::uint64_t(k), 5)); };
+    std::vector<std::pair<Vec3d, double>> balls;
+    for (int b = 0; b < 1 + int(4 * random(0)); ++b)
+      balls.emplace_back(Vec3d(0.1 * random(10 + b) - 0.05, 0.01 + 0.05 * random(20 + b),
+                               0.1 * random(30 + b) - 0.05),
+                         0.006 + 0.025 * random(40 + b));
+    const auto things = [&](const Vec3d& o, const Vec3d& d) {
+      double t = 0.0;
+      for (const auto& [center, radius] : balls) t = nearer(to_ball(o, d, center, radius), t);
+      return t;
+    };
+    const Rig rig{2 + int(20 * random(1)), 0.002 * random(2), random(3), 0.5 * random(4), seed,
+                  random(5) < 0.7};
+    const auto result = reconstruct(scan(things, rig), volumetric(), {}, RunContext());
+    if (!result) {
+      EXPECT_EQ(result.error().code, ErrorCode::kTooFewPoints) << result.error().text();
+      continue;
+    }
+    for (const ObjectResult& object : result->objects)
+      EXPECT_TRUE(is_solid(object.mesh)) << "seed " << seed;
+  }
+}
+
+TEST(Volumetric, TheSameForAnyNumberOfThreads) {
+  const MemorySequence sequence = scan(ball, {16, 0.001, 0.3});
+  set_thread_count(1);
+  const auto one = reconstruct(sequence, volumetric(), {}, RunContext());
+  set_thread_count(3);
+  const auto three = reconstruct(sequence, volumetric(), {}, RunContext());
+  set_thread_count(0);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->objects[0].mesh.vertices, three->objects[0].mesh.vertices);
+  EXPECT_EQ(one->objects[0].mesh.triangles, three->objects[0].mesh.triangles);
+}
+
+TEST(Volumetric, TakesAsFewTrianglesAsAskedFor) {
+  ReconstructOptions options = volumetric();
+  options.volumetric.triangles = 500;
+  const auto result = reconstruct(scan(ball, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  EXPECT_LE(result->objects[0].mesh.triangles.size(), 550u);  // mending may add a few
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+}
+
+TEST(Volumetric, KeepsAsManyObjectsAsAskedFor) {
+  const auto pair = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(to_ball(o, d, Vec3d(-0.05, 0.025, 0), 0.025),
+                  to_ball(o, d, Vec3d(0.05, 0.02, 0), 0.02));
+  };
+  ReconstructOptions options = volumetric();
+  EXPECT_EQ(reconstruct(scan(pair, {}), options, {}, RunContext())->objects.size(), 2u);
+  options.components.keep = "largest";
+  const auto one = reconstruct(scan(pair, {}), options, {}, RunContext());
+  ASSERT_EQ(one->objects.size(), 1u);
+  EXPECT_LT(bounds(one->objects[0].mesh.vertices).center().x(), 0.0);
+}
+
+TEST(Volumetric, RefusesWhatItCannotDo) {
+  ReconstructOptions options = volumetric();
+  options.color = true;
+  EXPECT_EQ(reconstruct(scan(ball, {}), options, {}, RunContext()).error().code,
+            ErrorCode::kInvalidOption);
+  const auto nothing = [](const Vec3d&, const Vec3d&) { return 0.0; };
+  EXPECT_EQ(reconstruct(scan(nothing, {}), volumetric(), {}, RunContext()).error().code,
+            ErrorCode::kTooFewPoints);
+  RunContext cancelled;
+  cancelled.cancel();
+  EXPECT_EQ(reconstruct(scan(ball, {}), volumetric(), {}, cancelled).error().code,
+            ErrorCode::kCancelled);
+}
+
+TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
+  for (const char* name :
+       {"truncation", "field-frames", "fit-reach", "fit-iterations", "triangles"}) {
+    VolumetricOptions options;
+    const auto wrong = describe(options).set(name, "-1");
+    const auto checked = wrong ? describe(options).check() : wrong;
+    ASSERT_FALSE(checked) << name;
+    EXPECT_THAT(checked.error().message, HasSubstr(name));
+  }
+}
+
+TEST(DepthView, PacksDepthEdgeAndWhatIsClear) {
+  const std::uint32_t word = DepthView::pack(9001, true, 8000);
+  EXPECT_EQ(word & 0xffffu, 9001u);
+  EXPECT_NE(word & DepthView::kEdge, 0u);
+  EXPECT_EQ(word >> 17 << 1, 8000u);
+}
+
+}  // namespace
+}  // namespace turnscan
