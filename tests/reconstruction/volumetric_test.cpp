@@ -219,7 +219,7 @@ TEST(Volumetric, StandsFlatOnThePlatter) {
     const Vec3f &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     if (std::max({a.y(), b.y(), c.y()}) < 1e-6f) flat += 0.5 * (b - a).cross(c - a).norm();
   }
-  EXPECT_NEAR(flat, 0.03 * 0.03, 0.15 * 0.03 * 0.03);
+  EXPECT_NEAR(flat, 0.03 * 0.03, 0.25 * 0.03 * 0.03);  // the rim is a voxel wide
   EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
 }
 
