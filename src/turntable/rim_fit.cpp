@@ -315,7 +315,7 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
     return moved > 1e-9 ? std::min(count * 1e-4 / moved, 0.5 * circle.radius_m) : 0.0;
   };
   DiscSupport out;
-  double agree = 0.0, against = 0.0, in = 0.0, behind = 0.0, hidden = 0.0, all = 0.0;
+  double agree = 0.0, against = 0.0, in = 0.0, behind = 0.0, all = 0.0;
   for (int k = 0; k < kPlaces; ++k) {
     const double a = 2.0 * std::numbers::pi * k / kPlaces;
     const Vector2d direction(std::cos(a), std::sin(a));
@@ -332,7 +332,6 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
       all += 1.0;
       if (side && *side == 0) in += 1.0;
       if (side && *side < 0) behind += 1.0;
-      if (side && *side > 0) hidden += 1.0;
     }
   }
   out.rim_share = agree / kPlaces;
