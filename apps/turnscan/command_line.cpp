@@ -125,6 +125,11 @@ void CommandLine::positional(const std::string& label, std::string& value,
   declare(app_.add_option(label, value), label, help)->required();
 }
 
+void CommandLine::optional_positional(const std::string& label, std::string& value,
+                                      const std::string& help) {
+  declare(app_.add_option(label, value), label, help);
+}
+
 void CommandLine::positionals(const std::string& label, std::vector<std::string>& values,
                               const std::string& help) {
   declare(app_.add_option(label, values), label, help)->required();
@@ -190,7 +195,16 @@ void CommandLine::allow_config() {
          "under the table of their stage. The command line goes before the file");
 }
 
+void CommandLine::file_option(const std::string& names, const std::string& label,
+                              const std::string& help,
+                              std::function<Result<>(const std::string&)> read) {
+  FileOption& kept = file_options_.emplace_back(FileOption{{}, std::move(read)});
+  option(names, label, kept.path, help);
+}
+
 Result<> CommandLine::apply() {
+  for (const FileOption& file : file_options_)
+    if (!file.path.empty()) TURNSCAN_TRY(file.read(file.path));
   if (!config_path_.empty()) TURNSCAN_TRY(read_config_file(config_path_, option_groups_));
   for (const Bound& bound : bound_) {
     if (bound.option->count() == 0) continue;

@@ -4,6 +4,7 @@
 // that names, defaults, ranges, units and error sentences have their one source beside the structs.
 
 #include <deque>
+#include <functional>
 #include <string>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/core/result.hpp>
@@ -46,6 +47,8 @@ class CommandLine {
 
   /// Required arguments without a dash.
   void positional(const std::string& label, std::string& value, const std::string& help);
+  /// May be left out.
+  void optional_positional(const std::string& label, std::string& value, const std::string& help);
   void positionals(const std::string& label, std::vector<std::string>& values,
                    const std::string& help);
 
@@ -66,6 +69,11 @@ class CommandLine {
   /// Adds --config FILE.
   void allow_config();
 
+  /// An option that names a file whose content goes before defaults and behind the command line:
+  /// `read` is called with its path before any field is set from the command line.
+  void file_option(const std::string& names, const std::string& label, const std::string& help,
+                   std::function<Result<>(const std::string&)> read);
+
   /// Called after parsing: sets the fields from the TOML file, then from the command line.
   Result<> apply();
 
@@ -83,7 +91,13 @@ class CommandLine {
   void bind(const OptionField& field, const std::string& title, ArgumentGroup& group);
 
   CLI::App& app_;
+  struct FileOption {
+    std::string path;
+    std::function<Result<>(const std::string&)> read;
+  };
+
   std::string config_path_;
+  std::deque<FileOption> file_options_;  // a deque: paths keep their addresses
   std::vector<ArgumentGroup> groups_;
   std::deque<OptionGroup> option_groups_;  // a deque: fields keep their addresses
   std::vector<Bound> bound_;

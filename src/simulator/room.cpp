@@ -15,7 +15,7 @@ constexpr int kSegments = 96;
 constexpr Rgb kDeskColor{150, 111, 72};
 constexpr Rgb kWallColor{214, 208, 196};
 constexpr Rgb kFootColor{52, 54, 58};
-constexpr Rgb kPlatterSideColor{60, 62, 66};
+constexpr Rgb kPlatterSideColor{120, 122, 126};
 constexpr std::array<Rgb, 6> kThingColors{
     {{186, 58, 48}, {64, 104, 168}, {224, 182, 70}, {92, 142, 84}, {205, 205, 205}, {96, 80, 120}}};
 constexpr double kDeskThickness_m = 0.03;

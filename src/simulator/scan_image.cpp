@@ -6,19 +6,19 @@ namespace turnscan {
 
 namespace {
 
-constexpr Rgb kPlatterColor{72, 74, 78};
+constexpr Rgb kPlatterColor{140, 142, 146};
 constexpr Rgb kEmptyColor{28, 30, 34};
 constexpr float kPlainGrey = 190.0f;
 
 Vec3f as_vector(Rgb c) { return {float(c.r), float(c.g), float(c.b)}; }
 
-Rgb shaded(const Vec3f& albedo, float light) {
-  const Vec3f c = (light * albedo).cwiseMin(255.0f).cwiseMax(0.0f) + Vec3f::Constant(0.5f);
+Rgb shaded(const Vec3f& color, float light) {
+  const Vec3f c = (light * color).cwiseMin(255.0f).cwiseMax(0.0f) + Vec3f::Constant(0.5f);
   return {std::uint8_t(c.x()), std::uint8_t(c.y()), std::uint8_t(c.z())};
 }
 
-Rgb lit(const SampleHit& hit, const Vec3f& albedo) {
-  return shaded(albedo, 0.35f + 0.65f * static_cast<float>(std::cos(hit.incidence_rad)));
+Rgb lit(const SampleHit& hit, const Vec3f& color) {
+  return shaded(color, 0.35f + 0.65f * static_cast<float>(std::cos(hit.incidence_rad)));
 }
 
 }  // namespace
@@ -37,7 +37,26 @@ DepthImage depth_image(const SampleGrid& grid, std::span<const float> z, double 
   return depth;
 }
 
-Vec3f Paint::albedo(const Samples& samples, std::size_t i, const SampleHit& hit) const {
+Albedo albedo_of(const std::vector<std::span<const TriangleMesh>>& meshes) {
+  std::vector<std::vector<std::vector<float>>> all;
+  for (const auto& body : meshes) {
+    auto& objects = all.emplace_back();
+    for (const TriangleMesh& mesh : body) objects.push_back(triangle_albedos(mesh));
+  }
+  TriangleMesh platter;
+  platter.vertices.resize(3);
+  platter.colors.assign(3, kPlatterColor);
+  platter.triangles = {{0, 1, 2}};
+  const float on_platter = triangle_albedos(platter)[0];
+  return [all = std::move(all), on_platter](std::uint32_t body, std::uint32_t object,
+                                            std::uint32_t triangle) {
+    if (object == kPlatter) return on_platter;
+    const std::vector<float>& values = all[body][object];
+    return values.empty() ? static_cast<float>(kDefaultAlbedo) : values[triangle];
+  };
+}
+
+Vec3f Paint::color(const Samples& samples, std::size_t i, const SampleHit& hit) const {
   const std::uint32_t object = samples.object(i);
   if (object == kPlatter) return as_vector(kPlatterColor);
   const TriangleMesh& mesh = meshes_[samples.body(i)][object];
@@ -56,7 +75,7 @@ ColorImage color_image(const SampleTracer& tracer, std::span<const Body> bodies,
       const std::size_t i = grid.index(x, y);
       if (!grid.hit(i)) continue;
       const SampleHit hit = tracer.hit_of(bodies, T_world_sensor, grid, i, tracer.direction(x, y));
-      image.at(x, y) = lit(hit, paint.albedo(grid, i, hit));
+      image.at(x, y) = lit(hit, paint.color(grid, i, hit));
     }
   }
   return image;
@@ -74,7 +93,7 @@ PointCloud scan_points(const SampleTracer& tracer, std::span<const Body> bodies,
       cloud.points.emplace_back((double(z[i]) * direction).cast<float>());
       if (paint == nullptr) continue;
       const SampleHit hit = tracer.hit_of(bodies, T_world_sensor, grid, i, direction);
-      cloud.colors.push_back(lit(hit, paint->albedo(grid, i, hit)));
+      cloud.colors.push_back(lit(hit, paint->color(grid, i, hit)));
     }
   }
   return cloud;

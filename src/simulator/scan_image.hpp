@@ -2,6 +2,7 @@
 // Frames from samples (private to the simulator).
 
 #include <turnscan/core/frame.hpp>
+#include <turnscan/simulator/noise.hpp>
 #include <turnscan/simulator/samples.hpp>
 
 namespace turnscan {
@@ -15,11 +16,15 @@ class Paint {
  public:
   explicit Paint(std::vector<std::span<const TriangleMesh>> meshes) : meshes_(std::move(meshes)) {}
 
-  Vec3f albedo(const Samples& samples, std::size_t i, const SampleHit& hit) const;
+  /// sRGB.
+  Vec3f color(const Samples& samples, std::size_t i, const SampleHit& hit) const;
 
  private:
   std::vector<std::span<const TriangleMesh>> meshes_;
 };
+
+/// Of the same things, what sends light back to a sensor.
+Albedo albedo_of(const std::vector<std::span<const TriangleMesh>>& meshes);
 
 /// Lit from the sensor. Of everything that is hit, whether it counts or not.
 ColorImage color_image(const SampleTracer& tracer, std::span<const Body> bodies,

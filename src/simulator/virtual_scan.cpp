@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 #include <turnscan/core/version.hpp>
+#include <turnscan/simulator/noise.hpp>
 #include <turnscan/simulator/scan_image.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
@@ -65,6 +67,20 @@ Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
   return noise;
 }
 
+/// Counts of one scanner's samples; sums do not depend on the order.
+struct Tally {
+  std::array<std::atomic<std::uint64_t>, kMissCount> counts{};
+
+  void add(const SampleGrid& grid, const MeasuredGrid& measured) {
+    std::array<std::uint64_t, kMissCount> here{};
+    for (const Miss miss : measured.miss) ++here[static_cast<std::size_t>(miss)];
+    // Around the rect nothing is seen.
+    here[static_cast<std::size_t>(Miss::kNothing)] +=
+        std::uint64_t(grid.width) * std::uint64_t(grid.height) - measured.miss.size();
+    for (std::size_t k = 0; k < here.size(); ++k) counts[k] += here[k];
+  }
+};
+
 /// Memory of one frame that the next one uses again.
 struct Workspace {
   SampleGrid exact;
@@ -123,8 +139,8 @@ struct VirtualScan::Impl {
   std::optional<Scene> scene, room;
   std::vector<SampleTracer> tracers;
   std::vector<SensorNoise> noises;
-  std::vector<std::vector<std::vector<float>>> albedos;  ///< by body, object, triangle
-  Albedo albedo;                                         ///< none where nothing has a colour
+  Albedo albedo;  ///< none where no noise asks for it
+  mutable std::vector<Tally> tallies;
   TurntableInfo turntable;
   SequenceHeader header;
   std::vector<FrameInfo> frames;
@@ -185,35 +201,20 @@ struct VirtualScan::Impl {
     return {};
   }
 
-  Result<> make_tracers() {
-    for (const VirtualScanner& scanner : options.scanners) {
-      TURNSCAN_ASSIGN(SampleTracer tracer, SampleTracer::create(scanner.model));
-      TURNSCAN_ASSIGN(SensorNoise measure,
-                      SensorNoise::create(scanner.model, noise,
-                                          static_cast<std::uint64_t>(options.measure.seed),
-                                          static_cast<std::uint32_t>(tracers.size())));
+  Result<> make_scanners() {
+    const auto seed = static_cast<std::uint64_t>(options.measure.seed);
+    for (std::size_t k = 0; k < scanner_count(); ++k) {
+      const ScannerModel& model = options.scanners[k].model;
+      TURNSCAN_ASSIGN(SampleTracer tracer, SampleTracer::create(model));
+      TURNSCAN_ASSIGN(SensorNoise sensor_noise,
+                      SensorNoise::create(model, noise, seed, static_cast<std::uint32_t>(k)));
       tracers.push_back(std::move(tracer));
-      noises.push_back(std::move(measure));
+      noises.push_back(std::move(sensor_noise));
     }
+    if (noise.kind == NoiseKind::kModel || noise.kind == NoiseKind::kPhysics)
+      albedo = albedo_of({turning, standing});
+    tallies = std::vector<Tally>(scanner_count());
     return {};
-  }
-
-  /// How light things are, by their colours.
-  void find_albedos() {
-    bool any = false;
-    for (const auto* meshes : {&turning, &standing}) {
-      albedos.emplace_back();
-      for (const TriangleMesh& mesh : *meshes) {
-        albedos.back().push_back(triangle_albedos(mesh));
-        any |= !albedos.back().back().empty();
-      }
-    }
-    if (!any) return;
-    albedo = [this](std::uint32_t body, std::uint32_t object, std::uint32_t triangle) {
-      const auto& objects = albedos[body];
-      if (object >= objects.size() || objects[object].empty()) return float(kDefaultAlbedo);
-      return objects[object][triangle];
-    };
   }
 
   SensorInfo sensor_info(const VirtualScanner& scanner) const {
@@ -331,8 +332,9 @@ struct VirtualScan::Impl {
     const Pose T = T_world_sensor(k, state.travel);
     const std::vector<Body> bodies = bodies_at(state.angle_rad);
     tracers[k].trace(bodies, T, space.exact);
-    noises[k].apply({tracers[k], bodies, T, &albedo}, space.exact,
+    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, space.exact,
                     static_cast<std::uint32_t>(position / scanner_count()), space.measured);
+    tallies[k].add(space.exact, space.measured);
     const Paint paint({turning, standing});
     const bool color = options.record.color;
     Frame frame;
@@ -362,8 +364,7 @@ Result<VirtualScan> VirtualScan::create(std::vector<TriangleMesh> objects,
   auto impl = std::make_unique<Impl>(options, noise, std::move(states));
   impl->place(std::move(objects));
   TURNSCAN_TRY(impl->build_scenes());
-  TURNSCAN_TRY(impl->make_tracers());
-  impl->find_albedos();
+  TURNSCAN_TRY(impl->make_scanners());
   impl->make_header();
   impl->make_frames();
   return VirtualScan(std::move(impl));
@@ -371,6 +372,13 @@ Result<VirtualScan> VirtualScan::create(std::vector<TriangleMesh> objects,
 
 const SequenceHeader& VirtualScan::header() const { return impl_->header; }
 const std::vector<FrameInfo>& VirtualScan::frames() const { return impl_->frames; }
+std::array<std::uint64_t, kMissCount> VirtualScan::tally(std::size_t scanner) const {
+  std::array<std::uint64_t, kMissCount> counts{};
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    counts[k] = impl_->tallies.at(scanner).counts[k].load();
+  return counts;
+}
+
 std::span<const TriangleMesh> VirtualScan::objects() const {
   return std::span(impl_->turning).first(impl_->object_count);
 }

@@ -2,6 +2,7 @@
 // Virtual scanners that look at objects on a turntable. To the rest of turnscan it is a recording
 // like any other.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -103,6 +104,10 @@ class VirtualScan : public FrameSequence {
   const std::vector<FrameInfo>& frames() const override;
   /// Rendered anew at each call, on the calling thread.
   Result<Frame> read(std::size_t position) const override;
+
+  /// How many samples of a scanner were taken so far, by what became of them: position i counts
+  /// Miss(i) of samples.hpp. Every call of read() adds to it.
+  std::array<std::uint64_t, 10> tally(std::size_t scanner) const;
 
   // The truth.
   /// Every sample of a frame, also of a dropped one. Fails with kNotFound.

@@ -5,7 +5,8 @@ import re
 import harness
 from harness import FAILED, ROOT, USAGE, run
 
-COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "demo", "reference"]
+COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "simulate", "demo",
+            "reference"]
 
 
 class Help(harness.TestCase):

@@ -67,6 +67,26 @@ TEST(RecordingWriter, TakesAnEmptyFolderAndRefusesAnyOther) {
   EXPECT_EQ(all_files(temp / "full").size(), 1u);
 }
 
+TEST(RecordingWriter, KeepsAScanThatSawNothing) {
+  const TempFolder temp;
+  Frame nothing = scan_frame(1);
+  nothing.points = {};
+  nothing.grid_width = nothing.grid_height = 0;
+  nothing.grid.clear();
+  auto writer = RecordingWriter::create(temp / "r", testing::scanner_header());
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->append(scan_frame(0)));
+  ASSERT_TRUE(writer->append(nothing));
+  ASSERT_TRUE(writer->finish());
+  const auto recording = Recording::open(temp / "r");
+  ASSERT_TRUE(recording) << recording.error().text();
+  EXPECT_TRUE(recording->notes().empty());
+  ASSERT_EQ(recording->frames()[1].status, FrameStatus::kOk);
+  const auto frame = recording->read(1);
+  ASSERT_TRUE(frame) << frame.error().text();
+  EXPECT_TRUE(frame->points.empty());
+}
+
 TEST(RecordingWriter, RefusesAHeaderThatIsNotUsable) {
   const TempFolder temp;
   SequenceHeader header = small_header();

@@ -1,0 +1,103 @@
+#include "truth_files.hpp"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <turnscan/core/version.hpp>
+#include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/recording/calibration_file.hpp>
+
+namespace turnscan::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr const char* kKnown = "known to the simulator";
+
+Json matrix_json(const Pose& T) {
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) {
+    Json row = Json::array();
+    for (int c = 0; c < 4; ++c) row.push_back(T.matrix()(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string poses_csv(const VirtualScan& scan) {
+  std::string text = "index,time_s,sensor,angle_deg,tx,ty,tz,qx,qy,qz,qw\n";
+  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
+    const FrameInfo& frame = scan.frames()[i];
+    const Pose T = scan.T_table_sensor(i);
+    const Vec3d t = T.translation();
+    const Eigen::Quaterniond q(T.linear());
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", frame.index, frame.time_s, frame.sensor,
+                    scan.angle_rad(i) * kDegrees, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  return text;
+}
+
+Calibration calibration_of(const VirtualScan& scan) {
+  Calibration calibration;
+  calibration.method = CalibrationMethod::kMotion;
+  calibration.table = scan.turntable();
+  calibration.axis_sigma_rad = calibration.center_sigma_m = calibration.height_sigma_m =
+      calibration.radius_sigma_m = calibration.speed_sigma_rad_s = 0.0;
+  calibration.axis_found = calibration.center_found = calibration.height_found =
+      calibration.radius_found = calibration.angles_found = kKnown;
+  if (calibration.table.speed_rad_s) calibration.speed_found = "mean over the recording";
+  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
+    calibration.angles_rad.push_back(scan.angle_rad(i));
+    calibration.angle_sigma_rad.push_back(0.0);
+  }
+  return calibration;
+}
+
+std::string truth_json(const VirtualScan& scan, const PlacedObject* placed) {
+  Json out;
+  out["format"] = "turnscan truth";
+  out["software"] = std::string("turnscan ") + version();
+  if (placed != nullptr) {
+    out["object"]["scale"] = placed->scale;
+    out["object"]["T_table_object"] = matrix_json(scan.T_table_given() * placed->T_table_object);
+  }
+  out["sensors"] = Json::array();
+  for (std::size_t k = 0; k < scan.header().sensors.size(); ++k) {
+    Json sensor;
+    sensor["model"] = scan.header().sensors[k].model;
+    // The frames of the first instant come in the order of the sensors.
+    sensor["T_table_sensor"] = matrix_json(scan.T_table_sensor(k));
+    out["sensors"].push_back(std::move(sensor));
+  }
+  return out.dump(2) + "\n";
+}
+
+Result<> write_files(const fs::path& folder, const VirtualScan& scan, const SceneDescription& scene,
+                     const PlacedObject* placed) {
+  TURNSCAN_TRY(write_file_atomically(folder / "poses.csv", poses_csv(scan)));
+  TURNSCAN_TRY(write_calibration(folder / "calibration.json", calibration_of(scan)));
+  TURNSCAN_TRY(write_file_atomically(folder / "truth.json", truth_json(scan, placed)));
+  TURNSCAN_TRY(write_file_atomically(folder / "scene.toml", scene_toml(scene)));
+  if (placed == nullptr) return {};
+  return write_meshes(folder / "object.ply", scan.objects());
+}
+
+}  // namespace
+
+Result<> write_truth(const fs::path& folder, const VirtualScan& scan, const SceneDescription& scene,
+                     const PlacedObject* placed) {
+  const fs::path truth = folder / "truth";
+  std::error_code error;
+  fs::create_directory(truth, error);
+  if (error)
+    return fail_at(truth.string(), ErrorCode::kIo, "cannot create the folder: {}", error.message());
+  auto written = write_files(truth, scan, scene, placed);
+  if (!written) fs::remove_all(truth, error);
+  return written;
+}
+
+}  // namespace turnscan::cli

@@ -1,0 +1,19 @@
+#pragma once
+// What the simulator knows and a real recording never says, beside the recording.
+
+#include <filesystem>
+#include <turnscan/simulator/object_placement.hpp>
+#include <turnscan/simulator/scene_file.hpp>
+#include <turnscan/simulator/virtual_scan.hpp>
+
+namespace turnscan::cli {
+
+/// Writes folder/truth: object.ply (table frame, platter at angle 0; none for the empty table),
+/// poses.csv (every frame's angle and T_table_sensor, the turn taken back), calibration.json (as
+/// turnscan calibrate saves it), truth.json (poses of the sensors and of the object) and scene.toml
+/// (the description as it was used). On failure nothing of it remains. placed: nullptr for the
+/// empty table.
+Result<> write_truth(const std::filesystem::path& folder, const VirtualScan& scan,
+                     const SceneDescription& scene, const PlacedObject* placed);
+
+}  // namespace turnscan::cli
