@@ -214,6 +214,14 @@ Result<> Run::read_views() {
     out_.cropped += views[i]->kept;
     if (!views[i]->empty()) volume_.views.push_back(std::move(*views[i]));
   }
+  // Where the frames' places disagree, the cloud is thicker than one frame's noise.
+  MergedCloud sample;
+  sample.cloud.points = sample_points(volume_);
+  if (sample.cloud.size() >= 100) {
+    const auto start = 3.0 * std::max(volume_.spacing_m, noise);
+    out_.merged_noise_m = cloud_statistics(sample, start).noise_m;
+    volume_.noise_m = std::max(noise, out_.merged_noise_m);
+  }
   return {};
 }
 

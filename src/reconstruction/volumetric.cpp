@@ -118,6 +118,10 @@ class Run {
     double cell = 0.5 * input_.spacing_m;
     std::string reason =
         fmt::format("half the spacing of a frame's points, {}", mm(input_.spacing_m));
+    if (cell < 0.5 * input_.noise_m) {
+      cell = 0.5 * input_.noise_m;
+      reason = fmt::format("half the noise, {}", mm(input_.noise_m));
+    }
     if (cell < longest / 600.0) {
       cell = longest / 600.0;
       reason = fmt::format("a 600th of the longest side, {}", mm(longest));
@@ -247,6 +251,12 @@ OptionTable describe(VolumetricOptions& o) {
               "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
               "of what the volume gives");
   return table;
+}
+
+std::vector<Vec3f> sample_points(const VolumetricInput& input) {
+  std::vector<Vec3f> points;
+  for_each_point(input, 64, [&](const Vec3f& p) { points.push_back(p); });
+  return points;
 }
 
 Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,

@@ -48,6 +48,9 @@ struct VolumetricResult {
   double cell_m = 0.0;
 };
 
+/// Points inside the cylinder of up to about 64 views spread over the input, edges left out.
+std::vector<Vec3f> sample_points(const VolumetricInput& input);
+
 /// Closed, 2-manifold, outward pieces. Fails with kTooFewPoints when no surface is found,
 /// kResourceLimit, kCancelled.
 Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,
