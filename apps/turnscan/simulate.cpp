@@ -14,8 +14,10 @@
 
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "coverage_file.hpp"
 #include "output_file.hpp"
 #include "text_table.hpp"
+#include "true_samples.hpp"
 #include "truth_files.hpp"
 
 namespace turnscan::cli {
@@ -56,8 +58,8 @@ class SimulateCommand : public Command {
         fmt::format("What stands on the turntable: a mesh file, {}{}, or {} for the table alone",
                     kBuiltin, fmt::join(builtin_object_names(), fmt::format(", {}", kBuiltin)),
                     kEmptyTable));
-    line.required_option("-o,--out", "RECORDING", out_,
-                         "Folder to make for the recording; it must not exist or be empty");
+    line.option("-o,--out", "RECORDING", out_,
+                "Folder to make for the recording; it must not exist or be empty");
     line.repeatable(
         "--scanner", "SCANNER", scanners_,
         fmt::format("A preset ({}) or a file FILE.toml; may be given several times. What of its "
@@ -65,6 +67,11 @@ class SimulateCommand : public Command {
                     "kinect-v2)",
                     fmt::join(scanner_presets(), ", ")));
     line.option("--unit", "UNIT", unit_, "Unit of OBJECT if its file does not say it: mm, m, ...");
+    line.option("--coverage", "FILE.ply", coverage_,
+                "Write how well the scan covers the object, and why not: a coloured mesh, and "
+                "beside it FILE.json. Without --out nothing is recorded");
+    line.flag("--samples", samples_,
+              "Also write every sample with what there was to see, into RECORDING/truth/samples");
     line.option("--report", "FILE.json", report_,
                 "Write what was done as JSON: options, counts, times");
     line.file_option("--scene", "FILE.toml",
@@ -73,12 +80,12 @@ class SimulateCommand : public Command {
                      [this](const std::string& path) { return read_scene(path, scene_); });
     for (SceneTable& table : describe(scene_))
       line.group(table.name, table.title, std::move(table.options));
+    line.group("coverage", "Coverage", describe(coverage_options_));
   }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(take_arguments());
-    TURNSCAN_TRY(check_output_folder(out_));
-    TURNSCAN_TRY(check_output_file(report_, ".json"));
+    TURNSCAN_TRY(check_outputs());
     const auto begin = Clock::now();
     TURNSCAN_ASSIGN(const VirtualScanOptions options, scan_options(scene_));
     TURNSCAN_ASSIGN(const std::optional<PlacedObject> placed, load_object(session.context()));
@@ -87,10 +94,15 @@ class SimulateCommand : public Command {
     TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create(std::move(meshes), options));
     Timing timing;
     timing.prepare_s = seconds_since(begin);
-    TURNSCAN_TRY(record(scan, placed ? &*placed : nullptr, session.context()));
+    if (!out_.empty()) TURNSCAN_TRY(record(scan, placed ? &*placed : nullptr, session.context()));
     timing.record_s = seconds_since(begin) - timing.prepare_s;
+    std::optional<CoverageMap> map;
+    if (!coverage_.empty()) {
+      TURNSCAN_ASSIGN(map, cover(scan, options, session.context()));
+    }
     if (!report_.empty()) TURNSCAN_TRY(write_file_atomically(report_, report_json(scan, timing)));
-    tell(scan, timing, session);
+    if (!out_.empty()) tell(scan, timing, session);
+    if (map) tell(*map, session);
     return {};
   }
 
@@ -108,6 +120,31 @@ class SimulateCommand : public Command {
       scene_.scanners.push_back(std::move(entry));
     }
     return {};
+  }
+
+  Result<> check_outputs() const {
+    if (out_.empty() && coverage_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--out: missing; give the folder to make, or --coverage FILE.ply");
+    if (out_.empty() && samples_)
+      return fail(ErrorCode::kInvalidOption, "--samples: they go into a recording; give it --out");
+    if (!out_.empty()) TURNSCAN_TRY(check_output_folder(out_));
+    TURNSCAN_TRY(check_output_file(report_, ".json"));
+    TURNSCAN_TRY(check_output_file(coverage_, ".ply"));
+    return coverage_.empty() ? Result<>() : check_output_file(coverage_json_path(), ".json");
+  }
+
+  std::string coverage_json_path() const {
+    return fs::path(coverage_).replace_extension(".json").string();
+  }
+
+  Result<CoverageMap> cover(const VirtualScan& scan, const VirtualScanOptions& options,
+                            const RunContext& context) const {
+    TURNSCAN_ASSIGN(CoverageMap map, coverage_of(scan, options, coverage_options_, context));
+    TURNSCAN_TRY(write_coverage_mesh(coverage_, map, coverage_options_));
+    TURNSCAN_TRY(write_file_atomically(coverage_json_path(),
+                                       coverage_json(map, coverage_options_).dump(2) + "\n"));
+    return map;
   }
 
   Result<TriangleMesh> load_mesh(const RunContext& context) const {
@@ -142,6 +179,8 @@ class SimulateCommand : public Command {
     const bool existed = fs::exists(out_, error);
     TURNSCAN_TRY(write_recording(out_, scan, context));
     auto truth = write_truth(out_, scan, scene_, placed);
+    if (truth && samples_)
+      truth = write_true_samples(fs::path(out_) / "truth" / "samples", scan, context);
     if (!truth) discard(out_, existed);
     return truth;
   }
@@ -190,6 +229,11 @@ class SimulateCommand : public Command {
     if (!report_.empty()) session.print("Wrote {}\n", report_);
   }
 
+  void tell(const CoverageMap& map, Session& session) const {
+    session.print("{}", coverage_text(map, coverage_options_));
+    session.print("Wrote {} and {}\n", coverage_, coverage_json_path());
+  }
+
   /// "12.3 % measured, 80.0 % nothing, ..."
   template <class Tally>
   static std::string shares(const Tally& tally) {
@@ -205,7 +249,9 @@ class SimulateCommand : public Command {
     return text;
   }
 
-  std::string object_, out_, unit_, report_;
+  std::string object_, out_, unit_, report_, coverage_;
+  bool samples_ = false;
+  CoverageMapOptions coverage_options_;
   std::vector<std::string> scanners_;
   SceneDescription scene_;
 };
