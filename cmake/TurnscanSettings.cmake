@@ -36,4 +36,7 @@ if(TURNSCAN_SANITIZE)
   add_compile_options(-fsanitize=${TURNSCAN_SANITIZE} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${TURNSCAN_SANITIZE})
+  if(TURNSCAN_SANITIZE STREQUAL "thread")
+    add_compile_definitions(TURNSCAN_PLAIN_THREADS)
+  endif()
 endif()

@@ -2,9 +2,15 @@
 // The one header through which turnscan runs loops on several threads. The result of a loop must
 // not depend on the number of threads: bodies write to places of their own, and reductions go
 // through fixed chunks that are combined in order.
+// With TURNSCAN_PLAIN_THREADS (the preset tsan) the threads are std::thread's: the thread sanitizer
+// cannot follow how oneTBB, which is not built for it, hands work from thread to thread.
 
+#ifdef TURNSCAN_PLAIN_THREADS
+#include <functional>
+#else
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#endif
 
 #include <cstddef>
 #include <utility>
@@ -16,6 +22,14 @@ namespace turnscan {
 void set_thread_count(int count);
 int thread_count();
 
+#ifdef TURNSCAN_PLAIN_THREADS
+namespace detail {
+/// Calls body(begin, end) on threads of its own, in pieces of up to `grain`.
+void run_on_threads(std::size_t n, std::size_t grain,
+                    const std::function<void(std::size_t, std::size_t)>& body);
+}  // namespace detail
+#endif
+
 /// Calls body(i) for each i in [0, n), in any order and on any thread. Serial for n <= grain.
 template <class Body>
 void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
@@ -23,10 +37,16 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
     for (std::size_t i = 0; i < n; ++i) body(i);
     return;
   }
+#ifdef TURNSCAN_PLAIN_THREADS
+  detail::run_on_threads(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+#else
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n, grain),
                             [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
                               for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
                             });
+#endif
 }
 
 /// Splits [0, n) into chunks of chunk_size (the last may be shorter), computes map(begin, end) of
