@@ -79,7 +79,7 @@ inline void check(const FrameSequence& sequence) {
 }
 
 /// Opens path as that layout with all that it may ask for.
-inline void check_import(const std::filesystem::path& path, ImportOptions options) {
+inline void check_import(const std::filesystem::path& path, const ImportOptions& options) {
   const auto sequence = open_foreign(path, options);
   if (sequence) check(**sequence);
 }
