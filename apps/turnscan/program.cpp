@@ -81,7 +81,7 @@ std::string_view advice_for(ErrorCode code) {
 }
 
 std::string with_advice(const Error& error) {
-  const std::string text = error.text();
+  std::string text = error.text();
   if (text.find("; ") != std::string::npos) return text;
   return fmt::format("{}; {}", text, advice_for(error.code));
 }

@@ -87,7 +87,7 @@ class Reader {
     std::string name(needed + 1, '\0');
     if (NMR::lib3mf_object_getnameutf8(object.get(), name.data(), needed + 1, &needed) != LIB3MF_OK)
       return {};
-    return name.c_str();
+    return name.substr(0, name.find('\0'));
   }
 
   void add_object(const Lib3mfHandle& object, const Transform& transform, int depth,

@@ -163,7 +163,7 @@ class RoomBuilder {
     const double size = 0.02 + 0.04 * draw(thing, 0);  // half its width
     const auto free = free_place(thing, size);
     if (!free) return;
-    const Vec3d place = *free;
+    const Vec3d& place = *free;
     const Rgb color = kThingColors[thing % kThingColors.size()];
     const double height = size * (0.5 + 2.5 * draw(thing, 2));
     const auto shape = static_cast<int>(3.0 * draw(thing, 3));
