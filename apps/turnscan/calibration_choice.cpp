@@ -107,9 +107,17 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence, const Calibra
   TURNSCAN_ASSIGN(const auto why, doubt(sequence, context));
   if (!why) return CalibrationChoice();
   auto found = from_motion(sequence, wish, *why, context);
-  if (found || found.error().code == ErrorCode::kCancelled) return found;
+  if (!found && found.error().code == ErrorCode::kCancelled) return found;
+  std::string failure = found ? "" : found.error().message;
+  if (found) {
+    // A calibration goes before the recording's only if it does what that one does not.
+    TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
+    TURNSCAN_ASSIGN(const auto still, doubt(*better, context));
+    if (!still) return found;
+    failure = "the one from motion does not close either";
+  }
   CalibrationChoice out;
-  out.note = fmt::format("{}, but no better one was found ({})", *why, found.error().message);
+  out.note = fmt::format("{}, but no better one was found ({})", *why, failure);
   return out;
 }
 

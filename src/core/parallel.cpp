@@ -1,3 +1,11 @@
+#include <oneapi/tbb/task_arena.h>
+
+#include <turnscan/core/parallel.hpp>
+
+void turnscan::run_on_this_thread(const std::function<void()>& body) {
+  oneapi::tbb::task_arena(1).execute(body);
+}
+
 #ifdef TURNSCAN_PLAIN_THREADS
 
 #include <algorithm>

@@ -5,14 +5,13 @@
 // With TURNSCAN_PLAIN_THREADS (the preset tsan) the threads are std::thread's: the thread sanitizer
 // cannot follow how oneTBB, which is not built for it, hands work from thread to thread.
 
-#ifdef TURNSCAN_PLAIN_THREADS
-#include <functional>
-#else
+#ifndef TURNSCAN_PLAIN_THREADS
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #endif
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,9 @@ namespace turnscan {
 /// Limits every parallel loop of the process to `count` threads; 0 means all cores.
 void set_thread_count(int count);
 int thread_count();
+
+/// Calls body() on this thread. oneTBB loops that it starts, a library's too, stay on this thread.
+void run_on_this_thread(const std::function<void()>& body);
 
 #ifdef TURNSCAN_PLAIN_THREADS
 namespace detail {

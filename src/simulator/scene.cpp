@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <stdexcept>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/scene_impl.hpp>
 
 namespace turnscan {
@@ -143,9 +144,7 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
     return fail(ErrorCode::kInvalidOption, "platter: the radius {} m is not positive",
                 *platter_radius_m);
   auto impl = std::make_unique<Impl>();
-  // One thread: the tree, and with it who wins where two triangles tie, never depends on how many
-  // there are.
-  impl->device = DevicePtr(rtcNewDevice("threads=1"));
+  impl->device = DevicePtr(rtcNewDevice(nullptr));
   if (!impl->device) return fail(ErrorCode::kLibrary, "Embree could not be started");
   impl->scene = ScenePtr(rtcNewScene(impl->device.get()));
   rtcSetSceneFlags(impl->scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -160,7 +159,9 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
     for (const auto& t : objects[i].triangles)
       for (const std::uint32_t v : t) impl->object_box.add(objects[i].vertices[v].cast<double>());
   }
-  rtcCommitScene(impl->scene.get());
+  // One thread: the tree, and with it who wins where two triangles tie, never depends on how many
+  // there are. Not by the device's setting: that would hold for all of the process.
+  run_on_this_thread([&] { rtcCommitScene(impl->scene.get()); });
   const RTCError error = rtcGetDeviceError(impl->device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     return fail(ErrorCode::kResourceLimit, "not enough memory to trace rays in this scene");

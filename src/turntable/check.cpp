@@ -14,6 +14,7 @@ using namespace detail;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kPairs = 6;
+constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
 
 /// Some frames of another sequence.
 class Excerpt : public FrameSequence {
@@ -86,13 +87,16 @@ struct PairClosure {
   double turn_rad, shift_m;
 };
 
-/// Where free registration moves the first frame's points from where the calibration puts them.
+/// How far free registration moves the first frame's points from where the calibration puts them.
+/// Only what it moves along the normals counts: a plate slides in its plane and a cylinder turns
+/// about itself at no cost, and there registration finds anything.
 std::optional<PairClosure> compare(const MotionFrame& first, const MotionFrame& second,
                                    const TurntableInfo& table, double turn,
                                    const RunContext& context) {
   if (first.samples.size() < 100 || second.samples.size() < 100) return std::nullopt;
   std::vector<Vec3f> points, targets, normals;
-  const Eigen::AngleAxisd R(turn, table.axis.normalized());
+  const Vec3d axis = table.axis.normalized();
+  const Eigen::AngleAxisd R(turn, axis);
   for (const MotionSample& s : first.samples)
     points.push_back((table.center_m + R * (s.p.cast<double>() - table.center_m)).cast<float>());
   for (const MotionSample& s : second.samples) {
@@ -104,13 +108,22 @@ std::optional<PairClosure> compare(const MotionFrame& first, const MotionFrame& 
   options.tolerance_m = 2e-5;
   const auto found = icp(points, targets, normals, Pose::Identity(), options, context);
   if (!found) return std::nullopt;
-  double shift = 0.0;
-  for (const Vec3f& p : points) {
-    const Vec3d at = p.cast<double>();
-    shift += (found->T_target_source * at - at).norm() / double(points.size());
+  double moved = 0.0, moved_by_turn = 0.0, lever = 0.0, reach = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3d p = points[i].cast<double>();
+    const Vec3d n = R * first.samples[i].n.cast<double>();
+    const double along = n.dot(found->T_target_source * p - p);
+    const Vec3d tangent = axis.cross(p - table.center_m);
+    const double per_radian = n.dot(tangent);
+    moved += along * along;
+    moved_by_turn += along * per_radian;
+    lever += per_radian * per_radian;
+    reach += tangent.squaredNorm();
   }
-  const Eigen::AngleAxisd rotation(found->T_target_source.linear());
-  return PairClosure{rotation.angle() * rotation.axis().dot(table.axis.normalized()), shift};
+  // Of a displacement, its normals see a third of the square where they point in all directions.
+  const double shift = std::sqrt(3.0 * moved / double(points.size()));
+  const bool shown = lever > kLeastLever * reach;
+  return PairClosure{shown ? moved_by_turn / lever : std::nan(""), shift};
 }
 
 class Checker {
@@ -318,7 +331,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
     const auto closure =
         compare(frame_at(pair.first), frame_at(pair.second), *table, turn, context);
     if (!closure) continue;
-    turns.push_back(closure->turn_rad);
+    if (std::isfinite(closure->turn_rad)) turns.push_back(closure->turn_rad);
     shifts.push_back(closure->shift_m);
   }
   if (shifts.size() < 2) return std::nullopt;

@@ -9,7 +9,8 @@ namespace turnscan {
 struct ClosureError {
   double turn_rad = 0.0;  ///< median turn about the axis that is missing; NaN where the shape does
                           ///< not show it
-  double shift_m = 0.0;   ///< median of the mean distance of the object's points
+  double shift_m = 0.0;   ///< median of sqrt(3) times the root mean square of how far the object's
+                          ///< points lie off along their normals
   std::size_t pairs = 0;  ///< pairs of frames that were compared
   bool bad() const;       ///< over 1.5 mm or 1 degree
 };

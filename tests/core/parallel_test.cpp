@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <turnscan/core/parallel.hpp>
 
 namespace turnscan {
@@ -63,6 +65,19 @@ TEST(Parallel, ChunksGiveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, four);
   EXPECT_EQ(one, sum_in_chunks());
 }
+
+#ifndef TURNSCAN_PLAIN_THREADS
+TEST(Parallel, RunOnThisThreadKeepsLoopsThere) {
+  const auto here = std::this_thread::get_id();
+  std::atomic<int> elsewhere{0};
+  run_on_this_thread([&] {
+    parallel_for(1000, 1, [&](std::size_t) {
+      if (std::this_thread::get_id() != here) ++elsewhere;
+    });
+  });
+  EXPECT_EQ(elsewhere, 0);
+}
+#endif
 
 TEST(Parallel, ThreadCountIsWhatWasSet) {
   const int all = thread_count();

@@ -124,7 +124,7 @@ class Reconstruct(harness.TestCase):
 class SeveralObjects(harness.TestCase):
     def setUp(self):
         super().setUp()
-        self.rec = str(shared_demo("pair", 60) / "recording")
+        self.rec = str(shared_demo("pair", 120) / "recording")
 
     def test_several_objects_become_numbered_files(self):
         out = self.ok("reconstruct", self.rec, "-o", "m.stl").stdout

@@ -1,3 +1,4 @@
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/scene.hpp>
 
@@ -20,6 +21,13 @@ std::vector<Ray> random_rays(std::size_t n) {
     rays[i].direction = Vec3d(0.1 * u(3), 0.1 * u(4), 0.1 * u(5)).cast<float>() - rays[i].origin;
   }
   return rays;
+}
+
+TEST(Scene, LeavesTheNumberOfThreadsOfTheProcessAlone) {
+  const int before = thread_count();
+  const auto scene = Scene::create({}, 0.1);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(thread_count(), before);
 }
 
 TEST(Scene, HitsASphereWhereAlgebraSays) {
