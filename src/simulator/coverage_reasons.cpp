@@ -144,8 +144,9 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
       outcomes[second.who[k]].raise(Outcome::kSeen, Miss::kNone);
 }
 
-/// Places around the table at the scanners' heights.
+/// Places around the table at the scanners' heights; none without a pose.
 std::vector<Vec3d> places_around(const CoverageJob& job) {
+  if (job.poses.empty()) return {};
   double low = 1e300, high = -1e300, radius = 0.0;
   for (const CoveragePose& pose : job.poses) {
     const Vec3d p = pose.T_table_sensor.translation();
@@ -153,8 +154,8 @@ std::vector<Vec3d> places_around(const CoverageJob& job) {
     high = std::max(high, p.y());
     radius = std::max(radius, std::hypot(p.x(), p.z()));
   }
-  const int heights =
-      std::clamp(1 + static_cast<int>(std::ceil((high - low) / kHeightStep_m)), 1, kMostHeights);
+  const int heights = static_cast<int>(
+      std::clamp(1.0 + std::ceil((high - low) / kHeightStep_m), 1.0, double(kMostHeights)));
   std::vector<Vec3d> places;
   for (int h = 0; h < heights; ++h) {
     for (int d = 0; d < kDirections; ++d) {

@@ -396,7 +396,7 @@ class Loader {
         spread += d * d.transpose() / double(kNeighbours);
       }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
-      const Vec3d e = eigen.eigenvalues();
+      const Vec3d& e = eigen.eigenvalues();
       if (!(e[1] > 0.0) || e[0] > 0.05 * e[1]) continue;
       Vec3d n = eigen.eigenvectors().col(0);
       if (n.dot(points.viewpoint.direction_from(p.cast<double>())) < 0.0) n = -n;
