@@ -3,6 +3,7 @@
 #include <limits>
 #include <nanoflann.hpp>
 #include <stdexcept>
+#include <turnscan/core/morton.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/geometry/knn.hpp>
 
@@ -88,15 +89,6 @@ class WithinRadius {
   std::vector<std::pair<std::uint32_t, float>>& out_;
 };
 
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  return (x | x << 2) & 0x1249249249249249ULL;
-}
-
 PointStore sort_along_curve(std::span<const Vec3f> points) {
   Box box;
   for (const Vec3f& p : points) {
@@ -108,10 +100,8 @@ PointStore sort_along_curve(std::span<const Vec3f> points) {
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
     const Vec3d cell = (points[i].cast<double>() - box.min) * (2097151.0 / longest);
-    order.emplace_back(spread_bits(std::uint64_t(cell.x())) |
-                           spread_bits(std::uint64_t(cell.y())) << 1 |
-                           spread_bits(std::uint64_t(cell.z())) << 2,
-                       i);
+    order.emplace_back(
+        morton_code(std::uint64_t(cell.x()), std::uint64_t(cell.y()), std::uint64_t(cell.z())), i);
   }
   std::sort(order.begin(), order.end());
   PointStore store;

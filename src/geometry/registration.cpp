@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/closest_point.hpp>
 #include <turnscan/geometry/knn.hpp>
@@ -30,12 +31,6 @@ struct Step {
   double rms_m = 0.0;
   int held_directions = 0;
 };
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Icp {
  public:
@@ -107,7 +102,7 @@ class Icp {
   double huber_limit() const {
     std::vector<double> sizes;
     for (const Pair& pair : pairs_) sizes.push_back(std::abs(pair.residual));
-    return kHuber * kMedianToSigma * median_of(std::move(sizes));
+    return kHuber * kMedianToSigma * median(sizes);
   }
 
   /// Rotation (times a length, so that all six unknowns are lengths) about the pairs' centre, and

@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/refine.hpp>
 #include <turnscan/reconstruction/refine_kernel.hpp>
@@ -128,10 +129,7 @@ double median_support(const std::vector<Site>& sites) {
   for (const Site& site : sites) {
     if (!site.lost) support.push_back(site.support);
   }
-  if (support.empty()) return 0.0;
-  const auto middle = support.begin() + std::ptrdiff_t(support.size() / 2);
-  std::nth_element(support.begin(), middle, support.end());
-  return *middle;
+  return median(support);
 }
 
 /// Joins those candidates of one voxel that face the same way.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <turnscan/core/morton.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/coverage.hpp>
 
@@ -13,17 +14,6 @@ namespace {
 constexpr std::size_t kGroup = 16;    // points traced together, as one packet
 constexpr float kRayStart_m = 1e-6f;  // rounding of the origin must not count as an occluder
 constexpr std::size_t kChunk = 4 * kGroup;
-
-/// Bits of x moved apart, two zeros between each.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  x = (x | x << 2) & 0x1249249249249249ULL;
-  return x;
-}
 
 /// Positions of the points along a Morton curve: neighbours in the order are neighbours in space.
 std::vector<std::uint32_t> order_in_space(std::span<const Vec3f> points) {
@@ -38,9 +28,7 @@ std::vector<std::uint32_t> order_in_space(std::span<const Vec3f> points) {
       continue;
     }
     const Vec3d q = (points[i].cast<double>() - box.min).cwiseProduct(scale);
-    keys[i] = {spread_bits(std::uint64_t(q.x())) | spread_bits(std::uint64_t(q.y())) << 1 |
-                   spread_bits(std::uint64_t(q.z())) << 2,
-               i};
+    keys[i] = {morton_code(std::uint64_t(q.x()), std::uint64_t(q.y()), std::uint64_t(q.z())), i};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(points.size());

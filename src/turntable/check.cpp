@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numbers>
+#include <turnscan/core/median.hpp>
 #include <turnscan/geometry/registration.hpp>
 #include <turnscan/turntable/check.hpp>
 #include <turnscan/turntable/motion_solve.hpp>
@@ -34,13 +35,6 @@ class Excerpt : public FrameSequence {
   std::vector<std::size_t> positions_;
   std::vector<FrameInfo> frames_;
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// What the recording says of a frame's angle; NaN: nothing.
 std::vector<double> recorded_angles(const FrameSequence& sequence) {
@@ -201,7 +195,7 @@ class Checker {
         moved.push_back(double(b) - double(a));
     }
     if (moved.size() < 500) return {};
-    const double drift = median(std::move(moved));
+    const double drift = median(moved);
     const bool good = std::abs(drift) < 0.001;
     say(good, "Warm-up: what stands still moved by {:+.2f} mm from the first frames to the last.{}",
         drift * 1e3, good ? "" : " The sensor was still warming up; let it run for half an hour.");
@@ -335,7 +329,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
     shifts.push_back(closure->shift_m);
   }
   if (shifts.size() < 2) return std::nullopt;
-  return ClosureError{median(turns), median(shifts), shifts.size()};
+  return ClosureError{median(turns, std::nan("")), median(shifts), shifts.size()};
 }
 
 Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,

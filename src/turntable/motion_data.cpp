@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/turntable/motion_data.hpp>
@@ -14,13 +15,6 @@ namespace {
 constexpr std::size_t kLooks = 36;   ///< frames that are averaged first
 constexpr double kWindow_m = 0.007;  ///< half width of the surface that a normal is taken over
 constexpr std::uint64_t kSeed = 0x6d6f74696f6eULL;
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Normal {
   Vec3d n;

@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 #include <set>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/motion_solve.hpp>
 
@@ -81,13 +82,6 @@ PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePa
   return out;
 }
 
-double median_of(std::vector<float>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 class Solver {
  public:
   Solver(const MotionData& data, const MotionState& start, const std::vector<FramePair>& pairs,
@@ -144,7 +138,7 @@ class Solver {
                   "motion: the frames do not overlap, only {} points of them meet; take more "
                   "frames a turn, or say where the axis is with a calibration",
                   out_.residuals);
-    out_.scale_m = options_.scale_m.value_or(std::max(1.4826 * median_of(sizes), 1e-7));
+    out_.scale_m = options_.scale_m.value_or(std::max(1.4826 * median(sizes), 1e-7));
     out_.rms_m = std::sqrt(squares / double(out_.residuals));
     return {};
   }
@@ -153,14 +147,14 @@ class Solver {
   /// mean residual of a pair is then larger than independent noise would make it, and every
   /// residual says so much less.
   void find_excess(const std::vector<PairSum>& sums, std::vector<float>& sizes) {
-    const double scale = options_.scale_m.value_or(1.4826 * median_of(sizes));
+    const double scale = options_.scale_m.value_or(1.4826 * median(sizes));
     std::vector<float> ratios;
     for (const PairSum& sum : sums) {
       if (sum.count >= 50)
         ratios.push_back(float(sum.sum * sum.sum / (double(sum.count) * scale * scale)));
     }
     constexpr double kMedianOfSquare = 0.455;  // of a standard normal
-    excess_ = std::max(1.0, median_of(ratios) / kMedianOfSquare);
+    excess_ = std::max(1.0, median(ratios) / kMedianOfSquare);
   }
 
   void add(const FramePair& pair, const PairSum& sum) {

@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/turntable/plane_fit.hpp>
@@ -12,13 +13,6 @@ namespace {
 constexpr double kHuber = 1.345;
 constexpr double kMedianToSigma = 1.4826;
 constexpr std::uint64_t kSeed = 0x706c616e65ULL;
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::optional<Plane> plane_through(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d n = (b - a).cross(c - a);
