@@ -75,6 +75,12 @@ std::string_view advice_for(ErrorCode code) {
     case ErrorCode::kMissingData:
     case ErrorCode::kTooFewPoints:
       return "look at the input with 'turnscan info'";
+    case ErrorCode::kDeviceBusy:
+      return "close the other program that uses it";
+    case ErrorCode::kDeviceLost:
+      return "check the cable and the power supply";
+    case ErrorCode::kNoPermission:
+      return "let your user open it (docs/devices.md says how)";
     default:
       return "try other options";
   }

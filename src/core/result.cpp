@@ -26,6 +26,12 @@ std::string_view name_of(ErrorCode code) {
       return "resource-limit";
     case ErrorCode::kLibrary:
       return "library";
+    case ErrorCode::kDeviceBusy:
+      return "device-busy";
+    case ErrorCode::kDeviceLost:
+      return "device-lost";
+    case ErrorCode::kNoPermission:
+      return "no-permission";
   }
   return "unknown";
 }

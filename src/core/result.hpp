@@ -22,7 +22,10 @@ enum class ErrorCode {
   kTooFewPoints,   ///< not enough points, triangles or frames to go on
   kAlreadyExists,  ///< the output exists and is never overwritten
   kResourceLimit,  ///< more memory or time than allowed
-  kLibrary         ///< a library that we call failed
+  kLibrary,        ///< a library that we call failed
+  kDeviceBusy,     ///< a device is there, but another program has it
+  kDeviceLost,     ///< a device stopped answering: unplugged, or its driver gave up
+  kNoPermission    ///< a device is there, but this user may not open it
 };
 
 /// Stable lower-case name, e.g. "too-few-points".
