@@ -1,28 +1,6 @@
-#include <algorithm>
-#include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/merge.hpp>
 
 namespace turnscan {
-
-namespace {
-
-/// Frames in flight: enough to keep the cores busy, few enough to keep memory flat.
-constexpr std::size_t kBatch = 64;
-
-void append(const FramePart& part, std::uint32_t frame, MergedCloud& merged) {
-  const PointCloud& in = part.cloud;
-  PointCloud& out = merged.cloud;
-  // Colours are kept for all points or for none.
-  if (!in.colors.empty() && out.colors.size() == out.points.size())
-    out.colors.insert(out.colors.end(), in.colors.begin(), in.colors.end());
-  out.points.insert(out.points.end(), in.points.begin(), in.points.end());
-  out.frame.insert(out.frame.end(), in.points.size(), frame);
-  merged.returns += part.returns;
-  merged.cropped += part.cropped;
-  merged.kept += in.points.size();
-}
-
-}  // namespace
 
 OptionTable describe(MergeOptions& o) {
   OptionTable table;
@@ -73,39 +51,22 @@ Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
   return part;
 }
 
-Result<MergedCloud> merge_frames(const FrameSequence& sequence, const FrameRecipe& recipe,
-                                 const std::vector<Pose>& T_table_sensor,
-                                 const RunContext& context) {
-  const auto& frames = sequence.frames();
-  MergedCloud merged;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Viewpoint& own = sequence.header().sensors.at(frames[i].sensor).viewpoint;
-    merged.viewpoints.push_back(own.transformed(T_table_sensor[i]));
-  }
-  context.begin_phase("read and filter frames", frames.size());
-  for (std::size_t begin = 0; begin < frames.size(); begin += kBatch) {
-    const std::size_t count = std::min(kBatch, frames.size() - begin);
-    std::vector<Result<FramePart>> parts(count);
-    parallel_for(count, 1, [&](std::size_t b) {
-      const std::size_t i = begin + b;
-      if (frames[i].status == FrameStatus::kDropped || context.cancelled()) return;
-      parts[b] = sequence.read(i).and_then(
-          [&](const Frame& frame) { return process_frame(frame, recipe, T_table_sensor[i]); });
-      context.advance();
-    });
-    TURNSCAN_TRY(context.check());
-    for (std::size_t b = 0; b < count; ++b) {
-      TURNSCAN_TRY(parts[b]);
-      if (frames[begin + b].status == FrameStatus::kDropped) {
-        ++merged.dropped_frames;
-        continue;
-      }
-      append(*parts[b], static_cast<std::uint32_t>(begin + b), merged);
-      ++merged.frames;
-    }
-  }
-  if (merged.cloud.colors.size() != merged.cloud.size()) merged.cloud.colors.clear();
-  return merged;
+void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merged) {
+  const PointCloud& in = part.cloud;
+  PointCloud& out = merged.cloud;
+  const bool colored =
+      out.colors.size() == out.points.size() && in.colors.size() == in.points.size();
+  if (colored)
+    out.colors.insert(out.colors.end(), in.colors.begin(), in.colors.end());
+  else
+    out.colors.clear();
+  out.points.insert(out.points.end(), in.points.begin(), in.points.end());
+  out.frame.insert(out.frame.end(), in.points.size(), std::uint32_t(merged.viewpoints.size()));
+  merged.viewpoints.push_back(viewpoint);
+  merged.returns += part.returns;
+  merged.cropped += part.cropped;
+  merged.kept += in.points.size();
+  ++merged.frames;
 }
 
 }  // namespace turnscan

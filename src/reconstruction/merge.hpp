@@ -2,7 +2,6 @@
 // From frames to one cloud in the table frame (thesis 3.4.1).
 
 #include <turnscan/core/frame.hpp>
-#include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/outliers.hpp>
 #include <turnscan/turntable/crop.hpp>
 
@@ -22,7 +21,6 @@ struct MergedCloud {
   std::uint64_t cropped = 0;          ///< of these, inside the cylinder
   std::uint64_t kept = 0;             ///< of these, kept by the filter of each frame
   std::size_t frames = 0;             ///< frames used
-  std::size_t dropped_frames = 0;     ///< marked as dropped in the recording
 
   /// Unit vector from point i towards the sensor that saw it.
   Vec3f towards_sensor(std::size_t i) const;
@@ -44,10 +42,8 @@ struct FramePart {
 Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
                                 const Pose& T_table_sensor);
 
-/// Reads and processes all frames on all cores and joins them in order: the same bytes for every
-/// number of threads. A frame that cannot be read fails the merge and is named.
-Result<MergedCloud> merge_frames(const FrameSequence& sequence, const FrameRecipe& recipe,
-                                 const std::vector<Pose>& T_table_sensor,
-                                 const RunContext& context);
+/// Joins what a frame gave; its viewpoint is in the table frame. Colours are kept for all points or
+/// for none.
+void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merged);
 
 }  // namespace turnscan

@@ -22,26 +22,32 @@ Result<double> angle_of(const FrameInfo& frame, double t0, std::optional<double>
 
 }  // namespace
 
+FramePoser::FramePoser(const SequenceHeader& header, std::optional<double> speed_rad_s)
+    : header_(&header), speed_rad_s_(speed_rad_s), sensors_(header.sensors.size()) {}
+
+Result<Pose> FramePoser::operator()(const FrameInfo& frame) {
+  if (!t0_) t0_ = frame.time_s;
+  if (frame.T_table_sensor) return *frame.T_table_sensor;
+  const auto recorded_speed =
+      header_->turntable ? header_->turntable->speed_rad_s : std::optional<double>();
+  TURNSCAN_ASSIGN(const double angle, angle_of(frame, *t0_, speed_rad_s_, recorded_speed));
+  source_ = frame.angle_rad && !speed_rad_s_ ? PoseSource::kAngles : PoseSource::kTimesAndSpeed;
+  auto& sensor = sensors_.at(frame.sensor);
+  if (!sensor) {
+    TURNSCAN_ASSIGN(sensor, sensor_pose(*header_, frame.sensor));
+  }
+  return Pose(rotation_about_y(-angle) * *sensor);
+}
+
 Result<FramePoses> frame_poses(const SequenceHeader& header, const std::vector<FrameInfo>& frames,
                                std::optional<double> speed_rad_s) {
   FramePoses out;
-  const auto recorded_speed =
-      header.turntable ? header.turntable->speed_rad_s : std::optional<double>();
-  const double t0 = frames.empty() ? 0.0 : frames.front().time_s;
-  std::vector<std::optional<Pose>> sensors(header.sensors.size());
+  FramePoser poser(header, speed_rad_s);
   for (const FrameInfo& frame : frames) {
-    if (frame.T_table_sensor) {
-      out.T_table_sensor.push_back(*frame.T_table_sensor);
-      continue;
-    }
-    TURNSCAN_ASSIGN(const double angle, angle_of(frame, t0, speed_rad_s, recorded_speed));
-    out.source = frame.angle_rad && !speed_rad_s ? PoseSource::kAngles : PoseSource::kTimesAndSpeed;
-    auto& sensor = sensors.at(frame.sensor);
-    if (!sensor) {
-      TURNSCAN_ASSIGN(sensor, sensor_pose(header, frame.sensor));
-    }
-    out.T_table_sensor.push_back(rotation_about_y(-angle) * *sensor);
+    TURNSCAN_ASSIGN(const Pose pose, poser(frame));
+    out.T_table_sensor.push_back(pose);
   }
+  out.source = poser.source();
   return out;
 }
 

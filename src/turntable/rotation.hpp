@@ -22,4 +22,19 @@ struct FramePoses {
 Result<FramePoses> frame_poses(const SequenceHeader& header, const std::vector<FrameInfo>& frames,
                                std::optional<double> speed_rad_s);
 
+/// The same for frames as they come; t0 is the time of the first one asked for.
+class FramePoser {
+ public:
+  /// header must outlive it.
+  FramePoser(const SequenceHeader& header, std::optional<double> speed_rad_s);
+  Result<Pose> operator()(const FrameInfo& frame);
+  PoseSource source() const { return source_; }
+
+ private:
+  const SequenceHeader* header_;
+  std::optional<double> speed_rad_s_, t0_;
+  std::vector<std::optional<Pose>> sensors_;
+  PoseSource source_ = PoseSource::kPoses;
+};
+
 }  // namespace turnscan

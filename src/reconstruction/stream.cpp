@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/first_look.hpp>
+#include <turnscan/reconstruction/point_stages.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/reconstruction/volumetric_stream.hpp>
+#include <turnscan/turntable/rotation.hpp>
+
+namespace turnscan {
+
+namespace {
+
+Result<> check_options(const ReconstructOptions& options) {
+  ReconstructOptions checked = options;
+  TURNSCAN_TRY(describe(checked).check());
+  TURNSCAN_TRY(objects_to_keep(options.components));
+  if (options.voxels.size_m && options.voxels.grid)
+    return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
+  if (options.surface.method == SurfaceMethod::kVolumetric && options.color)
+    return fail(ErrorCode::kInvalidOption,
+                "colour: --method volumetric carries none; use --method poisson");
+  return {};
+}
+
+Result<> check_sensor(const FrameInfo& info, const SequenceHeader& header) {
+  if (info.sensor < header.sensors.size()) return {};
+  return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", info.index, info.sensor);
+}
+
+/// A frame that is to be worked on, and its place.
+struct Placed {
+  std::size_t position = 0;  ///< in the list handed over
+  FrameInfo info;
+  Pose T_table_sensor;
+};
+
+}  // namespace
+
+class ReconstructionStream::Impl {
+ public:
+  Impl(const SequenceHeader& header, const ReconstructOptions& options)
+      : header_(header),
+        options_(options),
+        poser_(header_, options_.merge.speed_rad_s),
+        first_frames_(frames_of_first_look(header_, options_.crop)) {
+    recipe_ = FrameRecipe::make(header_);
+    recipe_.outliers = options_.outliers;
+  }
+
+  Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
+               const RunContext& context) {
+    const StageTimer timer(out_, "frames");
+    std::vector<Placed> placed;
+    std::size_t dropped = 0;
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      TURNSCAN_TRY(check_sensor(infos[i], header_));
+      TURNSCAN_ASSIGN(const Pose pose, poser_(infos[i]));
+      if (infos[i].status == FrameStatus::kDropped)
+        ++dropped;
+      else
+        placed.push_back({i, infos[i], pose});
+    }
+    if (look_) {
+      TURNSCAN_TRY(work(placed, read, context));
+    } else {
+      TURNSCAN_TRY(wait(placed, read, context));
+    }
+    out_.dropped_frames += dropped;
+    context.advance(dropped);
+    return {};
+  }
+
+  Result<Reconstruction> finish(const StageSink& sink, const RunContext& context) {
+    TURNSCAN_TRY(context.check());
+    if (!look_) {
+      if (waiting_.empty())
+        return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
+      TURNSCAN_TRY(look(context));
+    }
+    if (forgotten_ > 0)
+      out_.notes.push_back(
+          fmt::format("the first {} frames show nothing on the platter", forgotten_));
+    if (volumetric()) {
+      TURNSCAN_TRY(volume_->finish(sink, context, out_));
+    } else {
+      TURNSCAN_TRY(
+          reconstruct_points(std::move(merged_), look_->cylinder, options_, sink, context, out_));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  bool volumetric() const { return options_.surface.method == SurfaceMethod::kVolumetric; }
+
+  /// Keeps frames until there are enough for the first look.
+  Result<> wait(const std::vector<Placed>& placed, const FrameReader& read,
+                const RunContext& context) {
+    const std::size_t missing = first_frames_ - waiting_.size();
+    const std::size_t count = std::min(missing, placed.size());
+    std::vector<Result<Frame>> frames(count);
+    parallel_for(count, 1, [&](std::size_t i) {
+      if (context.cancelled()) return;
+      frames[i] = read(placed[i].position);
+      if (frames[i] && !options_.color) frames[i]->color = ColorImage();
+    });
+    TURNSCAN_TRY(context.check());
+    for (const auto& frame : frames) {
+      TURNSCAN_TRY(frame);
+      const std::size_t s = frame->info.sensor;
+      TURNSCAN_TRY(points_of(*frame, header_.sensors.at(s), recipe_.rays.at(s)));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      waiting_.push_back(std::move(*frames[i]));
+      waiting_poses_.push_back(placed[i].T_table_sensor);
+    }
+    if (waiting_.size() < first_frames_) return {};
+    if (const auto seen = look(context); !seen) {
+      if (seen.error().code != ErrorCode::kTooFewPoints) return seen;
+      look_later();
+    }
+    if (!look_) return wait({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+    return work({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+  }
+
+  /// Nothing stands on the platter yet: waits for more frames, and forgets the oldest of many.
+  void look_later() {
+    constexpr std::size_t kMost = 512;
+    if (waiting_.size() < kMost) {
+      first_frames_ = 2 * waiting_.size();
+      return;
+    }
+    const auto half = std::ptrdiff_t(waiting_.size() / 2);
+    forgotten_ += std::size_t(half);
+    waiting_.erase(waiting_.begin(), waiting_.begin() + half);
+    waiting_poses_.erase(waiting_poses_.begin(), waiting_poses_.begin() + half);
+  }
+
+  /// Chooses crop and scale, and works on the frames that waited for it.
+  Result<> look(const RunContext& context) {
+    TURNSCAN_ASSIGN(FirstLook look,
+                    look_at(waiting_, waiting_poses_, header_, recipe_.rays, options_.crop));
+    out_.frame_spacing_m = look.spacing_m;
+    out_.sensor_noise_m = look.noise_m;
+    out_.choices = look.choices;
+    out_.notes = look.notes;
+    recipe_.cylinder = look.cylinder;
+    if (volumetric()) {
+      TURNSCAN_ASSIGN(VolumetricStream volume,
+                      VolumetricStream::create(header_, options_, look, recipe_.rays));
+      volume_.emplace(std::move(volume));
+    }
+    look_ = std::move(look);
+    std::vector<Placed> placed;
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      placed.push_back({i, waiting_[i].info, waiting_poses_[i]});
+    const std::vector<Frame> frames = std::move(waiting_);
+    waiting_.clear();
+    waiting_poses_.clear();
+    return work(
+        placed, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
+  }
+
+  Result<> work(const std::vector<Placed>& placed, const FrameReader& read,
+                const RunContext& context) {
+    return volumetric() ? add_views(placed, read, context) : add_points(placed, read, context);
+  }
+
+  Result<> add_views(const std::vector<Placed>& placed, const FrameReader& read,
+                     const RunContext& context) {
+    std::vector<Result<DepthView>> views(placed.size());
+    parallel_for(placed.size(), 1, [&](std::size_t i) {
+      if (context.cancelled()) return;
+      views[i] = read(placed[i].position).and_then([&](const Frame& frame) {
+        return volume_->view(frame, placed[i].T_table_sensor);
+      });
+      context.advance();
+    });
+    TURNSCAN_TRY(context.check());
+    for (const auto& view : views) TURNSCAN_TRY(view);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      ++out_.frames;
+      out_.returns += views[i]->returns;
+      out_.cropped += views[i]->kept;
+      TURNSCAN_TRY(volume_->add(std::move(*views[i])));
+    }
+    return {};
+  }
+
+  Result<> add_points(const std::vector<Placed>& placed, const FrameReader& read,
+                      const RunContext& context) {
+    std::vector<Result<FramePart>> parts(placed.size());
+    parallel_for(placed.size(), 1, [&](std::size_t i) {
+      if (context.cancelled()) return;
+      parts[i] = read(placed[i].position).and_then([&](const Frame& frame) {
+        return process_frame(frame, recipe_, placed[i].T_table_sensor);
+      });
+      context.advance();
+    });
+    TURNSCAN_TRY(context.check());
+    for (const auto& part : parts) TURNSCAN_TRY(part);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Viewpoint& own = header_.sensors[placed[i].info.sensor].viewpoint;
+      append(*parts[i], own.transformed(placed[i].T_table_sensor), merged_);
+      ++out_.frames;
+    }
+    out_.returns = merged_.returns;
+    out_.cropped = merged_.cropped;
+    return {};
+  }
+
+  SequenceHeader header_;
+  ReconstructOptions options_;
+  FramePoser poser_;
+  FrameRecipe recipe_;
+  std::size_t first_frames_;
+  std::vector<Frame> waiting_;
+  std::vector<Pose> waiting_poses_;
+  std::size_t forgotten_ = 0;  ///< frames without an object, before the first look
+  std::optional<FirstLook> look_;
+  MergedCloud merged_;
+  std::optional<VolumetricStream> volume_;
+  Reconstruction out_;
+};
+
+ReconstructionStream::ReconstructionStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ReconstructionStream::ReconstructionStream(ReconstructionStream&&) noexcept = default;
+ReconstructionStream& ReconstructionStream::operator=(ReconstructionStream&&) noexcept = default;
+ReconstructionStream::~ReconstructionStream() = default;
+
+Result<ReconstructionStream> ReconstructionStream::create(const SequenceHeader& header,
+                                                          const ReconstructOptions& options) {
+  TURNSCAN_TRY(check_options(options));
+  return ReconstructionStream(std::make_unique<Impl>(header, options));
+}
+
+Result<> ReconstructionStream::add(const std::vector<FrameInfo>& infos, const FrameReader& read,
+                                   const RunContext& context) {
+  return impl_->add(infos, read, context);
+}
+
+Result<> ReconstructionStream::add(const std::vector<Frame>& frames, const RunContext& context) {
+  std::vector<FrameInfo> infos;
+  for (const Frame& frame : frames) infos.push_back(frame.info);
+  return impl_->add(
+      infos, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
+}
+
+Result<Reconstruction> ReconstructionStream::finish(const StageSink& sink,
+                                                    const RunContext& context) {
+  return impl_->finish(sink, context);
+}
+
+}  // namespace turnscan

@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <tests/support/memory_sequence.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/stream.hpp>
+
+namespace turnscan {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using turnscan::testing::MemorySequence;
+
+constexpr double kRadius = 0.03;
+const Vec3d kCenter(0.004, 0.034, -0.003);
+
+/// Depth images, 80 x 60, of a ball on a foot that turns before a camera.
+MemorySequence ball(std::uint32_t frames, std::uint32_t from = 0) {
+  MemorySequence sequence;
+  SensorInfo sensor;
+  sensor.intrinsics.width = 80, sensor.intrinsics.height = 60;
+  sensor.intrinsics.fx = sensor.intrinsics.fy = 160.0;
+  sensor.intrinsics.cx = 39.5, sensor.intrinsics.cy = 29.5;
+  const Vec3d eye(0, 0.2, -0.5), z = (kCenter - eye).normalized();
+  const Vec3d x = z.cross(Vec3d::UnitY()).normalized();
+  Pose pose = Pose::Identity();
+  pose.linear().col(0) = x;
+  pose.linear().col(1) = z.cross(x);
+  pose.linear().col(2) = z;
+  pose.translation() = eye;
+  sensor.T_table_sensor = pose;
+  sequence.header_value.sensors = {sensor};
+  TurntableInfo table;
+  table.radius_m = 0.1;
+  sequence.header_value.turntable = table;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    Frame frame;
+    frame.info.index = f;
+    frame.info.angle_rad = 2.0 * std::numbers::pi * f / 64.0;
+    const Pose view = rotation_about_y(-*frame.info.angle_rad) * pose;
+    frame.depth = DepthImage(80, 60);
+    for (int i = 0; i < 80 * 60; ++i) {
+      const Vec3d d = view.linear() * sensor.intrinsics.ray(i % 80, i / 80);
+      const Vec3d m = view.translation() - kCenter;
+      const double a = d.squaredNorm(), b = m.dot(d);
+      const double q = b * b - a * (m.squaredNorm() - kRadius * kRadius);
+      double t = f >= from && q > 0.0 ? (-b - std::sqrt(q)) / a : 0.0;
+      const double floor = -view.translation().y() / d.y();
+      const Vec3d hit = view.translation() + floor * d;
+      if (t == 0.0 && std::hypot(hit.x(), hit.z()) < 0.1) t = floor;
+      if (t > 0.0) t += 0.0005 * standard_normal(hash_key(f, std::uint64_t(i), 3));
+      frame.depth.pixels[std::size_t(i)] = std::uint16_t(std::lround(t * 1e4));
+    }
+    sequence.add(std::move(frame));
+  }
+  return sequence;
+}
+
+ReconstructOptions with(SurfaceMethod method) {
+  ReconstructOptions options;
+  options.surface.method = method;
+  options.surface.poisson_depth = 5;
+  return options;
+}
+
+/// Hands over the frames in calls of so many.
+Result<Reconstruction> streamed(const MemorySequence& sequence, const ReconstructOptions& options,
+                                std::size_t per_call) {
+  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options));
+  const auto& all = sequence.data;
+  for (std::size_t i = 0; i < all.size(); i += per_call) {
+    const std::size_t end = std::min(all.size(), i + per_call);
+    TURNSCAN_TRY(stream.add(
+        std::vector<Frame>(all.begin() + std::ptrdiff_t(i), all.begin() + std::ptrdiff_t(end))));
+  }
+  return stream.finish({}, RunContext());
+}
+
+void expect_same(const Result<Reconstruction>& a, const Result<Reconstruction>& b) {
+  ASSERT_TRUE(a) << a.error().text();
+  ASSERT_TRUE(b) << b.error().text();
+  ASSERT_EQ(a->objects.size(), b->objects.size());
+  EXPECT_EQ(a->frames, b->frames);
+  EXPECT_EQ(a->cropped, b->cropped);
+  for (std::size_t i = 0; i < a->objects.size(); ++i) {
+    EXPECT_EQ(a->objects[i].mesh.vertices, b->objects[i].mesh.vertices);
+    EXPECT_EQ(a->objects[i].mesh.triangles, b->objects[i].mesh.triangles);
+  }
+}
+
+TEST(ReconstructionStream, GivesTheBytesOfABatchHoweverTheFramesCome) {
+  const MemorySequence sequence = ball(64);
+  for (const SurfaceMethod method : {SurfaceMethod::kVolumetric, SurfaceMethod::kPoisson}) {
+    const auto batch = reconstruct(sequence, with(method), {}, RunContext());
+    for (const std::size_t per_call : {1u, 7u, 64u})
+      expect_same(batch, streamed(sequence, with(method), per_call));
+  }
+}
+
+TEST(ReconstructionStream, GivesTheSameBytesForAnyNumberOfThreads) {
+  const MemorySequence sequence = ball(48);
+  set_thread_count(1);
+  const auto one = streamed(sequence, with(SurfaceMethod::kVolumetric), 10);
+  set_thread_count(3);
+  const auto three = streamed(sequence, with(SurfaceMethod::kVolumetric), 10);
+  set_thread_count(0);
+  expect_same(one, three);
+}
+
+TEST(ReconstructionStream, WaitsUntilSomethingStandsOnThePlatter) {
+  const auto late = streamed(ball(120, 60), with(SurfaceMethod::kVolumetric), 8);
+  ASSERT_TRUE(late) << late.error().text();
+  EXPECT_EQ(late->objects.size(), 1u);
+  EXPECT_EQ(late->frames, 120u);
+}
+
+TEST(ReconstructionStream, GoesOnWithoutAFrameThatDoesNotFit) {
+  const MemorySequence sequence = ball(40);
+  auto stream =
+      ReconstructionStream::create(sequence.header(), with(SurfaceMethod::kVolumetric)).value();
+  for (std::size_t i = 0; i < sequence.data.size(); ++i) {
+    ASSERT_TRUE(stream.add({sequence.data[i]}));
+    if (i != 5 && i != 38) continue;  // before and after the first look
+    Frame wrong = sequence.data[i];
+    wrong.depth = DepthImage(8, 8);
+    EXPECT_EQ(stream.add({wrong}).error().code, ErrorCode::kFormat);
+    wrong = sequence.data[i];
+    wrong.info.sensor = 7;
+    EXPECT_EQ(stream.add({wrong}).error().code, ErrorCode::kFormat);
+  }
+  expect_same(stream.finish({}, RunContext()),
+              reconstruct(sequence, with(SurfaceMethod::kVolumetric), {}, RunContext()));
+}
+
+TEST(ReconstructionStream, EndsWithAnErrorWhenThereWasNothing) {
+  const MemorySequence sequence = ball(1);
+  auto stream = ReconstructionStream::create(sequence.header(), {}).value();
+  EXPECT_EQ(stream.finish({}, RunContext()).error().code, ErrorCode::kTooFewPoints);
+  auto empty = ReconstructionStream::create(sequence.header(), {}).value();
+  for (const Frame& frame : ball(40, 100).data) ASSERT_TRUE(empty.add({frame}));
+  EXPECT_EQ(empty.finish({}, RunContext()).error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(ReconstructionStream, StopsWhenCancelled) {
+  const MemorySequence sequence = ball(4);
+  auto stream = ReconstructionStream::create(sequence.header(), {}).value();
+  RunContext context;
+  context.cancel();
+  EXPECT_EQ(stream.add(sequence.data, context).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(stream.finish({}, context).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan
