@@ -14,5 +14,6 @@ std::unique_ptr<Command> make_evaluate_command();
 std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_simulate_command();
 std::unique_ptr<Command> make_demo_command();
+std::unique_ptr<Command> make_devices_command();
 
 }  // namespace turnscan::cli

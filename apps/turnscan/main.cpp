@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
               make_reconstruct_command());
   program.add("evaluate", "Measure how far a mesh is from a reference", make_evaluate_command());
   program.add("render", "Draw a picture of meshes", make_render_command());
+  program.add("devices", "List the sensors that frames can come from", make_devices_command());
   program.add("simulate", "Record an object with virtual scanners", make_simulate_command());
   program.add("demo", "Record a built-in object with a virtual camera, reconstruct and judge it",
               make_demo_command());

@@ -1,3 +1,4 @@
+#include <turnscan/capture/plugin_source.hpp>
 #include <turnscan/capture/queued_source.hpp>
 
 namespace turnscan {
@@ -32,8 +33,7 @@ Result<QueueOptions> take_queue(SourceUri& uri) {
 Result<std::unique_ptr<Grabber>> open_grabber(const SourceUri& uri, const RunContext& context) {
   if (uri.scheme == "virtual") return open_virtual(uri, context);
   if (uri.scheme == "replay") return open_replay(uri, context);
-  return fail(ErrorCode::kNotFound,
-              "device '{}:': there is no such kind of source; use virtual: or replay:", uri.scheme);
+  return open_plugin(uri, context);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <thread>
 #include <turnscan/capture/frame_source.hpp>
 
+#include "tests/capture/taking.hpp"
 #include "tests/io/temp_folder.hpp"
 #include "tests/recording/sequences.hpp"
 
@@ -11,40 +12,14 @@ namespace turnscan {
 namespace {
 
 using Kind = Delivery::Kind;
+using testing::opened;
+using testing::run;
+using testing::take_all;
+using testing::Taken;
 using testing::TempFolder;
 
 // A cylinder, small and quick to render.
 const std::string kVirtual = "virtual:cylinder?sensor=kinect-v1&distance=1.5m";
-
-std::unique_ptr<FrameSource> opened(const std::string& uri) {
-  auto source = open_source(uri, {});
-  EXPECT_TRUE(source) << (source ? "" : source.error().text());
-  return source ? std::move(*source) : nullptr;
-}
-
-/// Everything until the end or an error; nullopt error: the end.
-struct Taken {
-  std::vector<Frame> frames;
-  std::optional<Error> error;
-};
-
-Taken take_all(FrameSource& source, const RunContext& context = {}) {
-  Taken out;
-  for (;;) {
-    auto delivery = source.next(20.0, context);
-    if (!delivery) {
-      out.error = delivery.error();
-      return out;
-    }
-    if (delivery->kind != Kind::kFrame) return out;
-    out.frames.push_back(std::move(delivery->frame));
-  }
-}
-
-Taken run(FrameSource& source) {
-  EXPECT_TRUE(source.start());
-  return take_all(source);
-}
 
 /// A recording of four frames, the third of them lost.
 std::filesystem::path small_recording(const TempFolder& folder) {

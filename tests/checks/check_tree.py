@@ -39,6 +39,8 @@ LIBRARIES = [
     ("CLI11", r"CLI/", ("apps/",), False),
     ("toml++", r"toml\+\+/|toml\.hpp", ("apps/", "src/simulator/"), False),
     ("nlohmann-json in a public header", r"nlohmann/", ("src/", "apps/", "tests/", "bench/"), False),
+    ("a driver's library (devices are plug-ins)",
+     r"OpenNI\.h|libfreenect|librealsense|k4a/", ("plugins/",), False),
     ("GoogleTest", r"gtest/|gmock/|rapidcheck", ("tests/",), False),
 ]
 
@@ -133,7 +135,7 @@ def upward_includes(tree):
 
 def libraries_out_of_place(tree):
     public = tree.installed_headers()
-    for path in tree.code("src/", "apps/", "tests/", "bench/"):
+    for path in tree.code("src/", "apps/", "plugins/", "tests/", "bench/"):
         for number, _, name in tree.includes(path):
             for library, pattern, folders, in_public in LIBRARIES:
                 if not re.match(pattern, name):
@@ -145,7 +147,7 @@ def libraries_out_of_place(tree):
 
 
 def numbers_by_locale(tree):
-    for path in tree.code("src/", "apps/"):
+    for path in tree.code("src/", "apps/", "plugins/"):
         for number, line in enumerate(tree.lines(path), 1):
             if match := LOCALE_CALLS.search(line.split("//")[0]):
                 yield path, number, f"{match.group(1)} reads by the locale; use parse_number"
@@ -169,7 +171,7 @@ def machine_flags(tree):
 def unlisted_files(tree):
     """Every source is named in the nearest CMakeLists.txt above it."""
     lists = {posixpath.dirname(p): p for p in tree.paths if p.endswith("CMakeLists.txt")}
-    for path in tree.code("src/", "apps/", "tests/", "bench/"):
+    for path in tree.code("src/", "apps/", "plugins/", "tests/", "bench/"):
         if not path.endswith(".cpp"):
             continue
         folder = posixpath.dirname(path)

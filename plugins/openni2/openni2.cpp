@@ -1,0 +1,459 @@
+// Depth sensors with an OpenNI 2 driver (PrimeSense, Asus Xtion, Orbbec Astra), and .oni files.
+
+#include <OpenNI.h>
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "../plugin_support.hpp"
+
+namespace turnscan::plugin {
+namespace {
+
+constexpr double kMicrosecond = 1e-6;
+
+std::string last_error() {
+  std::string text = openni::OpenNI::getExtendedError();
+  for (char& c : text)
+    if (c == '\n' || c == '\t' || c == '\r') c = ' ';
+  const std::size_t first = text.find_first_not_of(' ');
+  const std::size_t last = text.find_last_not_of(" .");
+  if (first == std::string::npos || last < first) return "no reason given";
+  return text.substr(first, last - first + 1);
+}
+
+bool says(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (text.find(word) != std::string::npos) return true;
+  return false;
+}
+
+/// OpenNI has one status for everything; what it was shows in the text.
+Failure open_failure(const std::string& why) {
+  if (says(why, {"no devices found"}))
+    return {TURNSCAN_NOT_FOUND, "no OpenNI 2 sensor is connected; plug it in"};
+  if (says(why, {"ermission", "ccess denied", "ACCESS"}))
+    return {TURNSCAN_DENIED,
+            "this user may not open the sensor (" + why +
+                "); install the udev rule of docs/devices.md and plug it in again"};
+  if (says(why, {"busy", "BUSY", "in use", "already open"}))
+    return {TURNSCAN_BUSY, "another program uses the sensor (" + why + "); close that program"};
+  if (says(why, {"disconnected", "NO_DEVICE"}))
+    return {TURNSCAN_LOST, "the sensor went away (" + why + "); check the cable"};
+  if (says(why, {"Couldn't open", "Could not open"}))
+    return {TURNSCAN_NOT_FOUND, "no driver of OpenNI 2 opens it (" + why +
+                                    "); 'turnscan devices' lists what is connected"};
+  return {TURNSCAN_FAILED, "OpenNI 2 failed (" + why + "); plug the sensor in again"};
+}
+
+/// Started once in a process. It is not shut down: drivers leave threads behind that would then run
+/// without their library.
+void start_library() {
+  static std::mutex mutex;
+  static bool started = false;
+  const std::lock_guard lock(mutex);
+  if (started) return;
+  if (openni::OpenNI::initialize() != openni::STATUS_OK)
+    throw Failure{TURNSCAN_FAILED, "OpenNI 2 cannot start (" + last_error() +
+                                       "); check that its drivers are installed"};
+  started = true;
+}
+
+double number_of(const std::string& text, const char* name, double low, double high) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
+    throw Failure{TURNSCAN_BAD_PARAMETER, std::string(name) + " = " + text + " is no number from " +
+                                              std::to_string(static_cast<int>(low)) + " to " +
+                                              std::to_string(static_cast<int>(high))};
+  return value;
+}
+
+class Disconnects : public openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  explicit Disconnects(std::string uri) : uri_(std::move(uri)) {
+    openni::OpenNI::addDeviceDisconnectedListener(this);
+  }
+  ~Disconnects() override { openni::OpenNI::removeDeviceDisconnectedListener(this); }
+  Disconnects(const Disconnects&) = delete;
+  Disconnects& operator=(const Disconnects&) = delete;
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    if (uri_ == info->getUri()) gone_ = true;
+  }
+  bool gone() const { return gone_; }
+
+ private:
+  std::string uri_;
+  std::atomic<bool> gone_ = false;
+};
+
+/// Some drivers (OpenNI's own dummy is one) tell their thread to stop and do not wait for it; it
+/// would use a stream that is no more.
+constexpr auto kThreadEnds = std::chrono::milliseconds(100);
+
+/// A stream that is destroyed before its device.
+struct Stream {
+  openni::VideoStream stream;
+  bool was_started = false;
+  Stream() = default;
+  ~Stream() {
+    if (!stream.isValid()) return;
+    stream.stop();
+    if (was_started) std::this_thread::sleep_for(kThreadEnds);
+    stream.destroy();
+  }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+};
+
+struct Device {
+  openni::Device device;
+  Device() = default;
+  ~Device() { device.close(); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+};
+
+bool is_depth(openni::PixelFormat format) {
+  return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
+}
+
+std::string mode_text(const openni::VideoMode& mode) {
+  return std::to_string(mode.getResolutionX()) + "x" + std::to_string(mode.getResolutionY()) + "@" +
+         std::to_string(mode.getFps());
+}
+
+}  // namespace
+}  // namespace turnscan::plugin
+
+struct turnscan_device {
+ public:
+  turnscan_device(const std::string& address, const turnscan_parameter* parameters,
+                  std::int32_t count);
+
+  void describe(turnscan_device_info& info);
+  void start();
+  void stop();
+  std::int32_t grab(double timeout_s, turnscan_frame& frame);
+
+ private:
+  void open(const std::string& address);
+  void choose_mode(const std::string& wish);
+  void choose_color();
+  void play_file();
+  void check_connected() const;
+  bool wait(double timeout_s);
+  bool read_depth();
+  void read_color();
+
+  turnscan::plugin::Device device_;
+  std::unique_ptr<turnscan::plugin::Disconnects> disconnects_;
+  turnscan::plugin::Stream depth_, color_;
+  openni::VideoMode mode_;
+  openni::VideoFrameRef depth_frame_, color_frame_;
+  std::vector<std::uint16_t> depth_pixels_;
+  std::vector<std::uint8_t> color_pixels_;
+  std::string model_, serial_;
+  std::optional<double> hfov_rad_;
+  bool with_color_, file_ = false, as_fast_as_possible_, started_ = false;
+  std::uint64_t frame_count_ = 0, frames_read_ = 0;
+};
+
+turnscan_device::turnscan_device(const std::string& address, const turnscan_parameter* parameters,
+                                 std::int32_t count)
+    : with_color_(turnscan::plugin::flag_of(parameters, count, "color", false)) {
+  using namespace turnscan::plugin;
+  const std::string hfov = value_of(parameters, count, "hfov", "");
+  if (!hfov.empty()) hfov_rad_ = number_of(hfov, "hfov", 1, 179) * std::numbers::pi / 180.0;
+  const std::string speed = value_of(parameters, count, "speed", "max");
+  if (speed != "max" && speed != "1")
+    throw Failure{TURNSCAN_BAD_PARAMETER, "speed = " + speed + " is neither 1 nor max"};
+  as_fast_as_possible_ = speed == "max";
+  start_library();
+  open(address);
+  if (!device_.device.hasSensor(openni::SENSOR_DEPTH) ||
+      depth_.stream.create(device_.device, openni::SENSOR_DEPTH) != openni::STATUS_OK)
+    throw Failure{TURNSCAN_UNSUPPORTED, "the device has no depth sensor; use another one"};
+  choose_mode(value_of(parameters, count, "mode", ""));
+  if (with_color_) choose_color();
+  if (file_) play_file();
+}
+
+void turnscan_device::open(const std::string& address) {
+  using namespace turnscan::plugin;
+  const char* uri = address.empty() ? openni::ANY_DEVICE : address.c_str();
+  if (device_.device.open(uri) != openni::STATUS_OK) throw open_failure(last_error());
+  file_ = device_.device.isFile();
+  const openni::DeviceInfo& info = device_.device.getDeviceInfo();
+  model_ = file_ ? "oni-file" : info.getName();
+  if (model_.empty()) model_ = "openni2";
+  disconnects_ = std::make_unique<Disconnects>(info.getUri());
+  char serial[64] = {};
+  int size = sizeof serial - 1;
+  if (!file_ && device_.device.getProperty(ONI_DEVICE_PROPERTY_SERIAL_NUMBER, serial, &size) ==
+                    openni::STATUS_OK)
+    serial_ = serial;
+}
+
+/// The mode that is set, or the one that the user names; in tenths of a millimetre where the sensor
+/// offers them.
+void turnscan_device::choose_mode(const std::string& wish) {
+  using namespace turnscan::plugin;
+  mode_ = depth_.stream.getVideoMode();
+  const std::string want = wish.empty() ? mode_text(mode_) : wish;
+  std::string known;
+  std::optional<openni::VideoMode> best;
+  const auto& modes = depth_.stream.getSensorInfo().getSupportedVideoModes();
+  for (int i = 0; i < modes.getSize(); ++i) {
+    if (!is_depth(modes[i].getPixelFormat())) continue;
+    const std::string text = mode_text(modes[i]);
+    if (known.find(text) == std::string::npos) known += (known.empty() ? "" : ", ") + text;
+    if (text == want && (!best || modes[i].getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM))
+      best = modes[i];
+  }
+  if (!wish.empty() && (!best || file_))
+    throw Failure{TURNSCAN_BAD_PARAMETER,
+                  "mode = " + wish + " is none of the sensor's modes; use one of " + known};
+  if (!file_ && best && depth_.stream.setVideoMode(*best) == openni::STATUS_OK)
+    mode_ = depth_.stream.getVideoMode();
+  if (!is_depth(mode_.getPixelFormat()))
+    throw Failure{TURNSCAN_UNSUPPORTED,
+                  "the sensor's depth comes in a format that turnscan does not read"};
+  if (!file_) depth_.stream.setMirroringEnabled(false);
+}
+
+/// Colour that the sensor itself lays on the depth image, of the same size; else none.
+void turnscan_device::choose_color() {
+  using turnscan::plugin::Failure;
+  with_color_ = false;
+  if (file_ || !device_.device.hasSensor(openni::SENSOR_COLOR) ||
+      !device_.device.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) ||
+      color_.stream.create(device_.device, openni::SENSOR_COLOR) != openni::STATUS_OK)
+    throw Failure{TURNSCAN_UNSUPPORTED,
+                  "the sensor has no colour that lies on its depth; leave out color=1"};
+  openni::VideoMode mode = color_.stream.getVideoMode();
+  mode.setPixelFormat(openni::PIXEL_FORMAT_RGB888);
+  mode.setResolution(mode_.getResolutionX(), mode_.getResolutionY());
+  if (color_.stream.setVideoMode(mode) != openni::STATUS_OK ||
+      device_.device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) !=
+          openni::STATUS_OK)
+    throw Failure{TURNSCAN_UNSUPPORTED, "the sensor has no colour of " +
+                                            turnscan::plugin::mode_text(mode_) +
+                                            "; leave out color=1 or choose another mode"};
+  color_.stream.setMirroringEnabled(false);
+  device_.device.setDepthColorSyncEnabled(true);
+  with_color_ = true;
+}
+
+void turnscan_device::play_file() {
+  openni::PlaybackControl* control = device_.device.getPlaybackControl();
+  if (control == nullptr)
+    throw turnscan::plugin::Failure{TURNSCAN_FAILED, "the file cannot be played; record it again"};
+  control->setRepeatEnabled(false);
+  control->setSpeed(as_fast_as_possible_ ? -1.0F : 1.0F);
+  const int count = control->getNumberOfFrames(depth_.stream);
+  frame_count_ = count > 0 ? static_cast<std::uint64_t>(count) : 0;
+}
+
+void turnscan_device::describe(turnscan_device_info& info) {
+  using namespace turnscan::plugin;
+  put_text(info.model, model_);
+  put_text(info.serial, serial_);
+  turnscan_camera& camera = info.camera;
+  camera.width = mode_.getResolutionX();
+  camera.height = mode_.getResolutionY();
+  const double hfov = hfov_rad_.value_or(depth_.stream.getHorizontalFieldOfView());
+  const double vfov = hfov_rad_ ? 0.0 : depth_.stream.getVerticalFieldOfView();
+  if (!(hfov > 0.01 && hfov < 3.1))
+    throw Failure{TURNSCAN_UNSUPPORTED,
+                  "the driver does not say how wide the sensor sees; give hfov=DEGREES"};
+  camera.fx = 0.5 * camera.width / std::tan(0.5 * hfov);
+  camera.fy = vfov > 0.01 && vfov < 3.1 ? 0.5 * camera.height / std::tan(0.5 * vfov) : camera.fx;
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  info.depth_kind = TURNSCAN_DEPTH_STEPS;
+  info.depth_unit_m = mode_.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e-4 : 1e-3;
+  info.fps = mode_.getFps();
+  info.color_kind = with_color_ ? TURNSCAN_COLOR_REGISTERED : TURNSCAN_COLOR_NONE;
+  info.live = file_ && as_fast_as_possible_ ? 0 : 1;
+  info.frame_count = frame_count_;
+}
+
+void turnscan_device::start() {
+  using namespace turnscan::plugin;
+  if (started_) return;
+  if (depth_.stream.start() != openni::STATUS_OK) throw open_failure(last_error());
+  started_ = depth_.was_started = color_.was_started = true;
+  if (with_color_ && color_.stream.start() != openni::STATUS_OK) throw open_failure(last_error());
+}
+
+void turnscan_device::stop() {
+  if (!started_) return;
+  depth_frame_.release();
+  color_frame_.release();
+  if (with_color_) color_.stream.stop();
+  depth_.stream.stop();
+  started_ = false;
+}
+
+void turnscan_device::check_connected() const {
+  if (disconnects_->gone())
+    throw turnscan::plugin::Failure{TURNSCAN_LOST,
+                                    "the sensor went away; check the cable and the power supply"};
+}
+
+/// Whether there is a frame of depth; takes in colour on the way.
+bool turnscan_device::wait(double timeout_s) {
+  openni::VideoStream* streams[2] = {&depth_.stream, &color_.stream};
+  int ready = -1;
+  const auto status = openni::OpenNI::waitForAnyStream(
+      streams, with_color_ ? 2 : 1, &ready, std::max(1, static_cast<int>(timeout_s * 1e3)));
+  if (status == openni::STATUS_TIME_OUT) return false;
+  if (status != openni::STATUS_OK) {
+    check_connected();
+    throw turnscan::plugin::Failure{
+        TURNSCAN_LOST,
+        "the sensor stopped (" + turnscan::plugin::last_error() + "); check the cable"};
+  }
+  if (ready == 1) {
+    read_color();
+    return false;
+  }
+  return true;
+}
+
+void turnscan_device::read_color() {
+  if (color_.stream.readFrame(&color_frame_) != openni::STATUS_OK || !color_frame_.isValid())
+    return;
+  const int row = 3 * color_frame_.getWidth();
+  color_pixels_.resize(static_cast<std::size_t>(row) *
+                       static_cast<std::size_t>(color_frame_.getHeight()));
+  const auto* from = static_cast<const std::uint8_t*>(color_frame_.getData());
+  for (int y = 0; y < color_frame_.getHeight(); ++y)
+    std::memcpy(color_pixels_.data() + std::ptrdiff_t(y) * row,
+                from + std::ptrdiff_t(y) * color_frame_.getStrideInBytes(),
+                static_cast<std::size_t>(row));
+}
+
+bool turnscan_device::read_depth() {
+  if (depth_.stream.readFrame(&depth_frame_) != openni::STATUS_OK || !depth_frame_.isValid()) {
+    check_connected();
+    return false;
+  }
+  const auto width = static_cast<std::size_t>(depth_frame_.getWidth());
+  const auto height = static_cast<std::size_t>(depth_frame_.getHeight());
+  depth_pixels_.resize(width * height);
+  const auto* from = static_cast<const std::uint8_t*>(depth_frame_.getData());
+  for (std::size_t y = 0; y < height; ++y)
+    std::memcpy(depth_pixels_.data() + y * width,
+                from + y * static_cast<std::size_t>(depth_frame_.getStrideInBytes()),
+                width * sizeof(std::uint16_t));
+  ++frames_read_;
+  return true;
+}
+
+std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
+  check_connected();
+  if (file_ && frames_read_ >= frame_count_) return TURNSCAN_END;
+  // A file that is read as fast as possible brings a frame when it is asked for one.
+  const bool waits = !(file_ && as_fast_as_possible_);
+  if (waits && !wait(timeout_s)) return TURNSCAN_NOTHING;
+  if (!read_depth()) return TURNSCAN_NOTHING;
+  frame = {};
+  frame.depth = depth_pixels_.data();
+  frame.width = depth_frame_.getWidth();
+  frame.height = depth_frame_.getHeight();
+  if (with_color_ && color_frame_.isValid()) {
+    frame.color = color_pixels_.data();
+    frame.color_width = color_frame_.getWidth();
+    frame.color_height = color_frame_.getHeight();
+  }
+  frame.time_s = static_cast<double>(depth_frame_.getTimestamp()) * turnscan::plugin::kMicrosecond;
+  frame.number = depth_frame_.getFrameIndex() > 0
+                     ? static_cast<std::uint64_t>(depth_frame_.getFrameIndex())
+                     : 0;
+  return TURNSCAN_OK;
+}
+
+namespace turnscan::plugin {
+namespace {
+
+std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    start_library();
+    openni::Array<openni::DeviceInfo> devices;
+    openni::OpenNI::enumerateDevices(&devices);
+    for (int i = 0; i < devices.getSize() && i < capacity; ++i) {
+      entries[i] = {};
+      put_text(entries[i].address, devices[i].getUri());
+      put_text(entries[i].model, devices[i].getName());
+    }
+    return devices.getSize();
+  });
+}
+
+std::int32_t open(const char* address, const turnscan_parameter* parameters, std::int32_t count,
+                  turnscan_device** device, turnscan_error* error) {
+  return guarded(error, [&] {
+    *device = new turnscan_device(address, parameters, count);
+    return TURNSCAN_OK;
+  });
+}
+
+std::int32_t describe(turnscan_device* device, turnscan_device_info* info, turnscan_error* error) {
+  return guarded(error, [&] {
+    *info = {};
+    device->describe(*info);
+    return TURNSCAN_OK;
+  });
+}
+
+std::int32_t start(turnscan_device* device, turnscan_error* error) {
+  return guarded(error, [&] {
+    device->start();
+    return TURNSCAN_OK;
+  });
+}
+
+std::int32_t grab(turnscan_device* device, double timeout_s, turnscan_frame* frame,
+                  turnscan_error* error) {
+  return guarded(error, [&] { return device->grab(timeout_s, *frame); });
+}
+
+void stop(turnscan_device* device) { device->stop(); }
+void close(turnscan_device* device) { delete device; }
+
+constexpr turnscan_parameter_info kParameters[] = {
+    {"color", "Also take colours that the sensor lays on its depth: 0 or 1", "0"},
+    {"mode", "WIDTHxHEIGHT@RATE of the depth images", "the sensor's own"},
+    {"hfov", "Horizontal field of view in degrees, where the driver does not say it",
+     "the driver's"},
+    {"speed", "Of an .oni file: 1 or max, which loses no frame", "max"}};
+
+constexpr turnscan_plugin kPlugin = {TURNSCAN_PLUGIN_VERSION,
+                                     "openni2",
+                                     "PrimeSense, Asus Xtion, Orbbec Astra, .oni files (OpenNI 2)",
+                                     kParameters,
+                                     4,
+                                     list,
+                                     open,
+                                     describe,
+                                     start,
+                                     grab,
+                                     stop,
+                                     close};
+
+}  // namespace
+}  // namespace turnscan::plugin
+
+TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
+  return &turnscan::plugin::kPlugin;
+}
