@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 #include <turnscan/reconstruction/mesh_fit.hpp>
@@ -11,7 +12,9 @@ namespace {
 
 constexpr std::size_t kBlock = 512;  // vertices that are looked up together
 constexpr double kTukey = 4.685;     // standard deviations; 95 % efficient for normal noise
-constexpr float kFacing = 0.2f;      // rays that graze the surface say little about it
+constexpr int kUnfolds = 5;
+constexpr float kLeastTurn = 0.3f;  // cosine between a triangle's normals before and after a step
+constexpr float kFacing = 0.2f;     // rays that graze the surface say little about it
 
 /// Who is joined to whom, by an edge.
 struct Neighbours {
@@ -133,10 +136,7 @@ class Fitter {
     for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
       if (fit_.support[v] > 0.01f) some.push_back(fit_.support[v]);
     }
-    if (some.empty()) return 1.0f;
-    const auto middle = some.begin() + std::ptrdiff_t(some.size() / 2);
-    std::nth_element(some.begin(), middle, some.end());
-    return *middle;
+    return float(median(some, 1.0));
   }
 
   /// How far each vertex lies below the mean of its neighbours, along its normal.
@@ -149,18 +149,36 @@ class Fitter {
     return out;
   }
 
+  /// Bends averaged with those of the neighbours: a ridge bends along a line of vertices, while one
+  /// vertex that noise pulled out bends its neighbours the other way, and nothing is left.
+  std::vector<float> shared_bends(const std::vector<float>& bend) const {
+    std::vector<float> out(bend.size());
+    parallel_for(bend.size(), 4096, [&](std::size_t v) {
+      const float count = neighbours_.count(v);
+      out[v] = (bend[v] + count * neighbours_.mean(bend, v, 0.0f)) / (1.0f + count);
+    });
+    return out;
+  }
+
   /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2,
   /// by damped Jacobi. A bend that is too large to be noise is a feature, and m fades (Geman and
   /// McClure).
   std::vector<float> offsets() const {
     const std::size_t n = fit_.mesh.vertices.size();
     const float typical = typical_support();
-    const float noise = float(scale_.noise_m) / std::sqrt(typical);
     const std::vector<float> bend = bends();
+    const std::vector<float> shared = shared_bends(bend);
+    const float feature = float(scale_.feature) * float(scale_.noise_m);
     std::vector<float> own(n), stiff(n), diagonal(n), delta(n), rest(n);
     parallel_for(n, 4096, [&](std::size_t v) {
       own[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
-      const float s = bend[v] / (float(scale_.feature) * noise);
+      // Where less was measured than usual, only a larger bend is more than noise.
+      const bool standing =
+          scale_.floor_height_m && fit_.mesh.vertices[v].y() < float(*scale_.floor_height_m);
+      const float around =
+          0.5f * (fit_.support[v] + neighbours_.mean(fit_.support, v, 0.0f)) / typical;
+      const float share = standing ? 1.0f : std::clamp(around, 0.02f, 1.0f);
+      const float s = shared[v] * std::sqrt(share * typical) / feature;
       stiff[v] = float(scale_.stiffness) * typical / ((1.0f + s * s) * (1.0f + s * s));
     });
     parallel_for(n, 4096, [&](std::size_t v) {
@@ -185,12 +203,39 @@ class Fitter {
   void move() {
     const std::vector<float> delta = offsets();
     const float limit = float(scale_.limit_m);
-    parallel_for(fit_.mesh.vertices.size(), 4096, [&](std::size_t v) {
-      Vec3f step = std::clamp(delta[v], -limit, limit) * normals_[v];
-      Vec3f& p = fit_.mesh.vertices[v];
-      if (scale_.floor_height_m && p.y() < float(*scale_.floor_height_m)) step.y() = 0.0f;
-      p += step;
+    const auto& p = fit_.mesh.vertices;
+    std::vector<Vec3f> step(p.size());
+    parallel_for(p.size(), 4096, [&](std::size_t v) {
+      step[v] = std::clamp(delta[v], -limit, limit) * normals_[v];
+      if (scale_.floor_height_m && p[v].y() < float(*scale_.floor_height_m)) step[v].y() = 0.0f;
     });
+    for (int round = 0; round < kUnfolds && shorten_folding(step, round + 1 == kUnfolds); ++round) {
+    }
+    parallel_for(p.size(), 4096, [&](std::size_t v) { fit_.mesh.vertices[v] += step[v]; });
+  }
+
+  /// Halves the steps, or takes them away, of triangles that would turn over. Whether there were
+  /// any.
+  bool shorten_folding(std::vector<Vec3f>& step, bool stop) const {
+    const auto& p = fit_.mesh.vertices;
+    const auto& triangles = fit_.mesh.triangles;
+    std::vector<int> folds(triangles.size());
+    parallel_for(triangles.size(), 4096, [&](std::size_t i) {
+      const auto& [a, b, c] = triangles[i];
+      const Vec3f before = (p[b] - p[a]).cross(p[c] - p[a]);
+      const Vec3f pa = p[a] + step[a];
+      const Vec3f after = (p[b] + step[b] - pa).cross(p[c] + step[c] - pa);
+      folds[i] = before.dot(after) < kLeastTurn * before.norm() * after.norm() ? 1 : 0;
+    });
+    std::vector<float> share(p.size(), 1.0f);
+    bool any = false;
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      if (folds[i] == 0) continue;
+      any = true;
+      for (const std::uint32_t v : triangles[i]) share[v] = stop ? 0.0f : 0.5f;
+    }
+    for (std::size_t v = 0; v < share.size(); ++v) step[v] *= share[v];
+    return any;
   }
 
   std::span<const DepthView> views_;

@@ -14,8 +14,8 @@ struct MeshFitScale {
   double reach_m = 0.0013;  ///< measurements farther across the normal do not count
   double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
   double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
-  double feature = 0.2;     ///< a bend of so many deviations of a vertex alone counts a quarter
-  double limit_m = 0.002;   ///< a vertex moves at most so far in one iteration
+  double feature = 0.1;  ///< a bend, shared with neighbours, of so many deviations counts a quarter
+  double limit_m = 0.002;  ///< a vertex moves at most so far in one iteration
   float edge_weight = 0.1f;
   int iterations = 3;                    ///< 0: only measures the support
   std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others

@@ -17,6 +17,13 @@ constexpr std::size_t within(int i, int j, int k) {
   return std::size_t(i & 7) + std::size_t(j & 7) * 8 + std::size_t(k & 7) * 64;
 }
 
+/// What a known distance says to the unknown beside it: its side more than its length. Inside,
+/// distances are known only as far as measurements reach, while what is clear has all of the
+/// truncation; by lengths, what is invented would sink into the object.
+float side_of(float distance, float outside) {
+  return std::clamp(3.0f * distance, -outside, outside);
+}
+
 /// Samples of a volume by their position, bricks without samples included.
 class Samples {
  public:
@@ -141,23 +148,42 @@ class Coarse {
           level.value[cell] = volume.uniform[b] * outside;
           continue;
         }
-        int known = 0;
-        float sum = 0.0f;
-        for (int k = 4 * r; k < 4 * r + 4; ++k) {
-          for (int j = 4 * q; j < 4 * q + 4; ++j) {
-            for (int i = 4 * p; i < 4 * p + 4; ++i) {
-              const std::size_t s = std::size_t(volume.slot[b]) * kCells + within(i, j, k);
-              if (volume.weight[s] == 0.0f) continue;
-              ++known;
-              sum += volume.value[s];
-            }
-          }
-        }
-        level.fixed[cell] = known >= 8 ? 1 : 0;
-        level.value[cell] = known > 0 ? sum / float(known) : 0.0f;
+        level.fixed[cell] = known_value(volume, b, p, q, r, level.value[cell]) ? 1 : 0;
       }
     }
     return level;
+  }
+
+  /// What a cell's samples say to the unknown around them, at least 8 of them known: the mean of
+  /// those beside unknown ones, or of all.
+  static bool known_value(const Volume& volume, std::size_t brick, int p, int q, int r,
+                          float& value) {
+    const std::size_t base = std::size_t(volume.slot[brick]) * kCells;
+    const float outside = float(volume.truncation_m);
+    const auto known_at = [&](int i, int j, int k) {
+      return (i | j | k) < 0 || i > 7 || j > 7 || k > 7 ||
+             volume.weight[base + within(i, j, k)] > 0.0f;
+    };
+    int known = 0, border = 0;
+    float sum = 0.0f, border_sum = 0.0f;
+    for (int k = 4 * r; k < 4 * r + 4; ++k) {
+      for (int j = 4 * q; j < 4 * q + 4; ++j) {
+        for (int i = 4 * p; i < 4 * p + 4; ++i) {
+          const std::size_t s = base + within(i, j, k);
+          if (volume.weight[s] == 0.0f) continue;
+          const float side = side_of(volume.value[s], outside);
+          ++known;
+          sum += side;
+          if (known_at(i - 1, j, k) && known_at(i + 1, j, k) && known_at(i, j - 1, k) &&
+              known_at(i, j + 1, k) && known_at(i, j, k - 1) && known_at(i, j, k + 1))
+            continue;
+          ++border;
+          border_sum += side;
+        }
+      }
+    }
+    value = border > 0 ? border_sum / float(border) : sum / float(std::max(known, 1));
+    return known >= 8;
   }
 
   static Level halved(const Level& fine) {
@@ -324,19 +350,23 @@ class Closing {
       if (v_.slot[b] >= 0 && free_[b]) work.push_back(b);
     }
     std::vector<float> next(work.size() * kCells);
+    const float outside = float(v_.truncation_m);
     for (int round = 0; round < rounds; ++round) {
       parallel_for(work.size(), 8, [&](std::size_t w) {
         Halo halo;
         halo.gather(v_, samples_, v_.brick_at(work[w]));
+        std::array<float, std::tuple_size_v<decltype(halo.value)>> side = halo.value;
+        for (std::size_t c = 0; c < side.size(); ++c) {
+          if (halo.weight[c] > 0.0f) side[c] = side_of(side[c], outside);
+        }
         float* out = &next[w * kCells];
         for (int k = 0; k < kSide; ++k) {
           for (int j = 0; j < kSide; ++j) {
             for (int i = 0; i < kSide; ++i) {
               const std::size_t c = Halo::at(i, j, k);
-              const float sum = halo.value[c - 1] + halo.value[c + 1] +
-                                halo.value[c - Halo::kWide] + halo.value[c + Halo::kWide] +
-                                halo.value[c - Halo::kWide * Halo::kWide] +
-                                halo.value[c + Halo::kWide * Halo::kWide];
+              const float sum = side[c - 1] + side[c + 1] + side[c - Halo::kWide] +
+                                side[c + Halo::kWide] + side[c - Halo::kWide * Halo::kWide] +
+                                side[c + Halo::kWide * Halo::kWide];
               out[within(i, j, k)] = halo.weight[c] > 0.0f ? halo.value[c] : sum / 6.0f;
             }
           }
