@@ -28,7 +28,7 @@ FLOORS = {
 LIBRARIES = [
     ("PCL", r"pcl/", ("src/geometry/", "src/reconstruction/", "tests/", "bench/"), False),
     ("Embree", r"embree\d?/", ("src/simulator/", "bench/"), False),
-    ("Qt", r"Q[A-Z]\w+$|Qt\w+/", ("apps/turnscan-studio/",), False),
+    ("Qt", r"Q[A-Z]\w+$|Qt\w+/|QVTK", ("apps/turnscan-studio/", "tests/studio/"), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
     ("nanoflann", r"nanoflann", ("src/geometry/", "tests/", "bench/"), False),
     ("meshoptimizer", r"meshoptimizer", ("src/geometry/",), False),

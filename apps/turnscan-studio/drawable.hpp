@@ -1,0 +1,38 @@
+#pragma once
+// Meshes, clouds and lines made ready for the graphics library, on any thread.
+
+#include <cstdint>
+#include <memory>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::studio {
+
+/// Geometry as it is drawn; see drawable_parts.hpp.
+struct Drawable;
+using DrawablePtr = std::shared_ptr<const Drawable>;
+
+/// Pairs of points, metres.
+struct Segments {
+  std::vector<Vec3f> points;
+
+  void add(const Vec3d& a, const Vec3d& b) {
+    points.push_back(a.cast<float>());
+    points.push_back(b.cast<float>());
+  }
+};
+
+enum class Shading {
+  kSmooth,  ///< normals of the mesh, or made from it
+  kFlat     ///< every face with a normal of its own
+};
+
+/// A mesh without triangles gives something that draws nothing.
+DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth);
+DrawablePtr make_drawable(const PointCloud& cloud);
+DrawablePtr make_drawable(const Segments& segments);
+
+const Box& box_of(const Drawable& drawable);
+
+}  // namespace turnscan::studio

@@ -1,0 +1,28 @@
+#pragma once
+// For the sources that talk to VTK.
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include "drawable.hpp"
+
+namespace turnscan::studio {
+
+enum class DrawableKind { kMesh, kCloud, kLines };
+
+struct Drawable {
+  DrawableKind kind = DrawableKind::kMesh;
+  /// A cloud: pieces of kChunkPoints points, each spread over the whole cloud, so that the first
+  /// ones alone show its shape. Else one piece.
+  std::vector<vtkSmartPointer<vtkPolyData>> chunks;
+  /// Of a large mesh: fewer triangles, for while it moves.
+  vtkSmartPointer<vtkPolyData> coarse;
+  Box box;
+  std::size_t points = 0;
+  bool colored = false;
+};
+
+inline constexpr std::size_t kChunkPoints = 50000;
+inline constexpr std::size_t kCoarseAbove = 150000;  ///< triangles
+
+}  // namespace turnscan::studio

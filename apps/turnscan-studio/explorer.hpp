@@ -1,0 +1,57 @@
+#pragma once
+// Model Explorer: load, process, compare, edit, save.
+
+#include <map>
+#include <memory>
+
+#include "mode.hpp"
+#include "models.hpp"
+
+namespace turnscan::studio {
+
+class ModelList;
+class StagePanel;
+
+class ExplorerMode : public Mode {
+  Q_OBJECT
+ public:
+  explicit ExplorerMode(const Services& services, QWidget* parent = nullptr);
+  ~ExplorerMode() override;
+
+  bool open_file(const QString& path) override;
+  void undo() override { store_->undo(); }
+  void redo() override { store_->redo(); }
+  void save() override;
+  void remove_selected() override;
+  void shut_down() override;
+
+  void open_dialog();
+  /// Loads a recording and, when it is there, runs all stages.
+  void take_recording(const QString& folder, bool reconstruct);
+  void run_stage(const QString& stage);
+  void save_as(int id, const QString& path);
+
+  ModelStore& store() { return *store_; }
+  ModelList& list() { return *list_; }
+  StagePanel& stages() { return *stages_; }
+
+ Q_SIGNALS:
+  void file_opened(const QString& path);
+
+ private:
+  void load(const QString& path, const std::function<void()>& then);
+  void run_filter();
+  void sync();
+  void on_selection(int id);
+
+  ModelStore* store_;
+  ModelList* list_;
+  StagePanel* stages_;
+  struct Shown {
+    int item = 0;
+    ModelDataPtr data;
+  };
+  std::map<int, Shown> shown_;  ///< by model
+};
+
+}  // namespace turnscan::studio

@@ -1,0 +1,24 @@
+#include <QApplication>
+#include <QCommandLineParser>
+#include <turnscan/core/version.hpp>
+
+#include "main_window.hpp"
+#include "program.hpp"
+
+int main(int argc, char** argv) {
+  using namespace turnscan::studio;
+  prepare_application();
+  QApplication app(argc, argv);
+  name_application();
+  QApplication::setApplicationVersion(turnscan::version());
+  QCommandLineParser parser;
+  parser.setApplicationDescription("Scan, look at and simulate objects on a turntable.");
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument("FILE", "Meshes, clouds or recordings to open.", "[FILE...]");
+  parser.process(app);
+  MainWindow window;
+  window.show();
+  for (const QString& file : parser.positionalArguments()) window.open(file);
+  return QApplication::exec();
+}

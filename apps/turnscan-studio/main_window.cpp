@@ -1,0 +1,254 @@
+#include "main_window.hpp"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <turnscan/core/version.hpp>
+
+#include "explorer.hpp"
+#include "job_bar.hpp"
+#include "jobs.hpp"
+#include "scene_view.hpp"
+#include "theme.hpp"
+#include "view_settings.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+constexpr int kRecentFiles = 10;
+
+}  // namespace
+
+MainWindow::MainWindow()
+    : jobs_(new JobRunner(this)),
+      settings_(new ViewSettings(this)),
+      stack_(new QStackedWidget(this)),
+      mode_bar_(nullptr),
+      explorer_(nullptr),
+      status_(new QLabel(this)) {
+  setWindowTitle(tr("turnscan Studio"));
+  setAcceptDrops(true);
+  auto* center = new QWidget(this);
+  auto* column = new QVBoxLayout(center);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(make_top_bar());
+  column->addWidget(stack_, 1);
+  setCentralWidget(center);
+  statusBar()->addWidget(status_, 1);
+  statusBar()->addPermanentWidget(new JobBar(*jobs_, this));
+  statusBar()->setSizeGripEnabled(false);
+  explorer_ = new ExplorerMode({*jobs_, *settings_}, stack_);
+  add_mode("explorer", tr("Model Explorer"), tr("Look at models and process them (F2)"), explorer_);
+  connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
+  connect(&explorer_->store(), &ModelStore::changed, this, &MainWindow::update_undo);
+  make_menus();
+  connect(settings_, &ViewSettings::changed, this, &MainWindow::apply_settings);
+  apply_settings();
+  restore_window();
+}
+
+MainWindow::~MainWindow() {
+  // Before the modes, to whose widgets the results of jobs go.
+  delete jobs_;
+  jobs_ = nullptr;
+}
+
+QWidget* MainWindow::make_top_bar() {
+  mode_bar_ = new QWidget(this);
+  mode_bar_->setObjectName("top_bar");
+  auto* row = new QHBoxLayout(mode_bar_);
+  row->setContentsMargins(12, 7, 12, 7);
+  row->setSpacing(6);
+  row->addStretch();
+  return mode_bar_;
+}
+
+void MainWindow::add_mode(const QString& name, const QString& title, const QString& tip,
+                          Mode* mode) {
+  stack_->addWidget(mode);
+  auto* button = new QToolButton(mode_bar_);
+  button->setObjectName("mode");
+  button->setText(title);
+  button->setToolTip(tip);
+  button->setCheckable(true);
+  button->setAutoExclusive(true);
+  button->setProperty("mode_name", name);
+  static_cast<QHBoxLayout*>(mode_bar_->layout())->insertWidget(int(mode_buttons_.size()), button);
+  mode_buttons_.emplace_back(name, button);
+  connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
+  connect(mode, &Mode::status, status_, &QLabel::setText);
+  connect(mode, &Mode::recording_made, this, [this](const QString& folder, bool reconstruct) {
+    show_mode("explorer");
+    explorer_->take_recording(folder, reconstruct);
+  });
+}
+
+void MainWindow::show_mode(const QString& name) {
+  for (std::size_t i = 0; i < mode_buttons_.size(); ++i) {
+    if (mode_buttons_[i].first != name) continue;
+    mode_buttons_[i].second->setChecked(true);
+    stack_->setCurrentIndex(int(i));
+    QSettings().setValue("window/mode", name);
+  }
+  update_undo();
+}
+
+Mode& MainWindow::mode() const { return *static_cast<Mode*>(stack_->currentWidget()); }
+
+void MainWindow::make_menus() {
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  file->addAction(
+      tr("&Open…"), explorer_,
+      [this] {
+        show_mode("explorer");
+        explorer_->open_dialog();
+      },
+      QKeySequence::Open);
+  file->addAction(
+      tr("Open &recording…"), this,
+      [this] {
+        const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a recording"));
+        if (!folder.isEmpty()) open(folder);
+      },
+      QKeySequence("Ctrl+Shift+O"));
+  recent_ = file->addMenu(tr("Open r&ecent"));
+  connect(recent_, &QMenu::aboutToShow, this, &MainWindow::fill_recent);
+  file->addAction(
+      tr("&Save…"), this, [this] { mode().save(); }, QKeySequence::Save);
+  file->addAction(
+      tr("Save s&creenshot…"), this,
+      [this] {
+        const QString path = QFileDialog::getSaveFileName(this, tr("Save screenshot"), "view.png",
+                                                          tr("Pictures (*.png)"));
+        if (!path.isEmpty()) screenshot(path);
+      },
+      QKeySequence("Ctrl+P"));
+  file->addSeparator();
+  file->addAction(tr("&Quit"), this, &QWidget::close, QKeySequence::Quit);
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  undo_ = edit->addAction(
+      tr("Undo"), this, [this] { mode().undo(); }, QKeySequence::Undo);
+  redo_ = edit->addAction(
+      tr("Redo"), this, [this] { mode().redo(); }, QKeySequence("Ctrl+Shift+Z"));
+  edit->addAction(
+      tr("Delete"), this, [this] { mode().remove_selected(); }, QKeySequence::Delete);
+  edit->addSeparator();
+  auto* cancel = edit->addAction(tr("Cancel the running job"), this, [this] { jobs_->cancel(); });
+  cancel->setShortcut(QKeySequence(Qt::Key_Escape));
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  view->addAction(
+      tr("Reset camera"), this, [this] { mode().view().reset_camera(); },
+      QKeySequence(Qt::Key_Home));
+  const QString names[] = {tr("Front"), tr("Back"),   tr("Left"),  tr("Right"),
+                           tr("Top"),   tr("Bottom"), tr("Corner")};
+  for (int i = 0; i < 7; ++i)
+    view->addAction(
+        names[i], this, [this, i] { mode().view().look(StandardView(i)); },
+        QKeySequence(Qt::Key_1 + i));
+  view->addSeparator();
+  view->addAction(
+      tr("Bounding boxes"), this, [this] { settings_->set_boxes(!settings_->boxes()); },
+      QKeySequence(Qt::Key_B));
+  dark_ = view->addAction(tr("Dark"), settings_, &ViewSettings::set_dark);
+  dark_->setCheckable(true);
+  dark_->setShortcut(QKeySequence("Ctrl+Shift+D"));
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  help->addAction(tr("Keys and mouse"), this, [this] {
+    QMessageBox::information(
+        this, tr("Keys and mouse"),
+        tr("Left button: turn\nMiddle button, or Shift and left: move\n"
+           "Wheel or right button: nearer, farther\nArrows, +, -: the same by keys\n"
+           "1 to 7: from front, back, left, right, top, bottom, corner\nHome: show everything\n"
+           "B: bounding boxes\nF1 to F3: the modes\nEsc: cancel the running job"));
+  });
+  help->addAction(tr("About turnscan Studio"), this, [this] {
+    QMessageBox::about(this, tr("About turnscan Studio"),
+                       tr("turnscan Studio %1\nFrom an object on a turntable to a watertight mesh.")
+                           .arg(version()));
+  });
+}
+
+void MainWindow::open(const QString& path) {
+  show_mode("explorer");
+  explorer_->open_file(path);
+}
+
+void MainWindow::screenshot(const QString& path) {
+  const QImage picture = mode().view().screenshot();
+  status_->setText(picture.save(path) ? tr("Wrote %1").arg(path)
+                                      : tr("%1: the picture cannot be written there").arg(path));
+}
+
+void MainWindow::add_recent(const QString& path) {
+  QSettings settings;
+  QStringList recent = settings.value("files/recent").toStringList();
+  const QString full = QFileInfo(path).absoluteFilePath();
+  recent.removeAll(full);
+  recent.prepend(full);
+  while (recent.size() > kRecentFiles) recent.removeLast();
+  settings.setValue("files/recent", recent);
+}
+
+void MainWindow::fill_recent() {
+  recent_->clear();
+  for (const QString& path : QSettings().value("files/recent").toStringList())
+    recent_->addAction(path, this, [this, path] { open(path); });
+  if (recent_->isEmpty()) recent_->addAction(tr("No files yet"))->setEnabled(false);
+}
+
+void MainWindow::apply_settings() {
+  dark_->setChecked(settings_->dark());
+  // A new style sheet makes every widget be laid out anew: only when the theme changed.
+  if (property("theme").toInt() == (settings_->dark() ? 2 : 1)) return;
+  setProperty("theme", settings_->dark() ? 2 : 1);
+  apply_theme(*static_cast<QApplication*>(QApplication::instance()), settings_->theme());
+}
+
+void MainWindow::update_undo() {
+  const ModelStore& store = explorer_->store();
+  const bool here = &mode() == static_cast<Mode*>(explorer_);
+  undo_->setEnabled(here && store.can_undo());
+  redo_->setEnabled(here && store.can_redo());
+  undo_->setText(store.can_undo() ? tr("Undo %1").arg(store.undo_text()) : tr("Undo"));
+  redo_->setText(store.can_redo() ? tr("Redo %1").arg(store.redo_text()) : tr("Redo"));
+}
+
+void MainWindow::restore_window() {
+  const QSettings settings;
+  resize(1440, 900);
+  restoreGeometry(settings.value("window/geometry").toByteArray());
+  show_mode("explorer");
+  show_mode(settings.value("window/mode", "explorer").toString());
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile() && !mode().open_file(url.toLocalFile())) open(url.toLocalFile());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue("window/geometry", saveGeometry());
+  for (int i = 0; i < stack_->count(); ++i) static_cast<Mode*>(stack_->widget(i))->shut_down();
+  jobs_->cancel();
+  event->accept();
+}
+
+}  // namespace turnscan::studio

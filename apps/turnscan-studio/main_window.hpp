@@ -1,0 +1,62 @@
+#pragma once
+
+#include <QMainWindow>
+#include <memory>
+#include <vector>
+
+class QLabel;
+class QMenu;
+class QStackedWidget;
+class QToolButton;
+
+namespace turnscan::studio {
+
+class ExplorerMode;
+class JobRunner;
+class Mode;
+class ViewSettings;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  MainWindow();
+  ~MainWindow() override;
+
+  void open(const QString& path);
+  void show_mode(const QString& name);  ///< "scanner", "explorer" or "simulator"
+  void screenshot(const QString& path);
+
+  JobRunner& jobs() { return *jobs_; }
+  ViewSettings& settings() { return *settings_; }
+  ExplorerMode& explorer() { return *explorer_; }
+  Mode& mode() const;
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void add_mode(const QString& name, const QString& title, const QString& tip, Mode* mode);
+  QWidget* make_top_bar();
+  void make_menus();
+  void add_recent(const QString& path);
+  void fill_recent();
+  void apply_settings();
+  void update_undo();
+  void restore_window();
+
+  JobRunner* jobs_;
+  ViewSettings* settings_;
+  QStackedWidget* stack_;
+  QWidget* mode_bar_;
+  ExplorerMode* explorer_;
+  std::vector<std::pair<QString, QToolButton*>> mode_buttons_;
+  QLabel* status_;
+  QMenu* recent_ = nullptr;
+  QAction* undo_ = nullptr;
+  QAction* redo_ = nullptr;
+  QAction* dark_ = nullptr;
+};
+
+}  // namespace turnscan::studio

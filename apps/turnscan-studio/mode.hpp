@@ -1,0 +1,55 @@
+#pragma once
+// What the three modes have in common: a view on the left, a panel on the right.
+
+#include <QWidget>
+
+class QLabel;
+class QScrollArea;
+class QVBoxLayout;
+
+namespace turnscan::studio {
+
+class JobRunner;
+class SceneView;
+class ViewSettings;
+
+/// What a mode gets from the window.
+struct Services {
+  JobRunner& jobs;
+  ViewSettings& settings;
+};
+
+class Mode : public QWidget {
+  Q_OBJECT
+ public:
+  Mode(const Services& services, QWidget* parent);
+
+  SceneView& view() const { return *view_; }
+  /// Whether files dropped on the window are for this mode.
+  virtual bool open_file(const QString& /*path*/) { return false; }
+  virtual void undo() {}
+  virtual void redo() {}
+  virtual void save() {}
+  virtual void remove_selected() {}
+  /// The window closes: what must not be lost is brought to an end.
+  virtual void shut_down() {}
+
+ Q_SIGNALS:
+  /// One line for the status bar.
+  void status(const QString& text);
+  /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
+  void recording_made(const QString& folder, bool reconstruct);
+
+ protected:
+  JobRunner& jobs() const { return services_.jobs; }
+  ViewSettings& settings() const { return services_.settings; }
+  /// Sections go here.
+  QVBoxLayout* panel() const { return body_; }
+
+ private:
+  Services services_;
+  SceneView* view_;
+  QVBoxLayout* body_;
+};
+
+}  // namespace turnscan::studio

@@ -1,0 +1,83 @@
+#pragma once
+// What a SceneView consists of, for its own sources.
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPlaneCollection.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <QPainter>
+#include <QTimer>
+#include <QVariantAnimation>
+#include <array>
+#include <map>
+
+#include "drawable_parts.hpp"
+#include "scene_view.hpp"
+#include "theme.hpp"
+
+namespace turnscan::studio {
+
+class VtkCanvas;
+class ViewOverlay;
+
+struct SceneView::Item {
+  DrawablePtr drawable;
+  ItemStyle style;
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+  vtkSmartPointer<vtkActor> coarse, box;
+};
+
+struct SceneView::Parts {
+  VtkCanvas* canvas = nullptr;
+  ViewOverlay* overlay = nullptr;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  std::array<vtkNew<vtkRenderer>, 2> renderers;
+  vtkNew<vtkCamera> camera;
+  vtkNew<vtkPlaneCollection> clip_planes;
+  std::map<int, Item> items;
+  int next_item = 1;
+
+  const Theme* theme = nullptr;
+  double point_size = 2.0, speed = 1.0;
+  bool boxes = false, split = false;
+  std::array<QString, 2> pane_titles;
+  Legend legend;
+  QString empty_title, empty_text, hint;
+
+  Vec3d up = Vec3d::UnitY();
+  Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a flight
+  QVariantAnimation flight;
+
+  QTimer render;  ///< the next frame
+  QTimer rest;    ///< the camera has come to rest
+  QTimer more;    ///< the next piece of the points that are still missing
+  bool moving = false, complete = false;
+  std::size_t budget = 200000, chunks_a_frame = 2, points_drawn = 0;
+  double longest_ms = 0.0;
+  std::vector<vtkSmartPointer<vtkActor>> pending;
+
+  QPointF last_mouse;
+  bool tool_active = false;
+
+  void fly(double share);
+  void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
+  void show_first(bool moving_now);
+  void drop(Item& item) {
+    for (auto& renderer : renderers) {
+      for (const auto& actor : item.actors) renderer->RemoveActor(actor);
+      if (item.coarse) renderer->RemoveActor(item.coarse);
+      if (item.box) renderer->RemoveActor(item.box);
+    }
+    item.actors.clear();
+    item.coarse = item.box = nullptr;
+    pending.clear();
+  }
+};
+
+Segments box_segments(const Box& box);
+
+}  // namespace turnscan::studio

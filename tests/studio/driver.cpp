@@ -1,0 +1,124 @@
+#include "driver.hpp"
+
+#include <QApplication>
+#include <QDir>
+#include <QFile>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTest>
+#include <algorithm>
+#include <cstdio>
+
+#include "jobs.hpp"
+#include "main_window.hpp"
+#include "mode.hpp"
+#include "scene_view.hpp"
+#include "section.hpp"
+
+namespace turnscan::studio {
+
+StallWatch::StallWatch() {
+  QObject::connect(&timer_, &QTimer::timeout, [this] {
+    longest_ms_ = std::max(longest_ms_, 1e-6 * double(since_.nsecsElapsed()));
+    since_.restart();
+  });
+  since_.start();
+  timer_.start(2);
+}
+
+void StallWatch::reset() {
+  longest_ms_ = 0.0;
+  since_.restart();
+}
+
+bool wait_for(const std::function<bool()>& condition, double seconds) {
+  QElapsedTimer clock;
+  clock.start();
+  while (!condition()) {
+    if (double(clock.elapsed()) > 1e3 * seconds) return false;
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+    QTest::qSleep(1);
+  }
+  return true;
+}
+
+bool wait_idle(MainWindow& window, double seconds) {
+  return wait_for([&] { return !window.jobs().busy(); }, seconds) &&
+         wait_for([&] { return window.mode().view().settled(); }, seconds);
+}
+
+void run_for(int milliseconds) { QTest::qWait(milliseconds); }
+
+QWidget* named(QWidget& in, const QString& name) { return in.findChild<QWidget*>(name); }
+
+QPushButton* button_with(QWidget& in, const QString& text) {
+  for (QPushButton* each : in.findChildren<QPushButton*>())
+    if (each->text() == text) return each;
+  return nullptr;
+}
+
+bool click(QWidget* widget) {
+  if (!widget || !widget->isEnabled()) return false;
+  for (QWidget* up = widget->parentWidget(); up; up = up->parentWidget()) {
+    if (auto* section = qobject_cast<Section*>(up)) section->set_open(true);
+  }
+  QApplication::processEvents();
+  for (QWidget* up = widget->parentWidget(); up; up = up->parentWidget()) {
+    if (auto* area = qobject_cast<QScrollArea*>(up)) area->ensureWidgetVisible(widget);
+  }
+  QApplication::processEvents();
+  if (!widget->isVisible()) return false;
+  QTest::mouseClick(widget, Qt::LeftButton, Qt::NoModifier, widget->rect().center());
+  QApplication::processEvents();
+  return true;
+}
+
+bool type(QWidget* edit, const QString& text) {
+  auto* line = qobject_cast<QLineEdit*>(edit);
+  if (!line) return false;
+  if (!click(line)) return false;
+  line->selectAll();
+  QTest::keyClicks(line, text);
+  QApplication::processEvents();
+  return true;
+}
+
+int run_command_line(const QStringList& arguments, QByteArray* out) {
+  QProcess process;
+  process.start(qEnvironmentVariable("TURNSCAN_BIN"), arguments);
+  if (!process.waitForFinished(300000)) return -1;
+  const QByteArray errors = process.readAllStandardError();
+  if (process.exitCode() != 0) std::fprintf(stderr, "%s", errors.constData());
+  if (out) *out = process.readAllStandardOutput();
+  return process.exitCode();
+}
+
+QByteArray content(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+void keep_picture(QWidget& window, const QString& name) {
+  const QString folder = qEnvironmentVariable("TURNSCAN_SCREENSHOTS");
+  if (folder.isEmpty()) return;
+  run_for(60);
+  window.grab().save(QDir(folder).filePath(name + ".png"));
+}
+
+double busyness(const QImage& image) {
+  long long changes = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 1; x < image.width(); ++x) {
+      const QRgb a = image.pixel(x - 1, y), b = image.pixel(x, y);
+      changes += std::abs(qRed(a) - qRed(b)) + std::abs(qGreen(a) - qGreen(b)) +
+                             std::abs(qBlue(a) - qBlue(b)) >
+                         12
+                     ? 1
+                     : 0;
+    }
+  return double(changes) / std::max(1, image.width() * image.height());
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,54 @@
+#pragma once
+// A person at the window: clicks, keys, waiting for what is shown.
+
+#include <QElapsedTimer>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QWidget>
+#include <functional>
+#include <string>
+
+class QPushButton;
+
+namespace turnscan::studio {
+
+class MainWindow;
+
+/// The longest time for which the event loop did not come round.
+class StallWatch {
+ public:
+  StallWatch();
+  void reset();
+  double longest_ms() const { return longest_ms_; }
+
+ private:
+  QTimer timer_;
+  QElapsedTimer since_;
+  double longest_ms_ = 0.0;
+};
+
+/// Runs the event loop until the condition holds; false after `seconds`.
+bool wait_for(const std::function<bool()>& condition, double seconds = 60.0);
+/// Until no job runs and the view is drawn.
+bool wait_idle(MainWindow& window, double seconds = 120.0);
+void run_for(int milliseconds);
+
+/// The widget of that object name, or nullptr.
+QWidget* named(QWidget& in, const QString& name);
+QPushButton* button_with(QWidget& in, const QString& text);
+/// A click of the left button in the middle, after folds around it are opened. False when the
+/// widget is not there or not enabled.
+bool click(QWidget* widget);
+/// Types a text into a line edit in place of what is there.
+bool type(QWidget* edit, const QString& text);
+
+/// Runs `turnscan` with the arguments; its exit code.
+int run_command_line(const QStringList& arguments, QByteArray* out = nullptr);
+QByteArray content(const QString& path);
+
+/// Writes the whole window as NAME.png into the folder TURNSCAN_SCREENSHOTS, if that is set.
+void keep_picture(QWidget& window, const QString& name);
+/// Share of the pixels that differ clearly from their left neighbour: 0 for an empty view.
+double busyness(const QImage& image);
+
+}  // namespace turnscan::studio
