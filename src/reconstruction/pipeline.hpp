@@ -11,7 +11,7 @@
 #include <turnscan/reconstruction/normals.hpp>
 #include <turnscan/reconstruction/refine.hpp>
 #include <turnscan/reconstruction/surface.hpp>
-#include <turnscan/reconstruction/volumetric.hpp>
+#include <turnscan/reconstruction/volumetric_options.hpp>
 #include <turnscan/reconstruction/voxel_grid.hpp>
 
 namespace turnscan {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/first_look.hpp>
 #include <turnscan/reconstruction/point_stages.hpp>
@@ -69,6 +70,18 @@ class ReconstructionStream::Impl {
     out_.dropped_frames += dropped;
     context.advance(dropped);
     return {};
+  }
+
+  Result<TriangleMesh> preview(const RunContext& context) {
+    if (!volumetric())
+      return fail(ErrorCode::kInvalidOption,
+                  "preview: only --method volumetric shows the growing surface");
+    const VolumetricStream* volume = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      volume = volume_.get();
+    }
+    return volume == nullptr ? TriangleMesh() : volume->preview(context);
   }
 
   Result<Reconstruction> finish(const StageSink& sink, const RunContext& context) {
@@ -146,9 +159,8 @@ class ReconstructionStream::Impl {
     out_.notes = look.notes;
     recipe_.cylinder = look.cylinder;
     if (volumetric()) {
-      TURNSCAN_ASSIGN(VolumetricStream volume,
-                      VolumetricStream::create(header_, options_, look, recipe_.rays));
-      volume_.emplace(std::move(volume));
+      const std::lock_guard lock(mutex_);
+      TURNSCAN_ASSIGN(volume_, VolumetricStream::create(header_, options_, look, recipe_.rays));
     }
     look_ = std::move(look);
     std::vector<Placed> placed;
@@ -157,8 +169,9 @@ class ReconstructionStream::Impl {
     const std::vector<Frame> frames = std::move(waiting_);
     waiting_.clear();
     waiting_poses_.clear();
-    return work(
-        placed, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
+    TURNSCAN_TRY(work(
+        placed, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context));
+    return volumetric() ? volume_->begin() : Result<>();
   }
 
   Result<> work(const std::vector<Placed>& placed, const FrameReader& read,
@@ -182,7 +195,7 @@ class ReconstructionStream::Impl {
       ++out_.frames;
       out_.returns += views[i]->returns;
       out_.cropped += views[i]->kept;
-      TURNSCAN_TRY(volume_->add(std::move(*views[i])));
+      TURNSCAN_TRY(volume_->add(std::move(*views[i]), placed[i].info.sensor));
     }
     return {};
   }
@@ -219,7 +232,8 @@ class ReconstructionStream::Impl {
   std::size_t forgotten_ = 0;  ///< frames without an object, before the first look
   std::optional<FirstLook> look_;
   MergedCloud merged_;
-  std::optional<VolumetricStream> volume_;
+  std::mutex mutex_;  ///< guards the pointer volume_
+  std::unique_ptr<VolumetricStream> volume_;
   Reconstruction out_;
 };
 
@@ -244,6 +258,10 @@ Result<> ReconstructionStream::add(const std::vector<Frame>& frames, const RunCo
   for (const Frame& frame : frames) infos.push_back(frame.info);
   return impl_->add(
       infos, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
+}
+
+Result<TriangleMesh> ReconstructionStream::preview(const RunContext& context) const {
+  return impl_->preview(context);
 }
 
 Result<Reconstruction> ReconstructionStream::finish(const StageSink& sink,

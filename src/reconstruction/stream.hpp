@@ -11,7 +11,7 @@ namespace turnscan {
 /// Gives the frame at a position of a list. Called from several threads at once.
 using FrameReader = std::function<Result<Frame>(std::size_t position)>;
 
-/// One thread adds and finishes.
+/// One thread adds and finishes; others may ask for previews meanwhile.
 class ReconstructionStream {
  public:
   /// Sensors and turntable must be known; the header is copied. Fails with kInvalidOption as
@@ -30,6 +30,12 @@ class ReconstructionStream {
   Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
                const RunContext& context);
   Result<> add(const std::vector<Frame>& frames, const RunContext& context = RunContext());
+
+  /// A rough closed mesh of what was added so far, in the table frame, in bounded time (some 4,000
+  /// bricks of samples whatever the scan) and without waiting for more than the 16 frames that are
+  /// being summed. From any thread, while another one adds; not while it finishes. An empty mesh
+  /// before the first look. Volumetric method only: kInvalidOption with others; kCancelled.
+  Result<TriangleMesh> preview(const RunContext& context = RunContext()) const;
 
   /// The meshes of what was added. Once; afterwards the stream is empty. Fails as reconstruct().
   Result<Reconstruction> finish(const StageSink& sink, const RunContext& context);

@@ -7,15 +7,17 @@
 #include <turnscan/geometry/isosurface.hpp>
 #include <turnscan/reconstruction/depth_view.hpp>
 #include <turnscan/reconstruction/field_kernel.hpp>
+#include <turnscan/turntable/crop.hpp>
 
 namespace turnscan {
 
 struct VolumeScale {
   double cell_m = 0.001;
-  double truncation_m = 0.005;    ///< measurements farther than this from a sample say nothing
-  double behind_m = 0.003;        ///< beyond this behind a surface they fade
-  float edge_weight = 0.1f;       ///< of measurements beside an edge
-  std::optional<double> floor_m;  ///< on a platter: lowest height at which samples are looked up
+  double truncation_m = 0.005;       ///< measurements farther than this from a sample say nothing
+  double behind_m = 0.003;           ///< beyond this behind a surface they fade
+  float edge_weight = 0.1f;          ///< of measurements beside an edge
+  std::optional<Cylinder> cylinder;  ///< what counts
+  std::optional<double> floor_m;     ///< on a platter: lowest height at which samples are looked up
   std::size_t max_bytes = std::size_t(600) << 20;
 };
 
@@ -53,13 +55,6 @@ class Volume {
   /// Gives a brick samples, at first `start` with weight 0.
   void touch(std::size_t brick, float start);
 };
-
-/// Accumulates all views in the box (table frame). Where views saw a surface within the truncation
-/// a sample gets their mean distance along the rays; where they saw past it, it is clear; conflicts
-/// go by the evidence. The rest has weight 0.
-/// Fails with kResourceLimit, kCancelled.
-Result<Volume> accumulate(std::span<const DepthView> views, const Box& box,
-                          const VolumeScale& scale, const RunContext& context);
 
 /// Averages known samples with their known neighbours, by their weights.
 void smooth(Volume& volume, int rounds);

@@ -1,27 +1,16 @@
 #pragma once
 // Reconstruction by signed distances of all frames, with what each ray passed through.
 
-#include <turnscan/core/option_table.hpp>
 #include <turnscan/reconstruction/depth_view.hpp>
+#include <turnscan/reconstruction/field_sums.hpp>
 #include <turnscan/reconstruction/mesh_fit.hpp>
-#include <turnscan/reconstruction/volume.hpp>
-#include <turnscan/turntable/crop.hpp>
+#include <turnscan/reconstruction/volumetric_options.hpp>
 
 namespace turnscan {
 
-struct VolumetricOptions {
-  std::optional<double> truncation_m;  ///< along the rays, around each sample
-  int field_frames = 256;              ///< the volume takes at most so many, evenly spread
-  bool fit = true;                     ///< move the vertices onto all frames' measurements
-  std::optional<double> fit_reach_m;
-  int fit_iterations = 3;
-  std::optional<int> triangles;  ///< at most so many
-};
-OptionTable describe(VolumetricOptions& options);
-
 /// What the volumetric method is told about the data.
 struct VolumetricInput {
-  std::vector<DepthView> views;
+  std::vector<DepthView> views;      ///< all, or as many as are kept, evenly spread
   double noise_m = 0.0;              ///< of a depth along its ray
   double spacing_m = 0.0;            ///< of the points of one frame
   std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
@@ -43,17 +32,27 @@ struct VolumetricPiece {
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
-  std::vector<VolumetricChoice> choices;
   std::vector<std::pair<std::string, double>> seconds;
-  double cell_m = 0.0;
 };
 
 /// Points inside the cylinder of up to about 64 views spread over the input, edges left out.
 std::vector<Vec3f> sample_points(const VolumetricInput& input);
+/// The box around them, but for the outermost, which may be stray. Empty without a point.
+Box measured_box(const VolumetricInput& input);
 
-/// Closed, 2-manifold, outward pieces. Fails with kTooFewPoints when no surface is found,
-/// kResourceLimit, kCancelled.
+/// Lengths that follow from the data, and why.
+struct VolumetricScale {
+  VolumeScale volume;
+  double fit_reach_m = 0.0;
+  std::vector<VolumetricChoice> choices;
+};
+VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
+                             const Box& box);
+
+/// Closed, 2-manifold, outward pieces from the sums over all views. Fails with kTooFewPoints when
+/// no surface is found, kResourceLimit, kCancelled.
 Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,
+                                            const VolumetricScale& scale, const FieldSums& sums,
                                             const VolumetricOptions& options, double min_share,
                                             const RunContext& context);
 

@@ -1,17 +1,17 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numbers>
 #include <tests/support/memory_sequence.hpp>
+#include <thread>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 
 namespace turnscan {
 namespace {
 
-using ::testing::Contains;
-using ::testing::HasSubstr;
 using turnscan::testing::MemorySequence;
 
 constexpr double kRadius = 0.03;
@@ -151,6 +151,41 @@ TEST(ReconstructionStream, StopsWhenCancelled) {
   context.cancel();
   EXPECT_EQ(stream.add(sequence.data, context).error().code, ErrorCode::kCancelled);
   EXPECT_EQ(stream.finish({}, context).error().code, ErrorCode::kCancelled);
+}
+
+TEST(ReconstructionStream, ShowsTheGrowingSurfaceWhileFramesAreAdded) {
+  const MemorySequence sequence = ball(96);
+  auto stream =
+      ReconstructionStream::create(sequence.header(), with(SurfaceMethod::kVolumetric)).value();
+  EXPECT_TRUE(stream.preview()->empty());
+  std::atomic<bool> done{false};
+  std::size_t shown = 0;
+  std::thread watcher([&] {
+    while (!done) {
+      const auto preview = stream.preview();
+      ASSERT_TRUE(preview);
+      if (preview->empty()) continue;
+      ++shown;
+      EXPECT_TRUE(check_mesh(*preview).watertight());
+    }
+  });
+  for (const Frame& frame : sequence.data) ASSERT_TRUE(stream.add({frame}));
+  const auto last = stream.preview();
+  done = true;
+  watcher.join();
+  ASSERT_TRUE(last);
+  const Box box = bounds(last->vertices);
+  EXPECT_NEAR(box.max.y(), kCenter.y() + kRadius, 0.004);
+  EXPECT_NEAR(box.size().x(), 2 * kRadius, 0.008);
+  // Asking changes nothing.
+  expect_same(stream.finish({}, RunContext()),
+              reconstruct(sequence, with(SurfaceMethod::kVolumetric), {}, RunContext()));
+}
+
+TEST(ReconstructionStream, PointMethodsSayThatTheyHaveNoPreview) {
+  const auto stream =
+      ReconstructionStream::create(ball(1).header(), with(SurfaceMethod::kPoisson)).value();
+  EXPECT_EQ(stream.preview().error().code, ErrorCode::kInvalidOption);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <tests/support/memory_sequence.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/mesh_fit.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/volume.hpp>
 
@@ -358,8 +359,7 @@ TEST(Volumetric, RefusesWhatItCannotDo) {
 }
 
 TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
-  for (const char* name :
-       {"truncation", "field-frames", "fit-reach", "fit-iterations", "triangles"}) {
+  for (const char* name : {"truncation", "fit-reach", "fit-iterations", "triangles"}) {
     VolumetricOptions options;
     const auto wrong = describe(options).set(name, "-1");
     const auto checked = wrong ? describe(options).check() : wrong;

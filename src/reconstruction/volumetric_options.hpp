@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <turnscan/core/option_table.hpp>
+
+namespace turnscan {
+
+/// Of the volumetric method.
+struct VolumetricOptions {
+  std::optional<double> truncation_m;  ///< along the rays, around each sample
+  bool fit = true;                     ///< move the vertices onto the frames' measurements
+  std::optional<double> fit_reach_m;
+  int fit_iterations = 3;
+  std::optional<int> triangles;  ///< at most so many
+};
+OptionTable describe(VolumetricOptions& options);
+
+}  // namespace turnscan
