@@ -96,4 +96,13 @@ class FrameSource {
 /// kDeviceBusy, kNoPermission, kLibrary (no such driver), and what reading fails with.
 Result<std::unique_ptr<FrameSource>> open_source(const std::string& uri, const RunContext& context);
 
+/// Several sensors before one turntable as one source; of one URI, that one. Sensors and identities
+/// stand in the order of the URIs, the turntable is the first one's, and so is the clock: how far
+/// the others are from it is found from when their first 20 frames came, and time_s is corrected by
+/// it. Frames come in the order of time, but that a live source which is silent for 0.3 s is not
+/// waited for. Fails with kInvalidOption when there is no URI, a device is given twice, or only
+/// some of the sources are live, and as open_source.
+Result<std::unique_ptr<FrameSource>> open_sources(const std::vector<std::string>& uris,
+                                                  const RunContext& context);
+
 }  // namespace turnscan
