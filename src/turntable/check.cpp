@@ -100,6 +100,7 @@ std::optional<PairClosure> compare(const MotionFrame& first, const MotionFrame& 
   IcpOptions options;
   options.max_distance_m = 0.02;
   options.tolerance_m = 2e-5;
+  options.max_iterations = 200;
   const auto found = icp(points, targets, normals, Pose::Identity(), options, context);
   if (!found) return std::nullopt;
   double moved = 0.0, moved_by_turn = 0.0, lever = 0.0, reach = 0.0;
@@ -257,8 +258,11 @@ class Checker {
     const auto& frames = sequence_.frames();
     const double usual = *found.table.speed_rad_s;
     const double span = frames.back().time_s - frames.front().time_s;
-    const double window = std::max(0.8, span / 60.0);
+    // A window holds two steps from frame to frame at least.
+    const double step = span / double(frames.size() - 1);
+    const double window = std::max({0.8, span / 60.0, 2.2 * step});
     const double from = found.start_s.value_or(frames.front().time_s) + 2.0;
+    if (!(span > 0.0)) return;
     std::size_t a = 0;
     for (std::size_t b = 0; b < frames.size(); ++b) {
       while (frames[b].time_s - frames[a].time_s > window) ++a;

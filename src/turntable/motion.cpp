@@ -11,6 +11,8 @@ namespace {
 using namespace detail;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kStandsWithin = 0.2 * kDegree;
+constexpr double kTellsLaws = 8.0;     ///< difference of MotionSolution::misfit
 constexpr double kTellsTheTurn = 2.0;  ///< turn_information below which the angles are not seen
 
 enum class AngleSource { kTimes, kAngles, kNothing };
@@ -163,7 +165,12 @@ class Calibrator {
       reset_to_law();
       TURNSCAN_TRY(solve(options, false));
     }
-    find_starts();
+    if (find_starts()) {
+      options.iterations = 4;
+      options.reach_m = std::max(0.004, 12.0 * solution_.scale_m);
+      TURNSCAN_TRY(solve(options, false));
+      find_stills();
+    }
     TURNSCAN_TRY(choose_wander(options));
     options.stride = 1;
     options.iterations = 5;
@@ -189,8 +196,8 @@ class Calibrator {
   }
 
   /// Where the speed over about a second is far from the usual one, the table starts or stops.
-  void find_starts() {
-    if (source_ != AngleSource::kTimes || !tells_turn_ || data_.keys.size() < 24) return;
+  bool find_starts() {
+    if (source_ != AngleSource::kTimes || !tells_turn_ || data_.keys.size() < 24) return false;
     const auto& keys = data_.keys;
     const auto time = [&](std::size_t k) { return data_.frames[keys[k]].time_s; };
     std::vector<double> speed(keys.size(), 0.0);
@@ -211,6 +218,29 @@ class Calibrator {
         if (std::abs(data_.frames[i].time_s - time(k)) < half) law_.loose[i] = 1;
       }
     }
+    return std::count(law_.loose.begin(), law_.loose.end(), 1) > 0;
+  }
+
+  /// How long the table stands before it starts and after it stopped: until an angle is farther
+  /// from the mean of those before than they can be by chance. What the table turns by meanwhile
+  /// is less than can be seen.
+  void find_stills() {
+    const std::size_t n = state_.angle.size();
+    law_.still.assign(n, 0);
+    const auto walk = [&](auto index) {
+      double sum = 0.0;
+      std::size_t count = 0;
+      for (; count < n / 2; ++count) {
+        const double a = state_.angle[index(count)];
+        if (law_.loose[index(count)] == 0) break;
+        if (count > 0 && std::abs(a - sum / double(count)) > kStandsWithin) break;
+        sum += a;
+      }
+      count -= count / 4;  // it moved already when that could be seen
+      for (std::size_t i = 0; i < count && count > 2; ++i) law_.still[index(i)] = 1;
+    };
+    walk([](std::size_t i) { return i; });
+    walk([n](std::size_t i) { return n - 1 - i; });
   }
 
   /// How evenly the table turns is told by the data, too: the law of largest evidence (MacKay 1992,
@@ -219,6 +249,7 @@ class Calibrator {
     if (source_ != AngleSource::kTimes || !tells_turn_ || data_.keys.size() < 12) return {};
     const auto pairs = choose_pairs(data_, state_.angle, false);
     options.scale_m = solution_.scale_m;
+    options.unit_m2 = solution_.unit_m2;
     options.iterations = 4;
     options.reach_m = std::max(0.004, 12.0 * solution_.scale_m);
     std::optional<MotionSolution> best;
@@ -227,7 +258,8 @@ class Calibrator {
       law_.wander = share;
       TURNSCAN_ASSIGN(MotionSolution tried,
                       solve_motion(data_, state_, pairs, law_, options, context_));
-      if (best && best->misfit <= tried.misfit) continue;
+      // The steadiest of those that are about as probable.
+      if (best && best->misfit <= tried.misfit + kTellsLaws) continue;
       best = std::move(tried);
       wander = share;
     }
@@ -274,8 +306,12 @@ class Calibrator {
   void put_axis(Calibration& out) const {
     Vec3d axis = state_.axis;
     out.table.axis = axis;
-    out.axis_sigma_rad = std::sqrt(solution_.covariance(0, 0) + solution_.covariance(1, 1));
-    out.center_sigma_m = std::sqrt(solution_.covariance(2, 2) + solution_.covariance(3, 3));
+    // Besides noise: what smoothing and mixed pixels at silhouettes shift, a few hundredths of a
+    // pixel, and over the size of what turns still a hundredth.
+    const double shift = 0.03 * data_.spacing_m, tilt = 0.01 * data_.spacing_m / data_.extent_m;
+    const auto& c = solution_.covariance;
+    out.axis_sigma_rad = std::sqrt(c(0, 0) + c(1, 1) + tilt * tilt);
+    out.center_sigma_m = std::sqrt(c(2, 2) + c(3, 3) + shift * shift);
     const std::string how = fmt::format("motion of {} frames, {} distances between them",
                                         data_.frames.size(), solution_.residuals);
     out.axis_found = out.center_found = how;

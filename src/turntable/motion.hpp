@@ -13,7 +13,7 @@ struct MotionOptions {
   std::optional<double> speed_rad_s;
   bool use_angles = true;  ///< start from the frames' own angles, where all have one
   bool use_table = true;   ///< start from the recording's turntable where no platter is seen
-  int key_frames = 160;    ///< frames whose depth images are kept; each is compared with some
+  int key_frames = 460;    ///< frames whose depth images are kept; each is compared with some
   double angle_sigma_rad = 0.0174532925;  ///< of the frames' own angles
 };
 /// Fields speed, motion-angles, motion-table, motion-keys, motion-angle-sigma.

@@ -47,6 +47,7 @@ struct MotionData {
   double spacing_m = 0.0;           ///< between neighbouring pixels on the object
   std::optional<DetectedPlatter> platter;
   Vec3d middle = Vec3d::Zero();       ///< of the foreground's points
+  double extent_m = 0.1;              ///< twice the root mean square distance from there
   Vec3d to_sensor = -Vec3d::UnitZ();  ///< from there, unit
   std::vector<Vec3f> cloud;           ///< some of the foreground's points, for its lowest ones
   std::vector<std::string> notes;

@@ -17,7 +17,12 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kHuber = 1.5;
-constexpr double kStart = 0.5;  // of the speed in a second, while the table starts or stops
+constexpr double kOwn = 0.005;   // of a single pair's, as a share of the turn between its views
+constexpr double kLead = 0.003;  // standard deviation of MotionState::lead
+constexpr double kFloor = 0.6;   // of squared cosines
+constexpr double kStill = 2e-5;  // radians from frame to frame while the table stands
+constexpr int kShared = 6;       // unknowns of all frames: two tilts, two shifts, two leads
+constexpr double kStart = 0.5;   // of the speed in a second, while the table starts or stops
 
 std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
   int least = 0;
@@ -41,14 +46,23 @@ struct Weighing {
   std::size_t stride;
 };
 
+using Shared = Eigen::Matrix<double, kShared, kShared>;
+
+/// What the turn between two views changes by with each lead.
+std::array<double, 2> lead_terms(const MotionState& state, const FramePair& pair) {
+  const double apart = std::remainder(state.angle[pair.to] - state.angle[pair.from], kTurn);
+  return {apart, apart * std::abs(apart)};
+}
+
 PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePair& pair,
                  const Weighing& weighing) {
   PairSum out;
   const MotionFrame& from = data.frames[pair.from];
   const MotionView& view = data.frames[pair.to].view;
-  const Eigen::Matrix3d R =
-      Eigen::AngleAxisd(state.angle[pair.to] - state.angle[pair.from], state.axis)
-          .toRotationMatrix();
+  const auto lead = lead_terms(state, pair);
+  const double turn = state.angle[pair.to] - state.angle[pair.from] + state.lead[0] * lead[0] +
+                      state.lead[1] * lead[1];
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(turn, state.axis).toRotationMatrix();
   const auto [u, v] = across(state.axis);
   const Eigen::Matrix3d shift = Eigen::Matrix3d::Identity() - R;
   const Vec3d shift_u = shift * u, shift_v = shift * v;
@@ -60,7 +74,13 @@ PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePa
     if (data.projective && -m.dot(q) < 0.25 * q.norm()) continue;
     Vec3d found;
     if (!data.look_up(view, q, weighing.reach_m, found)) continue;
-    const double r = m.dot(q - found), size = std::abs(r);
+    // What noise along both rays makes of it; a little for what else is wrong at low angles.
+    const double gain = data.projective
+                            ? 1.0 / std::sqrt(std::pow(n.dot(sample.p.cast<double>()), 2) /
+                                                  double(sample.p.squaredNorm()) +
+                                              std::pow(m.dot(q), 2) / q.squaredNorm() + kFloor)
+                            : 1.0;
+    const double r = gain * m.dot(q - found), size = std::abs(r);
     const double limit = weighing.huber_m;
     if (size > 4.0 * limit) {
       out.cost += 7.0 * limit * limit;
@@ -71,6 +91,7 @@ PairSum sum_pair(const MotionData& data, const MotionState& state, const FramePa
     const Vec3d tilt = turned.cross(m) - d.cross(n);
     Vector5 row;
     row << tilt.dot(u), tilt.dot(v), m.dot(shift_u), m.dot(shift_v), m.dot(sweep);
+    row *= gain;
     const double weight = size > limit ? limit / size : 1.0;
     out.normal.noalias() += weight * row * row.transpose();
     out.right.noalias() -= weight * r * row;
@@ -90,8 +111,8 @@ class Solver {
     out_.state = start;
     std::set<std::uint32_t> used;
     for (const FramePair& pair : pairs) used.insert(pair.from);
-    // A sample takes part in several pairs, and smoothing shares noise among neighbours.
-    uses_ = 4.0 * std::max(1.0, 0.5 * double(pairs.size()) / double(used.size() + 1));
+    // The noise of a frame is the same in all its pairs: more of them say no more about it.
+    uses_ = std::max(1.0, double(pairs.size()) / double(used.size() + 1));
   }
 
   Result<MotionSolution> run(const RunContext& context) {
@@ -107,7 +128,7 @@ class Solver {
       if (i > 2 && moved < 2e-6) break;
     }
     out_.misfit = cost_ / unit_ + law_cost_ + factors_.vectorD().array().log().sum() -
-                  double(n_ + 4) * std::log(unit_);
+                  double(n_ + kShared) * std::log(unit_);
     if (options_.covariance) find_covariance();
     return std::move(out_);
   }
@@ -119,14 +140,13 @@ class Solver {
       sums[k] = sum_pair(data_, out_.state, pairs_[k], weighing);
     });
     triplets_.clear();
-    right_ = Eigen::VectorXd::Zero(Eigen::Index(n_ + 4));
+    right_ = Eigen::VectorXd::Zero(Eigen::Index(n_ + kShared));
     shared_.setZero();
     std::vector<float> sizes;
     double squares = 0.0;
     out_.residuals = 0;
     cost_ = 0.0;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      add(pairs_[k], sums[k]);
       squares += sums[k].squares;
       cost_ += sums[k].cost;
       out_.residuals += sums[k].count;
@@ -140,35 +160,65 @@ class Solver {
                   out_.residuals);
     out_.scale_m = options_.scale_m.value_or(std::max(1.4826 * median(sizes), 1e-7));
     out_.rms_m = std::sqrt(squares / double(out_.residuals));
+    unit_ = options_.unit_m2.value_or(uses_ * excess_ * out_.scale_m * out_.scale_m);
+    out_.unit_m2 = unit_;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) add(pairs_[k], sums[k]);
     return {};
   }
 
-  /// Errors that neighbouring pixels share (a sensor's warped depth, fur) do not average out: the
-  /// mean residual of a pair is then larger than independent noise would make it, and every
-  /// residual says so much less.
+  /// Errors that neighbouring pixels share (smoothing, a sensor's warped depth, fur) do not average
+  /// out: what a pair says of an unknown is then farther off than independent noise would make it,
+  /// and every residual says so much less. The unknown that shows it most counts.
   void find_excess(const std::vector<PairSum>& sums, std::vector<float>& sizes) {
     const double scale = options_.scale_m.value_or(1.4826 * median(sizes));
-    std::vector<float> ratios;
-    for (const PairSum& sum : sums) {
-      if (sum.count >= 50)
-        ratios.push_back(float(sum.sum * sum.sum / (double(sum.count) * scale * scale)));
-    }
     constexpr double kMedianOfSquare = 0.455;  // of a standard normal
-    excess_ = std::max(1.0, median(ratios) / kMedianOfSquare);
+    excess_ = 1.0;
+    for (int k = 0; k < 5; ++k) {
+      std::vector<float> ratios;
+      for (const PairSum& sum : sums) {
+        if (sum.count < 50 || !(sum.normal(k, k) > 0.0)) continue;
+        const double all = sum.normal(k, k) * scale * scale;
+        ratios.push_back(float(sum.right[k] * sum.right[k] / all));
+      }
+      excess_ = std::max(excess_, median(ratios) / kMedianOfSquare);
+    }
   }
 
-  void add(const FramePair& pair, const PairSum& sum) {
-    shared_ += sum.normal.topLeftCorner<4, 4>();
-    right_.tail<4>() += sum.right.head<4>();
-    if (options_.hold_angles) return;
+  /// Leaves to each pair some turn of its own: what a view shows of the turn from another side
+  /// depends on what is seen there.
+  void loosen(const FramePair& pair, PairSum& sum) const {
+    const double sigma = kOwn * lead_terms(out_.state, pair)[0];
+    if (sigma == 0.0 || options_.hold_angles) return;
+    const double all = sum.normal(4, 4) + unit_ / (sigma * sigma);
+    const Vector5 column = sum.normal.col(4);
+    sum.right -= column * (sum.right[4] / all);
+    sum.normal -= column * column.transpose() / all;
+  }
+
+  void add(const FramePair& pair, PairSum& sum) {
+    loosen(pair, sum);
+    if (options_.hold_angles) {
+      shared_.topLeftCorner<4, 4>() += sum.normal.topLeftCorner<4, 4>();
+      right_.segment<4>(Eigen::Index(n_)) += sum.right.head<4>();
+      return;
+    }
+    // The leads are turns, too.
+    const auto lead = lead_terms(out_.state, pair);
+    Eigen::Matrix<double, kShared, 5> spread = Eigen::Matrix<double, kShared, 5>::Zero();
+    spread.topLeftCorner<4, 4>().setIdentity();
+    spread(4, 4) = lead[0];
+    spread(5, 4) = lead[1];
+    shared_ += spread * sum.normal * spread.transpose();
+    right_.tail<kShared>() += spread * sum.right;
     const auto from = int(pair.from), to = int(pair.to), first = int(n_);
     const double h = sum.normal(4, 4);
     triplets_.emplace_back(to, to, h);
     triplets_.emplace_back(from, from, h);
     triplets_.emplace_back(std::max(from, to), std::min(from, to), -h);
-    for (int k = 0; k < 4; ++k) {
-      triplets_.emplace_back(first + k, to, sum.normal(k, 4));
-      triplets_.emplace_back(first + k, from, -sum.normal(k, 4));
+    const Eigen::Matrix<double, kShared, 1> both = spread * sum.normal.col(4);
+    for (int k = 0; k < kShared; ++k) {
+      triplets_.emplace_back(first + k, to, both[k]);
+      triplets_.emplace_back(first + k, from, -both[k]);
     }
     right_[to] += sum.right[4];
     right_[from] -= sum.right[4];
@@ -206,6 +256,11 @@ class Solver {
   void add_speed_law(double unit) {
     const auto& angle = out_.state.angle;
     const auto time = [&](int i) { return data_.frames[std::size_t(i)].time_s; };
+    for (int i = 0; i + 1 < int(n_) && !law_.still.empty(); ++i) {
+      if (law_.still[std::size_t(i)] == 0 || law_.still[std::size_t(i) + 1] == 0) continue;
+      add_row({{i + 1, 1.0}, {i, -1.0}}, angle[std::size_t(i) + 1] - angle[std::size_t(i)],
+              unit / (kStill * kStill));
+    }
     const double wander = law_.wander * std::abs(law_.speed_rad_s);
     for (int i = 1; i + 1 < int(n_); ++i) {
       const double h = time(i) - time(i - 1), g = time(i + 1) - time(i);
@@ -229,13 +284,12 @@ class Solver {
   }
 
   Result<> solve() {
-    unit_ = uses_ * std::max(1.0, 0.25 * excess_) * out_.scale_m * out_.scale_m;
     law_cost_ = 0.0;
     add_law();
     const int first = int(n_);
     // Where the platter was seen it says roughly where the axis is; a platter may wobble.
     const double unit = unit_;
-    Eigen::Matrix4d shared = shared_;
+    Shared shared = shared_;
     double tilt = 0.35, shift = 0.2;
     if (data_.platter) tilt = 0.002, shift = 0.003;
     shared(0, 0) += unit / (tilt * tilt);
@@ -243,10 +297,14 @@ class Solver {
     shared(2, 2) += unit / (shift * shift);
     shared(3, 3) += unit / (shift * shift);
     add_axis_prior(unit, tilt, shift);
-    for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      shared(4 + k, 4 + k) += unit / (kLead * kLead);
+      right_[first + 4 + k] -= unit / (kLead * kLead) * out_.state.lead[std::size_t(k)];
+    }
+    for (int i = 0; i < kShared; ++i) {
       for (int k = 0; k <= i; ++k) triplets_.emplace_back(first + i, first + k, shared(i, k));
     }
-    matrix_.resize(first + 4, first + 4);
+    matrix_.resize(first + kShared, first + kShared);
     matrix_.setFromTriplets(triplets_.begin(), triplets_.end());
     factors_.compute(matrix_);
     if (factors_.info() != Eigen::Success)
@@ -280,6 +338,7 @@ class Solver {
     if (size > 0.0)
       out_.state.axis = (Eigen::AngleAxisd(size, turn.normalized()) * out_.state.axis).normalized();
     out_.state.center += shift * std::min(1.0, 0.05 / std::max(shift.norm(), 1e-12));
+    for (const int k : {0, 1}) out_.state.lead[std::size_t(k)] += step_[first + 4 + k];
     double most = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       const double step = std::clamp(step_[Eigen::Index(i)], -0.3, 0.3);
@@ -291,11 +350,11 @@ class Solver {
 
   void find_covariance() {
     const double variance = unit_;
-    const auto size = Eigen::Index(n_) + 4;
+    const auto size = Eigen::Index(n_) + kShared;
     const auto first = Eigen::Index(n_);
     for (Eigen::Index k = 0; k < 4; ++k) {
       const Eigen::VectorXd column = factors_.solve(Eigen::VectorXd::Unit(size, first + k));
-      out_.covariance.col(k) = variance * column.tail<4>();
+      out_.covariance.col(k) = variance * column.segment<4>(first);
     }
     out_.angle_sigma.assign(n_, 0.0);
     parallel_for(n_, 16, [&](std::size_t i) {
@@ -315,7 +374,7 @@ class Solver {
   double cost_ = 0.0, law_cost_ = 0.0;
   MotionSolution out_;
   std::vector<Eigen::Triplet<double>> triplets_;
-  Eigen::Matrix4d shared_ = Eigen::Matrix4d::Zero();
+  Shared shared_ = Shared::Zero();
   Eigen::VectorXd right_, step_;
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factors_;
@@ -376,13 +435,13 @@ std::vector<FramePair> choose_pairs(const MotionData& data, const std::vector<do
   for (std::size_t i = 0; i < data.frames.size(); ++i) {
     if (!is_key[i] && !all_frames) continue;
     for (std::size_t k = 0; k < kApart.size(); ++k) {
-      if (!is_key[i] && k >= 2) continue;
+      if (!is_key[i] && k != 0 && k != 2) continue;
       add(i, nearest(i, angle[i] + kApart[k], few));
       if ((!is_key[i] && k > 0) || data.keys.size() <= 24)
         add(i, nearest(i, angle[i] - kApart[k], few));
     }
     for (const double turn : {kTurn, -kTurn, 2 * kTurn}) {
-      for (const double apart : {0.0, 0.25}) {
+      for (const double apart : {0.0, 0.25, 0.5, 0.95, -0.25, -0.5, -0.95}) {
         if (!is_key[i] && apart != 0.0) continue;
         add(i, nearest(i, angle[i] + turn + apart, few));
       }

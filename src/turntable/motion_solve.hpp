@@ -2,6 +2,7 @@
 // All frames in one least-squares problem: they share the axis, and each has one angle. Internal to
 // turntable: not installed.
 
+#include <array>
 #include <turnscan/turntable/motion_data.hpp>
 
 namespace turnscan::detail {
@@ -10,6 +11,9 @@ struct MotionState {
   Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
   Vec3d center = Vec3d::Zero();  ///< a point of the axis
   std::vector<double> angle;     ///< per frame of MotionData, radians
+  /// Two views of one thing from sides d apart (-pi to pi) seem to be apart by lead[0] d + lead[1]
+  /// d |d| more: silhouettes and hidden places pull that way, by some thousandths.
+  std::array<double, 2> lead{};
 
   /// Where a point seen in one frame is when the platter has turned by `angle_rad`.
   Vec3d turned(const Vec3d& p, double angle_rad) const {
@@ -28,6 +32,7 @@ struct AngleLaw {
   double speed_rad_s = 0.0;         ///< typical, for its scale
   double wander = 0.02;             ///< change of speed in a second, as a share of it
   std::vector<std::uint8_t> loose;  ///< per frame: the table starts or stops there; may be empty
+  std::vector<std::uint8_t> still;  ///< per frame: the table stands, at the start or the end
   std::optional<double> stated_rad_s;  ///< mean speed that somebody stated
   double nominal_sigma_rad = 0.0;      ///< of the frames' own angles; 0: none
   double nominal_sign = 1.0;
@@ -41,11 +46,13 @@ struct SolveOptions {
   bool hold_angles = false;  ///< leave the angles to the law
   bool covariance = false;
   std::optional<double> scale_m;  ///< of the residuals, where it is known
+  std::optional<double> unit_m2;  ///< as in MotionSolution, where it is known
 };
 
 struct MotionSolution {
   MotionState state;
   double scale_m = 0.0;  ///< robust standard deviation of the residuals
+  double unit_m2 = 0.0;  ///< the square that a residual is compared with, correlations considered
   double rms_m = 0.0;
   std::size_t residuals = 0;
   /// -2 times the logarithm of the probability of the data, given the law, up to a constant: what

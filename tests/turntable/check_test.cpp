@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A recording of the letter over 1.2 turns that says what is true.
-testing::MemorySequence recording(double drift_m = 0.0) {
+constexpr double kSpeed = 1.2 * 2.0 * kPi / 48.0;
+
+/// A recording of the letter over 1.2 turns that says what is true, if the table turns evenly.
+testing::MemorySequence recording(double drift_m = 0.0, testing::AngleLaw law = {}) {
   testing::RigOptions o;
   o.shrink = 2;
   o.noise_m = 0.001;
@@ -23,13 +25,12 @@ testing::MemorySequence recording(double drift_m = 0.0) {
   o.frames = 48;
   o.fps = 1.0;
   o.objects = {*builtin_object("letter-a")};
-  const double speed = 1.2 * 2.0 * kPi / 48.0;
-  o.angle = [speed](double t) { return speed * t; };
+  o.angle = law ? std::move(law) : [](double t) { return kSpeed * t; };
   const testing::Rig rig(o);
   testing::MemorySequence out;
   out.header_value = rig.header();
   out.header_value.turntable = rig.truth();
-  out.header_value.turntable->speed_rad_s = speed;
+  out.header_value.turntable->speed_rad_s = kSpeed;
   for (std::size_t i = 0; i < 48; ++i) {
     Frame frame = *rig.read(i);
     for (std::uint16_t& z : frame.depth.pixels)
@@ -78,6 +79,23 @@ TEST(CheckRecording, SaysWhenTheTurntableIsElsewhere) {
 
 TEST(CheckRecording, SaysWhenTheSensorWarmsUp) {
   EXPECT_TRUE(wrong(findings_of(recording(0.004)), "Warm-up"));
+}
+
+TEST(CheckRecording, SaysWhenTheTableStopsForAWhile) {
+  // From 20 s to 26 s it stands.
+  const auto stops = [](double t) { return kSpeed * (t < 20.0 ? t : std::max(20.0, t - 6.0)); };
+  const auto findings = findings_of(recording(0.0, stops));
+  EXPECT_TRUE(wrong(findings, "Motor"));
+  EXPECT_NE(findings.back().text.find("slowed down or stopped"), std::string::npos)
+      << findings.back().text;
+}
+
+TEST(CheckRecording, SaysWhenTheObjectSlips) {
+  // At 24 s it jumps ahead by three frames' worth.
+  const auto slips = [](double t) { return kSpeed * (t + (t > 24.0 ? 3.0 : 0.0)); };
+  const auto findings = findings_of(recording(0.0, slips));
+  EXPECT_TRUE(wrong(findings, "Motor"));
+  EXPECT_NE(findings.back().text.find("jumped ahead"), std::string::npos) << findings.back().text;
 }
 
 TEST(MeasureClosure, NeedsATurntableAndAWholeTurn) {
