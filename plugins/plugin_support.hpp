@@ -56,6 +56,49 @@ inline bool flag_of(const turnscan_parameter* parameters, std::int32_t count, co
                 std::string(name) + " = " + text + " is neither 0 nor 1; write one of them"};
 }
 
+/// The table of a driver whose device is a class with a constructor (address, parameters, count),
+/// describe(info), start(), stop() and grab(timeout_s, frame).
+template <class Device>
+constexpr turnscan_plugin plugin_of(const char* name, const char* description,
+                                    const turnscan_parameter_info* parameters, std::int32_t count,
+                                    std::int32_t (*list)(turnscan_device_entry*, std::int32_t,
+                                                         turnscan_error*)) {
+  turnscan_plugin plugin{};
+  plugin.version = TURNSCAN_PLUGIN_VERSION;
+  plugin.name = name;
+  plugin.description = description;
+  plugin.parameters = parameters;
+  plugin.parameter_count = count;
+  plugin.list = list;
+  plugin.open = [](const char* address, const turnscan_parameter* given, std::int32_t given_count,
+                   turnscan_device** device, turnscan_error* error) {
+    return guarded(error, [&] {
+      *device = new Device(address, given, given_count);
+      return std::int32_t(TURNSCAN_OK);
+    });
+  };
+  plugin.describe = [](turnscan_device* device, turnscan_device_info* info, turnscan_error* error) {
+    return guarded(error, [&] {
+      *info = {};
+      static_cast<Device*>(device)->describe(*info);
+      return std::int32_t(TURNSCAN_OK);
+    });
+  };
+  plugin.start = [](turnscan_device* device, turnscan_error* error) {
+    return guarded(error, [&] {
+      static_cast<Device*>(device)->start();
+      return std::int32_t(TURNSCAN_OK);
+    });
+  };
+  plugin.grab = [](turnscan_device* device, double timeout_s, turnscan_frame* frame,
+                   turnscan_error* error) {
+    return guarded(error, [&] { return static_cast<Device*>(device)->grab(timeout_s, *frame); });
+  };
+  plugin.stop = [](turnscan_device* device) { static_cast<Device*>(device)->stop(); };
+  plugin.close = [](turnscan_device* device) { delete static_cast<Device*>(device); };
+  return plugin;
+}
+
 }  // namespace turnscan::plugin
 
 #define TURNSCAN_PLUGIN_EXPORT extern "C" __attribute__((visibility("default")))

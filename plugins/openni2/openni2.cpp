@@ -400,37 +400,6 @@ std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnsca
   });
 }
 
-std::int32_t open(const char* address, const turnscan_parameter* parameters, std::int32_t count,
-                  turnscan_device** device, turnscan_error* error) {
-  return guarded(error, [&] {
-    *device = new turnscan_device(address, parameters, count);
-    return TURNSCAN_OK;
-  });
-}
-
-std::int32_t describe(turnscan_device* device, turnscan_device_info* info, turnscan_error* error) {
-  return guarded(error, [&] {
-    *info = {};
-    device->describe(*info);
-    return TURNSCAN_OK;
-  });
-}
-
-std::int32_t start(turnscan_device* device, turnscan_error* error) {
-  return guarded(error, [&] {
-    device->start();
-    return TURNSCAN_OK;
-  });
-}
-
-std::int32_t grab(turnscan_device* device, double timeout_s, turnscan_frame* frame,
-                  turnscan_error* error) {
-  return guarded(error, [&] { return device->grab(timeout_s, *frame); });
-}
-
-void stop(turnscan_device* device) { device->stop(); }
-void close(turnscan_device* device) { delete device; }
-
 constexpr turnscan_parameter_info kParameters[] = {
     {"color", "Also take colours that the sensor lays on its depth: 0 or 1", "0"},
     {"mode", "WIDTHxHEIGHT@RATE of the depth images", "the sensor's own"},
@@ -438,18 +407,8 @@ constexpr turnscan_parameter_info kParameters[] = {
      "the driver's"},
     {"speed", "Of an .oni file: 1 or max, which loses no frame", "max"}};
 
-constexpr turnscan_plugin kPlugin = {TURNSCAN_PLUGIN_VERSION,
-                                     "openni2",
-                                     "PrimeSense, Asus Xtion, Orbbec Astra, .oni files (OpenNI 2)",
-                                     kParameters,
-                                     4,
-                                     list,
-                                     open,
-                                     describe,
-                                     start,
-                                     grab,
-                                     stop,
-                                     close};
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device>(
+    "openni2", "PrimeSense, Asus Xtion, Orbbec Astra, .oni files (OpenNI 2)", kParameters, 4, list);
 
 }  // namespace
 }  // namespace turnscan::plugin
