@@ -1,3 +1,5 @@
+#include <turnscan/capture/device_calibration.hpp>
+#include <turnscan/capture/taken_frames.hpp>
 #include <turnscan/io/iai_kinect2.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
@@ -33,10 +35,30 @@ class Corrected : public FrameSequence {
   SequenceHeader header_;
 };
 
+constexpr int kFramesForMotion = 920;  // about a turn; half a minute at 30 frames a second
+constexpr int kFramesForCheck = 10;
+
+struct DeviceOptions {
+  std::optional<int> frames;
+};
+
+OptionTable describe(DeviceOptions& o) {
+  OptionTable table;
+  table.number("device-frames", o.frames, {1, 20000},
+               "How many frames are taken from the device; automatic: as many as are averaged, "
+               "920 where motion is looked at, 10 with --check");
+  return table;
+}
+
 class CalibrateCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("RECORDING", recording_, "Recording of the turntable (see turnscan import)");
+    line.optional_positional("RECORDING", recording_,
+                             "Recording of the turntable (see turnscan import)");
+    line.option(
+        "--device", "URI", device_,
+        "Take frames from a sensor instead (see turnscan devices); its calibration is kept, "
+        "and used from then on. With --check: say whether the table has moved since");
     line.option("--points", "PICKS.csv", points_,
                 "Use points on the platter's rim: columns x_mm,y_mm,z_mm (or _m) in the sensor's "
                 "frame, or column,row of the averaged depth image");
@@ -55,6 +77,7 @@ class CalibrateCommand : public Command {
     line.option("--save", "FILE.json", save_,
                 "Keep the calibration as a file for reconstruct --turntable (the same content)");
     line.allow_config();
+    line.group("device", "Device", describe(device_options_));
     line.group("average", "Averaging", describe(average_));
     line.group("detect", "Detection", describe(detect_options_));
     line.group("motion", "Motion", describe(motion_options_));
@@ -74,29 +97,73 @@ class CalibrateCommand : public Command {
     if (depth_bias_ && !detect_options_.radius_m)
       return fail(ErrorCode::kInvalidOption,
                   "--depth-bias needs a known size; give --platter-radius");
+    if (recording_.empty() && device_.empty())
+      return fail(ErrorCode::kInvalidOption, "RECORDING: missing; give it, or --device URI");
+    if (!recording_.empty() && !device_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "RECORDING and --device are both given; give one of them");
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
+    if (!device_.empty()) return run_device(session);
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
     if (check_) return check(recording, session);
-    TURNSCAN_ASSIGN(const auto depth, depth_correction(recording, session));
-    const Corrected corrected(recording, depth);
+    TURNSCAN_TRY(calibrate_and_tell(recording, session));
+    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    return {};
+  }
+
+ private:
+  Result<> run_device(Session& session) {
+    TURNSCAN_ASSIGN(const auto source, open_source(device_, session.context()));
+    const std::string& identity = source->info().identities.front();
+    if (check_) return check_device(*source, session);
+    const auto count = static_cast<std::size_t>(device_options_.frames.value_or(
+        detect_ || !points_.empty() ? average_.frames : kFramesForMotion));
+    TURNSCAN_ASSIGN(const auto frames, take_frames(*source, count, session.context()));
+    TURNSCAN_ASSIGN(const Calibration calibration, calibrate_and_tell(*frames, session));
+    TURNSCAN_TRY(keep_calibration(identity, calibration));
+    TURNSCAN_ASSIGN(const auto file, kept_calibration_file(identity));
+    session.print("Kept for {} in {}\n", identity, file.string());
+    return {};
+  }
+
+  /// Fails when the table has moved since it was calibrated.
+  Result<> check_device(FrameSource& source, Session& session) const {
+    const std::string& identity = source.info().identities.front();
+    TURNSCAN_ASSIGN(const auto kept, kept_calibration(identity));
+    if (!kept)
+      return fail(ErrorCode::kMissingData,
+                  "{}: it was never calibrated; run 'turnscan calibrate --device' without --check",
+                  identity);
+    const auto count = static_cast<std::size_t>(device_options_.frames.value_or(kFramesForCheck));
+    TURNSCAN_ASSIGN(const auto frames, take_frames(source, count, session.context()));
+    TURNSCAN_ASSIGN(
+        const AveragedScan scan,
+        average_frames(*frames, spread_positions(*frames, 0, count), average_, session.context()));
+    TURNSCAN_ASSIGN(const RigCheck rig, check_rig(scan, *kept, session.context()));
+    if (rig.moved) return fail(ErrorCode::kMissingData, "{}: {}", identity, rig.text);
+    session.print("good   {}\n", rig.text);
+    return {};
+  }
+
+  Result<Calibration> calibrate_and_tell(const FrameSequence& sequence, Session& session) {
+    TURNSCAN_ASSIGN(const auto depth, depth_correction(sequence, session));
+    const Corrected corrected(sequence, depth);
     TURNSCAN_ASSIGN(Calibration found, calibrate(corrected, session));
     found.depth = depth;
     // What is shown is what the file gives back.
-    TURNSCAN_ASSIGN(const Calibration calibration, parse_calibration(calibration_json(found)));
+    TURNSCAN_ASSIGN(Calibration calibration, parse_calibration(calibration_json(found)));
     TURNSCAN_TRY(session.context().check());
     for (const std::string& path : {json_, save_}) {
       if (!path.empty()) TURNSCAN_TRY(write_calibration(path, calibration));
     }
     session.print("{}", calibration_text(calibration));
-    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
     for (const std::string& path : {json_, save_}) {
       if (!path.empty()) session.print("Wrote {}\n", path);
     }
-    return {};
+    return calibration;
   }
 
- private:
   /// Fails when something is wrong, after saying what.
   Result<> check(const Recording& recording, Session& session) const {
     TURNSCAN_ASSIGN(
@@ -190,7 +257,8 @@ class CalibrateCommand : public Command {
     return calibration;
   }
 
-  std::string recording_, points_, json_, save_, iai_folder_;
+  std::string recording_, device_, points_, json_, save_, iai_folder_;
+  DeviceOptions device_options_;
   bool detect_ = false, from_motion_ = false, check_ = false, depth_bias_ = false;
   AverageOptions average_;
   DetectOptions detect_options_;
