@@ -6,6 +6,8 @@
 #include <turnscan/geometry/knn.hpp>
 #include <turnscan/reconstruction/outliers.hpp>
 #include <turnscan/reconstruction/outliers_grid.hpp>
+#include <turnscan/reconstruction/outliers_kernel.hpp>
+#include <turnscan/reconstruction/outliers_tree.hpp>
 
 namespace turnscan {
 
@@ -56,7 +58,8 @@ void mean_distances_of_few(std::span<const Vec3f> points, int k, std::span<float
   }
 }
 
-Result<> tree_mean_distances(std::span<const Vec3f> points, int k, const RunContext& context,
+/// For more neighbours than the kernels keep.
+Result<> many_mean_distances(std::span<const Vec3f> points, int k, const RunContext& context,
                              std::span<float> mean) {
   constexpr std::size_t kChunk = 512;
   const KdTree tree(points);
@@ -147,8 +150,10 @@ Result<std::vector<std::uint8_t>> statistical_outlier_mask(std::span<const Vec3f
   std::vector<float> mean(points.size());
   if (points.size() <= std::size_t(options.neighbours))
     mean_distances_of_few(points, options.neighbours, mean);
+  else if (options.neighbours <= outliers::kMaxK)
+    TURNSCAN_TRY(outliers::tree_mean_distances(points, options.neighbours, context, mean));
   else
-    TURNSCAN_TRY(tree_mean_distances(points, options.neighbours, context, mean));
+    TURNSCAN_TRY(many_mean_distances(points, options.neighbours, context, mean));
   return mask_of(mean, options.lambda, statistics);
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-// Search for the k nearest neighbours in a grid of points: the inner loops, on plain arrays, built
-// once per instruction set. Internal to the outlier filter; not installed.
-// The sources that include this are compiled for other instruction sets: nothing here may bring
-// in inline functions that the linker could merge with those of other sources.
+// Search for the k nearest neighbours in a grid or a tree of points: the inner loops, on plain
+// arrays, built once per instruction set. Internal to the outlier filter; not installed. The
+// sources that include this are compiled for other instruction sets: nothing here may bring in
+// inline functions that the linker could merge with those of other sources.
 
 #include <cstddef>
 #include <cstdint>
+#include <turnscan/core/instruction_set.hpp>
 
 namespace turnscan::outliers {
 
@@ -46,14 +47,34 @@ struct Grid {
   float margin, margin_relative;
 };
 
+inline constexpr int kLeaf = 16;      ///< points of a leaf, and boxes of a group
+inline constexpr int kMaxLevels = 8;  ///< kLeaf to this power: more than 32 bits can number
+
+/// Bounds of leaves or groups; low is kHole and high is -kHole behind the last, to a whole group.
+struct Boxes {
+  const float *low[3], *high[3];
+};
+
+/// Points without a grid, ordered by leaf, kHole behind the last. Level 0 bounds the leaves, each
+/// further one groups of kLeaf boxes of the one below; the last has one group.
+struct Tree {
+  const float *x, *y, *z;
+  std::size_t points;
+  int levels;
+  Boxes level[kMaxLevels];
+};
+
 struct Kernel {
   /// Mean distance to the k nearest neighbours (k <= kMaxK) of each point of a row; there must be
   /// more than k points. Writes mean[column], and up to kMaxLanes - 1 values behind the last.
   /// Returns how many cells it looked at in windows of single points.
   std::uint64_t (*search_row)(const Grid& grid, int row, int k, float* mean);
+  /// The same for the points of a leaf: mean[i] for point leaf * kLeaf + i, those behind the last
+  /// point unspecified.
+  void (*search_leaf)(const Tree& tree, std::size_t leaf, int k, float* mean);
 };
 
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+using turnscan::InstructionSet;
 
 /// nullptr when it was not built or this machine lacks it.
 const Kernel* kernel_for(InstructionSet set);

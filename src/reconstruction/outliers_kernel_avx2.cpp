@@ -40,6 +40,8 @@ inline unsigned less_equal(Lanes a, Lanes b) {
 }
 
 #include <turnscan/reconstruction/outliers_search.hpp>
+// Needs the one above.
+#include <turnscan/reconstruction/outliers_tree_search.hpp>
 
 }  // namespace
 

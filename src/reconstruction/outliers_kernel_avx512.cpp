@@ -36,6 +36,8 @@ inline unsigned less(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a.v, b.v, _CM
 inline unsigned less_equal(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
 
 #include <turnscan/reconstruction/outliers_search.hpp>
+// Needs the one above.
+#include <turnscan/reconstruction/outliers_tree_search.hpp>
 
 }  // namespace
 

@@ -40,6 +40,8 @@ inline unsigned less(Lanes a, Lanes b) { return bits(a.v < b.v); }
 inline unsigned less_equal(Lanes a, Lanes b) { return bits(a.v <= b.v); }
 
 #include <turnscan/reconstruction/outliers_search.hpp>
+// Needs the one above.
+#include <turnscan/reconstruction/outliers_tree_search.hpp>
 
 }  // namespace
 

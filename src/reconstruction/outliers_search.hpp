@@ -245,5 +245,3 @@ std::uint64_t search_row_k(const Grid& grid, int row, int k, float* mean) {
 std::uint64_t search_row(const Grid& grid, int row, int k, float* mean) {
   return k == 10 ? search_row_k<10>(grid, row, k, mean) : search_row_k<0>(grid, row, k, mean);
 }
-
-constexpr Kernel kKernel{search_row};

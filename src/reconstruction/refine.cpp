@@ -25,7 +25,7 @@ struct Site {
   bool lost = false;
 };
 
-using Moments = std::array<double, detail::kMoments>;
+using Moments = std::array<double, refinement::kMoments>;
 
 class Projector {
  public:
@@ -34,7 +34,7 @@ class Projector {
     reach_ = kReach * scale.radius_m;
     height_ = std::max(kTukey * scale.noise_m, 0.5 * scale.radius_m);
     const std::size_t n = grid.order().size();
-    for (auto& column : columns_) column.resize(n);
+    for (auto& column : columns_) column.resize(n + refinement::kLanes);
     parallel_for(n, 16384, [&](std::size_t k) {
       const std::uint32_t i = grid.order()[k];
       const Vec3f& p = merged.cloud.points[i];
@@ -81,7 +81,7 @@ class Projector {
   }
 
   Moments collect(const Site& site, const Vec3d& u, const Vec3d& v, double height) const {
-    detail::TangentFrame frame;
+    refinement::TangentFrame frame;
     for (int a = 0; a < 3; ++a) {
       frame.p[a] = static_cast<float>(site.p[a]);
       frame.n[a] = static_cast<float>(site.n[a]);
@@ -98,29 +98,37 @@ class Projector {
     const VoxelIndex low = ((site.p - half) / size).array().floor().cast<int>();
     const VoxelIndex high = ((site.p + half) / size).array().floor().cast<int>();
     const double far = reach_ + 0.87 * size, far2 = far * far;
-    detail::MomentLanes lanes{};
+    refinement::MomentLanes lanes{};
+    const refinement::Kernel& kernel = refinement::kernel();
+    // Voxels that follow each other lie behind each other in memory.
+    std::uint32_t begin = 0, end = 0;
     grid_.for_each_in_box(low, high, [&](std::uint32_t i) {
       const VoxelGrid::Voxel& voxel = grid_.voxels()[i];
       const Vec3d d = grid_.center(voxel) - site.p;
       const double h = d.dot(site.n);
       if (d.squaredNorm() - h * h > far2 || std::abs(h) > height + 0.87 * size) return;
-      detail::add_moments(measurements(), voxel.begin, voxel.end, frame, lanes);
+      if (voxel.begin != end) {
+        if (begin < end) kernel.add_moments(measurements(), begin, end, frame, lanes);
+        begin = voxel.begin;
+      }
+      end = voxel.end;
     });
+    if (begin < end) kernel.add_moments(measurements(), begin, end, frame, lanes);
     Moments sums{};
     for (std::size_t m = 0; m < sums.size(); ++m) {
-      for (float value : lanes[m]) sums[m] += value;
+      for (const float value : lanes.sum[m]) sums[m] += value;
     }
     return sums;
   }
 
-  detail::Measurements measurements() const {
+  refinement::Measurements measurements() const {
     return {columns_[0].data(), columns_[1].data(), columns_[2].data(),
             columns_[3].data(), columns_[4].data(), columns_[5].data()};
   }
 
   const VoxelGrid& grid_;
   double reach_ = 0.0, height_ = 0.0;
-  /// In the grid's order: neighbours lie together in memory.
+  /// In the grid's order: neighbours lie together in memory. kLanes more can be read.
   std::array<std::vector<float>, 6> columns_;
 };
 

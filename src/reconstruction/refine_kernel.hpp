@@ -1,11 +1,13 @@
 #pragma once
-// The inner loop of refine: weighted moments of measurements over a tangent plane. Plain arrays, so
-// that it can be compiled for several instruction sets.
+// The inner loop of refine: weighted moments of measurements over a tangent plane, on plain arrays,
+// built once per instruction set. Internal to refine; not installed.
+// The sources that include this are compiled for other instruction sets: nothing here may bring
+// in inline functions that the linker could merge with those of other sources.
 
-#include <array>
 #include <cstddef>
+#include <turnscan/core/instruction_set.hpp>
 
-namespace turnscan::detail {
+namespace turnscan::refinement {
 
 /// Measurements, structure of arrays: positions in metres and unit vectors to their sensors.
 struct Measurements {
@@ -29,13 +31,26 @@ struct TangentFrame {
 /// tangential reach and h in metres. Weight: (1 - x^2 - y^2)^3 * (1 - (h / height)^2)^2, both
 /// cut at zero (Tukey's biweight along the normal), for measurements whose sensor faces the site.
 inline constexpr std::size_t kMoments = 21;
-inline constexpr std::size_t kLanes = 8;
-using MomentLanes = std::array<std::array<float, kLanes>, kMoments>;
+inline constexpr std::size_t kLanes = 16;
+/// Zeroed before the first call. The sums of a site are those of all lanes.
+struct alignas(64) MomentLanes {
+  float sum[kMoments][kLanes];
+};
 
-/// Order of the sums: 1 x y xx xy yy xxx xxy xyy yyy x4 xxxy xxyy xyyy y4, then h hx hy hxx hxy
-/// hyy. Adds measurements [begin, end). Lane k takes those at begin + k, begin + k + 8, ...: the
-/// same bytes for every instruction set.
-void add_moments(const Measurements& m, std::size_t begin, std::size_t end,
-                 const TangentFrame& frame, MomentLanes& sums);
+struct Kernel {
+  /// Order of the sums: 1 x y xx xy yy xxx xxy xyy yyy x4 xxxy xxyy xyyy y4, then h hx hy hxx hxy
+  /// hyy. Adds measurements [begin, end). Lane k takes those at begin + k, begin + k + kLanes, ...:
+  /// the same bytes for every instruction set. kLanes - 1 measurements behind `end` can be read.
+  void (*add_moments)(const Measurements& m, std::size_t begin, std::size_t end,
+                      const TangentFrame& frame, MomentLanes& sums);
+};
 
-}  // namespace turnscan::detail
+/// nullptr when it was not built or this machine lacks it.
+const Kernel* kernel_for(InstructionSet set);
+/// The widest that this machine has, or the one set by use_instruction_set.
+const Kernel& kernel();
+/// For tests and benchmarks: all later calls use this one. Throws std::invalid_argument when
+/// kernel_for has none.
+void use_instruction_set(InstructionSet set);
+
+}  // namespace turnscan::refinement

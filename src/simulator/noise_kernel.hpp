@@ -5,6 +5,7 @@
 // may bring in inline functions that the linker could merge with those of other sources.
 
 #include <cstdint>
+#include <turnscan/core/instruction_set.hpp>
 
 namespace turnscan::noise {
 
@@ -64,7 +65,7 @@ struct Kernel {
                 std::uint8_t* verdict);
 };
 
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+using turnscan::InstructionSet;
 
 /// nullptr when it was not built or this machine lacks it.
 const Kernel* kernel_for(InstructionSet set);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <turnscan/core/random.hpp>
 #include <turnscan/reconstruction/outliers_grid.hpp>
+#include <turnscan/reconstruction/outliers_tree.hpp>
 
 #include "depth_frames.hpp"
 
@@ -324,6 +325,25 @@ TEST(BoundFrames, FollowTheRaysAsTheGridHasThem) {
   EXPECT_EQ(choose_bound_frame(frame).kind, BoundFrame::Kind::kLinear);
   frame.viewpoint = {Vec3d(0.0, 0.0, 0.9), false};  // in the middle of the object
   EXPECT_EQ(choose_bound_frame(frame).kind, BoundFrame::Kind::kLinear);
+}
+
+TEST(OutlierTree, EveryInstructionSetGivesTheSameDistances) {
+  const FramePoints frame = testing::room_frame(testing::kinect_v2());
+  for (const std::size_t n : {std::size_t(12), std::size_t(16), std::size_t(17), std::size_t(257),
+                              std::size_t(5000), std::size_t(40001)}) {
+    const std::span<const Vec3f> points(frame.cloud.points.data(), n);
+    std::vector<float> plain(n), wide(n);
+    for (const int k : {1, 10, 11}) {
+      use_instruction_set(InstructionSet::kPortable);
+      ASSERT_TRUE(tree_mean_distances(points, k, RunContext(), plain));
+      for (const InstructionSet set : kSets) {
+        if (!kernel_for(set)) continue;
+        use_instruction_set(set);
+        ASSERT_TRUE(tree_mean_distances(points, k, RunContext(), wide));
+        EXPECT_EQ(wide, plain) << n << " points, k " << k;
+      }
+    }
+  }
 }
 
 TEST(InstructionSets, PortableIsAlwaysThereAndUnknownOnesAreRefused) {
