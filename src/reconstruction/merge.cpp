@@ -14,7 +14,13 @@ OptionTable describe(MergeOptions& o) {
 }
 
 Vec3f MergedCloud::towards_sensor(std::size_t i) const {
-  return viewpoints[cloud.frame[i]].direction_from(cloud.points[i].cast<double>()).cast<float>();
+  // In single precision: called for every point by several stages, and the points have no more.
+  const Viewpoint& viewpoint = viewpoints[cloud.frame[i]];
+  const Vec3f value = viewpoint.value.cast<float>();
+  if (viewpoint.parallel) return value;
+  const Vec3f d = value - cloud.points[i];
+  const float squared = d.squaredNorm();
+  return squared > 0.0f ? Vec3f(d * (1.0f / std::sqrt(squared))) : Vec3f::Zero();
 }
 
 FrameRecipe FrameRecipe::make(const SequenceHeader& header) {

@@ -31,29 +31,38 @@ struct Thickness {
   double density = 0.0;  ///< points per square metre
 };
 
+/// So many points of a neighbourhood tell its thickness to some percent; of more, every n-th is
+/// looked at.
+constexpr std::size_t kEnough = 2048;
+
 /// Points of `order` within r of p are spread along the normal with sigma.
 Thickness thickness_at(const MergedCloud& merged, const VoxelGrid& grid, const Vec3f& p, double r) {
   const VoxelIndex low = ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
   const VoxelIndex high = ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
   Vec3d sum = Vec3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  std::size_t n = 0;
+  std::size_t n = 0, around = 0;
+  grid.for_each_in_box(low, high, [&](std::uint32_t v) { around += grid.voxels()[v].count(); });
+  const std::size_t step = std::max<std::size_t>(1, around / kEnough);
+  std::size_t skip = 0;  // points of the next voxel to leave out first
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {
     const VoxelGrid::Voxel& voxel = grid.voxels()[v];
-    for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
+    std::size_t k = voxel.begin + skip;
+    for (; k < voxel.end; k += step) {
       const Vec3d d = (merged.cloud.points[grid.order()[k]] - p).cast<double>();
       if (d.squaredNorm() > r * r) continue;
       sum += d;
       squares += d * d.transpose();
       ++n;
     }
+    skip = k - voxel.end;
   });
   if (n < 8) return {};
   const Vec3d mean = sum / double(n);
   const Eigen::Matrix3d covariance = squares / double(n) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   return {std::sqrt(std::max(0.0, solver.eigenvalues()[0])),
-          double(n) / (std::numbers::pi * r * r)};
+          double(n * step) / (std::numbers::pi * r * r)};
 }
 
 }  // namespace
