@@ -49,9 +49,13 @@ Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal
   const std::size_t n = mesh.triangles.size();
   std::size_t target = std::min(goal.triangles, n);
   if (mesh.empty() || target == n) return mesh;
-  const MeshReport report = check_mesh(mesh);
-  const bool watertight = report.watertight();
-  const auto pieces = std::size_t(report.components);
+  bool watertight = true;
+  std::size_t pieces = 1;
+  if (!goal.one_solid) {
+    const MeshReport report = check_mesh(mesh);
+    watertight = report.watertight();
+    pieces = std::size_t(report.components);
+  }
   const double extent = double(
       meshopt_simplifyScale(mesh.vertices.data()->data(), mesh.vertices.size(), sizeof(Vec3f)));
   const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;

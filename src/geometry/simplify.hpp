@@ -9,6 +9,7 @@ namespace turnscan {
 struct SimplifyGoal {
   std::size_t triangles = 0;  ///< as few as this, unless the error would be larger
   double max_error_m = 1e30;  ///< largest distance that the quadrics estimate
+  bool one_solid = false;     ///< it is known to be one watertight piece: not looked at again
 };
 
 /// Collapses edges by quadric error (Garland and Heckbert 1997; meshoptimizer) until the goal is

@@ -1,5 +1,6 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/reconstruction/unused_options.hpp>
 
 namespace turnscan {
 
@@ -8,6 +9,19 @@ namespace {
 /// Frames that are read and worked on together: enough to keep the cores busy, few enough to keep
 /// memory flat.
 constexpr std::size_t kBatch = 64;
+
+/// Whether the method looks at an option of a stage.
+bool used(SurfaceMethod method, const std::string& stage, const std::string& option) {
+  const bool of_points = stage == "outliers" || stage == "candidates" || stage == "normals" ||
+                         stage == "refine" || stage == "base" || option == "cloud-outliers" ||
+                         option == "voxel-min-points" || option == "object-gap" ||
+                         option == "repair";
+  if (of_points) return method != SurfaceMethod::kVolumetric;
+  if (stage == "volumetric") return method == SurfaceMethod::kVolumetric;
+  if (option == "alpha") return method == SurfaceMethod::kConcaveHull;
+  if (option.rfind("poisson-", 0) == 0) return method == SurfaceMethod::kPoisson;
+  return true;
+}
 
 }  // namespace
 
@@ -31,6 +45,21 @@ OptionTable describe(ReconstructOptions& options) {
   OptionTable table;
   for (StageOptions& stage : describe_stages(options)) table.append(std::move(stage.table));
   return table;
+}
+
+std::vector<std::string> unused_options(const ReconstructOptions& options) {
+  ReconstructOptions given = options, standard;
+  const auto stages = describe_stages(given), defaults = describe_stages(standard);
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    for (std::size_t f = 0; f < stages[s].table.fields().size(); ++f) {
+      const OptionField& field = stages[s].table.fields()[f];
+      if (!used(options.surface.method, stages[s].stage, field.name) &&
+          field.get() != defaults[s].table.fields()[f].get())
+        names.push_back(field.name);
+    }
+  }
+  return names;
 }
 
 const std::vector<std::string>& saveable_stages() {

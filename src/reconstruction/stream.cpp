@@ -5,6 +5,7 @@
 #include <turnscan/reconstruction/point_stages.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/reconstruction/unused_options.hpp>
 #include <turnscan/reconstruction/volumetric_stream.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
@@ -91,6 +92,8 @@ class ReconstructionStream::Impl {
         return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
       TURNSCAN_TRY(look(context));
     }
+    for (const std::string& name : unused_options(options_))
+      out_.notes.push_back(fmt::format("option {}: this method does not use it", name));
     if (forgotten_ > 0)
       out_.notes.push_back(
           fmt::format("the first {} frames show nothing on the platter", forgotten_));

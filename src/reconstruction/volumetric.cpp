@@ -65,10 +65,10 @@ class Run {
     if (out_.pieces.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: the frames show no surface");
     for (VolumetricPiece& piece : out_.pieces) {
-      TURNSCAN_ASSIGN(
-          piece.mesh, timed("simplify", [&] {
-            return simplify(piece.mesh, {piece.mesh.triangles.size() / 4, 0.5 * scale_.cell_m});
-          }));
+      TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&] {
+                        return simplify(piece.mesh, {piece.mesh.triangles.size() / 4,
+                                                     0.5 * scale_.cell_m, true});
+                      }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(piece.mesh, input_.views, fit_scale(), context_);
                       }));
@@ -209,8 +209,9 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
     return value;
   };
   const double longest = box.size().maxCoeff();
-  double cell = 0.5 * input.spacing_m;
-  std::string reason = fmt::format("half the spacing of a frame's points, {}", mm(input.spacing_m));
+  double cell = input.cells_of_spacing * input.spacing_m;
+  std::string reason = fmt::format("{:g} of the spacing of a frame's points, {}",
+                                   input.cells_of_spacing, mm(input.spacing_m));
   if (cell < 0.5 * input.noise_m) {
     cell = 0.5 * input.noise_m;
     reason = fmt::format("half the noise, {}", mm(input.noise_m));

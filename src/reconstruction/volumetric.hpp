@@ -10,9 +10,12 @@ namespace turnscan {
 
 /// What the volumetric method is told about the data.
 struct VolumetricInput {
-  std::vector<DepthView> views;      ///< all, or as many as are kept, evenly spread
-  double noise_m = 0.0;              ///< of a depth along its ray
-  double spacing_m = 0.0;            ///< of the points of one frame
+  std::vector<DepthView> views;  ///< all, or as many as are kept, evenly spread
+  double noise_m = 0.0;          ///< of a depth along its ray
+  double spacing_m = 0.0;        ///< of the points of one frame
+  /// Distance between samples over spacing_m. A camera's many frames fall between each other's
+  /// pixels; a few range scans do not.
+  double cells_of_spacing = 0.5;
   std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
   std::optional<int> grid;           ///< or: samples along the longest side
   int keep = 0;                      ///< largest pieces that are kept; 0: all

@@ -61,6 +61,10 @@ Result<std::unique_ptr<VolumetricStream>> VolumetricStream::create(
   stream->sensor_noise_m_ = input.noise_m = noise;
   // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
   input.spacing_m = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  const auto& sensors = header.sensors;
+  if (std::all_of(sensors.begin(), sensors.end(),
+                  [](const SensorInfo& s) { return s.kind == SensorKind::kPointScanner; }))
+    input.cells_of_spacing = 0.9;
   input.cylinder = look.cylinder;
   input.cell_m = options.voxels.size_m;
   input.grid = options.voxels.grid;

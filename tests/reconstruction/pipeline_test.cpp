@@ -10,6 +10,7 @@
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/unused_options.hpp>
 
 namespace turnscan {
 namespace {
@@ -225,6 +226,21 @@ TEST(Report, NamesEveryChoiceWithItsReasonAndChecksTheMesh) {
   for (const char* name : {"voxel-size", "voxel-min-points", "normal-radius", "refine-radius"})
     EXPECT_TRUE(names.count(name)) << name;
   EXPECT_EQ(report["options"]["surface"]["poisson-depth"], "6");
+}
+
+TEST(ReconstructOptions, ThatTheMethodDoesNotUseAreNamed) {
+  ReconstructOptions options = coarse();
+  EXPECT_TRUE(unused_options(options).empty());
+  options.volumetric.fit = false;
+  options.surface.alpha_m = 0.01;
+  EXPECT_EQ(unused_options(options), (std::vector<std::string>{"alpha", "fit"}));
+  const auto result = reconstruct(one_ball(), options, {}, RunContext());
+  ASSERT_TRUE(result);
+  EXPECT_THAT(result->notes, ::testing::Contains(HasSubstr("option alpha")));
+  options.surface.method = SurfaceMethod::kVolumetric;
+  options.outliers.neighbours = 20;
+  EXPECT_EQ(unused_options(options),
+            (std::vector<std::string>{"outlier-k", "poisson-depth", "alpha"}));
 }
 
 TEST(ReconstructOptions, HaveUniqueNamesThatReadBackTheirOwnValues) {
