@@ -291,11 +291,16 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
   const Embree open3d(mesh, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   const auto scene = turnscan::Scene::create({&mesh, 1});
   const auto tracer = SampleTracer::create(setup.model);
-  const auto by_rays = SampleTracer::create(setup.model, turnscan::OcclusionMethod::kAllRays);
+  const auto by_rays = SampleTracer::create(
+      setup.model, {turnscan::HitMethod::kRays, turnscan::OcclusionMethod::kAllRays});
+  const auto drawn = SampleTracer::create(
+      setup.model, {turnscan::HitMethod::kDrawn, turnscan::OcclusionMethod::kDoubtful});
+  const auto traced = SampleTracer::create(
+      setup.model, {turnscan::HitMethod::kRays, turnscan::OcclusionMethod::kDoubtful});
   const Body body{&*scene, Pose::Identity()};
   std::vector<Output> bare(poses.size());
   std::vector<CastRays> theirs(poses.size());
-  std::vector<SampleGrid> ours(poses.size()), rays_only(poses.size());
+  std::vector<SampleGrid> ours(poses.size()), rays_only(poses.size()), other(poses.size());
   std::vector<std::vector<float>> rays(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (int v = 0; v < setup.model.camera.height; ++v) {
@@ -315,6 +320,14 @@ void compare(const Setup& setup, const TriangleMesh& mesh, int rounds) {
       {"SampleTracer, all rays",
        [&] { each([&](std::size_t i) {
                by_rays->trace({&body, 1}, poses[i], rays_only[i]);
+             }); }},
+      {"rays where in doubt",
+       [&] { each([&](std::size_t i) {
+               traced->trace({&body, 1}, poses[i], other[i]);
+             }); }},
+      {"drawn",
+       [&] { each([&](std::size_t i) {
+               drawn->trace({&body, 1}, poses[i], other[i]);
              }); }},
       {"SampleTracer",
        [&] { each([&](std::size_t i) {

@@ -86,9 +86,10 @@ Result<CoverageMap> coverage_of(const VirtualScan& scan, const VirtualScanOption
   std::vector<CoveragePose> poses;
   for (std::size_t i = 0; i < scan.frames().size(); ++i)
     if (scan.frames()[i].status != FrameStatus::kDropped)
-      poses.push_back({scan.frames()[i].sensor, scan.T_table_sensor(i)});
+      poses.push_back({scan.frames()[i].sensor, scan.T_table_sensor(i), scan.T_table_world(i)});
   coverage.noise = options.measure.noise == "model" || options.measure.noise == "physics";
-  return coverage_map(scan.scene(), scan.objects(), scanners, poses, coverage, context);
+  return coverage_map(scan.scene(), scan.objects(), scanners, poses, coverage, context,
+                      scan.room());
 }
 
 Result<> write_coverage_mesh(const std::filesystem::path& path, const CoverageMap& map,

@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <turnscan/simulator/samples.hpp>
 #include <turnscan/simulator/scanner_file.hpp>
 #include <turnscan/simulator/scene_file.hpp>
+#include <turnscan/simulator/virtual_passes.hpp>
 
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -66,6 +68,10 @@ class SimulateCommand : public Command {
                     "place is its own follows behind commas: kinect-v2,azimuth=90deg (default: "
                     "kinect-v2)",
                     fmt::join(scanner_presets(), ", ")));
+    line.repeatable("--next-pass", "NAME=VALUE,...", next_passes_,
+                    "Another pass after the first, in the same recording: how the object lies "
+                    "then, by the options of the object, e.g. tip=90deg,yaw=30deg; may be given "
+                    "several times");
     line.option("--unit", "UNIT", unit_, "Unit of OBJECT if its file does not say it: mm, m, ...");
     line.option("--coverage", "FILE.ply", coverage_,
                 "Write how well the scan covers the object, and why not: a coloured mesh, and "
@@ -74,10 +80,11 @@ class SimulateCommand : public Command {
               "Also write every sample with what there was to see, into RECORDING/truth/samples");
     line.option("--report", "FILE.json", report_,
                 "Write what was done as JSON: options, counts, times");
-    line.file_option("--scene", "FILE.toml",
-                     "Read everything from a TOML file: the tables below, [[scanner]] and the "
-                     "object. The command line goes before the file",
-                     [this](const std::string& path) { return read_scene(path, scene_); });
+    line.file_option(
+        "--scene", "FILE.toml",
+        "Read everything from a TOML file: the tables below, [[scanner]], [[pass]] and the "
+        "object. The command line goes before the file",
+        [this](const std::string& path) { return read_scene(path, scene_); });
     for (SceneTable& table : describe(scene_))
       line.group(table.name, table.title, std::move(table.options));
     line.group("coverage", "Coverage", describe(coverage_options_));
@@ -88,17 +95,15 @@ class SimulateCommand : public Command {
     TURNSCAN_TRY(check_outputs());
     const auto begin = Clock::now();
     TURNSCAN_ASSIGN(const VirtualScanOptions options, scan_options(scene_));
-    TURNSCAN_ASSIGN(const std::optional<PlacedObject> placed, load_object(session.context()));
-    std::vector<TriangleMesh> meshes;
-    if (placed) meshes.push_back(placed->mesh);
-    TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create(std::move(meshes), options));
+    TURNSCAN_ASSIGN(const std::vector<PlacedObject> placed, load_object(session.context()));
+    TURNSCAN_ASSIGN(const VirtualPasses scan, make_passes(placed, options));
     Timing timing;
     timing.prepare_s = seconds_since(begin);
-    if (!out_.empty()) TURNSCAN_TRY(record(scan, placed ? &*placed : nullptr, session.context()));
+    if (!out_.empty()) TURNSCAN_TRY(record(scan, placed, session.context()));
     timing.record_s = seconds_since(begin) - timing.prepare_s;
     std::optional<CoverageMap> map;
     if (!coverage_.empty()) {
-      TURNSCAN_ASSIGN(map, cover(scan, options, session.context()));
+      TURNSCAN_ASSIGN(map, cover(scan.pass(0), options, session.context()));
     }
     if (!report_.empty()) TURNSCAN_TRY(write_file_atomically(report_, report_json(scan, timing)));
     if (!out_.empty()) tell(scan, timing, session);
@@ -113,6 +118,14 @@ class SimulateCommand : public Command {
     if (scene_.object.empty())
       return fail(ErrorCode::kInvalidOption,
                   "OBJECT: missing; give a mesh file, a built-in object or a scene that names one");
+    if (!next_passes_.empty()) scene_.next_passes.clear();
+    for (const std::string& text : next_passes_) {
+      TURNSCAN_ASSIGN(PassEntry pass, parse_pass_entry(text));
+      scene_.next_passes.push_back(std::move(pass));
+    }
+    if (!scene_.next_passes.empty() && !coverage_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--coverage: it tells of one pass; leave the others out, or run it for each");
     if (scanners_.empty()) return {};
     scene_.scanners.clear();
     for (const std::string& text : scanners_) {
@@ -159,21 +172,45 @@ class SimulateCommand : public Command {
     return mesh;
   }
 
-  Result<std::optional<PlacedObject>> load_object(const RunContext& context) const {
-    if (scene_.object == kEmptyTable) return std::optional<PlacedObject>();
+  /// The object as it lies in each pass; none for the empty table.
+  Result<std::vector<PlacedObject>> load_object(const RunContext& context) const {
+    std::vector<PlacedObject> passes;
+    if (scene_.object == kEmptyTable) return passes;
     context.begin_phase("read object", 0);
-    TURNSCAN_ASSIGN(TriangleMesh mesh, load_mesh(context));
-    auto placed = place_object(std::move(mesh), scene_.object_placement);
-    if (!placed) {
-      Error error = std::move(placed).error();
-      error.path = scene_.object;
-      return tl::unexpected<Error>(std::move(error));
+    TURNSCAN_ASSIGN(const TriangleMesh mesh, load_mesh(context));
+    TURNSCAN_ASSIGN(const std::vector<ObjectPlacement> placements, pass_placements(scene_));
+    for (const ObjectPlacement& placement : placements) {
+      auto placed = place_object(mesh, placement);
+      if (!placed) {
+        Error error = std::move(placed).error();
+        error.path = scene_.object;
+        return tl::unexpected<Error>(std::move(error));
+      }
+      TURNSCAN_TRY(context.check());
+      passes.push_back(std::move(*placed));
     }
-    TURNSCAN_TRY(context.check());
-    return std::optional<PlacedObject>(std::move(*placed));
+    return passes;
   }
 
-  Result<> record(const VirtualScan& scan, const PlacedObject* placed,
+  /// The scanners keep their places: what the first pass makes them look at is for all.
+  static Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
+                                           VirtualScanOptions options) {
+    std::vector<VirtualScan> scans;
+    for (std::size_t k = 0; k < std::max<std::size_t>(placed.size(), 1); ++k) {
+      std::vector<TriangleMesh> meshes;
+      if (!placed.empty()) meshes.push_back(placed[k].mesh);
+      TURNSCAN_ASSIGN(VirtualScan scan, VirtualScan::create(std::move(meshes), options));
+      for (VirtualScanner& scanner : options.scanners)
+        if (!scanner.placement.aim_height_m) scanner.placement.aim_height_m = scan.aim_height_m();
+      ++options.record.pass;
+      options.first_instant +=
+          static_cast<std::uint32_t>(scan.frames().size() / options.scanners.size());
+      scans.push_back(std::move(scan));
+    }
+    return VirtualPasses(std::move(scans));
+  }
+
+  Result<> record(const VirtualPasses& scan, const std::vector<PlacedObject>& placed,
                   const RunContext& context) const {
     std::error_code error;
     const bool existed = fs::exists(out_, error);
@@ -194,11 +231,12 @@ class SimulateCommand : public Command {
     return out;
   }
 
-  std::string report_json(const VirtualScan& scan, const Timing& timing) const {
+  std::string report_json(const VirtualPasses& scan, const Timing& timing) const {
     nlohmann::ordered_json out;
     out["software"] = std::string("turnscan ") + version();
     out["object"] = scene_.object;
     out["frames"] = scan.frames().size();
+    out["passes"] = scan.count();
     out["scanners"] = nlohmann::ordered_json::array();
     for (std::size_t k = 0; k < scan.header().sensors.size(); ++k) {
       nlohmann::ordered_json scanner;
@@ -217,7 +255,7 @@ class SimulateCommand : public Command {
     return out.dump(2) + "\n";
   }
 
-  void tell(const VirtualScan& scan, const Timing& timing, Session& session) const {
+  void tell(const VirtualPasses& scan, const Timing& timing, Session& session) const {
     TextTable table({0, 1});
     table.add({"scanner", "of its samples"});
     for (std::size_t k = 0; k < scan.header().sensors.size(); ++k)
@@ -252,7 +290,7 @@ class SimulateCommand : public Command {
   std::string object_, out_, unit_, report_, coverage_;
   bool samples_ = false;
   CoverageMapOptions coverage_options_;
-  std::vector<std::string> scanners_;
+  std::vector<std::string> scanners_, next_passes_;
   SceneDescription scene_;
 };
 

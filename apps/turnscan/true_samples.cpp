@@ -61,7 +61,7 @@ Result<> write_frame(const fs::path& path, const TrueSamples& samples) {
 
 }  // namespace
 
-Result<> write_true_samples(const fs::path& folder, const VirtualScan& scan,
+Result<> write_true_samples(const fs::path& folder, const VirtualPasses& scan,
                             const RunContext& context) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -75,7 +75,8 @@ Result<> write_true_samples(const fs::path& folder, const VirtualScan& scan,
   parallel_for(scan.frames().size(), 1, [&](std::size_t i) {
     if (failed || context.cancelled()) return;
     if (scan.frames()[i].status == FrameStatus::kDropped) return;
-    auto samples = scan.samples(i);
+    const auto [pass, there] = scan.place_of(i);
+    auto samples = scan.pass(pass).samples(there);
     auto written =
         samples ? write_frame(folder / fmt::format("{:06}.ply", scan.frames()[i].index), *samples)
                 : Result<>(tl::unexpected<Error>(samples.error()));

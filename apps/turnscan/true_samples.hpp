@@ -3,14 +3,14 @@
 
 #include <filesystem>
 #include <turnscan/core/run_context.hpp>
-#include <turnscan/simulator/virtual_scan.hpp>
+#include <turnscan/simulator/virtual_passes.hpp>
 
 namespace turnscan::cli {
 
 /// Writes folder/NNNNNN.ply for each frame that was not dropped (the number is the frame's index):
 /// a vertex for each sample whose ray hits something, counted or not. The folder is made. Fails
 /// with kCancelled, or as write_file_atomically.
-Result<> write_true_samples(const std::filesystem::path& folder, const VirtualScan& scan,
+Result<> write_true_samples(const std::filesystem::path& folder, const VirtualPasses& scan,
                             const RunContext& context);
 
 }  // namespace turnscan::cli

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -105,14 +106,17 @@ class Counter {
   /// seen: per cell the last frame counted on this thread, plus one.
   void count(std::size_t pose, SampleGrid& grid, std::vector<std::uint32_t>& seen) const {
     const CoveragePose& at = job_.poses[pose];
-    const Body body{&job_.scene, Pose::Identity()};
-    tracers_[at.scanner].trace({&body, 1}, at.T_table_sensor, grid);
+    const std::array<Body, 2> bodies{
+        {{&job_.scene, Pose::Identity()}, {job_.room, at.T_table_room}}};
+    tracers_[at.scanner].trace(std::span(bodies).first(job_.room != nullptr ? 2 : 1),
+                               at.T_table_sensor, grid);
     const Eigen::Matrix3f turn = at.T_table_sensor.linear().cast<float>();
     const Vec3f origin = at.T_table_sensor.translation().cast<float>();
     for (int row = grid.rect.top; row < grid.rect.bottom; ++row) {
       for (int column = grid.rect.left; column < grid.rect.right; ++column) {
         const std::size_t i = grid.index(column, row);
-        if (!grid.counts(i) || !surface_.has(grid.object(i), grid.triangle[i])) continue;
+        if (!grid.counts(i) || grid.body(i) != 0 || !surface_.has(grid.object(i), grid.triangle[i]))
+          continue;
         const Vec3f way = turn * rays_[at.scanner].at(column, row);
         take(at.scanner, std::uint32_t(pose), grid, i, origin + grid.z[i] * way, way, seen);
       }

@@ -10,6 +10,7 @@ struct CoverageJob {
   std::span<const ScannerModel> scanners;
   std::span<const CoveragePose> poses;
   const CoverageMapOptions& options;
+  const Scene* room = nullptr;
 };
 
 /// Fills samples, views, best incidence and sigma of patches and cells from the frames' samples.

@@ -188,8 +188,9 @@ double CoverageMap::covered_of_reachable() const {
 Result<CoverageMap> coverage_map(const Scene& scene, std::span<const TriangleMesh> objects,
                                  std::span<const ScannerModel> scanners,
                                  std::span<const CoveragePose> poses,
-                                 const CoverageMapOptions& options, const RunContext& context) {
-  const CoverageJob job{scene, scanners, poses, options};
+                                 const CoverageMapOptions& options, const RunContext& context,
+                                 const Scene* room) {
+  const CoverageJob job{scene, scanners, poses, options, room};
   TURNSCAN_TRY(check(job, objects));
   TURNSCAN_TRY(context.check());
   CoveragePatches surface(objects, options.cell_m);

@@ -25,6 +25,7 @@ OptionTable describe(CoverageMapOptions& options);
 struct CoveragePose {
   std::uint32_t scanner = 0;               ///< position in the scanners
   Pose T_table_sensor = Pose::Identity();  ///< the platter's turn taken back
+  Pose T_table_room = Pose::Identity();    ///< of the room, if there is one
 };
 
 enum class CoverageState : std::uint8_t {
@@ -99,13 +100,17 @@ struct CoverageMap {
 /// unreachable when nothing on 48 directions around the table sees it within the scanners' largest
 /// incidence, from their greatest distance and from their lowest height to their highest.
 ///
+/// room: what does not turn with the table, in a frame of its own; it hides, too, but for what is
+/// unreachable: elsewhere it may not stand in the way.
+///
 /// cell_m is enlarged where it would give more than 4 million patches. The same for every number of
 /// threads. Fails with kInvalidOption (options, no scanner, a pose of a scanner that is not there),
 /// kTooFewPoints (objects without a face) and kCancelled.
 Result<CoverageMap> coverage_map(const Scene& scene, std::span<const TriangleMesh> objects,
                                  std::span<const ScannerModel> scanners,
                                  std::span<const CoveragePose> poses,
-                                 const CoverageMapOptions& options, const RunContext& context);
+                                 const CoverageMapOptions& options, const RunContext& context,
+                                 const Scene* room = nullptr);
 
 /// The patches, each with corners of its own, coloured: covered from blue over green to yellow by
 /// the logarithm of density (from thin_per_mm2 to 256 times that), thin orange, missed red,

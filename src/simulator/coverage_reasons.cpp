@@ -45,6 +45,7 @@ struct Look {
   Pose T_sensor_table, T_sensor_table_before;
   bool line = false;
   Vec3d origin, other;  ///< table frame
+  Pose T_room_table;
 
   Miss in_view(const Spot& spot) const {
     const Vec3d q = T_sensor_table * spot.p;
@@ -74,7 +75,7 @@ std::vector<Look> looks_of(const CoverageJob& job) {
       const Pose& T = poses[i]->T_table_sensor;
       const Pose& before = poses[i > 0 ? i - 1 : 0]->T_table_sensor;
       looks.push_back({&job.scanners[s], T.inverse(), before.inverse(), line, T.translation(),
-                       T * job.scanners[s].other_eye_m()});
+                       T * job.scanners[s].other_eye_m(), poses[i]->T_table_room.inverse()});
     }
   }
   return looks;
@@ -92,19 +93,29 @@ Ray ray_to(const Spot& spot, const Vec3d& eye) {
 /// Spots that something is asked about, and whether anything lies between each and a point.
 class Blocked {
  public:
-  explicit Blocked(const Scene& scene) : scene_(scene) {}
+  explicit Blocked(const Scene& scene, const Scene* room = nullptr) : scene_(scene), room_(room) {}
   void clear() { rays_.clear(), who.clear(); }
   void ask(std::size_t spot, const Ray& ray) { rays_.push_back(ray), who.push_back(spot); }
-  void answer() {
+  void answer(const Pose& T_room_table = Pose::Identity()) {
     blocked.resize(rays_.size());
     scene_.occluded(rays_, blocked, RayOrder::kCoherent);
+    if (room_ == nullptr) return;
+    for (Ray& ray : rays_) {
+      ray.origin = (T_room_table * ray.origin.cast<double>()).cast<float>();
+      ray.direction = (T_room_table.linear() * ray.direction.cast<double>()).cast<float>();
+    }
+    by_room_.resize(rays_.size());
+    room_->occluded(rays_, by_room_, RayOrder::kCoherent);
+    for (std::size_t k = 0; k < blocked.size(); ++k) blocked[k] |= by_room_[k];
   }
   std::vector<std::size_t> who;
   std::vector<std::uint8_t> blocked;
 
  private:
   const Scene& scene_;
+  const Scene* room_;
   std::vector<Ray> rays_;
+  std::vector<std::uint8_t> by_room_;
 };
 
 /// Raises the outcomes to what this look gives.
@@ -124,7 +135,7 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
     else
       first.ask(i, ray_to(spots[i], look.origin));
   }
-  first.answer();
+  first.answer(look.T_room_table);
   for (std::size_t k = 0; k < first.who.size(); ++k) {
     const std::size_t i = first.who[k];
     if (first.blocked[k])
@@ -136,7 +147,7 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
     else
       second.ask(i, ray_to(spots[i], look.other));
   }
-  second.answer();
+  second.answer(look.T_room_table);
   for (std::size_t k = 0; k < second.who.size(); ++k)
     if (second.blocked[k])
       outcomes[second.who[k]].raise(Outcome::kSecondEye, others);
@@ -225,7 +236,7 @@ Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface,
     const auto mine = std::span(spots).subspan(begin, n);
     std::vector<Outcome> outcomes(n);
     std::vector<std::uint8_t> reached(n, 0);
-    Blocked first(job.scene), second(job.scene);
+    Blocked first(job.scene, job.room), second(job.scene, job.room);
     for (const Look& look : looks) {
       if (context.cancelled()) return;
       look_at(look, mine, first, second, outcomes);

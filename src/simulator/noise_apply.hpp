@@ -78,6 +78,8 @@ struct SubSamples {
 void apply_gaussian(Job& job);
 /// The formulae of NoiseModel.
 void apply_formulae(Job& job);
+/// Takes out what a matcher of dots would not find (NoiseModel::window_px).
+void match_windows(Job& job);
 /// Kinect v2.
 void apply_time_of_flight(Job& job);
 void apply_laser_line(Job& job);

@@ -277,6 +277,9 @@ class Formulae {
 
 }  // namespace
 
-void apply_formulae(Job& job) { Formulae(job).run(); }
+void apply_formulae(Job& job) {
+  Formulae(job).run();
+  match_windows(job);
+}
 
 }  // namespace turnscan::noise

@@ -68,7 +68,15 @@ void describe_defects(OptionTable& table, NoiseModel& m) {
               "Side of the square that a pixel sees, pixels; 0: a point.")
       .number("mixed-rejection", m.mixed_rejection_m, Quantity::kLength, {0.0, 100.0},
               "A mixed pixel farther than this from both the nearest and the farthest thing that "
-              "it sees has no return; 0: all are kept.");
+              "it sees has no return; 0: all are kept.")
+      .number("window-px", m.window_px, {0, 63},
+              "Side of the window in which the projector's dots are found, pixels; 0: none.")
+      .number("window-dots", m.window_dots, Quantity::kNone, {0.0, 1.0},
+              "Dots of the projector for each pixel.")
+      .number("window-share", m.window_share, Quantity::kNone, {0.0, 1.0},
+              "No return where fewer of the window's dots are seen at the pixel's disparity.")
+      .number("window-agreement", m.window_agreement_px, Quantity::kNone, kPixels,
+              "How far their disparity may differ, pixels.");
 }
 
 void describe_physics(OptionTable& table, NoiseModel& m) {

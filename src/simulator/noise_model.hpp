@@ -53,6 +53,14 @@ struct NoiseModel {
   double footprint_px = 0.0;
   double mixed_rejection_m = 0.0;
 
+  // Structured light: the pixel is found by the projector's dots in a window about it. It is lost
+  // where fewer than window_share of those that its disparity lets expect are there, within
+  // window_agreement of that disparity.
+  int window_px = 0;                 ///< side of the window; 0: no window
+  double window_dots = 0.1;          ///< dots for each pixel
+  double window_share = 0.8;         ///< 0 to 1
+  double window_agreement_px = 1.0;  ///< of the disparity
+
   SensorPhysics physics = SensorPhysics::kNone;
 
   // Kinect v2, in the units of the driver's correlations (11 bit, expanded to 16).

@@ -26,10 +26,33 @@ struct ObjectView {
   std::uint32_t vertex_count = 0, triangle_count = 0;
 };
 
+/// The triangle in a slot of a scene's clusters.
+struct TriangleName {
+  std::uint32_t object = 0, triangle = 0;
+};
+
+inline constexpr int kLevels = 3;
+
+/// Boxes about things that lie together: of each kLanes of them centre x y z and half size x y z.
+struct Boxes {
+  const float* bounds = nullptr;
+  int count = 0;
+};
+
+/// All triangles of a scene in groups of kLanes neighbours; slot s is lane s % kLanes of group
+/// s / kLanes. Where triangles run out the last is repeated.
+struct Clusters {
+  const float* corners = nullptr;       ///< of each group ax, ay, az, bx, ... cz: kLanes each
+  const TriangleName* names = nullptr;  ///< of each slot
+  Boxes levels[kLevels];                ///< of groups, of kLanes groups, of kLanes of these
+};
+
 /// A body as one pose of the sensor sees it.
 struct BodyView {
   RTCScene scene = nullptr;
   const ObjectView* objects = nullptr;
+  Clusters clusters;                     ///< for drawing; else without any
+  std::uint32_t first_slot = 0;          ///< where its slots begin among those of all bodies
   float platter_radius_squared = -1.0f;  ///< negative: there is none
   std::uint32_t id = 0;                  ///< position in the bodies << kObjectBits
   Frame frame;                           ///< outside of it no pixel sees the body
@@ -55,6 +78,9 @@ struct View {
   bool baseline_along_rows = true;  ///< or along the columns
   float pixel = 0.0f;               ///< distance of the samples there, in directions
   float border_nearness = 0.0f;     ///< 1 / depth of the nearest thing beyond that border; 0: none
+
+  // For drawing: the camera, without distortion.
+  float fx = 0.0f, fy = 0.0f, cx = 0.0f, cy = 0.0f;
 };
 
 /// Directions (x, y, 1) of the pixels: x[v * x_row + u], y[v * y_row + u * y_column]. NaN: no ray.
@@ -70,6 +96,25 @@ struct Output {
   std::uint8_t* miss = nullptr;
 };
 
+/// A group that may be in the image.
+struct GroupView {
+  std::uint32_t group = 0;
+  float nearness = 0.0f;  ///< 1 / depth of its nearest corner, or more
+  Frame frame;            ///< outside of it no pixel sees any of it
+};
+
+/// Memory for drawing. Its frame holds the image's and may go on beyond it, where it tells only
+/// what may hide samples of the image from the other eye.
+struct Canvas {
+  Frame frame;
+  float* nearness = nullptr;       ///< 1 / depth; one for each pixel and kLanes more
+  std::uint32_t* slot = nullptr;   ///< as many
+  float* tiles = nullptr;          ///< one for each tile of kTile x kTile and kLanes more
+  GroupView* seen = nullptr;       ///< one for each group of the largest body
+  std::uint32_t* order = nullptr;  ///< as many
+};
+inline constexpr int kTile = 8;
+
 struct Kernel {
   /// The pixels of the frame, row by row without gaps, in packets of tile_width columns (1, 2, 4).
   void (*trace_image)(const View& view, const Directions& directions, const Frame& frame,
@@ -77,6 +122,9 @@ struct Kernel {
   /// n rays in the order given.
   void (*trace_list)(const View& view, const float* x, const float* y, std::size_t n,
                      const Output& out);
+  /// As trace_image, but what the pixels see is drawn, triangle by triangle, instead of traced.
+  void (*draw_image)(const View& view, const Directions& directions, const Frame& frame,
+                     const Canvas& canvas, const Output& out);
 };
 
 enum class InstructionSet { kPortable, kAvx2, kAvx512 };

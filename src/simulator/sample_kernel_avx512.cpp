@@ -4,12 +4,13 @@ namespace turnscan::sampling {
 namespace {
 
 #include <turnscan/simulator/sample_packet.hpp>
-// Needs the one above.
+// Each needs those above.
 #include <turnscan/simulator/sample_occlusion.hpp>
+#include <turnscan/simulator/sample_raster.hpp>
 
 }  // namespace
 
 extern const Kernel kAvx512Kernel;
-const Kernel kAvx512Kernel{trace_image, trace_list};
+const Kernel kAvx512Kernel{trace_image, trace_list, draw_image};
 
 }  // namespace turnscan::sampling

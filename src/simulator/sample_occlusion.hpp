@@ -87,37 +87,92 @@ struct Row {
   int count;
   const float* along;  ///< of the first sample
   std::ptrdiff_t along_step;
+  // What was drawn of the row beyond the image on that side, as 1 / depth.
+  int beyond_count = 0;
+  const float* beyond = nullptr;  ///< of the outermost pixel
+  std::ptrdiff_t beyond_step = 0;
+};
+
+/// The minimum that runs along a row.
+class Horizon {
+ public:
+  explicit Horizon(const View& view)
+      : b_(view.baseline < 0.0f ? -view.baseline : view.baseline),
+        smooth_(kSmooth_px * view.pixel),
+        margin_(kMargin_px * view.pixel) {}
+
+  void lower(float to) { least_ = to < least_ ? to : least_; }
+  float least() const { return least_; }
+
+  /// What the other eye sees of a sample; infinity where there is nothing.
+  float seen(float direction, float nearness) const {
+    return nearness > 0.0f ? direction - b_ * nearness : kInfinity;
+  }
+
+  /// Before a sample: what ends between the last one and it.
+  void end(float nearness) {
+    const float jump = b_ * (nearness > before_w_ ? nearness - before_w_ : before_w_ - nearness);
+    if (jump > smooth_ || !(nearness > 0.0f)) lower(before_ - margin_);
+  }
+
+  /// After it.
+  void pass(float seen, float nearness) {
+    lower(seen);
+    before_ = seen;
+    before_w_ = nearness;
+  }
+
+ private:
+  float b_, smooth_, margin_;
+  float least_ = kInfinity, before_ = kInfinity, before_w_ = 0.0f;
 };
 
 template <class Report>
 inline void find_doubts(const View& view, const Row& row, const Output& out, const Report& report) {
   const float b = view.baseline < 0.0f ? -view.baseline : view.baseline;
   const float sign = view.baseline < 0.0f ? -1.0f : 1.0f;
-  const float smooth = kSmooth_px * view.pixel, margin = kMargin_px * view.pixel;
   const float rounding = kRounding_px * view.pixel;
-  // What lies outside the image may hide, as near as the nearest of it.
-  float least =
-      view.border_nearness > 0.0f ? sign * row.along[0] - b * view.border_nearness : kInfinity;
-  float before = kInfinity, before_w = 0.0f;
+  const float first = sign * row.along[0];  // directions fall from here
+  const float outermost = first + float(row.beyond_count) * view.pixel;
+  Horizon horizon(view);
+  // What lies outside of all may hide, as near as the nearest of it.
+  if (view.border_nearness > 0.0f) horizon.lower(outermost - b * view.border_nearness);
+  for (int k = 0; k < row.beyond_count; ++k) {
+    const float w = row.beyond[k * row.beyond_step];
+    horizon.end(w);
+    horizon.pass(horizon.seen(outermost - float(k) * view.pixel, w), w);
+  }
   for (int k = 0; k < row.count; ++k) {
     const std::size_t at = row.first + std::size_t(k * row.step);
-    const float z = out.z[at];
-    const bool hit = z > 0.0f;
-    const float w = hit ? 1.0f / z : 0.0f;
-    const float seen = hit ? sign * row.along[k * row.along_step] - b * w : kInfinity;
-    const float jump = b * (w > before_w ? w - before_w : before_w - w);
-    const float end = jump > smooth || !hit ? before - margin : kInfinity;
-    least = end < least ? end : least;
-    if (out.miss[at] == kCounts && seen >= least - rounding) report(k, at);
-    least = seen < least ? seen : least;
-    before = seen;
-    before_w = w;
+    const float z = out.z[at], w = z > 0.0f ? 1.0f / z : 0.0f;
+    const float seen = horizon.seen(sign * row.along[k * row.along_step], w);
+    horizon.end(w);
+    if (out.miss[at] == kCounts && seen >= horizon.least() - rounding) report(k, at);
+    horizon.pass(seen, w);
+  }
+}
+
+/// What a canvas holds beyond the image on the side of the other eye.
+inline void add_beyond(const View& view, const Frame& frame, const Canvas& canvas, int line,
+                       Row& row) {
+  const Frame& c = canvas.frame;
+  const std::ptrdiff_t width = c.right - c.left;
+  const bool after = view.baseline > 0.0f;  // in the order of the pixels
+  if (view.baseline_along_rows) {
+    row.beyond_count = after ? c.right - frame.right : frame.left - c.left;
+    row.beyond = canvas.nearness + (frame.top + line - c.top) * width + (after ? width - 1 : 0);
+    row.beyond_step = after ? -1 : 1;
+  } else {
+    row.beyond_count = after ? c.bottom - frame.bottom : frame.top - c.top;
+    row.beyond = canvas.nearness + (frame.left + line - c.left) +
+                 (after ? (c.bottom - c.top - 1) * width : 0);
+    row.beyond_step = after ? -width : width;
   }
 }
 
 /// Takes from the samples of the frame that count those that the other eye does not see.
 inline void occlude_image(const View& view, const Directions& d, const Frame& frame,
-                          const Output& out) {
+                          const Canvas* canvas, const Output& out) {
   Doubts doubts(view, out);
   const int width = frame.right - frame.left, height = frame.bottom - frame.top;
   const bool rows = view.baseline_along_rows, forward = view.baseline < 0.0f;
@@ -129,8 +184,9 @@ inline void occlude_image(const View& view, const Directions& d, const Frame& fr
     const std::size_t start = rows ? std::size_t(line) * std::size_t(width) : std::size_t(line);
     const int first = forward ? 0 : count - 1;
     const float* along = rows ? x : y;
-    const Row row{start + std::size_t(first) * std::size_t(step), forward ? step : -step, count,
-                  along + first, forward ? 1 : -1};
+    Row row{start + std::size_t(first) * std::size_t(step), forward ? step : -step, count,
+            along + first, forward ? 1 : -1};
+    if (canvas != nullptr) add_beyond(view, frame, *canvas, line, row);
     find_doubts(view, row, out, [&](int k, std::size_t at) {
       const int place = forward ? k : count - 1 - k;
       doubts.add(at, rows ? x[place] : x[line], rows ? y[line] : y[place]);
@@ -147,5 +203,5 @@ void trace_image(const View& view, const Directions& directions, const Frame& fr
     trace_tiles<2>(view, directions, frame, out);
   else
     trace_tiles<1>(view, directions, frame, out);
-  if (view.two_eyed && view.baseline != 0.0f) occlude_image(view, directions, frame, out);
+  if (view.two_eyed && view.baseline != 0.0f) occlude_image(view, directions, frame, nullptr, out);
 }

@@ -71,33 +71,72 @@ inline F meet_platter(const RTCRay16& ray, const F& end, float radius_squared) {
   return hit ? t : all(kInfinity);
 }
 
-inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext& context,
-                      Packet& p) {
-  alignas(64) RTCRayHit16 hits;
-  alignas(64) int active[kLanes];
-  const float* r = body.rotation;
-  fill(body.origin, r, p.x, p.y, all(1.0f), p.z, hits.ray);
-  put(all(-1), hits.hit.geomID);
-  put(all(-1), hits.hit.instID[0]);
-  put(valid, active);
-  rtcIntersect16(active, body.scene, &context, &hits);
-  const I object = get<I>(hits.hit.geomID), hit = object != -1;
-  const F nx = get<F>(hits.hit.Ng_x), ny = get<F>(hits.hit.Ng_y), nz = get<F>(hits.hit.Ng_z);
-  p.z = hit ? get<F>(hits.ray.tfar) : p.z;
-  p.surface = hit ? int(body.id) | object : p.surface;
-  p.triangle = hit ? get<I>(hits.hit.primID) : p.triangle;
-  p.nx = hit ? r[0] * nx + r[3] * ny + r[6] * nz : p.nx;
-  p.ny = hit ? r[1] * nx + r[4] * ny + r[7] * nz : p.ny;
-  p.nz = hit ? r[2] * nx + r[5] * ny + r[8] * nz : p.nz;
+/// The platter where it is nearer than what the packet has.
+inline void meet_platter(const BodyView& body, const I& valid, Packet& p) {
   if (body.platter_radius_squared < 0.0f) return;
-  const F t = meet_platter(hits.ray, p.z, body.platter_radius_squared);
-  const I on = valid & (t < p.z);
+  const float *r = body.rotation, *o = body.origin;
+  const F t = -all(o[1]) / (r[3] * p.x + r[4] * p.y + r[5]);
+  const F x = o[0] + t * (r[0] * p.x + r[1] * p.y + r[2]);
+  const F z = o[2] + t * (r[6] * p.x + r[7] * p.y + r[8]);
+  const I on = valid & (t > 0.0f) & (t < p.z) & (x * x + z * z <= body.platter_radius_squared);
   p.z = on ? t : p.z;
   p.surface = on ? all(int(body.id | kPlatterObject)) : p.surface;
   p.triangle = on ? I{} : p.triangle;
   p.nx = on ? all(r[3]) : p.nx;
   p.ny = on ? all(r[4]) : p.ny;
   p.nz = on ? all(r[5]) : p.nz;
+}
+
+/// Where the rays meet the triangles' planes, for those of sixteen whose object is not -1. Rays and
+/// drawing both go through here, so that they agree to the last bit where they found the same
+/// triangle.
+inline void locate(const BodyView& body, const int* objects, const int* triangles, Packet& p) {
+  alignas(64) float c[9][kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    if (objects[i] == -1) {
+      for (int k = 0; k < 9; ++k) c[k][i] = 0.0f;
+      continue;
+    }
+    const ObjectView& o = body.objects[objects[i]];
+    const std::uint32_t* index = o.indices + 3 * std::size_t(triangles[i]);
+    for (int k = 0; k < 3; ++k) {
+      const float* v = o.vertices + 3 * std::size_t(index[k]);
+      c[3 * k][i] = v[0];
+      c[3 * k + 1][i] = v[1];
+      c[3 * k + 2][i] = v[2];
+    }
+  }
+  const F ax = get<F>(c[0]), ay = get<F>(c[1]), az = get<F>(c[2]);
+  const F ux = get<F>(c[3]) - ax, uy = get<F>(c[4]) - ay, uz = get<F>(c[5]) - az;
+  const F vx = get<F>(c[6]) - ax, vy = get<F>(c[7]) - ay, vz = get<F>(c[8]) - az;
+  const F nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const float *r = body.rotation, *o = body.origin;
+  const F to = nx * (ax - o[0]) + ny * (ay - o[1]) + nz * (az - o[2]);
+  const F mx = r[0] * nx + r[3] * ny + r[6] * nz, my = r[1] * nx + r[4] * ny + r[7] * nz,
+          mz = r[2] * nx + r[5] * ny + r[8] * nz;
+  const I object = get<I>(objects), triangle = get<I>(triangles), hit = object != -1;
+  p.z = hit ? to / (mx * p.x + my * p.y + mz) : p.z;
+  p.surface = hit ? int(body.id) | object : p.surface;
+  p.triangle = hit ? triangle : p.triangle;
+  p.nx = hit ? mx : p.nx;
+  p.ny = hit ? my : p.ny;
+  p.nz = hit ? mz : p.nz;
+}
+
+inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext& context,
+                      Packet& p) {
+  alignas(64) RTCRayHit16 hits;
+  alignas(64) int active[kLanes];
+  fill(body.origin, body.rotation, p.x, p.y, all(1.0f), p.z, hits.ray);
+  put(all(-1), hits.hit.geomID);
+  put(all(-1), hits.hit.instID[0]);
+  put(valid, active);
+  rtcIntersect16(active, body.scene, &context, &hits);
+  alignas(64) int object[kLanes], triangle[kLanes];
+  put(get<I>(hits.hit.geomID), object);
+  put(get<I>(hits.hit.primID), triangle);
+  locate(body, object, triangle, p);
+  meet_platter(body, valid, p);
 }
 
 /// From the other eye to just above the surface.
@@ -149,17 +188,16 @@ inline bool overlap(const Frame& a, const Frame& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-/// other_eye: whether to look from there, too.
-inline void trace(const View& view, const Frame* where, bool other_eye,
-                  RTCIntersectContext& context, Packet& p) {
-  const I valid = (p.x == p.x) & (p.y == p.y);
+inline void begin(Packet& p) {
   p.z = all(kInfinity);
   p.surface = all(-1);
   p.triangle = I{};
   p.nx = p.ny = p.nz = F{};
-  for (int b = 0; b < view.body_count; ++b)
-    if (where == nullptr || overlap(*where, view.bodies[b].frame))
-      intersect(view.bodies[b], valid, context, p);
+}
+
+/// Whether what was hit counts. other_eye: whether to look from there, too.
+inline void finish(const View& view, const I& valid, bool other_eye, RTCIntersectContext& context,
+                   Packet& p) {
   Target target;
   judge(view, valid, p, target);
   if (!other_eye) return;
@@ -168,6 +206,16 @@ inline void trace(const View& view, const Frame* where, bool other_eye,
   for (int b = 0; b < view.body_count && any(left); ++b)
     left = lit(view.bodies[b], target, left, context);
   p.miss = seen & ~left ? all(view.blocked) : p.miss;
+}
+
+inline void trace(const View& view, const Frame* where, bool other_eye,
+                  RTCIntersectContext& context, Packet& p) {
+  const I valid = (p.x == p.x) & (p.y == p.y);
+  begin(p);
+  for (int b = 0; b < view.body_count; ++b)
+    if (where == nullptr || overlap(*where, view.bodies[b].frame))
+      intersect(view.bodies[b], valid, context, p);
+  finish(view, valid, other_eye, context, p);
 }
 
 inline RTCIntersectContext coherent() {

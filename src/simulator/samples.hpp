@@ -106,12 +106,24 @@ enum class OcclusionMethod {
   kAllRays  ///< from every sample
 };
 
+enum class HitMethod {
+  kCheapest,  ///< as seems cheaper for the pose, by the triangles for each pixel
+  kRays,      ///< a ray through every pixel
+  /// The triangles are drawn; a lens with distortion gets rays all the same. The same triangle, and
+  /// with it the same depth to the last bit, but where a ray meets an edge within rounding.
+  kDrawn
+};
+
+struct TraceMethods {
+  HitMethod hits = HitMethod::kCheapest;
+  OcclusionMethod occlusion = OcclusionMethod::kDoubtful;
+};
+
 /// Immutable; all members may be called from several threads at once.
 class SampleTracer {
  public:
   /// Fails as ScannerModel::check does.
-  static Result<SampleTracer> create(const ScannerModel& model,
-                                     OcclusionMethod occlusion = OcclusionMethod::kDoubtful);
+  static Result<SampleTracer> create(const ScannerModel& model, const TraceMethods& methods = {});
   SampleTracer(SampleTracer&&) noexcept;
   SampleTracer& operator=(SampleTracer&&) noexcept;
   ~SampleTracer();

@@ -87,6 +87,17 @@ Result<> Scene::Impl::attach(const TriangleMesh& mesh, std::uint32_t id) {
               mesh.triangles.size());
 }
 
+const RasterMesh& Scene::Impl::raster() const {
+  std::call_once(raster_once_, [&] { raster_ = RasterMesh::build(objects); });
+  return *raster_;
+}
+
+std::size_t Scene::Impl::triangle_count() const {
+  std::size_t count = 0;
+  for (const sampling::ObjectView& object : objects) count += object.triangle_count;
+  return count;
+}
+
 float Scene::Impl::platter_t(const Ray& ray) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   if (!platter_radius_m || ray.direction.y() == 0.0f) return kNever;

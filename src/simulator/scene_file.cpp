@@ -67,14 +67,33 @@ Result<> read_scanners(const fs::path& file, const toml::node& node, SceneDescri
   return {};
 }
 
+Result<> read_passes(const fs::path& file, const toml::node& node, SceneDescription& scene) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr || !list->is_homogeneous(toml::node_type::table))
+    return fail_in_toml(file, node, "passes are tables: [[pass]], once for each after the first");
+  scene.next_passes.clear();
+  for (const toml::node& item : *list) {
+    // Looked at here, where the line is known.
+    ObjectPlacement trial;
+    TURNSCAN_TRY(set_from_toml(file, *item.as_table(), describe(trial), {}));
+    PassEntry& pass = scene.next_passes.emplace_back();
+    for (const auto& [key, value] : *item.as_table()) {
+      TURNSCAN_ASSIGN(std::string text, toml_text(file, key.str(), value));
+      pass.emplace_back(std::string(key.str()), std::move(text));
+    }
+  }
+  return {};
+}
+
 Result<> read_part(const fs::path& file, const std::string& name, const toml::node& node,
                    SceneDescription& scene) {
   if (name == "scanner") return read_scanners(file, node, scene);
+  if (name == "pass") return read_passes(file, node, scene);
   std::vector<SceneTable> tables = describe(scene);
   const auto table = std::find_if(tables.begin(), tables.end(),
                                   [&](const SceneTable& t) { return t.name == name; });
   if (table == tables.end() || !node.is_table()) {
-    std::string known = "[[scanner]]";
+    std::string known = "[[scanner]], [[pass]]";
     for (const SceneTable& t : tables) known += ", [" + t.name + "]";
     return fail_in_toml(file, node, fmt::format("'{}' is none of the tables {}", name, known));
   }
@@ -108,6 +127,39 @@ std::string entry_line(const std::string& key, const std::string& value, bool ba
 }
 
 }  // namespace
+
+Result<PassEntry> parse_pass_entry(std::string_view text) {
+  PassEntry pass;
+  ObjectPlacement trial;
+  const OptionTable table = describe(trial);
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view part = text.substr(begin, end - begin);
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos)
+      return fail(ErrorCode::kInvalidOption,
+                  "next-pass = {}: '{}' has no value; write NAME=VALUE, e.g. tip=90deg", text,
+                  part);
+    pass.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+    if (auto set = table.set(pass.back().first, pass.back().second); !set)
+      return fail(ErrorCode::kInvalidOption, "next-pass = {}: {}", text, set.error().message);
+    begin = end + 1;
+  }
+  return pass;
+}
+
+Result<std::vector<ObjectPlacement>> pass_placements(const SceneDescription& scene) {
+  std::vector<ObjectPlacement> placements{scene.object_placement};
+  for (const PassEntry& pass : scene.next_passes) {
+    ObjectPlacement placement = scene.object_placement;
+    const OptionTable table = describe(placement);
+    for (const auto& [name, value] : pass) TURNSCAN_TRY(table.set(name, value));
+    if (placement.height_m != scene.object_placement.height_m)
+      return fail(ErrorCode::kInvalidOption, "a pass: the object keeps its height; leave it out");
+    placements.push_back(placement);
+  }
+  return placements;
+}
 
 SceneDescription::SceneDescription() { platter.thickness_m = kPlatterThickness_m; }
 
@@ -177,6 +229,10 @@ std::string scene_toml(const SceneDescription& scene) {
     text += "\n[[scanner]]\n" +
             entry_line("model", is_path(entry.model) ? absolute(entry.model) : entry.model, false);
     for (const auto& [name, value] : entry.placement) text += entry_line(name, value, false);
+  }
+  for (const PassEntry& pass : scene.next_passes) {
+    text += "\n[[pass]]\n";
+    for (const auto& [name, value] : pass) text += entry_line(name, value, false);
   }
   return text;
 }

@@ -20,12 +20,20 @@ struct ScannerEntry {
 /// Fails with kInvalidOption. Whether the scanner exists shows later.
 Result<ScannerEntry> parse_scanner_entry(std::string_view text);
 
+/// How the object lies in a further pass: names of ObjectPlacement's options, and values, for those
+/// that differ from the first. Its height does not change.
+using PassEntry = std::vector<std::pair<std::string, std::string>>;
+
+/// "tip=90deg,yaw=30deg". Fails with kInvalidOption.
+Result<PassEntry> parse_pass_entry(std::string_view text);
+
 struct SceneDescription {
   SceneDescription();
 
   std::string object;  ///< file or builtin:NAME; builtin:empty for the table alone
   std::string unit;    ///< of the object's file if that does not say it
   ObjectPlacement object_placement;
+  std::vector<PassEntry> next_passes;
   std::vector<ScannerEntry> scanners;  ///< none: kinect-v2
   ScannerPlacement placement;          ///< of every scanner, but for what is its own
   MotionOptions motion;
@@ -46,12 +54,16 @@ struct SceneTable {
 std::vector<SceneTable> describe(SceneDescription& scene);
 
 /// Adds what a file says: the tables of describe(), in [object] also `file` and `unit`, and
-/// [[scanner]] with `model` and any of the options of [placement]. Paths are relative to the file's
-/// folder. Fails with kNotFound or kInvalidOption, naming file and line.
+/// [[scanner]] with `model` and any of the options of [placement], [[pass]] with any of [object]
+/// for each pass after the first. Paths are relative to the file's folder. Fails with kNotFound or
+/// kInvalidOption, naming file and line.
 Result<> read_scene(const std::filesystem::path& file, SceneDescription& scene);
 
 /// The description as a file that read_scene understands; lengths and angles to 6 digits.
 std::string scene_toml(const SceneDescription& scene);
+
+/// How the object lies in each pass, the first included. Fails with kInvalidOption.
+Result<std::vector<ObjectPlacement>> pass_placements(const SceneDescription& scene);
 
 /// Looks up the scanners. Fails with kNotFound or kInvalidOption.
 Result<VirtualScanOptions> scan_options(const SceneDescription& scene);

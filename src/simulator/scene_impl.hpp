@@ -4,6 +4,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <mutex>
+#include <turnscan/simulator/raster_mesh.hpp>
 #include <turnscan/simulator/sample_kernel.hpp>
 #include <turnscan/simulator/scene.hpp>
 #include <type_traits>
@@ -28,6 +30,10 @@ struct Scene::Impl {
   float platter_radius_squared = -1.0f;  ///< negative: there is none
   Box object_box;
 
+  /// Made when it is first asked for.
+  const RasterMesh& raster() const;
+  std::size_t triangle_count() const;
+
   Result<> attach(const TriangleMesh& mesh, std::uint32_t id);
   /// Where the ray meets the platter, or infinity.
   float platter_t(const Ray& ray) const;
@@ -35,6 +41,10 @@ struct Scene::Impl {
                         RTCIntersectContext& context) const;
   void occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                        RTCIntersectContext& context) const;
+
+ private:
+  mutable std::once_flag raster_once_;
+  mutable std::optional<RasterMesh> raster_;
 };
 
 }  // namespace turnscan

@@ -155,6 +155,10 @@ struct VirtualScan::Impl {
   const PlatterState& state_of(std::size_t position) const {
     return states[position / scanner_count()];
   }
+  /// For the random numbers.
+  std::uint32_t instant_of(std::size_t position) const {
+    return options.first_instant + static_cast<std::uint32_t>(position / scanner_count());
+  }
 
   Pose T_world_sensor(std::size_t scanner, double travel) const {
     return scanner_pose(options.scanners[scanner].placement, aim_height_m, travel,
@@ -279,7 +283,7 @@ struct VirtualScan::Impl {
         frame.T_table_sensor =
             rotation_about_y(-state.angle_rad) * T_table_world * T_world_sensor(k, state.travel);
       if (frame_dropped(options.motion, static_cast<std::uint64_t>(options.measure.seed),
-                        static_cast<std::uint32_t>(i / scanner_count()), frame.sensor))
+                        instant_of(i), frame.sensor))
         frame.status = FrameStatus::kDropped;
     }
   }
@@ -312,7 +316,7 @@ struct VirtualScan::Impl {
     out.scanner = static_cast<std::uint32_t>(k);
     tracers[k].trace(bodies, T, out.exact);
     noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, out.exact,
-                    static_cast<std::uint32_t>(position / scanner_count()), out.measured);
+                    instant_of(position), out.measured);
     out.hits.resize(out.exact.size());
     const PixelRect& rect = out.exact.rect;
     for (int row = rect.top; row < rect.bottom; ++row) {
@@ -333,7 +337,7 @@ struct VirtualScan::Impl {
     const std::vector<Body> bodies = bodies_at(state.angle_rad);
     tracers[k].trace(bodies, T, space.exact);
     noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, space.exact,
-                    static_cast<std::uint32_t>(position / scanner_count()), space.measured);
+                    instant_of(position), space.measured);
     tallies[k].add(space.exact, space.measured);
     const Paint paint({turning, standing});
     const bool color = options.record.color;
@@ -383,11 +387,17 @@ std::span<const TriangleMesh> VirtualScan::objects() const {
   return std::span(impl_->turning).first(impl_->object_count);
 }
 const Scene& VirtualScan::scene() const { return *impl_->scene; }
+const Scene* VirtualScan::room() const { return impl_->room ? &*impl_->room : nullptr; }
+double VirtualScan::aim_height_m() const { return impl_->aim_height_m; }
 const TurntableInfo& VirtualScan::turntable() const { return impl_->turntable; }
 Pose VirtualScan::T_table_given() const { return rotation_about_y(-impl_->yaw_rad); }
 
 Pose VirtualScan::T_table_sensor(std::size_t position) const {
   return impl_->T_table_sensor(position);
+}
+
+Pose VirtualScan::T_table_world(std::size_t position) const {
+  return impl_->T_world_platter(impl_->state_of(position).angle_rad).inverse();
 }
 
 double VirtualScan::angle_rad(std::size_t position) const {

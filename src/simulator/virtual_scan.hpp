@@ -66,6 +66,7 @@ struct VirtualScanOptions {
   RoomOptions room;
   MeasureOptions measure;
   RecordOptions record;
+  std::uint32_t first_instant = 0;  ///< of the random numbers; see VirtualPasses
 };
 
 /// All about one frame that the recording does not say. Of the arrays of exact, hits has the same
@@ -121,6 +122,11 @@ class VirtualScan : public FrameSequence {
   double angle_rad(std::size_t position) const;
   /// In the frame of scanner 0 at the first frame.
   const TurntableInfo& turntable() const;
+  /// What does not turn, in the world's frame; nullptr without a room.
+  const Scene* room() const;
+  Pose T_table_world(std::size_t position) const;
+  /// Height of the point that scanners without one of their own look at; world.
+  double aim_height_m() const;
   /// About the y axis, from the objects as they were given to objects().
   Pose T_table_given() const;
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 
 import harness
@@ -122,6 +123,29 @@ class Simulate(harness.TestCase):
         pose = json.loads((self.dir / "rec/truth/truth.json").read_text())["object"]["T_table_object"]
         self.assertAlmostEqual(pose[1][1], -1.0, places=6)
 
+    def test_passes_follow_each_other_in_one_recording(self):
+        self.ok("simulate", "builtin:letter-a", "--frames", "4", "--next-pass", "tip=90deg",
+                "--next-pass", "tip=180deg,yaw=40deg", "--samples", "--out", "rec", "--quiet")
+        rows = self.rows("rec/frames.csv")
+        self.assertEqual([r["pass"] for r in rows], [p for p in "012" for _ in range(4)])
+        times = [float(r["time_s"]) for r in rows]
+        self.assertEqual(times, sorted(times))
+        truth = self.rows("rec/truth/poses.csv")
+        self.assertEqual([r["pass"] for r in truth], [r["pass"] for r in rows])
+        # The scanner stays, the object is laid another way.
+        self.assertEqual([truth[0][k] for k in ("tx", "ty", "tz")],
+                         [truth[8][k] for k in ("tx", "ty", "tz")])
+        lying = json.loads((self.dir / "rec/truth/truth.json").read_text())["next_passes"]
+        self.assertAlmostEqual(lying[1]["T_table_object"][1][1], -1.0, places=6)
+        self.assertTrue((self.dir / "rec/truth/object-pass2.ply").exists())
+        self.assertEqual(len(list((self.dir / "rec/truth/samples").iterdir())), 12)
+        info = json.loads(self.ok("info", "rec", "--json").stdout)
+        self.assertEqual(info["frames"], 12)
+        self.ok("simulate", "--scene", "rec/truth/scene.toml", "--out", "again", "--quiet")
+        for frame in ("depth/000000.png", "depth/000011.png"):
+            self.assertEqual((self.dir / "again" / frame).read_bytes(),
+                             (self.dir / "rec" / frame).read_bytes())
+
     def test_dropped_frames_are_recorded_as_such(self):
         self.ok("simulate", "builtin:cylinder", "--frames", "60", "--dropped", "0.3", "--out",
                 "rec", "--quiet")
@@ -144,6 +168,9 @@ class Refused(harness.TestCase):
                             "physics"),
                            (("builtin:cylinder", "--distance", "-1m"), "distance"),
                            (("builtin:cylinder", "--start-ramp", "10s"), "start-ramp"),
+                           (("builtin:cylinder", "--next-pass", "tip=90"), "next-pass"),
+                           (("builtin:cylinder", "--next-pass", "tip=90deg", "--coverage", "c.ply"),
+                            "--coverage"),
                            (("builtin:cylinder", "--scene", "none.toml"), "none.toml")):
             self.refused(FAILED if "none.toml" in args else USAGE, "simulate", *args, "--frames",
                          "2", "--out", "rec", says=says)
@@ -183,6 +210,20 @@ class Refused(harness.TestCase):
         self.assertIn("object.ply", result.stderr)
         self.assertEqual(self.files(), [])
 
+    def test_a_full_disk_leaves_nothing(self):
+        (self.dir / "disk").mkdir()
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", "disk"],
+                               cwd=self.dir, capture_output=True)
+        if mount.returncode != 0:
+            self.skipTest("no file system may be mounted here")
+        try:
+            for more in ((), ("--samples",)):
+                self.refused(FAILED, "simulate", "builtin:doll", "--frames", "40", "--out",
+                             "disk/rec", "--quiet", *more, says="disk/rec")
+                self.assertEqual(list((self.dir / "disk").iterdir()), [])
+        finally:
+            subprocess.run(["umount", "disk"], cwd=self.dir, check=True)
+
 
 class Damaged(harness.TestCase):
     """A mesh need not be perfect to be looked at."""
@@ -198,6 +239,10 @@ class Damaged(harness.TestCase):
         good = self.depths(cube, "good")
         self.assertEqual(self.depths(cube.replace("4 0 1 3 2", "4 2 3 1 0"), "inverted"), good)
         self.depths(ply_cube(0.1, hole=True), "open")
+        faces = int(re.search(r"element face (\d+)", cube).group(1))
+        more = cube.replace(f"element face {faces}", f"element face {faces + 3}")
+        # A face twice, one that is a line, and one that is a point.
+        self.assertEqual(self.depths(more + "4 0 1 3 2\n3 0 0 1\n3 2 2 2\n", "worse"), good)
 
     def test_a_scanner_inside_the_object_sees_its_inside(self):
         (self.dir / "room.ply").write_text(ply_cube(4.0))

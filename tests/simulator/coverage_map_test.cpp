@@ -377,5 +377,37 @@ TEST(CoverageMap, CanBeCancelled) {
   }
 }
 
+/// The room stands still: turned with the table's frame, it hides from that frame only.
+TEST(CoverageMap, FindsWhatTheRoomHides) {
+  const std::vector<TriangleMesh> box{test::box_mesh({-.1, 0, -.1}, {.1, .15, .1})};
+  // Before the scanner, as wide as the box's lower half.
+  const std::vector<TriangleMesh> shelf{test::box_mesh({-.5, -.01, -.45}, {.5, .075, -.44})};
+  const auto scene = Scene::create(box), room = Scene::create(shelf);
+  ASSERT_TRUE(scene && room);
+  const ScannerModel model = scanner();
+  std::vector<CoveragePose> poses;
+  for (int i = 0; i < 24; ++i) {
+    const Pose T = rotation_about_y(-2.0 * kPi * i / 24);
+    poses.push_back({0, T * looking(0.9, 0.0, 0.075), T});
+  }
+  const auto covered = [&](const Scene* standing) {
+    const auto map =
+        coverage_map(*scene, box, {&model, 1}, poses, coarse(), RunContext(), standing);
+    EXPECT_TRUE(map);
+    return std::pair(area_with(*map,
+                               [](const CoverageCell& c) {
+                                 return c.samples > 0 && std::abs(c.center.y() - .03) < .02;
+                               }),
+                     *map);
+  };
+  EXPECT_GT(covered(nullptr).first, 0.8 * 0.2 * 0.04 * 4);
+  const auto [low, map] = covered(&*room);
+  EXPECT_EQ(low, 0.0);
+  const double hidden = area_with(map, [](const CoverageCell& c) {
+    return c.reason == Miss::kReceiverBlocked && c.state == CoverageState::kMissed;
+  });
+  EXPECT_NEAR(hidden, 4 * 0.2 * 0.075, 0.15 * 4 * 0.2 * 0.075);
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <tests/simulator/noise_scenes.hpp>
+#include <tuple>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/scanner_file.hpp>
 
@@ -419,6 +420,53 @@ TEST(TriangleAlbedos, AreLinearMeansOfTheCorners) {
   ASSERT_EQ(albedos.size(), 2u);
   EXPECT_NEAR(albedos[0], 1.0f, 1e-6f);
   EXPECT_NEAR(albedos[1], 2.0f / 3.0f, 1e-6f);
+}
+
+/// Taken out by the sensor's own filters.
+int lost(const MeasuredGrid& out) {
+  return int(std::count(out.miss.begin(), out.miss.end(), Miss::kRejected));
+}
+
+ScannerModel windowed(int window) {
+  ScannerModel m = camera(140, 110, 585.0);
+  m.sensing = Sensing::kStructuredLight;
+  m.emitter_m = {0.075, 0.0, 0.0};
+  m.noise.window_px = window;
+  return m;
+}
+
+TEST(SensorNoise, AMatcherOfDotsFindsAWholeWallAndLosesWhatIsNarrowerThanItsWindow) {
+  const Bench whole(windowed(9), {wall(1.0)});
+  EXPECT_EQ(lost(whole.measure(noise_of("model"))), 0);
+  // A post of 4 pixels before a wall 0.5 m behind, and one of 40.
+  for (const auto& [width, least, most] : {std::tuple(4, 0.9, 1.0), std::tuple(40, 0.0, 0.25)}) {
+    TriangleMesh post = wall(1.0);
+    for (Vec3f& p : post.vertices) p.x() *= float(0.5 * width / 585.0 / 20.0);
+    const Bench bench(windowed(9), {post, wall(1.5)});
+    const MeasuredGrid out = bench.measure(noise_of("model"));
+    double all = 0.0, rejected = 0.0;
+    for (std::size_t i = 0; i < out.z.size(); ++i) {
+      if (!bench.exact().counts(i) || bench.exact().z[i] > 1.2f) continue;
+      all += 1.0;
+      rejected += out.miss[i] == Miss::kRejected ? 1.0 : 0.0;
+      EXPECT_EQ(out.miss[i] == Miss::kNone, out.z[i] > 0.0f);
+    }
+    ASSERT_GT(all, 300.0);
+    EXPECT_GE(rejected / all, least) << width;
+    EXPECT_LE(rejected / all, most) << width;
+  }
+}
+
+TEST(SensorNoise, TheDotsAreOneSlideOnASensorThatTriangulates) {
+  const Bench bench(windowed(9), {half_wall(1.0, 0.0), wall(1.5)});
+  const MeasuredGrid a = bench.measure(noise_of("model"), 0),
+                     b = bench.measure(noise_of("model"), 7);
+  EXPECT_EQ(a.z, b.z);  // no other noise is set: every frame has the same holes
+  EXPECT_GT(lost(a), 100);
+  ScannerModel without = windowed(9);
+  without.emitter_m.setZero();
+  const Bench one_eyed(without, {half_wall(1.0, 0.0), wall(1.5)});
+  EXPECT_EQ(lost(one_eyed.measure(noise_of("model"))), 0);
 }
 
 }  // namespace

@@ -153,5 +153,24 @@ TEST(ScanOptions, GivesEachScannerTheCommonPlaceAndItsOwn) {
   EXPECT_EQ(scan_options(scene).error().code, ErrorCode::kNotFound);
 }
 
+TEST(PassEntry, ChangesHowTheObjectLiesAndKeepsTheRest) {
+  SceneDescription scene;
+  scene.object_placement.height_m = 0.2;
+  scene.object_placement.yaw_rad = 0.3;
+  scene.next_passes = {*parse_pass_entry("tip=90deg"), *parse_pass_entry("lean=180deg,yaw=0deg")};
+  const auto placements = pass_placements(scene);
+  ASSERT_TRUE(placements) << placements.error().text();
+  ASSERT_EQ(placements->size(), 3u);
+  EXPECT_EQ((*placements)[0].tip_rad, 0.0);
+  EXPECT_NEAR((*placements)[1].tip_rad, 90 * kDegree, 1e-12);
+  EXPECT_EQ((*placements)[1].yaw_rad, 0.3);
+  EXPECT_EQ((*placements)[2].yaw_rad, 0.0);
+  EXPECT_EQ((*placements)[2].height_m, 0.2);
+  for (const char* text : {"", "tip", "tip=", "tip=90", "tip=90deg,", "azimuth=90deg"})
+    EXPECT_FALSE(parse_pass_entry(text)) << text;
+  scene.next_passes = {*parse_pass_entry("height=100mm")};
+  EXPECT_EQ(pass_placements(scene).error().code, ErrorCode::kInvalidOption);
+}
+
 }  // namespace
 }  // namespace turnscan
