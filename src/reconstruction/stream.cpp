@@ -131,7 +131,7 @@ class ReconstructionStream::Impl {
       waiting_poses_.push_back(placed[i].T_table_sensor);
     }
     if (waiting_.size() < first_frames_) return {};
-    if (const auto seen = look(context); !seen) {
+    if (auto seen = look(context); !seen) {
       if (seen.error().code != ErrorCode::kTooFewPoints) return seen;
       look_later();
     }
