@@ -67,6 +67,7 @@ class Fitter {
         context.advance();
       });
       TURNSCAN_TRY(context.check());
+      forget_the_platter();
       if (scale_.iterations > 0) move();
     }
     fit_.support.resize(n);
@@ -173,8 +174,7 @@ class Fitter {
     parallel_for(n, 4096, [&](std::size_t v) {
       own[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
       // Where less was measured than usual, only a larger bend is more than noise.
-      const bool standing =
-          scale_.floor_height_m && fit_.mesh.vertices[v].y() < float(*scale_.floor_height_m);
+      const bool standing = stands(v);
       const float around =
           0.5f * (fit_.support[v] + neighbours_.mean(fit_.support, v, 0.0f)) / typical;
       const float share = standing ? 1.0f : std::clamp(around, 0.02f, 1.0f);
@@ -200,6 +200,19 @@ class Fitter {
     return delta;
   }
 
+  bool stands(std::size_t v) const {
+    return scale_.floor_height_m && fit_.mesh.vertices[v].y() < float(*scale_.floor_height_m);
+  }
+
+  /// What was measured in the lower half of the margin may be the platter.
+  void forget_the_platter() {
+    if (!scale_.floor_height_m) return;
+    for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
+      if (fit_.mesh.vertices[v].y() < 0.5f * float(*scale_.floor_height_m))
+        fit_.support[v] = offset_[v] = 0.0f;
+    }
+  }
+
   void move() {
     const std::vector<float> delta = offsets();
     const float limit = float(scale_.limit_m);
@@ -207,7 +220,7 @@ class Fitter {
     std::vector<Vec3f> step(p.size());
     parallel_for(p.size(), 4096, [&](std::size_t v) {
       step[v] = std::clamp(delta[v], -limit, limit) * normals_[v];
-      if (scale_.floor_height_m && p[v].y() < float(*scale_.floor_height_m)) step[v].y() = 0.0f;
+      if (stands(v)) step[v].y() = 0.0f;
     });
     for (int round = 0; round < kUnfolds && shorten_folding(step, round + 1 == kUnfolds); ++round) {
     }

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/even_out.hpp>
 #include <turnscan/geometry/isosurface.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
@@ -65,10 +68,8 @@ class Run {
     if (out_.pieces.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: the frames show no surface");
     for (VolumetricPiece& piece : out_.pieces) {
-      TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&] {
-                        return simplify(piece.mesh, {piece.mesh.triangles.size() / 4,
-                                                     0.5 * scale_.cell_m, true});
-                      }));
+      TURNSCAN_ASSIGN(piece.mesh,
+                      timed("even out", [&] { return even_out(piece.mesh, grid_, context_); }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(piece.mesh, input_.views, fit_scale(), context_);
                       }));
@@ -86,6 +87,9 @@ class Run {
     box.max.array() += rim;
     if (scale_.floor_m) box.min.y() = -0.25 * scale_.cell_m;  // the lowest layer is at -0.5
     Volume volume = timed("distances", [&] { return sums_.settle(box); });
+    grid_.origin_m = volume.origin_m;
+    grid_.cell_m = volume.cell_m;
+    if (scale_.floor_m) grid_.flat_m = 0.0f;
     const bool closed = timed("closing", [&] {
       smooth(volume, 1);
       close_volume(volume, scale_, context_);
@@ -165,6 +169,7 @@ class Run {
   const VolumetricOptions& options_;
   double min_share_;
   const RunContext& context_;
+  EvenOutScale grid_;
   VolumetricResult out_;
 };
 
@@ -198,6 +203,43 @@ Box measured_box(const VolumetricInput& input) {
   return points.box();
 }
 
+namespace {
+
+/// With so many views, or if more may come, the usual scales do.
+constexpr std::size_t kFewViews = 24;
+
+/// Where few views face a place, little but the samples' size averages the noise. Over a disc of
+/// radius r it falls as 1 / r, and the error on a surface that bends with radius R grows as
+/// r^2 / 8 R: they balance at r^3 = 4 R noise spacing / sqrt(pi views).
+double balance(const VolumetricInput& input, double facing, double bend_m) {
+  // A few views may be misplaced all alike.
+  const double independent = std::max(1.0, facing - 3.0);
+  return std::cbrt(4.0 * bend_m * input.noise_m * input.spacing_m /
+                   std::sqrt(std::numbers::pi * independent));
+}
+
+/// Larger samples for few views, with the reason.
+void widen_for_few(const VolumetricInput& input, double longest, double& cell,
+                   std::string& reason) {
+  if (input.views.size() >= kFewViews) return;
+  // About a third of them face a place.
+  const double facing = std::max(1.0, double(input.views.size()) / 3.0);
+  const double gaps = std::min(input.spacing_m, 1.6 * input.spacing_m / std::sqrt(facing));
+  if (cell < gaps) {
+    cell = gaps;
+    reason = fmt::format("the spacing of a frame's points, {}, in {} frames", mm(input.spacing_m),
+                         input.views.size());
+  }
+  const double bend = longest / 16.0, radius = balance(input, facing, bend);
+  if (cell < 0.5 * radius) {
+    cell = 0.5 * radius;
+    reason = fmt::format("half of {}, where noise of {} and bends of {} err alike", mm(radius),
+                         mm(input.noise_m), mm(bend));
+  }
+}
+
+}  // namespace
+
 VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
                              const Box& box) {
   VolumetricScale out;
@@ -216,6 +258,7 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
     cell = 0.5 * input.noise_m;
     reason = fmt::format("half the noise, {}", mm(input.noise_m));
   }
+  widen_for_few(input, longest, cell, reason);
   if (cell < longest / 600.0) {
     cell = longest / 600.0;
     reason = fmt::format("a 600th of the longest side, {}", mm(longest));
@@ -225,9 +268,12 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
     reason = fmt::format("voxel-grid {} along {}", *input.grid, mm(longest));
   }
   scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
+  // Many views outvote one that is misplaced; few do not.
+  const double few = input.views.size() < kFewViews ? 27.0 / double(input.views.size() + 1) : 0.0;
   scale.truncation_m = choose(
-      "truncation", options.truncation_m, std::max(3.0 * input.noise_m, 2.5 * scale.cell_m),
-      fmt::format("the larger of 3 times the noise of {} and 2.5 voxels", mm(input.noise_m)));
+      "truncation", options.truncation_m, std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m),
+      fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
+                  mm(input.noise_m)));
   scale.behind_m = scale.truncation_m * 2.0 / 3.0;
   scale.cylinder = input.cylinder;
   if (input.cylinder) scale.floor_m = std::max(input.cylinder->margin_m, 0.0);

@@ -1,0 +1,28 @@
+#pragma once
+// Well-shaped triangles out of a marched surface.
+
+#include <optional>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+
+namespace turnscan {
+
+struct EvenOutScale {
+  Vec3d origin_m = Vec3d::Zero();  ///< a sample of the grid that the surface was marched on
+  double cell_m = 0.001;           ///< > 0
+  /// Vertices exactly at this height (y) stay at it: the flat base.
+  std::optional<float> flat_m;
+};
+
+/// Marching gives each edge of its grid a vertex, hence slivers between vertices around the same
+/// sample. These vertices become one, at their mean, about a quarter of the triangles remain and
+/// they are about as long as a cell (regularised marching tetrahedra: Treece, Prager and Gee 1999).
+/// Vertices are joined edge by edge, only where the surface stays a closed 2-manifold (the link
+/// condition: the two have no neighbours in common but the two beside their edge) and no triangle
+/// turns by more than about 60 degrees. The mesh must be closed and 2-manifold; attributes other
+/// than positions are dropped. Fails with kFormat as validate_mesh does, kCancelled. Deterministic.
+Result<TriangleMesh> even_out(const TriangleMesh& mesh, const EvenOutScale& scale,
+                              const RunContext& context);
+
+}  // namespace turnscan
