@@ -10,6 +10,7 @@
 #include <turnscan/reconstruction/mesh_fit.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/volume.hpp>
+#include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
 namespace {
@@ -356,6 +357,25 @@ TEST(Volumetric, RefusesWhatItCannotDo) {
   cancelled.cancel();
   EXPECT_EQ(reconstruct(scan(ball, {}), volumetric(), {}, cancelled).error().code,
             ErrorCode::kCancelled);
+}
+
+TEST(Volumetric, FewViewsGetLargerSamplesAndALongerReach) {
+  VolumetricInput input;
+  input.noise_m = 0.0005, input.spacing_m = 0.0006;
+  const Box box{Vec3d::Zero(), Vec3d::Constant(0.12)};
+  const auto scale = [&](std::size_t views) {
+    input.views.resize(views);
+    return choose_scale(input, {}, box).volume;
+  };
+  const VolumeScale few = scale(8), more = scale(20), many = scale(24);
+  EXPECT_GT(few.cell_m, more.cell_m);
+  EXPECT_GT(more.cell_m, many.cell_m);
+  EXPECT_GT(few.truncation_m, more.truncation_m);
+  EXPECT_GT(more.truncation_m, many.truncation_m);
+  EXPECT_DOUBLE_EQ(many.cell_m, scale(900).cell_m);
+  EXPECT_DOUBLE_EQ(many.truncation_m, 3.0 * input.noise_m);
+  input.cell_m = 0.0004;
+  EXPECT_DOUBLE_EQ(scale(8).cell_m, 0.0004);
 }
 
 TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
