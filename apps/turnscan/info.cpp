@@ -4,6 +4,7 @@
 #include <turnscan/io/cloud_io.hpp>
 #include <turnscan/io/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/repair.hpp>
 #include <turnscan/recording/summary.hpp>
 
 #include "command_line.hpp"
@@ -19,6 +20,10 @@ class InfoCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positional("RECORDING|MESH", path_, "Recording, mesh or point cloud to look at");
+    line.flag(
+        "--repair", repair_,
+        "Finish a recording whose program was ended: keep every whole frame, mark it complete "
+        "and say what was lost");
     line.flag("--json", json_, "Print JSON, SI units in the names");
     line.option("--unit", "UNIT", unit_,
                 "Unit of a mesh or cloud file that does not say it: um, mm, cm, m, in");
@@ -32,6 +37,9 @@ class InfoCommand : public Command {
                      "there is no such file or folder; check the path");
     if (std::filesystem::is_directory(path, error)) return about_recording(path, session);
     if (path.filename() == "recording.json") return about_recording(path.parent_path(), session);
+    if (repair_)
+      return fail(ErrorCode::kInvalidOption,
+                  "--repair: {} is not a recording; give the folder of one", path_);
     if (!unit_.empty()) {
       TURNSCAN_ASSIGN(metres_per_unit_, metres_per(unit_));
     }
@@ -45,9 +53,22 @@ class InfoCommand : public Command {
   }
 
  private:
-  Result<> about_recording(const std::filesystem::path& folder, Session& session) const {
-    TURNSCAN_ASSIGN(const Recording recording,
-                    Recording::open(folder.empty() ? std::filesystem::path(".") : folder));
+  static Result<> repair(const std::filesystem::path& folder, Session& session) {
+    TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder));
+    for (const std::string& text : report.done) session.print("Repair: {}\n", text);
+    session.print("Repair: {} frames are whole; the recording {}\n", report.frames,
+                  report.was_complete ? "was complete already" : "is marked complete now");
+    return {};
+  }
+
+  Result<> about_recording(const std::filesystem::path& path, Session& session) const {
+    const std::filesystem::path folder = path.empty() ? std::filesystem::path(".") : path;
+    if (repair_ && json_)
+      return fail(ErrorCode::kInvalidOption,
+                  "--repair and --json cannot be used together; repair "
+                  "first");
+    if (repair_) TURNSCAN_TRY(repair(folder, session));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));
     session.print("{}", json_ ? summary_json(summary) + "\n" : summary_text(summary));
     return {};
@@ -107,7 +128,7 @@ class InfoCommand : public Command {
   }
 
   std::string path_, unit_;
-  bool json_ = false;
+  bool json_ = false, repair_ = false;
   std::optional<double> metres_per_unit_;
 };
 

@@ -6,8 +6,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/io/atomic_file.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -55,7 +57,8 @@ class Recording : public FrameSequence {
 enum class ColorFileFormat { kPng, kJpeg };
 
 /// Writes a recording frame by frame, so that a kill or a full disk at any moment leaves
-/// everything up to the last whole frame readable. For one thread.
+/// everything up to the last whole frame readable. For one thread, but for write_files(). Holds a
+/// lock on frames.csv while it exists, by which repair_recording() knows that it is at work.
 class RecordingWriter {
  public:
   /// Makes the folder and its parents. Fails with kAlreadyExists when the folder has content, with
@@ -74,8 +77,20 @@ class RecordingWriter {
   /// was used before or the frame does not fit its sensor, with kIo when the disk is full; what was
   /// appended before stays readable.
   Result<> append(const Frame& frame);
-  /// Marks the recording complete. Nothing can be appended afterwards.
-  Result<> finish();
+
+  /// The two halves of append(), for writers that encode on several threads. write_files() writes
+  /// the frame's files and returns its line; it may run on several threads at once. append_line()
+  /// makes the frame part of the recording. Both fail as append() does.
+  Result<std::string> write_files(const Frame& frame) const;
+  Result<> append_line(const FrameInfo& info, std::string_view line);
+
+  /// What finish() writes about turntable and settings in place of what create() wrote: a speed, an
+  /// outcome that was not known then. Throws std::invalid_argument when a sensor differs in number.
+  void describe(const SequenceHeader& header, const CaptureSettings& capture);
+  /// Marks the recording complete. Nothing can be appended afterwards. kSynced: first everything
+  /// that was written to this file system has to be on the disk. (Until then frames survive the end
+  /// of the process; what a power cut spares is up to the file system.)
+  Result<> finish(Durability durability = Durability::kNamed);
 
  private:
   struct State;

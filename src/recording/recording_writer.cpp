@@ -1,10 +1,12 @@
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <mutex>
 #include <system_error>
 #include <turnscan/core/parallel.hpp>
@@ -30,6 +32,17 @@ tl::unexpected<Error> system_error(const fs::path& path, std::string_view what, 
                  std::generic_category().message(error));
 }
 
+constexpr const char* kDescriptionPart = ".recording.json.part";
+
+/// Renames, but never replaces. Returns errno, or 0.
+int rename_to_new(const fs::path& from, const fs::path& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  // A file system that cannot do that.
+  if (::access(to.c_str(), F_OK) == 0) return EEXIST;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
 /// frames.csv while it grows: whole lines only, also when the disk is full.
 class LineFile {
  public:
@@ -46,6 +59,8 @@ class LineFile {
     path_ = path;
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) return system_error(path_, "cannot create", errno);
+    // A file system without locks only loses the protection against a repair at the same time.
+    (void)::flock(descriptor_, LOCK_EX | LOCK_NB);
     return {};
   }
 
@@ -66,8 +81,11 @@ class LineFile {
     return {};
   }
 
-  Result<> sync() {
+  /// kSynced: everything that was written to this file system, the frames' files above all.
+  Result<> sync(Durability durability) {
     if (::fsync(descriptor_) != 0) return system_error(path_, "cannot write", errno);
+    if (durability == Durability::kSynced && ::syncfs(descriptor_) != 0)
+      return system_error(path_, "cannot write", errno);
     return {};
   }
 
@@ -138,8 +156,10 @@ struct RecordingWriter::State {
   LineFile table;
   std::unordered_set<std::uint32_t> indices;
   std::vector<fs::path> made_folders;  ///< parents first
+  bool described = false;              ///< recording.json is ours
   bool finished = false;
 
+  Result<> create_files();
   /// Writes the frame's files and returns its line. May run on several threads at once.
   Result<std::string> write_files(const Frame& frame) const;
   Result<std::string> write_color(const Frame& frame, const std::string& number) const;
@@ -195,9 +215,26 @@ Result<> RecordingWriter::State::claim_index(const FrameInfo& info) {
   return {};
 }
 
+/// recording.json first: a folder without it is no recording, one without frames.csv is an empty
+/// one. Its name is taken without replacing anything, so that of two writers one is refused.
+Result<> RecordingWriter::State::create_files() {
+  const fs::path path = folder / "recording.json", part = folder / kDescriptionPart;
+  const auto written = write_file_atomically(part, recording_json(description));
+  if (!written) return written;
+  const int error = rename_to_new(part, path);
+  if (error != 0) ::unlink(part.c_str());
+  if (error == EEXIST)
+    return fail_at(folder.string(), ErrorCode::kAlreadyExists,
+                   "another program has just begun a recording here; choose another folder");
+  if (error != 0) return system_error(path, "cannot create", error);
+  described = true;
+  TURNSCAN_TRY(table.create(folder / "frames.csv"));
+  return table.append(frames_csv_header());
+}
+
 void RecordingWriter::State::discard() {
   std::error_code ignored;
-  if (table.created()) {  // else what is there is somebody else's
+  if (described) {  // else what is there is somebody else's
     for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
       fs::remove_all(folder / name, ignored);
   }
@@ -222,9 +259,7 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
   state->description.header.software = fmt::format("turnscan {}", version());
   const auto made = [&]() -> Result<> {
     TURNSCAN_TRY(make_folders(folder, state->made_folders));
-    TURNSCAN_TRY(state->table.create(folder / "frames.csv"));
-    TURNSCAN_TRY(state->table.append(frames_csv_header()));
-    return write_file_atomically(folder / "recording.json", recording_json(state->description));
+    return state->create_files();
   }();
   if (!made) {
     state->discard();
@@ -244,10 +279,34 @@ Result<> RecordingWriter::append(const Frame& frame) {
   return done;
 }
 
-Result<> RecordingWriter::finish() {
+Result<std::string> RecordingWriter::write_files(const Frame& frame) const {
+  if (!state_ || state_->finished)
+    throw std::invalid_argument("recording: write_files() after finish()");
+  return state_->write_files(frame);
+}
+
+Result<> RecordingWriter::append_line(const FrameInfo& info, std::string_view line) {
+  if (!state_ || state_->finished)
+    throw std::invalid_argument("recording: append_line() after finish()");
+  TURNSCAN_TRY(state_->claim_index(info));
+  Result<> done = state_->table.append(line);
+  if (!done) state_->indices.erase(info.index);
+  return done;
+}
+
+void RecordingWriter::describe(const SequenceHeader& header, const CaptureSettings& capture) {
+  if (header.sensors.size() != state_->description.header.sensors.size())
+    throw std::invalid_argument("recording: the number of sensors cannot change");
+  std::string software = std::move(state_->description.header.software);
+  state_->description.header = header;
+  state_->description.header.software = std::move(software);
+  state_->description.capture = capture;
+}
+
+Result<> RecordingWriter::finish(Durability durability) {
   if (!state_ || state_->finished)
     throw std::invalid_argument("recording: finish() was called before");
-  TURNSCAN_TRY(state_->table.sync());
+  TURNSCAN_TRY(state_->table.sync(durability));
   RecordingDescription description = state_->description;
   description.complete = true;
   description.frame_count = static_cast<std::uint32_t>(state_->indices.size());
