@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -13,6 +14,23 @@ namespace turnscan::cli {
 
 class CommandLine;
 
+/// What a run says of itself beside its phase while it goes on: one line, which replaces the last.
+class StatusLine {
+ public:
+  void set(std::string text) {
+    const std::lock_guard lock(mutex_);
+    text_ = std::move(text);
+  }
+  std::string text() const {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string text_;
+};
+
 /// One run of a subcommand: how it is watched and cancelled, and what it has to say. Text goes to
 /// standard output when the command has ended, so that it never mixes with the progress bar.
 class Session {
@@ -20,6 +38,7 @@ class Session {
   explicit Session(RunContext context) : context_(std::move(context)) {}
 
   const RunContext& context() const { return context_; }
+  StatusLine& status() { return *status_; }
 
   template <class... Args>
   void print(fmt::format_string<Args...> format, Args&&... args) {
@@ -29,6 +48,7 @@ class Session {
 
  private:
   RunContext context_;
+  std::unique_ptr<StatusLine> status_ = std::make_unique<StatusLine>();
   std::string text_;
 };
 

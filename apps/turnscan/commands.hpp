@@ -15,5 +15,8 @@ std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_simulate_command();
 std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_devices_command();
+std::unique_ptr<Command> make_capture_command();
+std::unique_ptr<Command> make_scan_command();
+std::unique_ptr<Command> make_turntable_command();
 
 }  // namespace turnscan::cli

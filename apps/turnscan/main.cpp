@@ -7,6 +7,10 @@ int main(int argc, char** argv) {
   program.add("import", "Make a recording from range scans or depth images of another program",
               make_import_command());
   program.add("info", "Say what a recording, mesh or point cloud holds", make_info_command());
+  program.add("capture", "Record what a sensor sees of the turning table", make_capture_command());
+  program.add("scan", "Make a mesh of what stands on the turning table, in one go",
+              make_scan_command());
+  program.add("turntable", "Turn the table by its motor", make_turntable_command());
   program.add("calibrate", "Find where the turntable stands and how it turns",
               make_calibrate_command());
   program.add("reconstruct", "Make a watertight mesh of each object in a recording",

@@ -240,15 +240,18 @@ int Program::run_command(Entry& entry) {
   set_thread_count(entry.run_options.threads);
   Session session{RunContext()};
   const InterruptWatch watch(session.context());
-  ProgressDisplay display(session.context(), entry.run_options.quiet);
+  ProgressDisplay display(session.context(), session.status(), entry.run_options.quiet);
   Result<> result = entry.command->run(session);
   display.finish();
   const int put = put_text(session.text());
   if (result) return put;
   const int code = exit_code_of(result.error().code);
   if (code == kExitUsage) return usage_error(result.error().text(), called);
-  print_error(code == kExitCancelled ? entry.app->get_name() + ": cancelled; run it again to finish"
-                                     : with_advice(result.error()));
+  // A command that leaves something behind when it is stopped says so itself.
+  const bool told = result.error().message.find("; ") != std::string::npos;
+  print_error(code == kExitCancelled && !told
+                  ? entry.app->get_name() + ": cancelled; run it again to finish"
+                  : with_advice(result.error()));
   return code;
 }
 

@@ -1,6 +1,7 @@
 #include "progress_display.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -25,8 +26,12 @@ std::size_t terminal_width() {
   return size.ws_col;
 }
 
-// Not fmt::print: it throws when standard error is closed or full, which must not end a run.
-void put(const std::string& text) { std::fputs(text.c_str(), stderr); }
+// Not fmt::print: it throws when standard error is closed or full, which must not end a run. And a
+// pipe that nobody reads must not hold up a recording: what it cannot take is not shown.
+void put(const std::string& text) {
+  pollfd ready{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&ready, 1, 0) == 1) std::fputs(text.c_str(), stderr);
+}
 
 std::string duration_text(double s) {
   const int whole = static_cast<int>(std::ceil(s));
@@ -36,8 +41,11 @@ std::string duration_text(double s) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(RunContext context, bool quiet)
-    : context_(std::move(context)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+ProgressDisplay::ProgressDisplay(RunContext context, const StatusLine& status, bool quiet)
+    : context_(std::move(context)),
+      status_(status),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1) {
   if (quiet_) return;
   context_.set_listener([this](const Progress& progress) { on_progress(progress); });
   ticker_ = std::thread([this] { tick(); });
@@ -92,6 +100,8 @@ void ProgressDisplay::write_line(Clock::time_point now) {
 
 std::string ProgressDisplay::state_text() const {
   const double elapsed = seconds(Clock::now() - phase_begin_), f = progress_.fraction;
+  if (const std::string status = status_.text(); !status.empty())
+    return f > 0.0 ? fmt::format("{:3.0f} %, {}", 100.0 * f, status) : status;
   if (f <= 0.0) return duration_text(elapsed);
   std::string text = fmt::format("{:3.0f} %", 100.0 * f);
   if (f > 0.02 && f < 1.0 && elapsed > 0.5)

@@ -7,6 +7,8 @@
 #include <thread>
 #include <turnscan/core/run_context.hpp>
 
+#include "command.hpp"
+
 namespace turnscan::cli {
 
 /// Shows the progress of a run on standard error: a bar with the time left in the phase on a
@@ -14,7 +16,8 @@ namespace turnscan::cli {
 /// those are a second or more apart.
 class ProgressDisplay {
  public:
-  ProgressDisplay(RunContext context, bool quiet);
+  /// status: shown beside the phase; must outlive this.
+  ProgressDisplay(RunContext context, const StatusLine& status, bool quiet);
   ~ProgressDisplay() { finish(); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -32,6 +35,7 @@ class ProgressDisplay {
   std::string state_text() const;
 
   RunContext context_;
+  const StatusLine& status_;
   const bool quiet_;
   const bool terminal_;
   std::mutex mutex_;  // guards what follows

@@ -1,0 +1,70 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <turnscan/capture/capture.hpp>
+#include <turnscan/core/version.hpp>
+#include <turnscan/io/atomic_file.hpp>
+
+#include "capture_setup.hpp"
+#include "capture_text.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "output_file.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class CaptureCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.required_option("--device", "URI", setup_.device,
+                         "Sensor to record from, e.g. virtual:doll (see docs/capture.md)");
+    line.required_option("-o,--out", "RECORDING", out_,
+                         "Folder to make for the recording; it must not exist or be empty");
+    line.option("--report", "FILE.json", report_, "Write what was recorded and lost as JSON");
+    setup_.declare(line);
+    setup_.declare_table(line);
+    line.group("limits", "End of the recording", describe(setup_.options.limits));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(check_output_folder(out_));
+    TURNSCAN_TRY(check_output_file(report_, ".json"));
+    TURNSCAN_ASSIGN(auto source, setup_.open(session));
+    TURNSCAN_ASSIGN(std::optional<Motor> motor, setup_.open_motor(session));
+    CaptureHooks hooks;
+    hooks.motor = motor ? &*motor : nullptr;
+    hooks.progress = progress_in(session);
+    TURNSCAN_TRY(source->start());
+    session.context().begin_phase("record", 1000);
+    TURNSCAN_ASSIGN(const CaptureResult result,
+                    turnscan::capture(*source, out_, setup_.header, setup_.settings, setup_.options,
+                                      hooks, session.context()));
+    source->stop();
+    session.status().set("");
+    if (!report_.empty())
+      TURNSCAN_TRY(write_file_atomically(report_, report_json(result, source->info())));
+    TURNSCAN_TRY(outcome_of(result, out_));
+    session.print("{}", capture_text(result, out_));
+    if (!report_.empty()) session.print("Wrote {}\n", report_);
+    return {};
+  }
+
+ private:
+  std::string report_json(const CaptureResult& result, const SourceInfo& info) const {
+    nlohmann::ordered_json out;
+    out["software"] = std::string("turnscan ") + version();
+    out["recording"] = out_;
+    out.update(capture_json(result, info));
+    return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  }
+
+  CaptureSetup setup_;
+  std::string out_, report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_capture_command() { return std::make_unique<CaptureCommand>(); }
+
+}  // namespace turnscan::cli

@@ -1,0 +1,78 @@
+#pragma once
+// Writes a recording while frames come in: the caller never waits for the disk.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/recording/recording.hpp>
+
+namespace turnscan {
+
+struct RecorderOptions {
+  int queue_frames = 120;         ///< frames that may wait to be encoded; more are dropped
+  int encoders = 2;               ///< threads that encode and write
+  double min_free_bytes = 256e6;  ///< stop before the disk has less free space than this
+  ColorFileFormat color = ColorFileFormat::kPng;
+};
+/// Fields record-queue, record-threads, min-free, color-files.
+OptionTable describe(RecorderOptions& options);
+
+/// Counted since create().
+struct RecorderStatistics {
+  std::uint64_t written = 0;            ///< frames with their line in frames.csv, whole ones
+  std::uint64_t dropped_by_source = 0;  ///< put() as dropped
+  std::uint64_t dropped_by_disk = 0;    ///< the queue was full: encoding or the disk are too slow
+  std::uint64_t bytes = 0;              ///< of the files written
+  std::size_t waiting = 0;              ///< frames in the queue now
+  std::size_t most_waiting = 0;         ///< at the worst moment
+  double most_wait_s = 0.0;             ///< from put() to the line, at the worst
+  double encode_cpu_s = 0.0;            ///< processor time of the encoding threads
+  std::uint64_t free_bytes = 0;         ///< on the disk, at the last look
+};
+
+/// Frames go through a bounded queue to threads that encode and write their files; lines are
+/// appended in the order of put(). When the queue is full the frame becomes a line that says
+/// "dropped". Free space is looked at before and about ten times a second.
+class Recorder {
+ public:
+  /// Fails as RecordingWriter::create() does, and with kIo when the disk has less free space than
+  /// min_free_bytes + expected_bytes.
+  static Result<Recorder> create(const std::filesystem::path& folder, const SequenceHeader& header,
+                                 const CaptureSettings& settings, const RecorderOptions& options,
+                                 double expected_bytes = 0.0);
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
+  /// Leaves the recording as it is, marked incomplete unless finish() was called. Frames that wait
+  /// are not written.
+  ~Recorder();
+
+  /// Never waits for the disk. info.index must grow from frame to frame. Fails with kInvalidOption
+  /// when it does not, and with kIo once a file could not be written or the disk is nearly full;
+  /// what was put before stays readable, and finish() still completes the recording.
+  Result<> put(Frame frame);
+
+  /// Waits until the queue has room for one more frame, or put() would fail: for sources that can
+  /// wait, so that none of their frames is dropped.
+  void wait_for_room();
+
+  /// What finish() writes into recording.json in place of what create() wrote.
+  void describe(const SequenceHeader& header, const CaptureSettings& settings);
+
+  /// Waits until all frames are written, brings them to the disk and marks the recording complete.
+  /// Also after a failure of put(), whose error it does not repeat. Fails with kIo.
+  Result<> finish();
+
+  RecorderStatistics statistics() const;
+
+ private:
+  struct State;
+  explicit Recorder(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Free bytes for this user on the file system of a folder, or of its nearest parent that exists.
+/// Fails with kIo.
+Result<std::uint64_t> free_space(const std::filesystem::path& folder);
+
+}  // namespace turnscan

@@ -1,0 +1,343 @@
+"""turnscan capture, scan, turntable and info --repair: what is recorded stays recorded."""
+
+import fcntl
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+import harness
+from harness import CANCELLED, FAILED, USAGE, run, start
+from table import Table
+
+# Small frames, rendered once: what is tested is what happens to them afterwards.
+SMALL = "virtual:doll?sensor=kinect-v1&distance=3m&prepared=15&speed=720deg/s"
+TIMED = ("--quiet", "--min-free", "0")
+KILLS = int(os.environ.get("TURNSCAN_TEST_KILLS", "12"))
+
+
+def frames_of(recording):
+    lines = (recording / "frames.csv").read_bytes().split(b"\n")[1:-1]
+    return [line.decode().split(",") for line in lines]
+
+
+def description(recording):
+    return json.loads((recording / "recording.json").read_text())
+
+
+class Capture(harness.TestCase):
+    def capture(self, *args, device=SMALL, out="r"):
+        return self.ok("capture", "--device", device, "-o", out, *TIMED, *args)
+
+    def assert_complete(self, out="r", least=1):
+        recording = self.dir / out
+        self.assertTrue(description(recording)["complete"])
+        self.assertGreaterEqual(len(frames_of(recording)), least)
+        self.ok("info", out)
+
+    def test_turns_with_a_report(self):
+        self.capture("--turns", "2", "--speed", "720deg/s", "--report", "r.json")
+        self.assert_complete()
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertAlmostEqual(report["turns"], 2.0, delta=0.2)
+        self.assertEqual(report["dropped"], {"sensor": 0, "queue": 0, "refused": 0, "disk": 0})
+        self.assertEqual(report["frames"], len(frames_of(self.dir / "r")))
+
+    def test_a_second_run_never_overwrites(self):
+        self.capture("--frames", "3")
+        before = {p: p.read_bytes() for p in (self.dir / "r").rglob("*") if p.is_file()}
+        self.refused(FAILED, "capture", "--device", SMALL, "-o", "r", "--frames", "3",
+                     says="never overwritten")
+        self.assertEqual(
+            before, {p: p.read_bytes() for p in (self.dir / "r").rglob("*") if p.is_file()})
+
+    def test_until_stopped_ends_well_and_otherwise_ctrl_c_says_so(self):
+        for args, code in ((["--until-stopped"], 0), (["--seconds", "100000"], CANCELLED)):
+            with self.subTest(args=args):
+                out = f"r{code}"
+                process = start("capture", "--device", SMALL + "&realtime=1", "-o", out, *TIMED,
+                                *args, cwd=self.dir)
+                self.wait_for_frames(out, 5)
+                process.send_signal(signal.SIGINT)
+                _, err = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, code, err)
+                if code:
+                    self.assert_one_line_error(err)
+                    self.assertIn("is complete", err)
+                self.assert_complete(out, 5)
+
+    def wait_for_frames(self, out, count):
+        for _ in range(12000):
+            table = self.dir / out / "frames.csv"
+            if table.exists() and table.read_bytes().count(b"\n") > count:
+                return
+            time.sleep(0.01)
+        self.fail("no frames came")
+
+    def test_what_goes_wrong_with_the_device(self):
+        for fault, says in (("lost@0.5s", "stopped answering"), ("missing", "no device"),
+                            ("busy", "another program"), ("denied", "may not open")):
+            with self.subTest(fault=fault):
+                out = "r-" + fault[:4]
+                self.refused(FAILED, "capture", "--device", f"{SMALL}&fault={fault}", "-o", out,
+                             "--frames", "500", says=says)
+                if fault.startswith("lost"):
+                    self.assert_complete(out, 10)
+                else:
+                    self.assertFalse((self.dir / out).exists())
+
+    def test_a_stall_of_five_seconds_is_survived(self):
+        # Not in real time: the sensor's clock jumps by 5 s.
+        self.capture("--seconds", "6", device=SMALL + "&fault=stall@0.5s+5s")
+        times = [float(line[1]) for line in frames_of(self.dir / "r")]
+        self.assertGreater(max(b - a for a, b in zip(times, times[1:])), 4.9)
+
+    def test_frames_that_are_wrong_become_dropped_lines(self):
+        self.capture("--frames", "30", device=SMALL + "&fault=size@0.2s,backwards@0.5s")
+        dropped = [line for line in frames_of(self.dir / "r") if line[-1] == "dropped"]
+        self.assertEqual(len(dropped), 2)
+
+    def test_a_full_disk(self):
+        mount = self.dir / "small"
+        mount.mkdir()
+        made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", mount],
+                              capture_output=True)
+        if made.returncode != 0:
+            self.skipTest("mounting is not allowed here")
+        try:
+            full = ("capture", "--device", SMALL, "-o", "small/r", "--until-stopped")
+            self.refused(FAILED, *full, "--min-free", "0", says="small/r holds the")
+            self.ok("info", "small/r")
+            self.assertGreater(len(frames_of(mount / "r")), 5)
+            shutil.rmtree(mount / "r")
+            self.refused(FAILED, *full, says="MB are free")
+            self.assertFalse((mount / "r").exists())
+            self.refused(FAILED, *full, "--min-free", "300000", says=("MB are free", "is complete"))
+            self.assert_complete("small/r", 5)
+        finally:
+            subprocess.run(["umount", mount], check=True)
+
+    def test_a_folder_that_may_not_be_written(self):
+        (self.dir / "locked").mkdir()
+        (self.dir / "locked").chmod(0o500)
+        if os.access(self.dir / "locked", os.W_OK):
+            self.skipTest("this user may write everywhere")
+        self.refused(FAILED, "capture", "--device", SMALL, "-o", "locked/r", "--frames", "3")
+
+    def test_standard_output_that_is_full(self):
+        with open("/dev/full", "w") as full:
+            process = start("capture", "--device", SMALL, "-o", "r", "--frames", "5", *TIMED,
+                            cwd=self.dir, stdout=full)
+            _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, FAILED)
+        self.assert_one_line_error(err)
+        self.assert_complete("r", 5)
+
+    def test_a_pipe_for_messages_that_nobody_reads(self):
+        reader, writer = os.pipe()
+        fcntl.fcntl(writer, fcntl.F_SETFL, os.O_NONBLOCK)
+        try:
+            while True:
+                os.write(writer, b"x" * 4096)
+        except BlockingIOError:
+            pass
+        fcntl.fcntl(writer, fcntl.F_SETFL, 0)
+        process = start("capture", "--device", SMALL, "-o", "r", "--frames", "200", "--min-free",
+                        "0", cwd=self.dir, stderr=writer)
+        process.communicate(timeout=60)
+        os.close(reader)
+        os.close(writer)
+        self.assertEqual(process.returncode, 0)
+        self.assert_complete("r", 200)
+
+    def test_wrong_usage(self):
+        for args, says in ((("--turns", "1", "--frames", "3"), "different ends"),
+                           (("--crop",), "calibrate first"), (("--stops", "8"), "no motor"),
+                           (("--turns", "0"), "turns")):
+            self.refused(USAGE, "capture", "--device", SMALL, "-o", "r", *args, says=says)
+        self.refused(USAGE, "capture", "--device", "virtual", "-o", "r")
+        self.assertEqual(self.files(), [])
+
+
+class Scan(harness.TestCase):
+    """One go; small images and few frames."""
+    DEVICE = "virtual:doll?sensor=kinect-v2&fps=6&speed=12deg/s"
+    FAST = ("--quiet", "--min-free", "0", "--voxel-size", "3mm")
+
+    def assert_closed(self, mesh="doll.3mf"):
+        info = json.loads(self.ok("info", "--json", mesh).stdout)["objects"]
+        self.assertEqual(len(info), 1)
+        self.assertTrue(info[0]["closed"], info)
+        return info[0]
+
+    def ok(self, *args, **more):
+        # Calibrations are kept in a home of the test's own.
+        return super().ok(*args, env={"XDG_STATE_HOME": str(self.dir / "state")}, **more)
+
+    def test_nothing_is_known(self):
+        self.ok("scan", "--device", self.DEVICE, "-o", "doll.3mf", "--report", "r.json", *self.FAST)
+        self.assertEqual(len(list(self.dir.glob("state/turnscan/calibrations/*.json"))), 1)
+        self.assert_closed()
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertEqual(report["capture"]["turns_counted_by"], "motion")
+        self.assertAlmostEqual(report["capture"]["turns"], 1.01, delta=0.05)
+        self.assertTrue(description(self.dir / "doll.recording")["complete"])
+
+    def test_all_is_known_and_the_object_comes_later(self):
+        self.ok("scan", "--device", self.DEVICE + "&calibration=true&appears=4s", "-o", "doll.3mf",
+                "--report", "r.json", *self.FAST)
+        self.assert_closed()
+        frames = frames_of(self.dir / "doll.recording")
+        self.assertGreater(float(frames[0][1]), 4.0)
+        # The stream's mesh is the one that the recording gives.
+        self.ok("reconstruct", "doll.recording", "-o", "again.3mf", "--calibration", "recorded",
+                "--voxel-size", "3mm", "--quiet")
+        self.assertEqual((self.dir / "doll.3mf").read_bytes(),
+                         (self.dir / "again.3mf").read_bytes())
+        # The next scan keeps the first recording.
+        self.refused(FAILED, "scan", "--device", self.DEVICE + "&fault=lost@2s", "-o", "doll.3mf",
+                     "--min-free", "0", says=("doll-2.recording holds", "is complete"))
+
+    def test_wrong_usage(self):
+        self.refused(USAGE, "scan", "--device", self.DEVICE, "-o", "doll.xyz")
+        self.refused(FAILED, "scan", "--device", "virtual:unicorn", "-o", "doll.3mf")
+        self.assertEqual(self.files(), [])
+
+
+class Kill(harness.TestCase):
+    """SIGKILL at random moments: every recording opens, holds every frame whose line is there, can be
+    repaired, and (some of them are tried) reconstructs."""
+
+    def kill_one(self, i, generator):
+        out = self.dir / f"r{i}"
+        process = start("capture", "--device", SMALL + "&angles=1&calibration=true", "-o", out,
+                        "--until-stopped", *TIMED)
+        deadline = time.monotonic() + 60
+        while not (out / "frames.csv").exists() and time.monotonic() < deadline:
+            time.sleep(0.001)
+        time.sleep(generator.random() * 0.4)
+        process.kill()
+        process.communicate()
+        lines = frames_of(out)
+        for line in lines:
+            self.assertEqual(line[-1], "ok", line)
+            self.assertTrue((out / line[-3]).exists(), line)
+        seen = self.ok("info", "--json", out)
+        info = json.loads(seen.stdout)
+        self.assertEqual((info["frames"], info["dropped_frames"]), (len(lines), 0))
+        self.assertFalse(description(out)["complete"])
+        said = self.ok("info", "--repair", out).stdout
+        self.assertIn(f"{len(lines)} frames are whole; the recording is marked complete", said)
+        self.assertTrue(description(out)["complete"])
+        self.assertEqual(len(frames_of(out)), len(lines))
+        self.assertNotIn("not finished", self.ok("info", out).stdout)
+        self.assertEqual(list(out.rglob("*.part")), [])
+        return out, len(lines)
+
+    def test_sigkill_at_random_moments(self):
+        generator = random.Random(7)
+        counts = []
+        for i in range(KILLS):
+            out, count = self.kill_one(i, generator)
+            counts.append(count)
+            if count >= 30 and i % max(1, KILLS // 4) == 0:
+                self.ok("reconstruct", out, "-o", f"m{i}.ply", "--calibration", "recorded",
+                        "--allow-open", "--voxel-size", "12mm", "--quiet")
+            harness.remove(out)
+        print(f"{KILLS} kills: every recording whole, {min(counts)} to {max(counts)} frames",
+              flush=True)
+
+    def test_a_recording_that_goes_on_is_not_repaired(self):
+        process = start("capture", "--device", SMALL + "&realtime=1", "-o", "r", "--until-stopped",
+                        *TIMED, cwd=self.dir)
+        try:
+            for _ in range(12000):
+                if (self.dir / "r/frames.csv").exists():
+                    break
+                time.sleep(0.01)
+            self.refused(FAILED, "info", "--repair", "r", says="being recorded")
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+        self.assertTrue(description(self.dir / "r")["complete"])
+
+
+class Turntable(harness.TestCase):
+    FAST = ("--motor-boot", "50ms", "--motor-timeout", "400ms")
+
+    def table(self, fault=None):
+        table = Table(fault)
+        self.addCleanup(table.close)
+        return table
+
+    def test_rotate_status_speed_stop(self):
+        table = self.table()
+        port = ("--port", table.port, *self.FAST)
+        self.assertIn("idle", self.ok("turntable", "status", *port).stdout)
+        self.ok("turntable", "rotate", *port, "--angle", "-40deg", "--speed", "80deg/s")
+        self.assertAlmostEqual(table.angle, -40.0, delta=0.1)
+        self.ok("turntable", "speed", *port, "--speed", "60deg/s", "--seconds", "0.5")
+        self.assertGreater(table.angle, -30.0)
+        self.assertFalse(table.turning())
+        self.ok("turntable", "stop", *port)
+
+    def test_ctrl_c_stops_the_table(self):
+        table = self.table()
+        process = start("turntable", "rotate", "--port", table.port, *self.FAST, "--angle", "180deg",
+                        "--speed", "10deg/s", "--quiet")
+        while not table.told:
+            time.sleep(0.01)
+        self.assertTrue(table.turning())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, CANCELLED)
+        self.assertFalse(table.turning())
+
+    def test_sigkill_and_the_table_stops_by_itself(self):
+        table = self.table()
+        process = start("turntable", "speed", "--port", table.port, *self.FAST, "--quiet")
+        while not table.told:
+            time.sleep(0.01)
+        process.kill()
+        process.communicate()
+        time.sleep(2.3)
+        self.assertFalse(table.turning())
+
+    def test_a_board_that_falls_silent(self):
+        table = self.table("silent")
+        self.refused(FAILED, "turntable", "speed", "--port", table.port, *self.FAST,
+                     says=(table.port, "did not answer"))
+        self.assertFalse(table.turning())
+
+    def test_a_port_that_goes_away_while_recording(self):
+        table = self.table("gone")
+        self.refused(FAILED, "capture", "--device", SMALL + "&realtime=1", "-o", "r", "--motor",
+                     table.port, "--speed", "20deg/s", *self.FAST, says=("gone", "switch its power off"))
+
+    def test_capture_with_a_motor(self):
+        table = self.table()
+        self.ok("capture", "--device", SMALL + "&realtime=1", "-o", "r", "--motor", table.port,
+                "--speed", "80deg/s", "--seconds", "1", *TIMED, *self.FAST)
+        self.assertTrue(table.told)
+        self.assertFalse(table.turning())
+        angle = float(frames_of(self.dir / "r")[-1][5])
+        self.assertAlmostEqual(angle, 80.0, delta=6.0)
+
+    def test_stop_and_go(self):
+        table = self.table()
+        self.ok("capture", "--device", SMALL, "-o", "r", "--motor", table.port, "--speed",
+                "80deg/s", "--stops", "12", "--turns", "0.25", "--stop-frames", "2", "--settle",
+                "50ms", *TIMED, *self.FAST)
+        self.assertEqual([line[5] for line in frames_of(self.dir / "r")], ["0", "30", "60"])
+
+    def test_no_such_port_and_no_such_action(self):
+        self.refused(FAILED, "turntable", "status", "--port", "/dev/ttyNONE", says="no such serial")
+        self.refused(USAGE, "turntable", "jump", "--port", "/dev/ttyNONE", says="no such action")
+
+
+if __name__ == "__main__":
+    harness.main()
