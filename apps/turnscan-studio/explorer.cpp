@@ -5,6 +5,8 @@
 #include <QSettings>
 #include <QVBoxLayout>
 
+#include "compare_panel.hpp"
+#include "explorer_tools.hpp"
 #include "jobs.hpp"
 #include "loading.hpp"
 #include "model_list.hpp"
@@ -19,13 +21,21 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
     : Mode(services, parent),
       store_(new ModelStore(this)),
       list_(new ModelList(*store_, this)),
-      stages_(new StagePanel(this)) {
+      stages_(new StagePanel(this)),
+      compare_(new ComparePanel(*store_, this)),
+      tools_(new ToolPanel(view(), this)) {
   auto* models = new Section(tr("Models"), true, this);
   models->body()->addWidget(list_);
   auto* stages = new Section(tr("Processing"), true, this);
   stages->body()->addWidget(stages_);
+  auto* tools = new Section(tr("Tools"), true, this);
+  tools->body()->addWidget(tools_);
+  auto* comparison = new Section(tr("Compare"), false, this);
+  comparison->body()->addWidget(compare_);
   panel()->addWidget(models);
+  panel()->addWidget(tools);
   panel()->addWidget(stages);
+  panel()->addWidget(comparison);
   panel()->addStretch();
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or press Ctrl+O."));
@@ -35,6 +45,25 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
   connect(stages_, &StagePanel::run, this, &ExplorerMode::run_stage);
   connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
+  connect(compare_, &ComparePanel::changed, this, &ExplorerMode::sync);
+  connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
+  connect(tools_, &ToolPanel::cut_wanted, this, [this](const Vec3d& normal, double offset) {
+    edit_selected(tr("cut"), false, [normal, offset](const ModelData& from) {
+      const QString source = tr("cut of %1").arg(from.source);
+      return from.kind == ModelKind::kMesh
+                 ? mesh_model(cut(from.mesh, normal, offset), source)
+                 : cloud_model(cut(from.cloud, normal, offset), source, {}, from.viewpoints);
+    });
+  });
+  connect(tools_, &ToolPanel::lassoed, this,
+          [this](const Outline& outline, const Eigen::Matrix4d& to_pixels) {
+            edit_selected(tr("lasso"), true, [outline, to_pixels](const ModelData& from) {
+              return from.kind == ModelKind::kMesh
+                         ? mesh_model(without_lassoed(from.mesh, outline, to_pixels), from.source)
+                         : cloud_model(without_lassoed(from.cloud, outline, to_pixels), from.source,
+                                       {}, from.viewpoints);
+            });
+          });
   on_selection(0);
 }
 
@@ -163,11 +192,12 @@ void ExplorerMode::sync() {
       it = shown_.erase(it);
     }
   }
+  const Model* left = store_->find(compare_->reference());
+  const Model* right = store_->find(compare_->compared());
+  view().set_split(compare_->way() == ComparePanel::kSideBySide && left && right,
+                   left ? left->name : QString(), right ? right->name : QString());
   for (const Model& model : store_->models()) {
-    ItemStyle style;
-    style.visible = model.visible;
-    style.color = model.color;
-    style.own_colors = model.own_colors;
+    const ItemStyle style = style_of(model);
     Shown& shown = shown_[model.id];
     if (shown.item == 0) {
       shown.item = view().add(model.data->drawable, style);
@@ -177,6 +207,83 @@ void ExplorerMode::sync() {
     }
     shown.data = model.data;
   }
+  const Model* colored = store_->find(legend_model_);
+  view().set_legend(colored && colored->visible ? legend_ : Legend());
+}
+
+ItemStyle ExplorerMode::style_of(const Model& model) const {
+  ItemStyle style;
+  style.visible = model.visible;
+  style.color = model.color;
+  style.own_colors = model.own_colors;
+  if (compare_->way() == ComparePanel::kOff) return style;
+  const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
+  style.visible = left || right;
+  style.pane = right && !left ? 1 : 0;
+  return style;
+}
+
+void ExplorerMode::run_comparison() {
+  const Model* reference = store_->find(compare_->reference());
+  const Model* compared = store_->find(compare_->compared());
+  compare_->show_error(compare_->first_error());
+  if (!reference || !compared || !compare_->first_error().isEmpty()) return;
+  jobs().start(
+      tr("Compare"), this,
+      [this, a = *compared, b = *reference,
+       options = compare_->options()](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(Comparison made, compare(*a.data, *b.data, options, 0.0, context));
+        return Finish([this, a, b, made = std::move(made)] {
+          const int id = store_->add(tr("%1 to %2").arg(a.name, b.name), made.colored);
+          store_->set_visible(a.id, false);
+          store_->set_visible(b.id, false);
+          list_->select(id);
+          compare_->show_text(made.text);
+          Legend legend;
+          legend.title = tr("Distance to %1").arg(b.name);
+          legend.continuous = true;
+          legend.histogram = made.histogram;
+          const QRgb colors[] = {0x440154, 0x3b528b, 0x21918c, 0x5ec962, 0xfde725};
+          for (int i = 0; i < 5; ++i)
+            legend.entries.push_back(
+                {QColor(colors[i]), QString("%1 mm%2")
+                                        .arg(1e3 * made.scale_m * i / 4.0, 0, 'g', 3)
+                                        .arg(i == 4 ? tr(" and more") : QString())});
+          legend_model_ = id;
+          legend_ = legend;
+          sync();
+        });
+      },
+      [this](const QString& text) { compare_->show_error(text); });
+}
+
+void ExplorerMode::edit_selected(const QString& what, bool in_place,
+                                 const std::function<ModelDataPtr(const ModelData&)>& edit) {
+  const Model* selected = store_->find(list_->selected());
+  if (!selected || selected->data->kind == ModelKind::kRecording) return;
+  jobs().start(
+      what, this,
+      [this, what, in_place, edit, model = *selected](const RunContext& context) -> Result<Finish> {
+        context.begin_phase(what.toStdString(), 0);
+        const ModelDataPtr made = edit(*model.data);
+        const bool empty =
+            made->kind == ModelKind::kMesh ? made->mesh.empty() : made->cloud.empty();
+        if (empty)
+          return fail(ErrorCode::kTooFewPoints,
+                      "{}: nothing would be left of '{}'; delete it "
+                      "instead",
+                      what.toStdString(), model.name.toStdString());
+        return Finish([this, what, in_place, model, made] {
+          if (in_place) {
+            store_->set_data(model.id, made, what);
+            return;
+          }
+          const int id = store_->add(QString("%1 %2").arg(model.name, what), made);
+          store_->set_visible(model.id, false);
+          list_->select(id);
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
 }
 
 void ExplorerMode::on_selection(int id) {
@@ -184,6 +291,7 @@ void ExplorerMode::on_selection(int id) {
   const bool recording = model && model->data->kind == ModelKind::kRecording;
   const bool cloud = model && model->data->kind == ModelKind::kCloud;
   stages_->set_target(recording, cloud);
+  tools_->set_box(model && !recording ? box_of(*model->data->drawable) : Box());
   if (model) Q_EMIT status(QString("%1: %2").arg(model->name, count_text(*model->data)));
 }
 

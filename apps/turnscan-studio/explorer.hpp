@@ -6,11 +6,14 @@
 
 #include "mode.hpp"
 #include "models.hpp"
+#include "scene_view.hpp"
 
 namespace turnscan::studio {
 
+class ComparePanel;
 class ModelList;
 class StagePanel;
+class ToolPanel;
 
 class ExplorerMode : public Mode {
   Q_OBJECT
@@ -34,6 +37,8 @@ class ExplorerMode : public Mode {
   ModelStore& store() { return *store_; }
   ModelList& list() { return *list_; }
   StagePanel& stages() { return *stages_; }
+  ComparePanel& comparison() { return *compare_; }
+  ToolPanel& tools() { return *tools_; }
 
  Q_SIGNALS:
   void file_opened(const QString& path);
@@ -41,16 +46,26 @@ class ExplorerMode : public Mode {
  private:
   void load(const QString& path, const std::function<void()>& then);
   void run_filter();
+  void run_comparison();
+  /// Changes the data of the selected model on a worker's thread. in_place: the model itself
+  /// changes, which undo takes back; else a new one is added.
+  void edit_selected(const QString& what, bool in_place,
+                     const std::function<ModelDataPtr(const ModelData&)>& edit);
+  ItemStyle style_of(const Model& model) const;
   void sync();
   void on_selection(int id);
 
   ModelStore* store_;
   ModelList* list_;
   StagePanel* stages_;
+  ComparePanel* compare_;
+  ToolPanel* tools_;
   struct Shown {
     int item = 0;
     ModelDataPtr data;
   };
+  int legend_model_ = 0;  ///< the legend is shown while this model is
+  Legend legend_;
   std::map<int, Shown> shown_;  ///< by model
 };
 

@@ -22,9 +22,10 @@ QString text_of(const Box& box) {
 
 QString mesh_report(const TriangleMesh& mesh) {
   const MeshReport report = check_mesh(mesh);
-  QString text = QObject::tr("%1 vertices, %2 triangles in %3 piece(s)\n%4\nArea %5 cm²")
+  QString text = QObject::tr("%1 vertices, %2 triangles in %3\n%4\nArea %5 cm²")
                      .arg(grouped(report.vertices), grouped(report.triangles))
-                     .arg(report.components)
+                     .arg(report.components == 1 ? QObject::tr("1 piece")
+                                                 : QObject::tr("%1 pieces").arg(report.components))
                      .arg(text_of(bounds(mesh.vertices)))
                      .arg(report.area_m2 * 1e4, 0, 'f', 2);
   if (report.closed) text += QObject::tr(", volume %1 cm³").arg(report.volume_m3 * 1e6, 0, 'f', 2);

@@ -20,7 +20,9 @@
 #include "explorer.hpp"
 #include "job_bar.hpp"
 #include "jobs.hpp"
+#include "scanner.hpp"
 #include "scene_view.hpp"
+#include "simulator.hpp"
 #include "theme.hpp"
 #include "view_settings.hpp"
 
@@ -37,7 +39,9 @@ MainWindow::MainWindow()
       settings_(new ViewSettings(this)),
       stack_(new QStackedWidget(this)),
       mode_bar_(nullptr),
+      scanner_(nullptr),
       explorer_(nullptr),
+      simulator_(nullptr),
       status_(new QLabel(this)) {
   setWindowTitle(tr("turnscan Studio"));
   setAcceptDrops(true);
@@ -51,8 +55,13 @@ MainWindow::MainWindow()
   statusBar()->addWidget(status_, 1);
   statusBar()->addPermanentWidget(new JobBar(*jobs_, this));
   statusBar()->setSizeGripEnabled(false);
+  scanner_ = new ScannerMode({*jobs_, *settings_}, stack_);
+  add_mode("scanner", tr("3D Scanner"), tr("Calibrate and record with a sensor (F1)"), scanner_);
   explorer_ = new ExplorerMode({*jobs_, *settings_}, stack_);
   add_mode("explorer", tr("Model Explorer"), tr("Look at models and process them (F2)"), explorer_);
+  simulator_ = new SimulatorMode({*jobs_, *settings_}, stack_);
+  add_mode("simulator", tr("Scanner Simulator"), tr("Try a rig before it is built (F3)"),
+           simulator_);
   connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
   connect(&explorer_->store(), &ModelStore::changed, this, &MainWindow::update_undo);
   make_menus();
@@ -86,7 +95,9 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
   button->setToolTip(tip);
   button->setCheckable(true);
   button->setAutoExclusive(true);
-  button->setProperty("mode_name", name);
+  button->setShortcut(QKeySequence(name == "scanner"    ? Qt::Key_F1
+                                   : name == "explorer" ? Qt::Key_F2
+                                                        : Qt::Key_F3));
   static_cast<QHBoxLayout*>(mode_bar_->layout())->insertWidget(int(mode_buttons_.size()), button);
   mode_buttons_.emplace_back(name, button);
   connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
@@ -221,9 +232,12 @@ void MainWindow::apply_settings() {
 void MainWindow::update_undo() {
   const ModelStore& store = explorer_->store();
   const bool here = &mode() == static_cast<Mode*>(explorer_);
-  undo_->setEnabled(here && store.can_undo());
+  const bool picking = &mode() == static_cast<Mode*>(scanner_);
+  undo_->setEnabled((here && store.can_undo()) || picking);
   redo_->setEnabled(here && store.can_redo());
-  undo_->setText(store.can_undo() ? tr("Undo %1").arg(store.undo_text()) : tr("Undo"));
+  undo_->setText(picking            ? tr("Undo click")
+                 : store.can_undo() ? tr("Undo %1").arg(store.undo_text())
+                                    : tr("Undo"));
   redo_->setText(store.can_redo() ? tr("Redo %1").arg(store.redo_text()) : tr("Redo"));
 }
 

@@ -14,6 +14,8 @@ namespace turnscan::studio {
 class ExplorerMode;
 class JobRunner;
 class Mode;
+class ScannerMode;
+class SimulatorMode;
 class ViewSettings;
 
 class MainWindow : public QMainWindow {
@@ -29,6 +31,8 @@ class MainWindow : public QMainWindow {
   JobRunner& jobs() { return *jobs_; }
   ViewSettings& settings() { return *settings_; }
   ExplorerMode& explorer() { return *explorer_; }
+  ScannerMode& scanner() { return *scanner_; }
+  SimulatorMode& simulator() { return *simulator_; }
   Mode& mode() const;
 
  protected:
@@ -50,7 +54,9 @@ class MainWindow : public QMainWindow {
   ViewSettings* settings_;
   QStackedWidget* stack_;
   QWidget* mode_bar_;
+  ScannerMode* scanner_;
   ExplorerMode* explorer_;
+  SimulatorMode* simulator_;
   std::vector<std::pair<QString, QToolButton*>> mode_buttons_;
   QLabel* status_;
   QMenu* recent_ = nullptr;

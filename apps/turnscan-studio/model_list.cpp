@@ -86,7 +86,7 @@ QWidget* ModelList::make_buttons() {
   const auto act = [&](const QString& name, auto action) {
     connect(menu->addAction(name), &QAction::triggered, this, action);
   };
-  act(tr("Rename\tF2"), [this] { rename_selected(); });
+  act(tr("Rename"), [this] { rename_selected(); });
   act(tr("Colour…"), [this] { choose_color(); });
   act(tr("Own colours on/off"), [this] {
     if (const Model* m = store_.find(selected())) store_.set_color(m->id, m->color, !m->own_colors);

@@ -142,7 +142,7 @@ int SceneView::add(DrawablePtr drawable, const ItemStyle& style) {
   p.items[id].style = style;
   const bool first = scene_box().empty();
   replace(id, std::move(drawable));
-  if (first && style.boxed) reset_camera();
+  if (first && style.in_view) reset_camera();
   return id;
 }
 
@@ -324,7 +324,7 @@ void SceneView::set_clip(const Vec3d& normal, double offset) {
 Box SceneView::scene_box() const {
   Box box;
   for (const auto& [id, item] : parts_->items) {
-    if (!item.style.visible || !item.style.boxed || !item.drawable) continue;
+    if (!item.style.visible || !item.style.in_view || !item.drawable) continue;
     if (item.drawable->box.empty()) continue;
     box.add(item.drawable->box.min);
     box.add(item.drawable->box.max);
@@ -338,8 +338,10 @@ void SceneView::reset_camera() {
   parts_->camera->GetFocalPoint(focus.data());
   const Box box = scene_box();
   if (box.empty()) return;
+  const bool flying = parts_->flight.state() == QAbstractAnimation::Running;
+  const Vec3d from = flying ? parts_->to_offset : Vec3d(position - focus);
   parts_->flight.stop();
-  parts_->aim(box.center(), std::max(1e-4, box.size().norm()), position - focus, size());
+  parts_->aim(box.center(), std::max(1e-4, box.size().norm()), from, size());
   parts_->fly(1.0);
   camera_moved();
 }
@@ -384,6 +386,7 @@ void SceneView::look_as_sensor(const Vec3d& target) {
   const Vec3d focus(0, 0, std::max(0.1, target.z()));
   parts_->camera->SetFocalPoint(focus.data());
   parts_->camera->SetPosition(0, 0, 0);
+  parts_->touched = true;
   camera_moved();
 }
 
@@ -578,6 +581,7 @@ bool SceneView::on_mouse(QEvent* event) {
 
 void SceneView::on_press(QMouseEvent* event) {
   setFocus();
+  parts_->touched = true;
   parts_->flight.stop();
   parts_->last_mouse = event->localPos();
   if (tool_ && event->button() == Qt::LeftButton)
@@ -604,6 +608,7 @@ void SceneView::on_drag(QMouseEvent* event) {
 }
 
 void SceneView::on_wheel(QWheelEvent* event) {
+  parts_->touched = true;
   zoom(std::exp(0.0012 * parts_->speed * event->angleDelta().y()));
 }
 
@@ -664,8 +669,21 @@ std::optional<Vec3d> SceneView::pick(const QPointF& at) {
   if (!p.canvas->isValid()) return std::nullopt;
   const double ratio = devicePixelRatioF();
   const int x = int(at.x() * ratio), y = int((height() - 1 - at.y()) * ratio);
+  // Between the points of a cloud there is background: the nearest within reach counts.
+  constexpr int kReach = 8;
+  constexpr int kSide = 2 * kReach + 1;
+  if (x < kReach || y < kReach) return std::nullopt;
+  std::array<float, std::size_t(kSide) * kSide> depths;
+  depths.fill(1.0f);
+  p.window->GetZbufferData(x - kReach, y - kReach, x + kReach, y + kReach, depths.data());
   float depth = 1.0f;
-  p.window->GetZbufferData(x, y, x, y, &depth);
+  int best = kReach * kReach + 1;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int dx = i % kSide - kReach, dy = i / kSide - kReach, away = dx * dx + dy * dy;
+    if (away >= best || depths[std::size_t(i)] >= 1.0f) continue;
+    best = away;
+    depth = depths[std::size_t(i)];
+  }
   if (depth >= 1.0f) return std::nullopt;
   double column = at.x();
   if (p.split && column > 0.5 * width()) column -= 0.5 * width();
@@ -693,6 +711,8 @@ void SceneView::resizeEvent(QResizeEvent* event) {
   parts_->canvas->setGeometry(rect());
   parts_->overlay->setGeometry(rect());
   parts_->overlay->raise();
+  // Until somebody moves the camera, everything stays in view.
+  if (!parts_->touched) reset_camera();
   request_render();
 }
 

@@ -26,7 +26,8 @@ struct ItemStyle {
   double line_width = 1.5;
   double point_scale = 1.0;  ///< of the view's point size
   bool lit = true;
-  bool boxed = true;  ///< gets a bounding box, and the camera looks at it
+  bool boxed = true;    ///< gets a bounding box, and is cut by the clipping plane
+  bool in_view = true;  ///< the camera is set so that it is seen
 };
 
 /// What the mouse does in place of turning the camera. Positions in pixels of the widget.

@@ -56,12 +56,13 @@ struct SceneView::Parts {
   QTimer rest;    ///< the camera has come to rest
   QTimer more;    ///< the next piece of the points that are still missing
   bool moving = false, complete = false;
-  std::size_t budget = 200000, chunks_a_frame = 2, points_drawn = 0;
+  std::size_t budget = 60000, chunks_a_frame = 2, points_drawn = 0;
   double longest_ms = 0.0;
   std::vector<vtkSmartPointer<vtkActor>> pending;
 
   QPointF last_mouse;
   bool tool_active = false;
+  bool touched = false;  ///< somebody has moved the camera
 
   void fly(double share);
   void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);

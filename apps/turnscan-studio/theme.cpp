@@ -27,18 +27,17 @@ QLabel#quiet { color: %quiet; }
 QLabel#title { font-size: 15px; font-weight: 600; }
 QLabel#field_error, QLabel#error { color: %error; }
 QLabel#error { padding: 7px 9px; border: 1px solid %error; border-radius: 5px; }
-QLineEdit, QComboBox, QPlainTextEdit, QTableWidget, QListWidget, QTreeWidget {
+QLineEdit, QPlainTextEdit, QTableWidget, QListWidget, QTreeWidget {
   background: %field; color: %text; border: 1px solid %line; border-radius: 5px; }
-QLineEdit, QComboBox { padding: 3px 7px; min-height: 20px; }
-QLineEdit:focus, QComboBox:focus, QTableWidget:focus, QTreeWidget:focus {
+QLineEdit { padding: 3px 7px; min-height: 20px; }
+QLineEdit:focus, QTableWidget:focus, QTreeWidget:focus {
   border: 1px solid %accent; }
 QLineEdit[invalid="true"] { border: 1px solid %error; }
-QComboBox::drop-down { border: none; width: 20px; }
 QPushButton, QToolButton#tool { background: %field; color: %text; border: 1px solid %line;
   border-radius: 5px; padding: 5px 12px; min-height: 18px; }
 QToolButton#tool { padding: 5px 9px; }
 QPushButton:hover, QToolButton#tool:hover { border-color: %accent; }
-QPushButton:pressed, QToolButton#tool:pressed, QToolButton#tool:checked {
+QPushButton:pressed, QPushButton:checked, QToolButton#tool:pressed, QToolButton#tool:checked {
   background: %accent; color: %accent_text; border-color: %accent; }
 QPushButton:disabled, QToolButton#tool:disabled { color: %faint; background: %panel; }
 QPushButton#primary { background: %accent; color: %accent_text; border-color: %accent;
@@ -51,6 +50,7 @@ QHeaderView::section { background: %panel; color: %quiet; border: none;
   border-bottom: 1px solid %line; padding: 4px 6px; }
 QTableWidget, QTreeWidget { gridline-color: %line; selection-background-color: %accent;
   selection-color: %accent_text; }
+QStatusBar QLabel { padding-left: 6px; }
 QStatusBar { background: %panel; color: %quiet; border-top: 1px solid %line; }
 QStatusBar::item { border: none; }
 QProgressBar { border: 1px solid %line; border-radius: 5px; background: %field; color: %text;

@@ -3,9 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QFile>
+#include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QTest>
 #include <QTreeWidget>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <turnscan/io/cloud_io.hpp>
 #include <turnscan/io/mesh_io.hpp>
@@ -13,6 +19,7 @@
 #include <turnscan/simulator/builtin_objects.hpp>
 
 #include "driver.hpp"
+#include "explorer_tools.hpp"
 #include "main_window.hpp"
 #include "model_list.hpp"
 #include "scene_view.hpp"
@@ -57,7 +64,7 @@ TEST_F(Explorer, ReconstructsARecordingToTheBytesOfTheCommandLine) {
   ASSERT_EQ(window.explorer().store().models().size(), 2u);
   window.explorer().save_as(2, path("candidates.ply"));
   window.explorer().list().select(1);
-  ASSERT_TRUE(click(button_with(window, "Reconstruct")));
+  ASSERT_TRUE(click(button_with(window.explorer(), "Reconstruct")));
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(window.explorer().store().models().size(), 3u);
   window.explorer().save_as(3, path("mesh.ply"));
@@ -72,6 +79,146 @@ TEST_F(Explorer, ReconstructsARecordingToTheBytesOfTheCommandLine) {
   for (int i = 0; i < 20 && window.explorer().store().can_undo(); ++i)
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(window.explorer().store().models().empty());
+}
+
+/// A bumpy ball of n points.
+PointCloud ball_of(std::size_t n) {
+  PointCloud cloud;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+  cloud.points.reserve(n);
+  while (cloud.size() < n) {
+    const Vec3f p(unit(random), unit(random), unit(random));
+    const float length = p.norm();
+    if (length > 1.0f || length < 0.1f) continue;
+    cloud.points.push_back((0.1f + 0.004f * std::sin(40.0f * p.x() / length)) * p / length);
+  }
+  return cloud;
+}
+
+TEST_F(Explorer, TurnsAndFiltersALargeCloudWithoutFreezing) {
+  // As many as the suite can wait for, and more than are drawn while the view turns.
+  const char* wanted = std::getenv("TURNSCAN_STUDIO_POINTS");
+  const std::size_t n = wanted ? std::size_t(std::atol(wanted)) : 400000;
+  ASSERT_TRUE(write_cloud(path("large.ply").toStdString(), ball_of(n)));
+  StallWatch watch;
+  window.open(path("large.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  const double loading_ms = watch.longest_ms();
+  SceneView& view = window.mode().view();
+  QWidget* canvas = view.childAt(view.rect().center());
+  ASSERT_NE(canvas, nullptr);
+  watch.reset();
+  const QPoint from = canvas->rect().center();
+  QTest::mousePress(canvas, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 40; ++i) {
+    QMouseEvent move(QEvent::MouseMove, from + QPoint(4 * i, i), Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(canvas, &move);
+    run_for(15);
+  }
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(160, 40));
+  const double moving_ms = watch.longest_ms();
+  EXPECT_LE(view.points_while_moving(), 200000u);
+  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+  const double resting_ms = watch.longest_ms();
+  ASSERT_TRUE(click(in_panel("run:outliers")));
+  ASSERT_TRUE(wait_idle(window, 300));
+  EXPECT_EQ(window.explorer().store().models().size(), 2u);
+  // Figures for the record; no time is asserted, for the machine may be busy.
+  std::printf(
+      "%zu points: longest stall %.0f ms loading, %.0f ms moving (frame %.0f ms), %.0f ms "
+      "at rest, %.0f ms in all\n",
+      n, loading_ms, moving_ms, view.longest_frame_ms(), resting_ms, watch.longest_ms());
+  keep_picture(window, "explorer-cloud");
+}
+
+TEST_F(Explorer, MeasuresCutsLassosComparesAndUndoesEverything) {
+  TriangleMesh mesh = *builtin_object("cylinder");
+  ASSERT_TRUE(write_mesh(path("cylinder.ply").toStdString(), mesh));
+  for (Vec3f& p : mesh.vertices) p.x() *= 1.01f;
+  ASSERT_TRUE(write_mesh(path("wide.ply").toStdString(), mesh));
+  window.open(path("cylinder.ply"));
+  window.open(path("wide.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  ModelStore& store = window.explorer().store();
+  ASSERT_EQ(store.models().size(), 2u);
+  SceneView& view = window.mode().view();
+  view.look(StandardView::kFront);
+  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+
+  // The cylinder is 160 mm high: two points on its front, 100 mm apart.
+  ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
+  for (const double height : {0.030, 0.130}) {
+    const auto at = view.project(Vec3d(0.0, height, 0.040));
+    ASSERT_TRUE(at.has_value());
+    QTest::mouseClick(view.childAt(at->toPoint()), Qt::LeftButton, {}, at->toPoint());
+  }
+  ASSERT_TRUE(window.explorer().tools().measured_m().has_value());
+  EXPECT_NEAR(*window.explorer().tools().measured_m(), 0.100, 0.0015);
+  keep_picture(window, "explorer-measure");
+  ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
+
+  ASSERT_TRUE(click(button_with(window.explorer(), "Distances")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(store.models().size(), 3u);
+  keep_picture(window, "explorer-distances");
+  ASSERT_EQ(run_command_line({"evaluate", path("wide.ply"), "--reference", path("cylinder.ply"),
+                              "--error-map", path("cli.ply")}),
+            0);
+  window.explorer().save_as(3, path("studio.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_TRUE(content(path("studio.ply")) == content(path("cli.ply")));
+
+  ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
+  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+  keep_picture(window, "explorer-side-by-side");
+  ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
+
+  window.explorer().list().select(1);
+  ASSERT_TRUE(click(button_with(window.explorer(), "Cut")));
+  ASSERT_TRUE(click(in_panel("plane_cut")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(store.models().size(), 4u);
+  EXPECT_NEAR(bounds(store.models().back().data->mesh.vertices).min.y(), 0.080, 1e-4);
+
+  ASSERT_TRUE(click(button_with(window.explorer(), "Lasso")));
+  const std::size_t before = store.models().back().data->mesh.triangles.size();
+  const auto corner = view.project(Vec3d(-0.06, 0.18, 0.0)),
+             end = view.project(Vec3d(0.06, 0.15, 0.0));
+  ASSERT_TRUE(corner && end);
+  QWidget* canvas = view.childAt(view.rect().center());
+  const QPoint outline[] = {corner->toPoint(), QPoint(int(end->x()), int(corner->y())),
+                            end->toPoint(), QPoint(int(corner->x()), int(end->y()))};
+  QTest::mousePress(canvas, Qt::LeftButton, {}, outline[0]);
+  for (const QPoint& at : outline) {
+    QMouseEvent move(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(canvas, &move);
+  }
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, outline[3]);
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_LT(store.models().back().data->mesh.triangles.size(), before);
+  keep_picture(window, "explorer-lasso");
+
+  for (int i = 0; i < 40 && store.can_undo(); ++i)
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(store.models().empty());
+  for (int i = 0; i < 40 && store.can_redo(); ++i)
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(store.models().size(), 4u);
+}
+
+TEST_F(Explorer, SaysWhatIsWrongWithAFileInTheWordsOfTheCommandLine) {
+  QFile file(path("broken.ply"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("ply\nformat ascii 1.0\nelement vertex 5\nend_header\n");
+  file.close();
+  window.open(path("broken.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_TRUE(window.explorer().store().models().empty());
+  bool shown = false;
+  for (const QLabel* label : window.explorer().findChildren<QLabel*>("error"))
+    shown = shown || (label->isVisible() && label->text().contains("broken.ply"));
+  EXPECT_TRUE(shown);
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+class QComboBox;
+class QLabel;
+class QPlainTextEdit;
+class QPushButton;
+
+namespace turnscan {
+struct EvaluateOptions;
+}
+
+namespace turnscan::studio {
+
+class MessageLabel;
+class ModelStore;
+class OptionForm;
+
+/// Two models: side by side, one over the other, or by their distance.
+class ComparePanel : public QWidget {
+  Q_OBJECT
+ public:
+  enum Way { kOff = -1, kSideBySide = 0, kOverlay = 1, kDistance = 2 };
+
+  explicit ComparePanel(ModelStore& store, QWidget* parent = nullptr);
+  ~ComparePanel() override;
+
+  Way way() const { return way_; }
+  int reference() const;  ///< id of the model
+  int compared() const;
+  const EvaluateOptions& options() const { return *options_; }
+  QString first_error() const;
+  void show_text(const QString& text);
+  void show_error(const QString& text);
+  void stop();
+
+ Q_SIGNALS:
+  void changed();
+  void distance_wanted();
+
+ private:
+  void fill();
+  void choose(Way way);
+
+  ModelStore& store_;
+  std::unique_ptr<EvaluateOptions> options_;
+  QComboBox *reference_, *compared_;
+  QPushButton* ways_[3];
+  OptionForm* form_;
+  QPlainTextEdit* text_;
+  MessageLabel* error_;
+  Way way_ = kOff;
+};
+
+}  // namespace turnscan::studio

@@ -1,0 +1,96 @@
+#include "simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QComboBox>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QTest>
+#include <turnscan/simulator/scene_file.hpp>
+
+#include "driver.hpp"
+#include "explorer.hpp"
+#include "main_window.hpp"
+#include "scene_view.hpp"
+
+namespace turnscan::studio {
+namespace {
+
+class Simulator : public testing::Test {
+ protected:
+  Simulator() {
+    window.resize(1440, 900);
+    window.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+    QApplication::setActiveWindow(&window);
+    window.show_mode("simulator");
+    mode().set_object("builtin:letter-a");
+    mode().set_folder(folder.filePath("scan"));
+    EXPECT_TRUE(wait_for([&] { return mode().ready() && mode().view().settled(); }));
+  }
+  SimulatorMode& mode() { return window.simulator(); }
+
+  QTemporaryDir folder;
+  MainWindow window;
+};
+
+TEST_F(Simulator, RecordsTheBytesOfTheCommandLineAndSendsThemToReconstruction) {
+  ASSERT_TRUE(type(named(mode(), "option:frames"), "24"));
+  ASSERT_TRUE(type(named(mode(), "option:elevation"), "25deg"));
+  mode().add_scanner("kinect-v1");
+  ASSERT_EQ(mode().scanner_count(), 2);
+  ASSERT_TRUE(wait_for([&] { return mode().ready() && mode().view().settled(); }));
+  keep_picture(window, "simulator-rig");
+  ASSERT_TRUE(click(button_with(mode(), "Scan")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_NE(mode().result(), nullptr);
+  keep_picture(window, "simulator-coverage");
+  auto* coloring = qobject_cast<QComboBox*>(named(mode(), "coverage_coloring"));
+  ASSERT_NE(coloring, nullptr);
+  for (int i = 1; i < 4; ++i) {
+    coloring->setCurrentIndex(i);
+    ASSERT_TRUE(wait_for([&] { return mode().view().settled(); }));
+    keep_picture(window, QString("simulator-coverage-%1").arg(i));
+  }
+  auto* holes = qobject_cast<QTableWidget*>(named(mode(), "holes"));
+  ASSERT_GT(holes->rowCount(), 0);
+  QTest::mouseClick(holes->viewport(), Qt::LeftButton, {},
+                    holes->visualItemRect(holes->item(0, 0)).center());
+  ASSERT_TRUE(wait_for([&] { return mode().view().settled(); }));
+  ASSERT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", folder.filePath("cli"),
+                              "--frames", "24", "--scanner", "kinect-v2,elevation=25deg",
+                              "--scanner", "kinect-v1,azimuth=90deg"}),
+            0);
+  for (const char* file : {"recording.json", "frames.csv", "depth/000007.png", "truth/poses.csv",
+                           "truth/object.ply", "truth/scene.toml"})
+    EXPECT_TRUE(content(folder.filePath(QString("scan/") + file)) ==
+                content(folder.filePath(QString("cli/") + file)))
+        << file;
+  ASSERT_TRUE(click(named(mode(), "simulator_reconstruct")));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_EQ(window.explorer().store().models().size(), 2u);
+}
+
+TEST_F(Simulator, AScannerIsPlacedByDragging) {
+  const std::string before = scene_toml(mode().scene());
+  SceneView& view = mode().view();
+  view.reset_camera();
+  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+  // The scanner stands at azimuth 0, 0.9 m away, 17 degrees up, and looks at the object's middle.
+  const auto at = view.project(Vec3d(0.0, 0.097 + 0.9 * 0.29237, -0.9 * 0.95630));
+  ASSERT_TRUE(at.has_value());
+  QWidget* canvas = view.childAt(at->toPoint());
+  ASSERT_NE(canvas, nullptr);
+  QTest::mousePress(canvas, Qt::LeftButton, {}, at->toPoint());
+  QMouseEvent move(QEvent::MouseMove, *at + QPointF(40, -20), Qt::NoButton, Qt::LeftButton, {});
+  QApplication::sendEvent(canvas, &move);
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, at->toPoint() + QPoint(40, -20));
+  run_for(50);
+  EXPECT_NE(scene_toml(mode().scene()), before);
+}
+
+}  // namespace
+}  // namespace turnscan::studio
