@@ -1,3 +1,4 @@
+#include <array>
 #include <turnscan/capture/device_calibration.hpp>
 #include <turnscan/capture/taken_frames.hpp>
 #include <turnscan/io/iai_kinect2.hpp>
@@ -24,7 +25,9 @@ class Corrected : public FrameSequence {
  public:
   Corrected(const FrameSequence& sequence, const std::optional<DepthCorrection>& depth)
       : sequence_(sequence), header_(sequence.header()) {
-    if (depth && !header_.sensors.empty()) header_.sensors[0].depth_bias_m = depth->bias_m;
+    if (!depth || header_.sensors.empty()) return;
+    header_.sensors[0].depth_unit_m *= depth->scale;
+    header_.sensors[0].depth_bias_m = depth->bias_m;
   }
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return sequence_.frames(); }
@@ -67,6 +70,9 @@ class CalibrateCommand : public Command {
               "Find axis, speed and angles from the motion of what stands on the platter");
     line.flag("--depth-bias", depth_bias_,
               "First find the constant offset of the sensor's depth, from --platter-radius");
+    line.option("--depth-also", "RECORDING", depth_also_,
+                "With --depth-bias: the same platter at another distance, which tells the scale "
+                "of the sensor's depth, too");
     line.option(
         "--iai-kinect2", "FOLDER", iai_folder_,
         "First add the depth offset of a Kinect v2 calibration in the layout of iai_kinect2");
@@ -94,6 +100,8 @@ class CalibrateCommand : public Command {
     if (depth_bias_ && !iai_folder_.empty())
       return fail(ErrorCode::kInvalidOption,
                   "--depth-bias and --iai-kinect2 both give the offset of depth; use one of them");
+    if (!depth_also_.empty() && !depth_bias_)
+      return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
     if (depth_bias_ && !detect_options_.radius_m)
       return fail(ErrorCode::kInvalidOption,
                   "--depth-bias needs a known size; give --platter-radius");
@@ -192,8 +200,22 @@ class CalibrateCommand : public Command {
     }
     if (!depth_bias_) return std::nullopt;
     TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
-    return estimate_depth_bias(scan, *detect_options_.radius_m, sensor.depth_bias_m,
-                               detect_options_, session.context());
+    const double radius = *detect_options_.radius_m;
+    if (depth_also_.empty())
+      return estimate_depth_bias(scan, radius, sensor.depth_bias_m, detect_options_,
+                                 session.context());
+    TURNSCAN_ASSIGN(const Recording also, Recording::open(depth_also_));
+    if (also.header().sensors.front().depth_unit_m != sensor.depth_unit_m)
+      return fail(ErrorCode::kInvalidOption,
+                  "--depth-also: the recordings have depth in different units; record both with "
+                  "the same sensor");
+    TURNSCAN_ASSIGN(const AveragedScan other, average(also, session));
+    TURNSCAN_ASSIGN(const DepthGauge here, gauge_depth(scan, radius, sensor.depth_bias_m,
+                                                       detect_options_, session.context()));
+    TURNSCAN_ASSIGN(const DepthGauge there,
+                    gauge_depth(other, radius, also.header().sensors.front().depth_bias_m,
+                                detect_options_, session.context()));
+    return fit_depth(std::array{here, there});
   }
 
   Result<Calibration> calibrate(const FrameSequence& recording, Session& session) const {
@@ -257,7 +279,7 @@ class CalibrateCommand : public Command {
     return calibration;
   }
 
-  std::string recording_, device_, points_, json_, save_, iai_folder_;
+  std::string recording_, device_, points_, json_, save_, iai_folder_, depth_also_;
   DeviceOptions device_options_;
   bool detect_ = false, from_motion_ = false, check_ = false, depth_bias_ = false;
   AverageOptions average_;

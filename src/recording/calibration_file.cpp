@@ -100,8 +100,12 @@ Result<TurntableInfo> parse_table(const JsonObject& object) {
   TURNSCAN_ASSIGN(table.speed_rad_s, object.optional_number("speed_rad_s"));
   TURNSCAN_ASSIGN(const auto degrees, object.optional_number("speed_deg_s"));
   if (degrees) table.speed_rad_s = radians_of(*degrees);
-  if (!(table.axis.norm() > 1e-6) || (table.radius_m && !(*table.radius_m > 0.0)))
-    return fail(ErrorCode::kFormat, "the axis has no length or the radius is not positive");
+  const double length = table.axis.norm();
+  if (!(length > 1e-6 && length < 1e6) || (table.radius_m && !(*table.radius_m > 0.0)))
+    return fail(ErrorCode::kFormat,
+                "the axis has no length, or one beyond all measure, or the radius is not positive");
+  if (!(table.center_m.norm() < 1e6))
+    return fail(ErrorCode::kFormat, "the centre lies beyond all measure");
   // A unit vector stays as it is, to the last bit.
   if (std::abs(table.axis.norm() - 1.0) > 1e-14) table.axis.normalize();
   return table;

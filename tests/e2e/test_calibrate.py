@@ -89,6 +89,9 @@ class Calibrate(harness.TestCase):
         found = self.calibrate(self.rec, "--detect", "--depth-bias", "--platter-radius", "150mm")
         self.assertLess(abs(found["depth"]["bias_m"]), 0.01)
         self.refused(USAGE, "calibrate", self.rec, "--depth-bias", says="--platter-radius")
+        self.refused(USAGE, "calibrate", self.rec, "--depth-also", self.rec, says="--depth-bias")
+        self.refused(FAILED, "calibrate", self.rec, "--depth-bias", "--platter-radius", "150mm",
+                     "--depth-also", self.rec, says="two distances")
         (self.dir / "k").mkdir()
         (self.dir / "k" / "calib_depth.yaml").write_text("%YAML:1.0\n---\ndepthShift: -25.5\n")
         found = self.calibrate(self.rec, "--detect", "--iai-kinect2", "k")

@@ -112,6 +112,40 @@ TEST(EstimateDepthBias, FindsWhatWasTakenOffTheDepth) {
   }
 }
 
+TEST(FitDepth, FindsOffsetAndScaleFromTwoDistances) {
+  // True depth is 1.02 times the recorded one less 15 mm.
+  std::vector<DepthGauge> gauges;
+  for (const double distance_m : {0.8, 1.1}) {
+    testing::RigOptions options = testing::random_rig(5);
+    options.frames = 4;
+    options.distance_m = distance_m;
+    AveragedScan scan = scan_of(options);
+    for (float& z : scan.depth_m.pixels)
+      if (z > 0.0f) z = float((z + 0.015) / 1.02);
+    const auto gauge = gauge_depth(scan, options.radius_m, 0.0, {}, {});
+    ASSERT_TRUE(gauge) << gauge.error().text();
+    gauges.push_back(*gauge);
+  }
+  const auto found = fit_depth(gauges);
+  ASSERT_TRUE(found) << found.error().text();
+  EXPECT_NEAR(found->scale, 1.02, std::max(0.006, 3.0 * found->scale_sigma));
+  EXPECT_NEAR(found->bias_m, -0.015, std::max(0.006, 3.0 * found->bias_sigma_m));
+  EXPECT_LT(found->scale_sigma, 0.04);
+}
+
+TEST(FitDepth, IsALineAndNeedsTwoDistances) {
+  const auto found = fit_depth(
+      std::vector<DepthGauge>{{0.5, 0.010, 0.001}, {1.0, 0.015, 0.002}, {2.0, 0.025, 0.001}});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->scale, 1.01, 1e-12);
+  EXPECT_NEAR(found->bias_m, 0.005, 1e-12);
+  EXPECT_EQ(fit_depth(std::vector<DepthGauge>{{1.0, 0.01, 0.001}}).error().code,
+            ErrorCode::kTooFewPoints);
+  EXPECT_EQ(
+      fit_depth(std::vector<DepthGauge>{{1.0, 0.01, 0.001}, {1.01, 0.01, 0.001}}).error().code,
+      ErrorCode::kTooFewPoints);
+}
+
 TEST(EstimateDepthBias, RefusesARadiusThatCannotBe) {
   testing::RigOptions options = testing::random_rig(5);
   options.frames = 1;
