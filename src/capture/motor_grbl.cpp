@@ -21,7 +21,7 @@ constexpr double kPiece_s = 0.5;  ///< a spin is sent in pieces of so long; the 
 constexpr double kStopTimeout_s = 5.0;
 constexpr auto kPoll = std::chrono::milliseconds(30);
 constexpr int kHaltTries = 3;
-constexpr double kBannerTwice_s = 0.3;
+constexpr double kBannerTwice_s = 0.05;  ///< a board may say its first line twice
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -76,14 +76,19 @@ class GrblBoard : public MotorBoard {
         if (!line) return no_answer("reset");
         if (is_grbl_banner(*line)) {
           name_ = *line;
-          return {};
+          return take_second_banner();
         }
       }
       return without_end("reset");
     }();
     resetting_ = false;
-    reset_at_ = Clock::now();
     return done;
+  }
+
+  Result<> take_second_banner() {
+    TURNSCAN_ASSIGN(const auto line, port_.read_line(kBannerTwice_s));
+    if (line) strange_ = *line;
+    return {};
   }
 
   Result<> spin(double deg_per_s) override {
@@ -168,8 +173,7 @@ class GrblBoard : public MotorBoard {
   Result<> take_unasked(const std::string& line) {
     if (line.starts_with("ALARM"))
       return fail(ErrorCode::kIo, "the table reports '{}'", shown(line));
-    // A board may say its first line twice.
-    if (is_grbl_banner(line) && !resetting_ && seconds_since(reset_at_) > kBannerTwice_s)
+    if (is_grbl_banner(line) && !resetting_)
       return fail(ErrorCode::kIo, "the table's board restarted by itself; check its power supply");
     return {};
   }
@@ -224,7 +228,6 @@ class GrblBoard : public MotorBoard {
   std::string name_;
   std::string strange_;  ///< the last thing that came instead of an answer
   bool resetting_ = false;
-  Clock::time_point reset_at_;
   double spin_deg_s_ = 0.0;
   double sent_deg_ = 0.0;  ///< where the pieces sent so far lead
   std::optional<double> last_x_;
