@@ -113,24 +113,26 @@ TEST_P(BothBoards, RefusesSpeedsThatAreTooFastOrNone) {
 /// What a misbehaviour must lead to: words of the message, or that all goes on well.
 struct Outcome {
   BoardFault fault;
+  const char* name;
   const char* text;  ///< nullptr: it does no harm
   const char* grbl;
 };
+void PrintTo(const Outcome& outcome, std::ostream* out) { *out << outcome.name; }
 
 constexpr Outcome kOutcomes[] = {
-    {BoardFault::kLate, "did not answer", "did not answer"},
-    {BoardFault::kGarbled, "did not answer", "did not answer"},
-    {BoardFault::kStalls, "stalled", "stalled"},
-    {BoardFault::kDisappears, "is gone", "is gone"},
-    {BoardFault::kWrongReply, "not understood", "did not answer"},
-    {BoardFault::kHalfLine, "half a line", "half a line"},
-    {BoardFault::kTwice, nullptr, nullptr},
-    {BoardFault::kAlarm, "too hot", "ALARM:1"},
-    {BoardFault::kRestarts, "restarted", "restarted"},
-    {BoardFault::kEcho, nullptr, nullptr},
-    {BoardFault::kEndless, "without end", "without end"},
-    {BoardFault::kSilent, "nothing came", "nothing came"},
-    {BoardFault::kStops, "stopped by itself", "stopped by itself"},
+    {BoardFault::kLate, "Late", "did not answer", "did not answer"},
+    {BoardFault::kGarbled, "Garbled", "did not answer", "did not answer"},
+    {BoardFault::kStalls, "Stalls", "stalled", "stalled"},
+    {BoardFault::kDisappears, "Disappears", "is gone", "is gone"},
+    {BoardFault::kWrongReply, "WrongReply", "not understood", "did not answer"},
+    {BoardFault::kHalfLine, "HalfLine", "half a line", "half a line"},
+    {BoardFault::kTwice, "Twice", nullptr, nullptr},
+    {BoardFault::kAlarm, "Alarm", "too hot", "ALARM:1"},
+    {BoardFault::kRestarts, "Restarts", "restarted", "restarted"},
+    {BoardFault::kEcho, "Echo", nullptr, nullptr},
+    {BoardFault::kEndless, "Endless", "without end", "without end"},
+    {BoardFault::kSilent, "Silent", "nothing came", "nothing came"},
+    {BoardFault::kStops, "Stops", "stopped by itself", "stopped by itself"},
 };
 
 /// Spins for as long as a stall takes to show.
@@ -145,7 +147,11 @@ Result<> spin_for_a_while(Motor& motor) {
 
 class Misbehaviour : public ::testing::TestWithParam<std::tuple<bool, Outcome>> {};
 INSTANTIATE_TEST_SUITE_P(Motor, Misbehaviour,
-                         ::testing::Combine(::testing::Bool(), ::testing::ValuesIn(kOutcomes)));
+                         ::testing::Combine(::testing::Bool(), ::testing::ValuesIn(kOutcomes)),
+                         [](const auto& test) {
+                           return std::get<1>(test.param).name +
+                                  std::string(std::get<0>(test.param) ? "Grbl" : "Text");
+                         });
 
 TEST_P(Misbehaviour, EndsInAStandingTableAndAClearMessage) {
   const auto& [grbl, outcome] = GetParam();

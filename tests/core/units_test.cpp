@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <ostream>
 #include <turnscan/core/units.hpp>
 
 namespace turnscan {
@@ -16,6 +17,7 @@ struct Reading {
   Quantity quantity;
   double si;
 };
+void PrintTo(const Reading& reading, std::ostream* out) { *out << reading.text; }
 
 class UnitsOfAQuantity : public testing::TestWithParam<Reading> {};
 
