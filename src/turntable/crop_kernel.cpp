@@ -1,32 +1,24 @@
-#include <initializer_list>
+#include <turnscan/core/kernel_choice.hpp>
 #include <turnscan/turntable/crop_kernel.hpp>
 
 namespace turnscan::crop_kernel {
 
-extern const Kernel kPortableKernel;
-#ifdef TURNSCAN_CROP_X86
-extern const Kernel kAvx2Kernel;
-extern const Kernel kAvx512Kernel;
-#endif
+extern const Kernel kPortableKernel, kAvx2Kernel, kAvx512Kernel;
 
-const Kernel* kernel_for(InstructionSet set) {
-  if (set == InstructionSet::kPortable) return &kPortableKernel;
-#ifdef TURNSCAN_CROP_X86
-  if (set == InstructionSet::kAvx2 && __builtin_cpu_supports("avx2")) return &kAvx2Kernel;
-  if (set == InstructionSet::kAvx512 && __builtin_cpu_supports("avx512f") &&
-      __builtin_cpu_supports("avx512bw"))
-    return &kAvx512Kernel;
+namespace {
+
+const KernelChoice<Kernel>& choice() {
+#ifdef TURNSCAN_X86_KERNELS
+  static const KernelChoice<Kernel> kernels(kPortableKernel, &kAvx2Kernel, &kAvx512Kernel);
+#else
+  static const KernelChoice<Kernel> kernels(kPortableKernel, nullptr, nullptr);
 #endif
-  return nullptr;
+  return kernels;
 }
 
-const Kernel& kernel() {
-  static const Kernel* const widest = [] {
-    for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
-      if (const Kernel* found = kernel_for(set)) return found;
-    return &kPortableKernel;
-  }();
-  return *widest;
-}
+}  // namespace
+
+const Kernel* kernel_for(InstructionSet set) { return choice().find(set); }
+const Kernel& kernel() { return choice().current(); }
 
 }  // namespace turnscan::crop_kernel

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <turnscan/core/instruction_set.hpp>
 
 namespace turnscan::crop_kernel {
 
@@ -17,7 +18,7 @@ struct Kernel {
                  std::size_t n, std::uint64_t* bits);
 };
 
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+using turnscan::InstructionSet;
 
 /// nullptr when it was not built or this machine lacks it.
 const Kernel* kernel_for(InstructionSet set);

@@ -320,27 +320,35 @@ class Loader {
     return out;
   }
 
+  /// Weighted sum of z over 5 x 5 pixels around pixel i, row by row; nullopt where the window is
+  /// not whole: at the image's border, or where a pixel lies on another surface.
+  std::optional<double> window_sum(const MotionView& view, const std::vector<float>& z,
+                                   std::int32_t i, const std::array<int, 25>& weights) const {
+    const int w = view.width;
+    const int x = int(i) % w, y = int(i) / w;
+    if (x < 2 || y < 2 || x + 2 >= w || y + 2 >= view.height) return std::nullopt;
+    const float here = z[std::size_t(i)];
+    const auto limit = float(4.0 * here / data_.camera.fx + 4.0 * data_.noise_m);
+    double sum = 0.0;
+    for (int k = 0; k < 25; ++k) {
+      const float there = z[std::size_t(i + (k / 5 - 2) * w + k % 5 - 2)];
+      if (!(there > 0.0f && std::abs(there - here) < limit)) return std::nullopt;
+      sum += weights[std::size_t(k)] * double(there);
+    }
+    return sum;
+  }
+
   /// Between pixels look_up() follows chords, which lie behind a convex surface: by a twelfth of
   /// the second difference in the mean, in each direction. The pixels move by as much the other
   /// way. Second differences are those of the quadratic surface through 5 x 5 pixels.
   void unsag(MotionView& view, const std::vector<std::int32_t>& inside) const {
     static constexpr std::array<int, 5> kSecond{2, -1, -2, -1, 2};
+    std::array<int, 25> weights{};
+    for (std::size_t k = 0; k < 25; ++k) weights[k] = kSecond[k % 5] + kSecond[k / 5];
     const std::vector<float> z = view.z;
-    const int w = view.width;
-    for (const std::int32_t i : inside) {
-      const int x = int(i) % w, y = int(i) / w;
-      if (x < 2 || y < 2 || x + 2 >= w || y + 2 >= view.height) continue;
-      const float here = z[std::size_t(i)];
-      const auto limit = float(4.0 * here / data_.camera.fx + 4.0 * data_.noise_m);
-      double sum = 0.0;
-      bool whole = true;
-      for (int k = 0; k < 25 && whole; ++k) {
-        const float there = z[std::size_t(i + (k / 5 - 2) * w + k % 5 - 2)];
-        whole = there > 0.0f && std::abs(there - here) < limit;
-        sum += (kSecond[std::size_t(k % 5)] + kSecond[std::size_t(k / 5)]) * double(there);
-      }
-      if (whole) view.z[std::size_t(i)] = float(here - sum / (35.0 * 12.0));
-    }
+    for (const std::int32_t i : inside)
+      if (const auto sum = window_sum(view, z, i, weights))
+        view.z[std::size_t(i)] = float(z[std::size_t(i)] - *sum / (35.0 * 12.0));
   }
 
   /// Pixels that lie well behind a neighbour may be mixed of two surfaces.
@@ -369,21 +377,9 @@ class Loader {
     static constexpr std::array<int, 25> kWeights{-13, 2, 7, 2,  -13, 2,  17, 22,  17, 2, 7, 22, 27,
                                                   22,  7, 2, 17, 22,  17, 2,  -13, 2,  7, 2, -13};
     const std::vector<float> z = view.z;
-    const int w = view.width;
-    for (const std::int32_t i : inside) {
-      const int x = int(i) % w, y = int(i) / w;
-      if (x < 2 || y < 2 || x + 2 >= w || y + 2 >= view.height) continue;
-      const float here = z[std::size_t(i)];
-      const auto limit = float(4.0 * here / data_.camera.fx + 4.0 * data_.noise_m);
-      double sum = 0.0;
-      bool whole = true;
-      for (int k = 0; k < 25 && whole; ++k) {
-        const float there = z[std::size_t(i + (k / 5 - 2) * w + k % 5 - 2)];
-        whole = there > 0.0f && std::abs(there - here) < limit;
-        sum += kWeights[std::size_t(k)] * double(there);
-      }
-      if (whole) view.z[std::size_t(i)] = float(sum / 175.0);
-    }
+    for (const std::int32_t i : inside)
+      if (const auto sum = window_sum(view, z, i, kWeights))
+        view.z[std::size_t(i)] = float(*sum / 175.0);
   }
 
   void sample_depth(const MotionView& view, const std::vector<std::int32_t>& inside,
