@@ -25,7 +25,7 @@ std::string last_error() {
   for (char& c : text)
     if (c == '\n' || c == '\t' || c == '\r') c = ' ';
   const std::size_t first = text.find_first_not_of(' ');
-  const std::size_t last = text.find_last_not_of(" .");
+  const std::size_t last = text.find_last_not_of(" .!");
   if (first == std::string::npos || last < first) return "no reason given";
   return text.substr(first, last - first + 1);
 }
@@ -36,19 +36,21 @@ bool says(const std::string& text, std::initializer_list<const char*> words) {
   return false;
 }
 
-/// OpenNI has one status for everything; what it was shows in the text.
+/// OpenNI has one status for everything; what it was shows in the text. Its drivers for USB sensors
+/// say of whatever libusb refuses that they failed to open the device (which is the user's rights,
+/// as a device that is gone is "not found"), or to set its interface (which another program has).
 Failure open_failure(const std::string& why) {
   if (says(why, {"no devices found"}))
     return {TURNSCAN_NOT_FOUND, "no OpenNI 2 sensor is connected; plug it in"};
-  if (says(why, {"ermission", "ccess denied", "ACCESS"}))
+  if (says(why, {"ermission", "ccess denied", "ACCESS", "Failed to open the USB device"}))
     return {TURNSCAN_DENIED,
             "this user may not open the sensor (" + why +
                 "); install the udev rule of docs/devices.md and plug it in again"};
-  if (says(why, {"busy", "BUSY", "in use", "already open"}))
+  if (says(why, {"busy", "BUSY", "in use", "already open", "Failed to set USB interface"}))
     return {TURNSCAN_BUSY, "another program uses the sensor (" + why + "); close that program"};
-  if (says(why, {"disconnected", "NO_DEVICE"}))
+  if (says(why, {"disconnected", "NO_DEVICE", "USB device not found"}))
     return {TURNSCAN_LOST, "the sensor went away (" + why + "); check the cable"};
-  if (says(why, {"Couldn't open", "Could not open"}))
+  if (says(why, {"Couldn't open device"}))
     return {TURNSCAN_NOT_FOUND, "no driver of OpenNI 2 opens it (" + why +
                                     "); 'turnscan devices' lists what is connected"};
   return {TURNSCAN_FAILED, "OpenNI 2 failed (" + why + "); plug the sensor in again"};
@@ -153,6 +155,7 @@ struct turnscan_device {
   bool wait(double timeout_s);
   bool read_depth();
   void read_color();
+  void read_waiting_color();
 
   turnscan::plugin::Device device_;
   std::unique_ptr<turnscan::plugin::Disconnects> disconnects_;
@@ -343,6 +346,14 @@ void turnscan_device::read_color() {
                 static_cast<std::size_t>(row));
 }
 
+/// Colours that came with the depth: of two streams that are ready only the first is told.
+void turnscan_device::read_waiting_color() {
+  openni::VideoStream* stream = &color_.stream;
+  int ready = -1;
+  if (with_color_ && openni::OpenNI::waitForAnyStream(&stream, 1, &ready, 0) == openni::STATUS_OK)
+    read_color();
+}
+
 bool turnscan_device::read_depth() {
   if (depth_.stream.readFrame(&depth_frame_) != openni::STATUS_OK || !depth_frame_.isValid()) {
     check_connected();
@@ -367,6 +378,7 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
   const bool waits = !(file_ && as_fast_as_possible_);
   if (waits && !wait(timeout_s)) return TURNSCAN_NOTHING;
   if (!read_depth()) return TURNSCAN_NOTHING;
+  read_waiting_color();
   frame = {};
   frame.depth = depth_pixels_.data();
   frame.width = depth_frame_.getWidth();

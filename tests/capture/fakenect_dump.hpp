@@ -2,6 +2,7 @@
 // A dump as libfreenect's fakenect plays it back, from frames of a virtual sensor: a Kinect v1 that
 // sees what the simulator computes.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -76,12 +77,10 @@ class DumpWriter {
 inline std::filesystem::path kinect_v1_file(const std::filesystem::path& folder) {
   const double f = plugin::KinectV1().focal_pixels();
   const std::filesystem::path file = folder / "kinect-v1-raw.toml";
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "columns = 640\nrows = 480\nfx = %d.%06d\nfy = %d.%06d\ncx = 320\ncy = 240\n"
-                "near = \"0.5m\"\nfar = \"4m\"\n",
-                int(f), int((f - int(f)) * 1e6), int(f), int((f - int(f)) * 1e6));
-  std::ofstream(file) << text;
+  std::ofstream(file) << fmt::format(
+      "columns = 640\nrows = 480\nfx = {0}\nfy = {0}\ncx = 320\ncy = 240\nnear = \"0.5m\"\n"
+      "far = \"4m\"\n",
+      f);
   return file;
 }
 
