@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/knn.hpp>
 #include <turnscan/reconstruction/components.hpp>
 
 namespace turnscan {
@@ -49,6 +52,107 @@ void join_neighbours(const VoxelGrid& grid, int side, DisjointSets& sets) {
   }
 }
 
+struct Piece {
+  std::uint64_t points = 0;
+  std::size_t voxels = 0;
+  std::uint32_t root = 0;
+};
+
+/// Most points first.
+std::vector<Piece> find_pieces(const VoxelGrid& grid, DisjointSets& sets) {
+  std::vector<Piece> pieces(grid.voxels().size());
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    Piece& piece = pieces[sets.root(i)];
+    piece.root = sets.root(i);
+    piece.points += grid.voxels()[i].count();
+    ++piece.voxels;
+  }
+  std::erase_if(pieces, [](const Piece& p) { return p.voxels == 0; });
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return a.points != b.points ? a.points > b.points : a.root < b.root;
+  });
+  return pieces;
+}
+
+bool is_crumb(const Piece& piece, const std::vector<Piece>& pieces,
+              const ComponentOptions& options) {
+  return double(piece.points) < options.min_share * double(pieces.front().points);
+}
+
+/// The centres of a piece's voxels.
+struct Place {
+  std::uint32_t root = 0;
+  std::vector<Vec3f> centers;
+  Box box;
+  bool stands = false;
+};
+
+std::vector<Place> places_of(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
+                             DisjointSets& sets) {
+  std::vector<Place> places;
+  std::vector<std::int32_t> of_root(grid.voxels().size(), -1);
+  const std::vector<Piece> pieces = find_pieces(grid, sets);
+  for (const Piece& piece : pieces) {
+    if (is_crumb(piece, pieces, options)) continue;
+    of_root[piece.root] = static_cast<std::int32_t>(places.size());
+    places.push_back({piece.root, {}, {}, false});
+  }
+  for (std::uint32_t i = 0; i < of_root.size(); ++i) {
+    const std::int32_t p = of_root[sets.root(i)];
+    if (p < 0) continue;
+    const Vec3d center = grid.center(grid.voxels()[i]);
+    Place& place = places[std::size_t(p)];
+    place.centers.push_back(center.cast<float>());
+    place.box.add(center);
+    place.stands = place.stands || center.y() < floor_m;
+  }
+  return places;
+}
+
+/// The nearest pair between what floats and what stands.
+struct Bridge {
+  double squared = std::numeric_limits<double>::infinity();
+  std::uint32_t root = 0;  ///< of the piece that stands
+};
+
+void shorten(const Place& from, const KdTree& to, std::uint32_t root, Bridge& bridge) {
+  for (const Vec3f& p : from.centers) {
+    std::uint32_t index = 0;
+    float squared = 0.0f;
+    if (to.knn(p, 1, &index, &squared) == 1 && double(squared) < bridge.squared)
+      bridge = {squared, root};
+  }
+}
+
+/// The shortest bridge first, so that a chain of pieces holds together. Returns their number.
+std::size_t join_floating(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
+                          DisjointSets& sets) {
+  std::vector<Place> floating, standing;
+  for (Place& place : places_of(grid, options, floor_m, sets))
+    (place.stands ? standing : floating).push_back(std::move(place));
+  std::vector<Bridge> bridges(floating.size());
+  std::size_t joined = 0;
+  for (std::size_t s = 0; s < standing.size() && !floating.empty(); ++s) {
+    const KdTree tree(standing[s].centers);
+    for (std::size_t f = 0; f < floating.size(); ++f)
+      shorten(floating[f], tree, standing[s].root, bridges[f]);
+    if (s + 1 < standing.size()) continue;
+    // All that stands has been looked at: the nearest that floats stands from now on.
+    const auto best =
+        std::min_element(bridges.begin(), bridges.end(),
+                         [](const Bridge& a, const Bridge& b) { return a.squared < b.squared; });
+    const auto f = std::size_t(best - bridges.begin());
+    if (std::sqrt(best->squared) <= 0.5 * floating[f].box.size().maxCoeff()) {
+      sets.join(floating[f].root, best->root);
+      standing.push_back(std::move(floating[f]));
+      ++joined;
+    }
+    floating.erase(floating.begin() + std::ptrdiff_t(f));
+    bridges.erase(best);
+  }
+  return joined;
+}
+
 }  // namespace
 
 OptionTable describe(ComponentOptions& o) {
@@ -72,31 +176,17 @@ Result<int> objects_to_keep(const ComponentOptions& options) {
 }
 
 Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
-                                   int reach) {
+                                   int reach, std::optional<double> floor_m) {
   TURNSCAN_ASSIGN(const int keep, objects_to_keep(options));
   const std::size_t n = grid.voxels().size();
   DisjointSets sets(n);
   join_neighbours(grid, std::max(1, reach / 2), sets);
-  struct Piece {
-    std::uint64_t points = 0;
-    std::size_t voxels = 0;
-    std::uint32_t root = 0;
-  };
-  std::vector<Piece> pieces(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    Piece& piece = pieces[sets.root(i)];
-    piece.root = sets.root(i);
-    piece.points += grid.voxels()[i].count();
-    ++piece.voxels;
-  }
-  std::erase_if(pieces, [](const Piece& p) { return p.voxels == 0; });
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
-    return a.points != b.points ? a.points > b.points : a.root < b.root;
-  });
   Components out;
+  if (floor_m) out.joined = join_floating(grid, options, *floor_m, sets);
+  const std::vector<Piece> pieces = find_pieces(grid, sets);
   std::vector<std::int32_t> label_of_root(n, -1);
   for (const Piece& piece : pieces) {
-    if (double(piece.points) < options.min_share * double(pieces.front().points)) {
+    if (is_crumb(piece, pieces, options)) {
       ++out.crumbs;
     } else if (keep > 0 && out.voxel_count.size() >= std::size_t(keep)) {
       ++out.not_kept;

@@ -9,7 +9,10 @@ OptionTable describe(MergeOptions& o) {
               "Angular speed of the platter, counter-clockwise from above positive; automatic: as "
               "recorded")
       .flag("cloud-outliers", o.cloud_outliers,
-            "Run the statistical filter once more, on the merged cloud");
+            "Run the statistical filter once more, on the merged cloud")
+      .number("pass", o.pass, {0, 1e9},
+              "Of a recording with several passes, in which the object lies differently, the one "
+              "to use; automatic: the only one");
   return table;
 }
 

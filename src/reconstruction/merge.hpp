@@ -10,6 +10,7 @@ namespace turnscan {
 struct MergeOptions {
   std::optional<double> speed_rad_s;
   bool cloud_outliers = false;  ///< a second statistical filter, on the merged cloud
+  std::optional<int> pass;      ///< only the frames in which the object lies this way
 };
 OptionTable describe(MergeOptions& options);
 

@@ -13,10 +13,11 @@ std::string mm(double metres) { return format_quantity(metres, Quantity::kLength
 /// One run: the stages in their order share its members.
 class Run {
  public:
-  Run(MergedCloud merged, const std::optional<Cylinder>& cylinder,
+  Run(MergedCloud merged, bool profiles, const std::optional<Cylinder>& cylinder,
       const ReconstructOptions& options, const StageSink& sink, const RunContext& context,
       Reconstruction& out)
       : merged_(std::move(merged)),
+        profiles_(profiles),
         cylinder_(cylinder),
         options_(options),
         sink_(sink),
@@ -65,6 +66,7 @@ class Run {
   Result<ObjectResult> build_surface(const PointCloud& object);
 
   MergedCloud merged_;
+  bool profiles_;
   std::optional<Cylinder> cylinder_;
   const ReconstructOptions& options_;
   const StageSink& sink_;
@@ -106,9 +108,8 @@ Result<> Run::filter() {
 
 Result<> Run::count_voxels() {
   // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
-  const double noise = out_.sensor_noise_m, apart = out_.frame_spacing_m;
-  const double pixels =
-      std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  const double noise = out_.sensor_noise_m, step = out_.frame_spacing_m;
+  const double pixels = std::sqrt(std::max(0.25 * step * step, step * step - 2 * noise * noise));
   const CloudStatistics statistics = cloud_statistics(merged_, 3.0 * std::max(pixels, noise));
   out_.merged_noise_m = std::max(statistics.noise_m, 1e-5);
   cloud_spacing_m_ = statistics.spacing_m;
@@ -116,6 +117,10 @@ Result<> Run::count_voxels() {
   std::string reason =
       fmt::format("the larger of the thickness of the cloud, {}, and twice its spacing, {}",
                   mm(out_.merged_noise_m), mm(statistics.spacing_m));
+  if (const double apart = profiles_ ? frames_apart(merged_, pixels) : 0.0; apart > size) {
+    size = apart;
+    reason = fmt::format("the profiles lie up to {} apart", mm(apart));
+  }
   const double longest = bounds(merged_.cloud.points).size().maxCoeff();
   if (options_.voxels.grid) {
     size = longest / *options_.voxels.grid;
@@ -143,8 +148,10 @@ Result<> Run::count_voxels() {
   const double gap = length_or(options_.components.gap_m, "object-gap",
                                std::max(3.0 * size, 4.0 * statistics.spacing_m),
                                "the larger of 3 voxels and 4 times the cloud's spacing");
+  std::optional<double> floor;
+  if (cylinder_) floor = cylinder_->margin_m + std::max(3.0 * size, gap);
   TURNSCAN_ASSIGN(components_, find_components(*grid_, options_.components,
-                                               static_cast<int>(std::lround(gap / size))));
+                                               static_cast<int>(std::lround(gap / size)), floor));
   context_.advance();
   std::vector<std::uint8_t> in_object;
   for (std::int32_t label : components_.label) in_object.push_back(label >= 0 ? 1 : 0);
@@ -152,6 +159,9 @@ Result<> Run::count_voxels() {
   std::erase(components_.label, -1);
   if (components_.crumbs > 0)
     out_.notes.push_back(fmt::format("{} crumbs dropped", components_.crumbs));
+  if (components_.joined > 0)
+    out_.notes.push_back(fmt::format("pieces above the platter joined to what stands below: {}",
+                                     components_.joined));
   PointCloud centers;
   for (const VoxelGrid::Voxel& voxel : grid_->voxels()) {
     centers.points.push_back(grid_->center(voxel).cast<float>());
@@ -281,10 +291,11 @@ Result<> Run::build_surfaces() {
 
 }  // namespace
 
-Result<> reconstruct_points(MergedCloud merged, const std::optional<Cylinder>& cylinder,
+Result<> reconstruct_points(MergedCloud merged, bool profiles,
+                            const std::optional<Cylinder>& cylinder,
                             const ReconstructOptions& options, const StageSink& sink,
                             const RunContext& context, Reconstruction& out) {
-  return Run(std::move(merged), cylinder, options, sink, context, out)();
+  return Run(std::move(merged), profiles, cylinder, options, sink, context, out)();
 }
 
 }  // namespace turnscan

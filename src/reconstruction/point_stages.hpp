@@ -7,8 +7,10 @@
 namespace turnscan {
 
 /// Voxels, candidates, normals, refine, base, surface. out holds what the frames told, and gets the
-/// objects. Fails as reconstruct() does.
-Result<> reconstruct_points(MergedCloud merged, const std::optional<Cylinder>& cylinder,
+/// objects. profiles: frames are lines of points without neighbours across. Fails as reconstruct()
+/// does.
+Result<> reconstruct_points(MergedCloud merged, bool profiles,
+                            const std::optional<Cylinder>& cylinder,
                             const ReconstructOptions& options, const StageSink& sink,
                             const RunContext& context, Reconstruction& out);
 

@@ -29,7 +29,12 @@ double median_nearest(const std::vector<Vec3f>& points) {
 struct Thickness {
   double sigma = 0.0;
   double density = 0.0;  ///< points per square metre
+  double spread = 0.0;   ///< extent across by extent along: 1 on a surface, 0 on a line
 };
+
+/// Points that spread less than this lie on lines, of which a ball must hold several before its
+/// points a square metre are those of the surface.
+constexpr double kOnALine = 0.5;
 
 /// So many points of a neighbourhood tell its thickness to some percent; of more, every n-th is
 /// looked at.
@@ -61,8 +66,9 @@ Thickness thickness_at(const MergedCloud& merged, const VoxelGrid& grid, const V
   const Vec3d mean = sum / double(n);
   const Eigen::Matrix3d covariance = squares / double(n) - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return {std::sqrt(std::max(0.0, solver.eigenvalues()[0])),
-          double(n * step) / (std::numbers::pi * r * r)};
+  const Vec3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return {extent[0], double(n * step) / (std::numbers::pi * r * r),
+          extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }
 
 }  // namespace
@@ -97,19 +103,48 @@ CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_
   for (int round = 0; round < 9; ++round, r *= std::numbers::sqrt2) {
     auto grid = VoxelGrid::build(points, r, RunContext());
     if (!grid) return out;
-    std::vector<double> sigmas(kSamples), densities(kSamples);
+    std::vector<double> sigmas(kSamples), densities(kSamples), spreads(kSamples);
     parallel_for(kSamples, 16, [&](std::size_t s) {
       const std::size_t i = mix64(s) % points.size();
       const Thickness t = thickness_at(merged, *grid, points[i], r);
       sigmas[s] = t.sigma;
       densities[s] = t.density;
+      spreads[s] = t.spread;
     });
     out.noise_m = median(sigmas);
     const double density = median(densities);
     out.spacing_m = density > 0.0 ? 1.0 / std::sqrt(density) : 0.0;
-    if (density > 0.0 && out.noise_m < r / 4.5) break;
+    if (density > 0.0 && out.noise_m < r / 4.5 && median(spreads) > kOnALine) break;
   }
   return out;
+}
+
+double frames_apart(const MergedCloud& merged, double point_spacing_m) {
+  constexpr std::size_t kSamples = 2000;
+  constexpr int kDoublings = 7;
+  constexpr double kShare = 0.95;
+  const PointCloud& cloud = merged.cloud;
+  if (cloud.points.empty() || !(point_spacing_m > 0.0)) return 0.0;
+  const KdTree tree(cloud.points);
+  std::vector<double> distances(kSamples, 0.0);
+  parallel_for(kSamples, 16, [&](std::size_t s) {
+    const std::size_t i = mix64(s) % cloud.size();
+    std::vector<std::pair<std::uint32_t, float>> near;
+    double r = 2.0 * point_spacing_m;
+    for (int round = 0; round <= kDoublings && distances[s] == 0.0; ++round, r *= 2.0) {
+      tree.radius(cloud.points[i], static_cast<float>(r), near);
+      for (const auto& [other, squared] : near) {
+        if (cloud.frame[other] == cloud.frame[i]) continue;
+        distances[s] = std::max(std::sqrt(double(squared)), 1e-9);
+        break;
+      }
+    }
+  });
+  std::erase(distances, 0.0);
+  if (distances.empty()) return 0.0;
+  const auto at = distances.begin() + std::ptrdiff_t(kShare * double(distances.size() - 1));
+  std::nth_element(distances.begin(), at, distances.end());
+  return *at;
 }
 
 }  // namespace turnscan

@@ -23,9 +23,15 @@ struct CloudStatistics {
 };
 
 /// Samples neighbourhoods of radius r, smallest first, until the thickness is below r / 4.5 (a
-/// smaller ball would cut the noise off):
-/// the square root of the smallest eigenvalue of the covariance. Deterministic. Starts at
-/// start_radius_m; ends at 16 times that.
+/// smaller ball would cut the noise off) and they hold a piece of surface, not one line of a line
+/// scanner. Thickness: the square root of the smallest eigenvalue of the covariance. Deterministic.
+/// Starts at start_radius_m; ends at 16 times that.
 CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m);
+
+/// How far apart neighbouring frames lie where they lie far apart: of 95 % of the points the
+/// nearest point of another frame is nearer. For line scanners, whose profiles part with the
+/// distance from the axis while the points on them stay close. 0 when there is one frame only.
+/// point_spacing_m: within a frame; distances of more than 256 times that are not told apart.
+double frames_apart(const MergedCloud& merged, double point_spacing_m);
 
 }  // namespace turnscan

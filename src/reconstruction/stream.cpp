@@ -30,6 +30,24 @@ Result<> check_sensor(const FrameInfo& info, const SequenceHeader& header) {
   return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", info.index, info.sensor);
 }
 
+/// Frames with poses of their own may lie as they like: the poses bring them together.
+Result<> check_pass(const FrameInfo& info, const FrameInfo& first) {
+  if (info.pass == first.pass || info.T_table_sensor) return {};
+  return fail(
+      ErrorCode::kInvalidOption,
+      "frames {} and {} are of passes {} and {}, in which the object lies differently; give "
+      "--pass to say which to use",
+      first.index, info.index, first.pass, info.pass);
+}
+
+/// Whether any frame has neighbours along rows and columns, between which there is surface; the
+/// profiles of a line scanner have none.
+bool any_grid(const std::vector<Frame>& frames) {
+  return std::any_of(frames.begin(), frames.end(), [](const Frame& frame) {
+    return !frame.depth.pixels.empty() || (frame.grid_width > 1 && frame.grid_height > 1);
+  });
+}
+
 /// A frame that is to be worked on, and its place.
 struct Placed {
   std::size_t position = 0;  ///< in the list handed over
@@ -54,9 +72,16 @@ class ReconstructionStream::Impl {
                const RunContext& context) {
     const StageTimer timer(out_, "frames");
     std::vector<Placed> placed;
-    std::size_t dropped = 0;
+    std::size_t dropped = 0, left_out = 0;
+    const std::optional<int>& pass = options_.merge.pass;
     for (std::size_t i = 0; i < infos.size(); ++i) {
       TURNSCAN_TRY(check_sensor(infos[i], header_));
+      if (pass && infos[i].pass != std::uint32_t(*pass)) {
+        ++left_out;
+        continue;
+      }
+      if (!first_) first_ = infos[i];
+      TURNSCAN_TRY(check_pass(infos[i], *first_));
       TURNSCAN_ASSIGN(const Pose pose, poser_(infos[i]));
       if (infos[i].status == FrameStatus::kDropped)
         ++dropped;
@@ -69,17 +94,17 @@ class ReconstructionStream::Impl {
       TURNSCAN_TRY(wait(placed, read, context));
     }
     out_.dropped_frames += dropped;
-    context.advance(dropped);
+    context.advance(dropped + left_out);
     return {};
   }
 
   Result<TriangleMesh> preview(const RunContext& context) {
-    if (!volumetric())
-      return fail(ErrorCode::kInvalidOption,
-                  "preview: only --method volumetric shows the growing surface");
     const VolumetricStream* volume = nullptr;
     {
       const std::lock_guard lock(mutex_);
+      if (!volumetric())
+        return fail(ErrorCode::kInvalidOption,
+                    "preview: only --method volumetric shows the growing surface");
       volume = volume_.get();
     }
     return volume == nullptr ? TriangleMesh() : volume->preview(context);
@@ -88,6 +113,9 @@ class ReconstructionStream::Impl {
   Result<Reconstruction> finish(const StageSink& sink, const RunContext& context) {
     TURNSCAN_TRY(context.check());
     if (!look_) {
+      if (waiting_.empty() && options_.merge.pass && !first_)
+        return fail(ErrorCode::kInvalidOption, "the recording has no frame of pass {}",
+                    *options_.merge.pass);
       if (waiting_.empty())
         return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
       TURNSCAN_TRY(look(context));
@@ -100,8 +128,8 @@ class ReconstructionStream::Impl {
     if (volumetric()) {
       TURNSCAN_TRY(volume_->finish(sink, context, out_));
     } else {
-      TURNSCAN_TRY(
-          reconstruct_points(std::move(merged_), look_->cylinder, options_, sink, context, out_));
+      TURNSCAN_TRY(reconstruct_points(std::move(merged_), profiles_, look_->cylinder, options_,
+                                      sink, context, out_));
     }
     return std::move(out_);
   }
@@ -161,6 +189,14 @@ class ReconstructionStream::Impl {
     out_.choices = look.choices;
     out_.notes = look.notes;
     recipe_.cylinder = look.cylinder;
+    profiles_ = !any_grid(waiting_);
+    if (volumetric() && profiles_) {
+      const std::lock_guard lock(mutex_);
+      options_.surface.method = SurfaceMethod::kPoisson;
+      out_.notes.emplace_back(
+          "the frames are points without neighbours, as the profiles of a line scanner: "
+          "made with --method poisson");
+    }
     if (volumetric()) {
       const std::lock_guard lock(mutex_);
       TURNSCAN_ASSIGN(volume_, VolumetricStream::create(header_, options_, look, recipe_.rays));
@@ -230,12 +266,14 @@ class ReconstructionStream::Impl {
   FramePoser poser_;
   FrameRecipe recipe_;
   std::size_t first_frames_;
+  std::optional<FrameInfo> first_;  ///< of those used, dropped ones too
   std::vector<Frame> waiting_;
   std::vector<Pose> waiting_poses_;
   std::size_t forgotten_ = 0;  ///< frames without an object, before the first look
   std::optional<FirstLook> look_;
+  bool profiles_ = false;  ///< frames without neighbours across
   MergedCloud merged_;
-  std::mutex mutex_;  ///< guards the pointer volume_
+  std::mutex mutex_;  ///< guards the pointer volume_, and the method against previews
   std::unique_ptr<VolumetricStream> volume_;
   Reconstruction out_;
 };

@@ -146,6 +146,17 @@ class Simulate(harness.TestCase):
             self.assertEqual((self.dir / "again" / frame).read_bytes(),
                              (self.dir / "rec" / frame).read_bytes())
 
+    def test_a_pass_of_several_is_reconstructed_by_itself(self):
+        self.ok("simulate", "builtin:letter-a", "--height", "100mm", "--frames", "12",
+                "--next-pass", "tip=90deg", "--out", "rec", "--quiet")
+        self.refused(USAGE, "reconstruct", "rec", "-o", "both.ply", "--quiet", says="--pass")
+        self.ok("reconstruct", "rec", "--pass", "1", "--method", "volumetric", "-o", "lying.ply",
+                "--quiet")
+        self.ok("evaluate", "lying.ply", "--reference", "rec/truth/object-pass1.ply", "--json",
+                "e.json")
+        judged = json.loads((self.dir / "e.json").read_text())
+        self.assertLess(judged["accuracy"]["median_m"], 1e-3)
+
     def test_dropped_frames_are_recorded_as_such(self):
         self.ok("simulate", "builtin:cylinder", "--frames", "60", "--dropped", "0.3", "--out",
                 "rec", "--quiet")

@@ -73,6 +73,45 @@ TEST(Components, FollowAWindingPathAsOne) {
   EXPECT_EQ(find_components(grid_of(path), {}, 1)->voxel_count.size(), 1u);
 }
 
+/// A column of voxels from low to high, one point each.
+void add_column(std::vector<std::pair<VoxelIndex, int>>& voxels, int x, int low, int high) {
+  for (int y = low; y <= high; ++y) voxels.push_back({{x, y, 0}, 1});
+}
+
+TEST(Components, WhatFloatsBelongsToTheNearestThatStands) {
+  std::vector<std::pair<VoxelIndex, int>> voxels;
+  add_column(voxels, 0, 0, 30);   // stands
+  add_column(voxels, 40, 0, 29);  // stands
+  add_column(voxels, 0, 36, 55);  // floats above the first,
+  add_column(voxels, 0, 61, 79);  // and this above that
+  const VoxelGrid grid = grid_of(voxels);
+  EXPECT_EQ(find_components(grid, {}, 1)->voxel_count.size(), 4u);
+  const auto c = find_components(grid, {}, 1, 2.0);
+  ASSERT_TRUE(c);
+  EXPECT_EQ(c->joined, 2u);
+  ASSERT_EQ(c->voxel_count.size(), 2u);
+  EXPECT_EQ(c->voxel_count[0], 31u + 20u + 19u);
+  EXPECT_EQ(label_at(grid, *c, {0, 79, 0}), label_at(grid, *c, {0, 0, 0}));
+  EXPECT_NE(label_at(grid, *c, {40, 0, 0}), label_at(grid, *c, {0, 0, 0}));
+}
+
+TEST(Components, NothingIsJoinedAcrossMoreThanHalfItsSizeNorWithoutAnythingThatStands) {
+  std::vector<std::pair<VoxelIndex, int>> voxels;
+  add_column(voxels, 0, 0, 20);
+  add_column(voxels, 0, 32, 50);  // 12 voxels above
+  EXPECT_EQ(find_components(grid_of(voxels), {}, 1, 2.0)->joined, 0u);
+  EXPECT_EQ(find_components(grid_of(voxels), {}, 1, -5.0)->voxel_count.size(), 2u);
+}
+
+TEST(Components, CrumbsThatFloatAreStillCrumbs) {
+  std::vector<std::pair<VoxelIndex, int>> voxels;
+  add_column(voxels, 0, 0, 200);
+  add_column(voxels, 0, 202, 203);
+  const auto c = find_components(grid_of(voxels), {}, 1, 2.0);
+  EXPECT_EQ(c->joined, 0u);
+  EXPECT_EQ(c->crumbs, 1u);
+}
+
 TEST(ComponentOptions, RefuseWhatIsNeitherAWordNorANumber) {
   ComponentOptions options;
   for (const char* wrong : {"some", "0", "-1", "1.5", "", "nan"}) {

@@ -148,5 +148,27 @@ TEST(CloudStatistics, FindThicknessAndDensity) {
   EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
 }
 
+/// Lines along X of points 0.5 mm apart, one a frame and 4 mm beside the last.
+MergedCloud lines(std::uint32_t frames) {
+  MergedCloud merged;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    for (int i = 0; i < 400; ++i) {
+      merged.cloud.points.emplace_back(0.0005f * float(i), 0.0f, 0.004f * float(f));
+      merged.cloud.frame.push_back(f);
+    }
+  }
+  return merged;
+}
+
+TEST(CloudStatistics, DensityOfLinesIsThatOfTheSurface) {
+  EXPECT_NEAR(cloud_statistics(lines(60), 0.0015).spacing_m, std::sqrt(0.0005 * 0.004), 0.0003);
+}
+
+TEST(CloudStatistics, FramesOfALineScannerLieApart) {
+  EXPECT_NEAR(frames_apart(lines(60), 0.0005), 0.004, 1e-6);
+  EXPECT_EQ(frames_apart(lines(1), 0.0005), 0.0);
+  EXPECT_LT(frames_apart(testing::noisy_plane(20000, 0.05, 0.001), 0.001), 0.003);
+}
+
 }  // namespace
 }  // namespace turnscan

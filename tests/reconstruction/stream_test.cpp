@@ -8,6 +8,7 @@
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/turntable/rotation.hpp>
 
 namespace turnscan {
 namespace {
@@ -186,6 +187,78 @@ TEST(ReconstructionStream, PointMethodsSayThatTheyHaveNoPreview) {
   const auto stream =
       ReconstructionStream::create(ball(1).header(), with(SurfaceMethod::kPoisson)).value();
   EXPECT_EQ(stream.preview().error().code, ErrorCode::kInvalidOption);
+}
+
+TEST(ReconstructionStream, PassesAreNotMixed) {
+  MemorySequence sequence = ball(40);
+  for (std::uint32_t f = 0; f < 40; ++f)
+    sequence.data[f].info.pass = f / 30;
+  ReconstructOptions options = with(SurfaceMethod::kVolumetric);
+  const auto mixed = streamed(sequence, options, 7);
+  ASSERT_FALSE(mixed);
+  EXPECT_EQ(mixed.error().code, ErrorCode::kInvalidOption);
+  EXPECT_NE(mixed.error().message.find("--pass"), std::string::npos) << mixed.error().message;
+  options.merge.pass = 2;
+  EXPECT_FALSE(streamed(sequence, options, 7));
+  options.merge.pass = 0;
+  const auto one = streamed(sequence, options, 7);
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_EQ(one->frames, 30u);
+  options.merge.pass.reset();
+  EXPECT_EQ(one->objects.at(0).mesh.vertices,
+            streamed(ball(30), options, 30)->objects.at(0).mesh.vertices);
+}
+
+TEST(ReconstructionStream, PassesWithPosesOfTheirOwnComeTogether) {
+  MemorySequence sequence = ball(40);
+  FramePoser poser(sequence.header(), std::nullopt);
+  for (std::uint32_t f = 0; f < 40; ++f) {
+    FrameInfo& info = sequence.data[f].info;
+    info.T_table_sensor = *poser(info);
+    info.pass = f / 30;
+  }
+  const auto result = streamed(sequence, with(SurfaceMethod::kVolumetric), 40);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->frames, 40u);
+}
+
+/// Upright profiles of a ball on the platter, as a line scanner gives them: no grid.
+MemorySequence profiles(std::uint32_t count) {
+  MemorySequence sequence;
+  SensorInfo sensor;
+  sensor.kind = SensorKind::kPointScanner;
+  sensor.T_table_sensor = Pose::Identity();
+  sensor.viewpoint = {Vec3d(0, kRadius, -0.5), false};
+  sequence.header_value.sensors = {sensor};
+  TurntableInfo table;
+  table.radius_m = 0.1;
+  sequence.header_value.turntable = table;
+  for (std::uint32_t f = 0; f < count; ++f) {
+    Frame frame;
+    frame.info.index = f;
+    frame.info.angle_rad = 2.0 * std::numbers::pi * f / count;
+    for (int i = 1; i < 120; ++i) {
+      const double a = std::numbers::pi * i / 120.0;
+      frame.points.points.emplace_back(0.0f, float(kRadius * (1.0 - std::cos(a))),
+                                       float(-kRadius * std::sin(a)));
+    }
+    sequence.add(std::move(frame));
+  }
+  return sequence;
+}
+
+TEST(ReconstructionStream, ProfilesOfALineScannerBecomeOneObjectByEitherMethod) {
+  const MemorySequence sequence = profiles(48);  // 4 mm apart at the widest, points 0.8 mm
+  const auto poisson = streamed(sequence, with(SurfaceMethod::kPoisson), 100);
+  const auto volumetric = streamed(sequence, with(SurfaceMethod::kVolumetric), 7);
+  ASSERT_TRUE(poisson) << poisson.error().message;
+  ASSERT_TRUE(volumetric) << volumetric.error().message;
+  ASSERT_EQ(poisson->objects.size(), 1u);
+  EXPECT_TRUE(poisson->objects[0].check.watertight());
+  EXPECT_NEAR(bounds(poisson->objects[0].mesh.vertices).size().x(), 2 * kRadius, 0.004);
+  ASSERT_EQ(volumetric->objects.size(), 1u);
+  EXPECT_EQ(volumetric->objects[0].mesh.vertices, poisson->objects[0].mesh.vertices);
+  EXPECT_EQ(poisson->notes.size() + 1, volumetric->notes.size());
 }
 
 }  // namespace
