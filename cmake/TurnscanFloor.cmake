@@ -20,6 +20,7 @@ function(turnscan_floor name)
   foreach(library IN LISTS FLOOR_PRIVATE_LIBRARIES)
     target_link_libraries(${target} PRIVATE ${library})
   endforeach()
+  turnscan_use_precompiled(${target})
   foreach(header IN LISTS FLOOR_HEADERS)
     install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/${header}"
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/turnscan/${name}")

@@ -19,7 +19,6 @@ function(turnscan_kernels target name)
   foreach(source IN LISTS KERNEL_SOURCES)
     string(REGEX MATCH "_([a-z0-9]+)[.]cpp$" match "${source}")
     target_sources(${target} PRIVATE ${source})
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
-                                "${KERNEL_OPTIONS};${flags_${CMAKE_MATCH_1}}")
+    turnscan_source_options(${source} OPTIONS ${KERNEL_OPTIONS} ${flags_${CMAKE_MATCH_1}})
   endforeach()
 endfunction()

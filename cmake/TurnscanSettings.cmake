@@ -12,7 +12,9 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 find_program(TURNSCAN_CCACHE ccache)
 if(TURNSCAN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${TURNSCAN_CCACHE}")
+  # What ccache asks for to work with precompiled headers: it hashes them, and sources name no time.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${TURNSCAN_CCACHE}")
   set(CMAKE_C_COMPILER_LAUNCHER "${TURNSCAN_CCACHE}")
 endif()
 

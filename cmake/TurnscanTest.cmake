@@ -4,6 +4,14 @@ include(GoogleTest)
 # Builds every unit test, and nothing that they do not need.
 add_custom_target(unit_tests)
 
+# Headers of every test, parsed once. A program, not a library, because it shares its flags with
+# programs.
+add_executable(turnscan_test_precompiled "${CMAKE_SOURCE_DIR}/cmake/empty.cpp")
+target_link_libraries(turnscan_test_precompiled PRIVATE Eigen3::Eigen fmt::fmt tl::expected
+                      GTest::gmock turnscan_settings turnscan_warnings)
+turnscan_precompile(turnscan_test_precompiled ${TURNSCAN_COMMON_HEADERS} <gtest/gtest.h>
+                    <gmock/gmock.h>)
+
 # turnscan_test(NAME SOURCES a.cpp ... [USES targets]): a GoogleTest program; each of its tests is
 # one CTest test named FLOOR.Suite.Sentence, with the label unit.
 function(turnscan_test name)
@@ -14,6 +22,7 @@ function(turnscan_test name)
                                           turnscan_settings turnscan_warnings)
   target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")
   target_compile_definitions(${target} PRIVATE TURNSCAN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  target_precompile_headers(${target} REUSE_FROM turnscan_test_precompiled)
   add_dependencies(unit_tests ${target})
   gtest_discover_tests(${target} TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS unit
                        DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST)

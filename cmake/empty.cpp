@@ -1,0 +1,2 @@
+// Carries precompiled headers (TurnscanPrecompiled.cmake).
+int main() { return 0; }
