@@ -36,7 +36,8 @@ ColorImage some_color(int width, int height) {
 
 /// A PNG of any kind, written by libpng itself; rows of zeros unless pixels are given.
 std::string png_of(std::uint32_t width, std::uint32_t height, int depth, int type,
-                   const std::string& pixels = "", bool interlaced = false) {
+                   const std::string& pixels = "", bool interlaced = false,
+                   int filters = PNG_ALL_FILTERS, std::size_t chunk = 8192) {
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
@@ -49,6 +50,8 @@ std::string png_of(std::uint32_t width, std::uint32_t height, int depth, int typ
       [](png_structp) {});
   png_set_IHDR(png, info, width, height, depth, type,
                interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, 0, 0);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, filters);
+  png_set_compression_buffer_size(png, chunk);
   const png_color palette[2] = {{10, 20, 30}, {200, 100, 50}};
   if (type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 2);
   png_write_info(png, info);
@@ -108,6 +111,45 @@ TEST(DepthPng, ReadsInterlacedFiles) {
   ASSERT_TRUE(interlaced);
   EXPECT_EQ(plain->pixels, interlaced->pixels);
   EXPECT_EQ(plain->pixels[1], 0x0203);
+}
+
+/// A ball before nothing, with noise, as big-endian values.
+std::string noisy_ball(int width, int height, std::vector<std::uint16_t>& values) {
+  std::string pixels;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool ball = std::hypot(x - width / 2, y - height / 2) < height / 3;
+      values.push_back(ball ? std::uint16_t(4400 + 300 * uniform01(hash_key(7, x, y))) : 0);
+      pixels += static_cast<char>(values.back() >> 8);
+      pixels += static_cast<char>(values.back() & 255);
+    }
+  }
+  return pixels;
+}
+
+TEST(DepthPng, ReadsEveryFilterOfLibpngInAnyNumberOfChunks) {
+  std::vector<std::uint16_t> values;
+  const std::string pixels = noisy_ball(61, 47, values);
+  for (const int filters : {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
+                            PNG_FILTER_PAETH, PNG_ALL_FILTERS}) {
+    for (const std::size_t chunk : {std::size_t{64}, std::size_t{100'000}}) {
+      const auto image =
+          decode_depth_png(png_of(61, 47, 16, PNG_COLOR_TYPE_GRAY, pixels, false, filters, chunk));
+      ASSERT_TRUE(image) << image.error().text();
+      EXPECT_EQ(image->pixels, values) << filters << ", " << chunk;
+    }
+  }
+}
+
+TEST(DepthPng, IsReadByLibpngAsWritten) {
+  DepthImage image(61, 47);
+  image.pixels.clear();
+  const std::string pixels = noisy_ball(61, 47, image.pixels);
+  // libpng's colours are the upper bytes.
+  const auto upper = decode_color(encode_depth_png(image).value());
+  ASSERT_TRUE(upper) << upper.error().text();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    EXPECT_NEAR(upper->pixels[i].r, image.pixels[i] / 257.0, 0.51) << i;
 }
 
 TEST(DepthPng, RefusesEveryOtherKindOfPng) {
