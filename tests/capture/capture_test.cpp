@@ -18,7 +18,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 
 // Small and quick to render; 15 frames a turn.
 const std::string kSmall =
-    "virtual:doll?sensor=kinect-v1&distance=3m&fps=30&prepared=15&speed=720deg/s";
+    "virtual:letter-a?sensor=kinect-v1&distance=3m&fps=30&prepared=15&speed=720deg/s";
 
 struct Recorded {
   Result<CaptureResult> result;
