@@ -3,12 +3,14 @@
 
 #include <turnscan/capture/plugin.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace turnscan::plugin {
 
@@ -56,20 +58,43 @@ inline bool flag_of(const turnscan_parameter* parameters, std::int32_t count, co
                 std::string(name) + " = " + text + " is neither 0 nor 1; write one of them"};
 }
 
-/// The table of a driver whose device is a class with a constructor (address, parameters, count),
-/// describe(info), start(), stop() and grab(timeout_s, frame).
-template <class Device>
+/// As list() of the interface, of the devices that `find` gives.
+inline std::int32_t list_devices(std::vector<turnscan_device_entry> (*find)(),
+                                 turnscan_device_entry* entries, std::int32_t capacity,
+                                 turnscan_error* error) {
+  return guarded(error, [&] {
+    const std::vector<turnscan_device_entry> found = find();
+    const auto fits = std::min(found.size(), static_cast<std::size_t>(std::max(capacity, 0)));
+    std::copy_n(found.begin(), fits, entries);
+    return static_cast<std::int32_t>(found.size());
+  });
+}
+
+/// A device for the list; where it has no serial number, it is called by its place.
+inline turnscan_device_entry device_entry(const std::string& model, const std::string& serial,
+                                          std::size_t place) {
+  turnscan_device_entry entry{};
+  put_text(entry.address, serial.empty() ? std::to_string(place) : serial);
+  put_text(entry.model, model);
+  put_text(entry.serial, serial);
+  return entry;
+}
+
+/// The table of a driver whose devices are found by the function `find`, and are a class with a
+/// constructor (address, parameters, count), describe(info), start(), stop() and
+/// grab(timeout_s, frame).
+template <class Device, std::vector<turnscan_device_entry> (*find)(), std::size_t N>
 constexpr turnscan_plugin plugin_of(const char* name, const char* description,
-                                    const turnscan_parameter_info* parameters, std::int32_t count,
-                                    std::int32_t (*list)(turnscan_device_entry*, std::int32_t,
-                                                         turnscan_error*)) {
+                                    const turnscan_parameter_info (&parameters)[N]) {
   turnscan_plugin plugin{};
   plugin.version = TURNSCAN_PLUGIN_VERSION;
   plugin.name = name;
   plugin.description = description;
   plugin.parameters = parameters;
-  plugin.parameter_count = count;
-  plugin.list = list;
+  plugin.parameter_count = static_cast<std::int32_t>(N);
+  plugin.list = [](turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
+    return list_devices(find, entries, capacity, error);
+  };
   plugin.open = [](const char* address, const turnscan_parameter* given, std::int32_t given_count,
                    turnscan_device** device, turnscan_error* error) {
     return guarded(error, [&] {
@@ -101,4 +126,9 @@ constexpr turnscan_plugin plugin_of(const char* name, const char* description,
 
 }  // namespace turnscan::plugin
 
-#define TURNSCAN_PLUGIN_EXPORT extern "C" __attribute__((visibility("default")))
+/// Makes the table of a driver, a constant in turnscan::plugin, what the library exports.
+#define TURNSCAN_EXPORT_PLUGIN(table)                                                             \
+  extern "C" __attribute__((visibility("default"))) const turnscan_plugin* turnscan_plugin_entry( \
+      void) {                                                                                     \
+    return &turnscan::plugin::table;                                                              \
+  }

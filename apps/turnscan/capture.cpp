@@ -17,8 +17,9 @@ namespace {
 class CaptureCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.required_option("--device", "URI", setup_.device,
-                         "Sensor to record from, e.g. virtual:doll (see docs/capture.md)");
+    line.required_repeatable("--device", "URI", setup_.devices,
+                             "Sensor to record from, e.g. virtual:doll (see docs/capture.md). May "
+                             "be given several times: one recording of all of them");
     line.required_option("-o,--out", "RECORDING", out_,
                          "Folder to make for the recording; it must not exist or be empty");
     line.option("--report", "FILE.json", report_, "Write what was recorded and lost as JSON");

@@ -1,6 +1,7 @@
 #include "capture_setup.hpp"
 
 #include <turnscan/recording/calibration_file.hpp>
+#include <turnscan/turntable/table_frame.hpp>
 
 #include "command_line.hpp"
 
@@ -36,8 +37,12 @@ void CaptureSetup::declare_table(CommandLine& line) {
 }
 
 Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
+  if (devices.size() > 1 && !turntable_file.empty())
+    return fail(ErrorCode::kInvalidOption,
+                "turntable: {} tells where one sensor stands, but {} are given; leave it out",
+                turntable_file, devices.size());
   session.context().begin_phase("open device", 0);
-  TURNSCAN_ASSIGN(auto source, open_source(device, session.context()));
+  TURNSCAN_ASSIGN(auto source, open_sources(devices, session.context()));
   header = source->info().header;
   header.source = source->info().uri;
   settings = source->info().settings;
@@ -48,12 +53,17 @@ Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
     TURNSCAN_ASSIGN(const Calibration calibration, read_calibration(turntable_file));
     header.turntable = calibration.table;
     if (calibration.depth) header.sensors[0].depth_bias_m = calibration.depth->bias_m;
-    // Of several sensors only the first one's place is in the file.
     header.sensors[0].T_table_sensor.reset();
   }
   if (!motor_port.empty() && !options.speed_rad_s) options.speed_rad_s = motor_speed_rad_s;
   if (header.turntable && options.speed_rad_s) header.turntable->speed_rad_s = options.speed_rad_s;
   return source;
+}
+
+bool CaptureSetup::places_known() const {
+  for (std::size_t i = 0; i < header.sensors.size(); ++i)
+    if (!sensor_pose(header, i)) return false;
+  return true;
 }
 
 Result<std::optional<Motor>> CaptureSetup::open_motor(Session& session) {

@@ -13,7 +13,7 @@ namespace turnscan::cli {
 class CommandLine;
 
 struct CaptureSetup {
-  std::string device;
+  std::vector<std::string> devices;  ///< their frames go into one recording
   std::string turntable_file;
   std::string motor_port;
   MotorOptions motor;
@@ -28,8 +28,10 @@ struct CaptureSetup {
   void declare(CommandLine& line);
   /// Speed and crop, whose names are those of stages in turnscan scan.
   void declare_table(CommandLine& line);
-  /// Opens the sensor and makes header and settings.
+  /// Opens the sensors and makes header and settings.
   Result<std::unique_ptr<FrameSource>> open(Session& session);
+  /// Whether it is known of every sensor where it stands.
+  bool places_known() const;
   Result<std::optional<Motor>> open_motor(Session& session);
 };
 

@@ -152,6 +152,12 @@ void CommandLine::repeatable(const std::string& names, const std::string& label,
   declare(app_.add_option(names, values), label, help)->allow_extra_args(false);
 }
 
+void CommandLine::required_repeatable(const std::string& names, const std::string& label,
+                                      std::vector<std::string>& values, const std::string& help) {
+  repeatable(names, label, values, help);
+  app_.get_options().back()->required();
+}
+
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
   declare(app_.add_flag(names, value), "", help);
 }

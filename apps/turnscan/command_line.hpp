@@ -60,6 +60,9 @@ class CommandLine {
   /// May be given several times.
   void repeatable(const std::string& names, const std::string& label,
                   std::vector<std::string>& values, const std::string& help);
+  /// Must be given once at least.
+  void required_repeatable(const std::string& names, const std::string& label,
+                           std::vector<std::string>& values, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
 
   /// Fields of an options struct, which must outlive this. With allow_config() before, they can

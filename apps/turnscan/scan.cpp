@@ -104,8 +104,9 @@ class ScanCommand : public Command {
   ScanCommand() { options_.surface.method = SurfaceMethod::kVolumetric; }
 
   void declare(CommandLine& line) override {
-    line.required_option("--device", "URI", setup_.device,
-                         "Sensor to scan with, e.g. virtual:doll (see docs/capture.md)");
+    line.required_repeatable("--device", "URI", setup_.devices,
+                             "Sensor to scan with, e.g. virtual:doll (see docs/capture.md). May be "
+                             "given several times: one mesh from all of them");
     line.required_option("-o,--out", "MESH", out_,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm");
     line.option("--recording", "FOLDER", recording_,
@@ -166,8 +167,13 @@ class ScanCommand : public Command {
   /// Checks where the table is said to be; where nobody says it, a calibration that was kept of
   /// this device, or else the platter, shows it.
   Result<> find_table(FrameSource& source, Session& session) {
-    table_known_ = setup_.header.turntable.has_value();
+    table_known_ = setup_.header.turntable && setup_.places_known();
     if (table_known_ && setup_.turntable_file.empty()) return {};
+    if (!table_known_ && setup_.devices.size() > 1) {
+      // A platter tells where each sensor stands, but not in which direction from each other.
+      notes_.push_back("where the sensors stand comes from the object's motion alone");
+      return {};
+    }
     session.context().begin_phase("look for the turntable", 0);
     auto scan = mean_of_next(source, kDetectFrames, session.context());
     const auto none = [](const Error& error) {
@@ -218,6 +224,7 @@ class ScanCommand : public Command {
     set_table((*kept)->table);
     if ((*kept)->depth) setup_.header.sensors[0].depth_bias_m = (*kept)->depth->bias_m;
     notes_.push_back("the turntable's place is the one that was kept of this device");
+    table_known_ = true;
     return true;
   }
 

@@ -316,29 +316,21 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
 namespace turnscan::plugin {
 namespace {
 
-std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    const Context context;
-    const std::vector<std::string> serials = serials_of(context.get());
-    for (std::size_t i = 0; i < serials.size() && i < static_cast<std::size_t>(capacity); ++i) {
-      entries[i] = {};
-      put_text(entries[i].address, serials[i].empty() ? std::to_string(i) : serials[i]);
-      put_text(entries[i].model, kModel);
-      put_text(entries[i].serial, serials[i]);
-    }
-    return static_cast<std::int32_t>(serials.size());
-  });
+std::vector<turnscan_device_entry> find_devices() {
+  const Context context;
+  std::vector<turnscan_device_entry> found;
+  for (const std::string& serial : serials_of(context.get()))
+    found.push_back(device_entry(kModel, serial, found.size()));
+  return found;
 }
 
 constexpr turnscan_parameter_info kParameters[] = {
     {"color", "Also take colours; depth is then seen from the colour camera: 0 or 1", "0"}};
 
-constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device>(
-    "freenect", "Kinect for Xbox 360, Kinect for Windows v1 (libfreenect)", kParameters, 1, list);
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device, find_devices>(
+    "freenect", "Kinect for Xbox 360, Kinect for Windows v1 (libfreenect)", kParameters);
 
 }  // namespace
 }  // namespace turnscan::plugin
 
-TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
-  return &turnscan::plugin::kPlugin;
-}
+TURNSCAN_EXPORT_PLUGIN(kPlugin)

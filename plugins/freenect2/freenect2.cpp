@@ -181,29 +181,22 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
 namespace turnscan::plugin {
 namespace {
 
-std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    const int found = library().enumerateDevices();
-    for (int i = 0; i < found && i < capacity; ++i) {
-      entries[i] = {};
-      put_text(entries[i].address, library().getDeviceSerialNumber(i));
-      put_text(entries[i].model, "kinect-v2");
-      put_text(entries[i].serial, entries[i].address);
-    }
-    return found;
-  });
+std::vector<turnscan_device_entry> find_devices() {
+  std::vector<turnscan_device_entry> found;
+  const int count = library().enumerateDevices();
+  for (int i = 0; i < count; ++i)
+    found.push_back(device_entry("kinect-v2", library().getDeviceSerialNumber(i), found.size()));
+  return found;
 }
 
 constexpr turnscan_parameter_info kParameters[] = {
     {"color", "Also take colours, laid on the depth, which is then undistorted: 0 or 1", "0"},
     {"mirrored", "Whether the camera's image is mirrored and is to be turned back: 0 or 1", "1"}};
 
-constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device>(
-    "freenect2", "Kinect for Xbox One, Kinect for Windows v2 (libfreenect2)", kParameters, 2, list);
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device, find_devices>(
+    "freenect2", "Kinect for Xbox One, Kinect for Windows v2 (libfreenect2)", kParameters);
 
 }  // namespace
 }  // namespace turnscan::plugin
 
-TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
-  return &turnscan::plugin::kPlugin;
-}
+TURNSCAN_EXPORT_PLUGIN(kPlugin)

@@ -203,33 +203,28 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
 namespace turnscan::plugin {
 namespace {
 
-std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    const auto found = static_cast<std::int32_t>(k4a_device_get_installed_count());
-    for (std::int32_t i = 0; i < found && i < capacity; ++i) {
-      entries[i] = {};
-      put_text(entries[i].model, "azure-kinect");
-      k4a_device_t device = nullptr;
-      if (k4a_device_open(static_cast<std::uint32_t>(i), &device) == K4A_RESULT_SUCCEEDED) {
-        put_text(entries[i].serial, serial_of(device));
-        k4a_device_close(device);
-      }
-      put_text(entries[i].address,
-               entries[i].serial[0] != '\0' ? std::string(entries[i].serial) : std::to_string(i));
+std::vector<turnscan_device_entry> find_devices() {
+  std::vector<turnscan_device_entry> found;
+  const std::uint32_t count = k4a_device_get_installed_count();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::string serial;
+    k4a_device_t device = nullptr;
+    if (k4a_device_open(i, &device) == K4A_RESULT_SUCCEEDED) {
+      serial = serial_of(device);
+      k4a_device_close(device);
     }
-    return found;
-  });
+    found.push_back(device_entry("azure-kinect", serial, i));
+  }
+  return found;
 }
 
 constexpr turnscan_parameter_info kParameters[] = {
     {"mode", "nfov (640x576), nfov-binned (320x288) or wfov-binned (512x512)", "nfov"}};
 
-constexpr turnscan_plugin kPlugin =
-    plugin_of<turnscan_device>("k4a", "Azure Kinect, Orbbec Femto (k4a)", kParameters, 1, list);
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device, find_devices>(
+    "k4a", "Azure Kinect, Orbbec Femto (k4a)", kParameters);
 
 }  // namespace
 }  // namespace turnscan::plugin
 
-TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
-  return &turnscan::plugin::kPlugin;
-}
+TURNSCAN_EXPORT_PLUGIN(kPlugin)

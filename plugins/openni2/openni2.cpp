@@ -1,73 +1,17 @@
 // Depth sensors with an OpenNI 2 driver (PrimeSense, Asus Xtion, Orbbec Astra), and .oni files.
 
-#include <OpenNI.h>
-
-#include <atomic>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <optional>
-#include <thread>
-#include <vector>
 
-#include "../plugin_support.hpp"
+#include "openni2_library.hpp"
 
 namespace turnscan::plugin {
 namespace {
 
 constexpr double kMicrosecond = 1e-6;
-
-std::string last_error() {
-  std::string text = openni::OpenNI::getExtendedError();
-  for (char& c : text)
-    if (c == '\n' || c == '\t' || c == '\r') c = ' ';
-  const std::size_t first = text.find_first_not_of(' ');
-  const std::size_t last = text.find_last_not_of(" .!");
-  if (first == std::string::npos || last < first) return "no reason given";
-  return text.substr(first, last - first + 1);
-}
-
-bool says(const std::string& text, std::initializer_list<const char*> words) {
-  for (const char* word : words)
-    if (text.find(word) != std::string::npos) return true;
-  return false;
-}
-
-/// OpenNI has one status for everything; what it was shows in the text. Its drivers for USB sensors
-/// say of whatever libusb refuses that they failed to open the device (which is the user's rights,
-/// as a device that is gone is "not found"), or to set its interface (which another program has).
-Failure open_failure(const std::string& why) {
-  if (says(why, {"no devices found"}))
-    return {TURNSCAN_NOT_FOUND, "no OpenNI 2 sensor is connected; plug it in"};
-  if (says(why, {"ermission", "ccess denied", "ACCESS", "Failed to open the USB device"}))
-    return {TURNSCAN_DENIED,
-            "this user may not open the sensor (" + why +
-                "); install the udev rule of docs/devices.md and plug it in again"};
-  if (says(why, {"busy", "BUSY", "in use", "already open", "Failed to set USB interface"}))
-    return {TURNSCAN_BUSY, "another program uses the sensor (" + why + "); close that program"};
-  if (says(why, {"disconnected", "NO_DEVICE", "USB device not found"}))
-    return {TURNSCAN_LOST, "the sensor went away (" + why + "); check the cable"};
-  if (says(why, {"Couldn't open device"}))
-    return {TURNSCAN_NOT_FOUND, "no driver of OpenNI 2 opens it (" + why +
-                                    "); 'turnscan devices' lists what is connected"};
-  return {TURNSCAN_FAILED, "OpenNI 2 failed (" + why + "); plug the sensor in again"};
-}
-
-/// Started once in a process. It is not shut down: drivers leave threads behind that would then run
-/// without their library.
-void start_library() {
-  static std::mutex mutex;
-  static bool started = false;
-  const std::lock_guard lock(mutex);
-  if (started) return;
-  if (openni::OpenNI::initialize() != openni::STATUS_OK)
-    throw Failure{TURNSCAN_FAILED, "OpenNI 2 cannot start (" + last_error() +
-                                       "); check that its drivers are installed"};
-  started = true;
-}
 
 double number_of(const std::string& text, const char* name, double low, double high) {
   double value = 0.0;
@@ -78,51 +22,6 @@ double number_of(const std::string& text, const char* name, double low, double h
                                               std::to_string(static_cast<int>(high))};
   return value;
 }
-
-class Disconnects : public openni::OpenNI::DeviceDisconnectedListener {
- public:
-  explicit Disconnects(std::string uri) : uri_(std::move(uri)) {
-    openni::OpenNI::addDeviceDisconnectedListener(this);
-  }
-  ~Disconnects() override { openni::OpenNI::removeDeviceDisconnectedListener(this); }
-  Disconnects(const Disconnects&) = delete;
-  Disconnects& operator=(const Disconnects&) = delete;
-  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
-    if (uri_ == info->getUri()) gone_ = true;
-  }
-  bool gone() const { return gone_; }
-
- private:
-  std::string uri_;
-  std::atomic<bool> gone_ = false;
-};
-
-/// Some drivers (OpenNI's own dummy is one) tell their thread to stop and do not wait for it; it
-/// would use a stream that is no more.
-constexpr auto kThreadEnds = std::chrono::milliseconds(100);
-
-/// A stream that is destroyed before its device.
-struct Stream {
-  openni::VideoStream stream;
-  bool was_started = false;
-  Stream() = default;
-  ~Stream() {
-    if (!stream.isValid()) return;
-    stream.stop();
-    if (was_started) std::this_thread::sleep_for(kThreadEnds);
-    stream.destroy();
-  }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-};
-
-struct Device {
-  openni::Device device;
-  Device() = default;
-  ~Device() { device.close(); }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-};
 
 bool is_depth(openni::PixelFormat format) {
   return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
@@ -398,20 +297,6 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
 namespace turnscan::plugin {
 namespace {
 
-std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    start_library();
-    openni::Array<openni::DeviceInfo> devices;
-    openni::OpenNI::enumerateDevices(&devices);
-    for (int i = 0; i < devices.getSize() && i < capacity; ++i) {
-      entries[i] = {};
-      put_text(entries[i].address, devices[i].getUri());
-      put_text(entries[i].model, devices[i].getName());
-    }
-    return devices.getSize();
-  });
-}
-
 constexpr turnscan_parameter_info kParameters[] = {
     {"color", "Also take colours that the sensor lays on its depth: 0 or 1", "0"},
     {"mode", "WIDTHxHEIGHT@RATE of the depth images", "the sensor's own"},
@@ -419,12 +304,10 @@ constexpr turnscan_parameter_info kParameters[] = {
      "the driver's"},
     {"speed", "Of an .oni file: 1 or max, which loses no frame", "max"}};
 
-constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device>(
-    "openni2", "PrimeSense, Asus Xtion, Orbbec Astra, .oni files (OpenNI 2)", kParameters, 4, list);
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device, find_devices>(
+    "openni2", "PrimeSense, Asus Xtion, Orbbec Astra, .oni files (OpenNI 2)", kParameters);
 
 }  // namespace
 }  // namespace turnscan::plugin
 
-TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
-  return &turnscan::plugin::kPlugin;
-}
+TURNSCAN_EXPORT_PLUGIN(kPlugin)

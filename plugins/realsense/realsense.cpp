@@ -181,19 +181,13 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
 namespace turnscan::plugin {
 namespace {
 
-std::int32_t list(turnscan_device_entry* entries, std::int32_t capacity, turnscan_error* error) {
-  return guarded(error, [&]() -> std::int32_t {
-    const rs2::context context;
-    const rs2::device_list devices = context.query_devices();
-    for (std::uint32_t i = 0; i < devices.size() && i < static_cast<std::uint32_t>(capacity); ++i) {
-      entries[i] = {};
-      const rs2::device device = devices[i];
-      put_text(entries[i].address, device.get_info(RS2_CAMERA_INFO_SERIAL_NUMBER));
-      put_text(entries[i].model, device.get_info(RS2_CAMERA_INFO_NAME));
-      put_text(entries[i].serial, entries[i].address);
-    }
-    return static_cast<std::int32_t>(devices.size());
-  });
+std::vector<turnscan_device_entry> find_devices() {
+  const rs2::context context;
+  std::vector<turnscan_device_entry> found;
+  for (const rs2::device device : context.query_devices())
+    found.push_back(device_entry(device.get_info(RS2_CAMERA_INFO_NAME),
+                                 device.get_info(RS2_CAMERA_INFO_SERIAL_NUMBER), found.size()));
+  return found;
 }
 
 constexpr turnscan_parameter_info kParameters[] = {
@@ -202,12 +196,10 @@ constexpr turnscan_parameter_info kParameters[] = {
     {"height", "Of the depth images in pixels; 0: the sensor's choice", "0"},
     {"fps", "Frames a second; 0: the sensor's choice", "0"}};
 
-constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device>(
-    "realsense", "Intel RealSense, .bag files (librealsense2)", kParameters, 4, list);
+constexpr turnscan_plugin kPlugin = plugin_of<turnscan_device, find_devices>(
+    "realsense", "Intel RealSense, .bag files (librealsense2)", kParameters);
 
 }  // namespace
 }  // namespace turnscan::plugin
 
-TURNSCAN_PLUGIN_EXPORT const turnscan_plugin* turnscan_plugin_entry(void) {
-  return &turnscan::plugin::kPlugin;
-}
+TURNSCAN_EXPORT_PLUGIN(kPlugin)

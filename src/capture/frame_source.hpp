@@ -22,6 +22,10 @@ struct SourceInfo {
   std::vector<std::string> identities;
   /// Sensors, and the turntable where the source knows it (replay; virtual on request).
   SequenceHeader header;
+  /// Where the source knows that, too (virtual on request): takes points from a frame that does not
+  /// turn, and that it has in common with other sources, to that of its turntable. What the axis
+  /// shows leaves open in which direction a sensor stands from another one.
+  std::optional<Pose> T_table_common;
   CaptureSettings settings;  ///< of the driver: mode, firmware, exposure; for recording.json
   double fps = 0.0;          ///< of each sensor, nominal; 0: unknown
   /// Frames come in their own time, and those that nobody takes in time are lost. False: frames

@@ -46,6 +46,7 @@ class ReplayGrabber : public Grabber {
     for (std::size_t k = 0; k < info_.header.sensors.size(); ++k)
       info_.identities.push_back(identity_text(fmt::format("replay-{}-{}", name, k)));
     find_rate();
+    find_turn();
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -69,6 +70,7 @@ class ReplayGrabber : public Grabber {
     }
     out.frame.info = listed;
     out.frame.info.time_s = time_s;
+    if (out.frame.info.angle_rad) *out.frame.info.angle_rad += lap_rad_;
     ++next_;
     return out;
   }
@@ -83,6 +85,7 @@ class ReplayGrabber : public Grabber {
   bool rewind() {
     if (!loop_ || recording_.frames().empty()) return false;
     lap_s_ += duration_s_;
+    lap_rad_ += turned_rad_;
     next_ = 0;
     return true;
   }
@@ -109,12 +112,25 @@ class ReplayGrabber : public Grabber {
                          : double(recording_.frames().size()) / info_.fps;
   }
 
+  /// By how much the table turns in a round: as if the first frame followed the last one.
+  void find_turn() {
+    std::size_t count = 0;
+    double first_rad = 0.0, last_rad = 0.0;
+    for (const FrameInfo& frame : recording_.frames()) {
+      if (frame.sensor != 0 || !frame.angle_rad) continue;
+      if (count++ == 0) first_rad = *frame.angle_rad;
+      last_rad = *frame.angle_rad;
+    }
+    if (count > 1) turned_rad_ = (last_rad - first_rad) * double(count) / double(count - 1);
+  }
+
   Recording recording_;
   SourceInfo info_;
   Pacer pacer_;
   bool loop_;
   bool timed_ = false;
   double duration_s_ = 0.0, lap_s_ = 0.0;
+  double turned_rad_ = 0.0, lap_rad_ = 0.0;
   std::size_t next_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <deque>
 #include <turnscan/capture/clock_offset.hpp>
 #include <turnscan/capture/grabber.hpp>
+#include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
 
@@ -145,6 +146,20 @@ class SeveralSources : public FrameSource {
   std::uint32_t next_index_ = 0;
 };
 
+/// The sensors' places before the turntable of the first source: each source's own table frame has
+/// a heading of its own, so that they are known only where both sources have more in common.
+std::vector<SensorInfo> sensors_before(const SourceInfo& first, const SourceInfo& one) {
+  std::vector<SensorInfo> sensors = one.header.sensors;
+  for (std::size_t k = 0; k < sensors.size(); ++k) {
+    const auto place = sensor_pose(one.header, k);
+    const bool known = place && first.T_table_common && one.T_table_common;
+    sensors[k].T_table_sensor.reset();
+    if (known)
+      sensors[k].T_table_sensor = *first.T_table_common * one.T_table_common->inverse() * *place;
+  }
+  return sensors;
+}
+
 Result<> add_to(SourceInfo& sum, const SourceInfo& one) {
   if (one.live != sum.live)
     return fail(ErrorCode::kInvalidOption,
@@ -158,8 +173,9 @@ Result<> add_to(SourceInfo& sum, const SourceInfo& one) {
                   "device '{}' is given twice ({}); of virtual ones give each a serial=", one.uri,
                   one.identities[k]);
     sum.identities.push_back(one.identities[k]);
-    sum.header.sensors.push_back(one.header.sensors[k]);
   }
+  for (SensorInfo& sensor : sensors_before(sum, one))
+    sum.header.sensors.push_back(std::move(sensor));
   for (const auto& [name, value] : one.settings)
     sum.settings[fmt::format("{} {}", one.identities.front(), name)] = value;
   sum.uri += " " + one.uri;

@@ -24,6 +24,7 @@ TurnCounter::TurnCounter(const SequenceHeader& header, std::optional<double> spe
       wait_(wait),
       attempt_s_(kFirstAttempt_s) {
   if (speed_) found_ = "stated speed";
+  if (header_.sensors.size() > 1) header_.sensors.resize(1);  // the first one shows the speed
 }
 
 TurnCounter::~TurnCounter() {

@@ -135,6 +135,7 @@ class VirtualGrabber : public Grabber {
     info_.uri = format_source_uri(uri);
     info_.driver = uri.scheme;
     info_.header = scan_.header();
+    if (info_.header.turntable) info_.T_table_common = scan_.T_table_given();
     info_.fps = d.scene.motion.fps;
     info_.live = pacer_.live();
     if (given(uri, "frames") || given(uri, "turns")) info_.frame_count = scan_.frames().size();

@@ -207,13 +207,16 @@ TEST(FrameSource, ReplayGivesTheFramesOfTheRecordingAndMarksTheLostOnes) {
   }
 }
 
-TEST(FrameSource, ReplayCanGoRoundWithTimeGoingOn) {
+TEST(FrameSource, ReplayCanGoRoundWithTimeAndTableGoingOn) {
   const TempFolder folder;
   const auto source = opened("replay:" + small_recording(folder).string() + "?speed=1000&loop=1");
   EXPECT_TRUE(source->info().live);
   ASSERT_TRUE(source->start());
-  for (std::uint32_t i = 0; i < 10; ++i)
-    EXPECT_NEAR(source->next(20.0, {})->frame.info.time_s, i / 30.0, 1e-9);
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const FrameInfo info = source->next(20.0, {})->frame.info;
+    EXPECT_NEAR(info.time_s, i / 30.0, 1e-9);
+    EXPECT_NEAR(*info.angle_rad, i * 0.1, 1e-9);
+  }
 }
 
 }  // namespace

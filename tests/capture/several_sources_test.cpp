@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <turnscan/capture/clock_offset.hpp>
 #include <turnscan/capture/device_calibration.hpp>
 #include <turnscan/capture/taken_frames.hpp>
@@ -58,6 +59,22 @@ TEST(SeveralSources, AreInterleavedByTimeWhateverTheirClocksSay) {
   }
   EXPECT_EQ(counts, (std::array<std::size_t, 3>{30, 45, 30}));
   EXPECT_EQ(source->statistics().delivered, 105u);
+}
+
+TEST(SeveralSources, StandBeforeOneTableInOneHeadingOrTheirPlacesAreNotKnown) {
+  const auto source =
+      opened({kOne + "&frames=1&calibration=true&azimuth=20deg",
+              kTwo + "&frames=1&calibration=true&azimuth=140deg", kOne + "&frames=1&serial=7"});
+  ASSERT_TRUE(source);
+  const auto& header = source->info().header;
+  // Around the table, counter-clockwise seen from above, from the first one's side of -Z on.
+  const auto azimuth = [&](std::size_t k) {
+    const Vec3d p = sensor_pose(header, k).value().translation();
+    return std::atan2(-p.x(), -p.z());
+  };
+  EXPECT_NEAR(azimuth(0), 0.0, 1e-9);
+  EXPECT_NEAR(azimuth(1), 2.0 * std::numbers::pi / 3.0, 1e-9);
+  EXPECT_FALSE(sensor_pose(header, 2));
 }
 
 TEST(SeveralSources, OneThatFallsSilentDoesNotHoldUpTheOthers) {

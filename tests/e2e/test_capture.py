@@ -101,13 +101,26 @@ class Capture(harness.TestCase):
         dropped = [line for line in frames_of(self.dir / "r") if line[-1] == "dropped"]
         self.assertEqual(len(dropped), 2)
 
-    def test_a_full_disk(self):
+    def mounted(self, options):
+        """A small file system in memory, in the folder small."""
         mount = self.dir / "small"
         mount.mkdir()
-        made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", mount],
+        made = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", mount],
                               capture_output=True)
         if made.returncode != 0:
             self.skipTest("mounting is not allowed here")
+        return mount
+
+    def test_a_disk_that_may_only_be_read(self):
+        mount = self.mounted("ro")
+        try:
+            self.refused(FAILED, "capture", "--device", SMALL, "-o", "small/r", "--frames", "3",
+                         says="small/r")
+        finally:
+            subprocess.run(["umount", mount], check=True)
+
+    def test_a_full_disk(self):
+        mount = self.mounted("size=1m")
         try:
             full = ("capture", "--device", SMALL, "-o", "small/r", "--until-stopped")
             self.refused(FAILED, *full, "--min-free", "0", says="small/r holds the")
@@ -186,6 +199,16 @@ class Scan(harness.TestCase):
         self.assertEqual(report["capture"]["turns_counted_by"], "motion")
         self.assertAlmostEqual(report["capture"]["turns"], 1.01, delta=0.05)
         self.assertTrue(description(self.dir / "doll.recording")["complete"])
+        # The next scan knows where the table is, and with its speed works while frames come.
+        self.ok("scan", "--device", self.DEVICE, "-o", "next.3mf", "--report", "r.json", "--speed",
+                "12deg/s", *self.FAST)
+        self.assert_closed("next.3mf")
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertIn("kept of this device", " ".join(report["notes"]))
+        self.ok("reconstruct", "next.recording", "-o", "again.3mf", "--calibration", "recorded",
+                "--method", "volumetric", "--voxel-size", "3mm", "--quiet")
+        self.assertEqual((self.dir / "next.3mf").read_bytes(),
+                         (self.dir / "again.3mf").read_bytes())
 
     def test_all_is_known_and_the_object_comes_later(self):
         self.ok("scan", "--device", self.DEVICE + "&calibration=true&appears=4s", "-o", "doll.3mf",
@@ -202,23 +225,43 @@ class Scan(harness.TestCase):
         self.refused(FAILED, "scan", "--device", self.DEVICE + "&fault=lost@8s", "-o", "doll.3mf",
                      "--min-free", "0", says=("doll-2.recording holds", "is complete"))
 
+    def test_two_sensors_make_one_mesh_without_a_double_surface(self):
+        # At different heights, on different sides, with clocks that do not agree.
+        device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&calibration=true"
+        self.ok("scan", "--device", device + "&elevation=12deg", "--device",
+                device + "&elevation=50deg&azimuth=120deg&seed=2&serial=1&clock=3s",
+                "-o", "doll.3mf", "--no-wait", *self.FAST)
+        objects = json.loads(self.ok("info", "--json", "doll.3mf").stdout)["objects"]
+        self.assertTrue(all(one["closed"] for one in objects), objects)
+        sensors = [line[2] for line in frames_of(self.dir / "doll.recording")]
+        self.assertLessEqual(abs(sensors.count("0") - sensors.count("1")), 1)
+        self.ok("simulate", "builtin:doll", "--frames", "1", "-o", "one")
+        self.ok("evaluate", "doll.3mf", "--reference", "one/truth/object.ply", "--samples", "20000",
+                "--json", "e.json")
+        found = json.loads((self.dir / "e.json").read_text())
+        self.assertLess(found["accuracy"]["median_m"], 0.0005)
+        self.assertLess(found["mesh_area_m2"], 1.1 * found["reference_area_m2"])
+
     def test_wrong_usage(self):
         self.refused(USAGE, "scan", "--device", self.DEVICE, "-o", "doll.xyz")
+        self.refused(USAGE, "scan", "--device", self.DEVICE, "--device", self.DEVICE + "&serial=1",
+                     "--turntable", "t.json", "-o", "doll.3mf", says="tells where one sensor")
+        self.refused(USAGE, "scan", "--device", self.DEVICE, "--device", self.DEVICE,
+                     "-o", "doll.3mf", says="given twice")
         self.refused(FAILED, "scan", "--device", "virtual:unicorn", "-o", "doll.3mf")
         self.assertEqual(self.files(), [])
 
 
 class Kill(harness.TestCase):
     """SIGKILL at random moments: every recording opens, holds every frame whose line is there, can be
-    repaired, and (some of them are tried) reconstructs."""
+    repaired, and reconstructs."""
 
     def kill_one(self, i, generator):
         out = self.dir / f"r{i}"
-        process = start("capture", "--device", SMALL + "&angles=1&calibration=true", "-o", out,
+        process = start("capture", "--device", f"replay:{self.dir}/played?loop=1", "-o", out,
                         "--until-stopped", *TIMED)
-        deadline = time.monotonic() + 60
-        while not (out / "frames.csv").exists() and time.monotonic() < deadline:
-            time.sleep(0.001)
+        # Nine in ten are killed while frames are written, the others from the very start on.
+        self.wait_for_lines(out, 0 if i % 10 == 9 else 2)
         time.sleep(generator.random() * 0.4)
         process.kill()
         process.communicate()
@@ -238,18 +281,38 @@ class Kill(harness.TestCase):
         self.assertEqual(list(out.rglob("*.part")), [])
         return out, len(lines)
 
+    def wait_for_lines(self, out, count):
+        """Until the table is there, with its heading and all but one of so many lines."""
+        end = time.monotonic() + harness.HANG_S
+        while time.monotonic() < end:
+            table = out / "frames.csv"
+            if table.exists() and table.read_bytes().count(b"\n") >= count:
+                return
+            time.sleep(0.001)
+        self.fail("no recording begins")
+
+    def reconstruct(self, out, count):
+        command = ("reconstruct", out, "-o", "m.ply", "--calibration", "recorded", "--method",
+                   "volumetric", "--voxel-size", "12mm", "--quiet")
+        if count == 0:
+            self.refused(FAILED, *command)
+        else:
+            self.ok(*command)
+
     def test_sigkill_at_random_moments(self):
+        # Played back, because that starts at once and writes as fast as it can.
+        self.ok("capture", "--device", SMALL + "&angles=1&calibration=true", "-o", "played",
+                "--frames", "15", *TIMED)
         generator = random.Random(7)
         counts = []
         for i in range(KILLS):
             out, count = self.kill_one(i, generator)
             counts.append(count)
-            if count >= 30 and i % max(1, KILLS // 4) == 0:
-                self.ok("reconstruct", out, "-o", f"m{i}.ply", "--calibration", "recorded",
-                        "--allow-open", "--voxel-size", "12mm", "--quiet")
+            self.reconstruct(out, count)
             harness.remove(out)
-        print(f"{KILLS} kills: every recording whole, {min(counts)} to {max(counts)} frames",
-              flush=True)
+        empty = counts.count(0)
+        print(f"{KILLS} kills: every recording whole, {min(counts)} to {max(counts)} frames; "
+              f"{KILLS - empty} reconstructed, {empty} had no frame yet", flush=True)
 
     def test_a_recording_that_goes_on_is_not_repaired(self):
         process = start("capture", "--device", SMALL + "&realtime=1", "-o", "r", "--until-stopped",
