@@ -79,17 +79,28 @@ std::string reason_list() {
   return out;
 }
 
-Result<CoverageMap> coverage_of(const VirtualScan& scan, const VirtualScanOptions& options,
-                                CoverageMapOptions coverage, const RunContext& context) {
+Result<CoverageMap> coverage_of(const VirtualPasses& scan, const std::vector<PlacedObject>& placed,
+                                const VirtualScanOptions& options, CoverageMapOptions coverage,
+                                const RunContext& context) {
   std::vector<ScannerModel> scanners;
   for (const VirtualScanner& scanner : options.scanners) scanners.push_back(scanner.model);
+  const auto T_table_object = [&](std::size_t k) {
+    return scan.pass(k).T_table_given() * placed.at(k).T_table_object;
+  };
+  std::vector<CoveragePass> further;
+  for (std::size_t k = 1; k < scan.count(); ++k)
+    further.push_back({&scan.pass(k).scene(), T_table_object(0) * T_table_object(k).inverse()});
   std::vector<CoveragePose> poses;
-  for (std::size_t i = 0; i < scan.frames().size(); ++i)
-    if (scan.frames()[i].status != FrameStatus::kDropped)
-      poses.push_back({scan.frames()[i].sensor, scan.T_table_sensor(i), scan.T_table_world(i)});
+  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
+    if (scan.frames()[i].status == FrameStatus::kDropped) continue;
+    const auto [k, there] = scan.place_of(i);
+    poses.push_back({scan.frames()[i].sensor, scan.pass(k).T_table_sensor(there),
+                     scan.pass(k).T_table_world(there), static_cast<std::uint32_t>(k)});
+  }
   coverage.noise = options.measure.noise == "model" || options.measure.noise == "physics";
-  return coverage_map(scan.scene(), scan.objects(), scanners, poses, coverage, context,
-                      scan.room());
+  const VirtualScan& first = scan.pass(0);
+  return coverage_map(first.scene(), first.objects(), scanners, poses, coverage, context,
+                      first.room(), further);
 }
 
 Result<> write_coverage_mesh(const std::filesystem::path& path, const CoverageMap& map,

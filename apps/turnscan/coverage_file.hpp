@@ -5,17 +5,20 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <turnscan/simulator/coverage_map.hpp>
-#include <turnscan/simulator/virtual_scan.hpp>
+#include <turnscan/simulator/object_placement.hpp>
+#include <turnscan/simulator/virtual_passes.hpp>
 
 namespace turnscan::cli {
 
 /// "0 none, 1 nothing, ...": the numbers of Miss, for headers of files.
 std::string reason_list();
 
-/// Of the objects of a virtual scan by those of its frames that are not dropped. options are those
-/// that the scan was made with. The room hides nothing. Fails as coverage_map does.
-Result<CoverageMap> coverage_of(const VirtualScan& scan, const VirtualScanOptions& options,
-                                CoverageMapOptions coverage, const RunContext& context);
+/// Of the objects of virtual scans by those of their frames that are not dropped, all passes
+/// together. options are those that the scans were made with; placed: how the object lies in each
+/// (may be left out of a single pass). Fails as coverage_map does.
+Result<CoverageMap> coverage_of(const VirtualPasses& scan, const std::vector<PlacedObject>& placed,
+                                const VirtualScanOptions& options, CoverageMapOptions coverage,
+                                const RunContext& context);
 
 /// Binary PLY of coverage_mesh(), each face with samples, views, density_per_mm2,
 /// best_incidence_deg, sigma_mm (NaN: none), state, reason (numbers of CoverageState and Miss),

@@ -103,7 +103,7 @@ class SimulateCommand : public Command {
     timing.record_s = seconds_since(begin) - timing.prepare_s;
     std::optional<CoverageMap> map;
     if (!coverage_.empty()) {
-      TURNSCAN_ASSIGN(map, cover(scan.pass(0), options, session.context()));
+      TURNSCAN_ASSIGN(map, cover(scan, placed, options, session.context()));
     }
     if (!report_.empty()) TURNSCAN_TRY(write_file_atomically(report_, report_json(scan, timing)));
     if (!out_.empty()) tell(scan, timing, session);
@@ -123,9 +123,6 @@ class SimulateCommand : public Command {
       TURNSCAN_ASSIGN(PassEntry pass, parse_pass_entry(text));
       scene_.next_passes.push_back(std::move(pass));
     }
-    if (!scene_.next_passes.empty() && !coverage_.empty())
-      return fail(ErrorCode::kInvalidOption,
-                  "--coverage: it tells of one pass; leave the others out, or run it for each");
     if (scanners_.empty()) return {};
     scene_.scanners.clear();
     for (const std::string& text : scanners_) {
@@ -151,9 +148,10 @@ class SimulateCommand : public Command {
     return fs::path(coverage_).replace_extension(".json").string();
   }
 
-  Result<CoverageMap> cover(const VirtualScan& scan, const VirtualScanOptions& options,
-                            const RunContext& context) const {
-    TURNSCAN_ASSIGN(CoverageMap map, coverage_of(scan, options, coverage_options_, context));
+  Result<CoverageMap> cover(const VirtualPasses& scan, const std::vector<PlacedObject>& placed,
+                            const VirtualScanOptions& options, const RunContext& context) const {
+    TURNSCAN_ASSIGN(CoverageMap map,
+                    coverage_of(scan, placed, options, coverage_options_, context));
     TURNSCAN_TRY(write_coverage_mesh(coverage_, map, coverage_options_));
     TURNSCAN_TRY(write_file_atomically(coverage_json_path(),
                                        coverage_json(map, coverage_options_).dump(2) + "\n"));

@@ -106,12 +106,14 @@ class Counter {
   /// seen: per cell the last frame counted on this thread, plus one.
   void count(std::size_t pose, SampleGrid& grid, std::vector<std::uint32_t>& seen) const {
     const CoveragePose& at = job_.poses[pose];
+    const CoveragePass& pass = job_.passes[at.pass];
     const std::array<Body, 2> bodies{
-        {{&job_.scene, Pose::Identity()}, {job_.room, at.T_table_room}}};
+        {{pass.scene, Pose::Identity()}, {job_.room, at.T_table_room}}};
     tracers_[at.scanner].trace(std::span(bodies).first(job_.room != nullptr ? 2 : 1),
                                at.T_table_sensor, grid);
-    const Eigen::Matrix3f turn = at.T_table_sensor.linear().cast<float>();
-    const Vec3f origin = at.T_table_sensor.translation().cast<float>();
+    const Pose T = at.pass == 0 ? at.T_table_sensor : pass.T_first_pass * at.T_table_sensor;
+    const Eigen::Matrix3f turn = T.linear().cast<float>();
+    const Vec3f origin = T.translation().cast<float>();
     for (int row = grid.rect.top; row < grid.rect.bottom; ++row) {
       for (int column = grid.rect.left; column < grid.rect.right; ++column) {
         const std::size_t i = grid.index(column, row);

@@ -6,7 +6,7 @@
 namespace turnscan {
 
 struct CoverageJob {
-  const Scene& scene;
+  std::vector<CoveragePass> passes;  ///< the first one, too
   std::span<const ScannerModel> scanners;
   std::span<const CoveragePose> poses;
   const CoverageMapOptions& options;

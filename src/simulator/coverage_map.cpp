@@ -20,11 +20,16 @@ Result<> check(const CoverageJob& job, std::span<const TriangleMesh> objects) {
     if (pose.scanner >= job.scanners.size())
       return fail(ErrorCode::kInvalidOption, "coverage: there is no scanner {}, only {}",
                   pose.scanner, job.scanners.size());
+  for (const CoveragePose& pose : job.poses)
+    if (pose.pass >= job.passes.size())
+      return fail(ErrorCode::kInvalidOption, "coverage: there is no pass {}, only {}", pose.pass,
+                  job.passes.size());
   if (std::all_of(objects.begin(), objects.end(), [](const auto& m) { return m.empty(); }))
     return fail(ErrorCode::kTooFewPoints, "coverage: the objects have no faces");
-  if (objects.size() > job.scene.object_count())
-    return fail(ErrorCode::kInvalidOption, "coverage: the scene has {} objects, not {}",
-                job.scene.object_count(), objects.size());
+  for (const CoveragePass& pass : job.passes)
+    if (objects.size() > pass.scene->object_count())
+      return fail(ErrorCode::kInvalidOption, "coverage: the scene has {} objects, not {}",
+                  pass.scene->object_count(), objects.size());
   return {};
 }
 
@@ -189,8 +194,10 @@ Result<CoverageMap> coverage_map(const Scene& scene, std::span<const TriangleMes
                                  std::span<const ScannerModel> scanners,
                                  std::span<const CoveragePose> poses,
                                  const CoverageMapOptions& options, const RunContext& context,
-                                 const Scene* room) {
-  const CoverageJob job{scene, scanners, poses, options, room};
+                                 const Scene* room, std::span<const CoveragePass> further_passes) {
+  std::vector<CoveragePass> passes{{&scene, Pose::Identity()}};
+  passes.insert(passes.end(), further_passes.begin(), further_passes.end());
+  const CoverageJob job{std::move(passes), scanners, poses, options, room};
   TURNSCAN_TRY(check(job, objects));
   TURNSCAN_TRY(context.check());
   CoveragePatches surface(objects, options.cell_m);

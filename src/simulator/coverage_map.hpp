@@ -26,6 +26,14 @@ struct CoveragePose {
   std::uint32_t scanner = 0;               ///< position in the scanners
   Pose T_table_sensor = Pose::Identity();  ///< the platter's turn taken back
   Pose T_table_room = Pose::Identity();    ///< of the room, if there is one
+  std::uint32_t pass = 0;                  ///< 0, or position in the further passes, plus one
+};
+
+/// The objects as they lie in another pass: the same meshes, moved rigidly.
+struct CoveragePass {
+  const Scene* scene = nullptr;          ///< table frame of this pass
+  Pose T_first_pass = Pose::Identity();  ///< takes its table frame to that of the first pass, so
+                                         ///< that the objects lie upon each other
 };
 
 enum class CoverageState : std::uint8_t {
@@ -103,14 +111,18 @@ struct CoverageMap {
 /// room: what does not turn with the table, in a frame of its own; it hides, too, but for what is
 /// unreachable: elsewhere it may not stand in the way.
 ///
+/// further_passes: the map is that of all passes together, in the table frame of the first. A pass
+/// reaches what any place around its table sees.
+///
 /// cell_m is enlarged where it would give more than 4 million patches. The same for every number of
-/// threads. Fails with kInvalidOption (options, no scanner, a pose of a scanner that is not there),
-/// kTooFewPoints (objects without a face) and kCancelled.
+/// threads. Fails with kInvalidOption (options, no scanner, a pose of a scanner or pass that is not
+/// there), kTooFewPoints (objects without a face) and kCancelled.
 Result<CoverageMap> coverage_map(const Scene& scene, std::span<const TriangleMesh> objects,
                                  std::span<const ScannerModel> scanners,
                                  std::span<const CoveragePose> poses,
                                  const CoverageMapOptions& options, const RunContext& context,
-                                 const Scene* room = nullptr);
+                                 const Scene* room = nullptr,
+                                 std::span<const CoveragePass> further_passes = {});
 
 /// The patches, each with corners of its own, coloured: covered from blue over green to yellow by
 /// the logarithm of density (from thin_per_mm2 to 256 times that), thin orange, missed red,

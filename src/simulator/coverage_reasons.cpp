@@ -15,7 +15,7 @@ constexpr int kMostHeights = 9;
 constexpr double kLift_m = 20e-6;   // rays start so far outside the surface
 constexpr std::size_t kChunk = 64;  // cells looked at together
 
-/// A point that is looked at, with its normal.
+/// A point that is looked at, with its normal. Frame: the table of the first pass.
 struct Spot {
   std::uint32_t cell;
   Vec3d p, normal;
@@ -38,14 +38,15 @@ struct Outcome {
   }
 };
 
-/// A frame that cells are looked at from. For a line scanner the frame before it, too: its line has
-/// passed over what lies between the two.
+/// A frame that cells are looked at from, with the table of the first pass. For a line scanner the
+/// frame before it, too: its line has passed over what lies between the two.
 struct Look {
   const ScannerModel* model;
   Pose T_sensor_table, T_sensor_table_before;
   bool line = false;
   Vec3d origin, other;  ///< table frame
-  Pose T_room_table;
+  std::uint32_t pass;
+  Pose T_room_pass;  ///< from the table of its own pass
 
   Miss in_view(const Spot& spot) const {
     const Vec3d q = T_sensor_table * spot.p;
@@ -63,6 +64,11 @@ struct Look {
   }
 };
 
+Pose in_first(const CoverageJob& job, const CoveragePose& pose) {
+  return pose.pass == 0 ? pose.T_table_sensor
+                        : job.passes[pose.pass].T_first_pass * pose.T_table_sensor;
+}
+
 std::vector<Look> looks_of(const CoverageJob& job) {
   std::vector<std::vector<const CoveragePose*>> of_scanner(job.scanners.size());
   for (const CoveragePose& pose : job.poses) of_scanner[pose.scanner].push_back(&pose);
@@ -70,12 +76,15 @@ std::vector<Look> looks_of(const CoverageJob& job) {
   for (std::size_t s = 0; s < of_scanner.size(); ++s) {
     const auto& poses = of_scanner[s];
     const bool line = job.scanners[s].kind == ScannerKind::kLine;
-    const std::size_t step = line ? 1 : std::max<std::size_t>(1, poses.size() / kTestedPoses);
+    const std::size_t tested = kTestedPoses * job.passes.size();
+    const std::size_t step = line ? 1 : std::max<std::size_t>(1, poses.size() / tested);
     for (std::size_t i = 0; i < poses.size(); i += step) {
-      const Pose& T = poses[i]->T_table_sensor;
-      const Pose& before = poses[i > 0 ? i - 1 : 0]->T_table_sensor;
+      const std::uint32_t pass = poses[i]->pass;
+      const bool follows = i > 0 && poses[i - 1]->pass == pass;
+      const Pose T = in_first(job, *poses[i]);
+      const Pose before = in_first(job, *poses[follows ? i - 1 : i]);
       looks.push_back({&job.scanners[s], T.inverse(), before.inverse(), line, T.translation(),
-                       T * job.scanners[s].other_eye_m(), poses[i]->T_table_room.inverse()});
+                       T * job.scanners[s].other_eye_m(), pass, poses[i]->T_table_room.inverse()});
     }
   }
   return looks;
@@ -90,30 +99,39 @@ Ray ray_to(const Spot& spot, const Vec3d& eye) {
   return ray;
 }
 
-/// Spots that something is asked about, and whether anything lies between each and a point.
+/// Spots that something is asked about, and whether anything of a pass lies between each and a
+/// point.
 class Blocked {
  public:
-  explicit Blocked(const Scene& scene, const Scene* room = nullptr) : scene_(scene), room_(room) {}
+  explicit Blocked(const CoverageJob& job) : job_(job) {}
   void clear() { rays_.clear(), who.clear(); }
   void ask(std::size_t spot, const Ray& ray) { rays_.push_back(ray), who.push_back(spot); }
-  void answer(const Pose& T_room_table = Pose::Identity()) {
+  void answer(std::uint32_t pass) {
+    if (pass > 0) move(job_.passes[pass].T_first_pass.inverse());
     blocked.resize(rays_.size());
-    scene_.occluded(rays_, blocked, RayOrder::kCoherent);
-    if (room_ == nullptr) return;
-    for (Ray& ray : rays_) {
-      ray.origin = (T_room_table * ray.origin.cast<double>()).cast<float>();
-      ray.direction = (T_room_table.linear() * ray.direction.cast<double>()).cast<float>();
-    }
+    job_.passes[pass].scene->occluded(rays_, blocked, RayOrder::kCoherent);
+  }
+  /// The room hides, too.
+  void answer(std::uint32_t pass, const Pose& T_room_pass) {
+    answer(pass);
+    if (job_.room == nullptr) return;
+    move(T_room_pass);
     by_room_.resize(rays_.size());
-    room_->occluded(rays_, by_room_, RayOrder::kCoherent);
+    job_.room->occluded(rays_, by_room_, RayOrder::kCoherent);
     for (std::size_t k = 0; k < blocked.size(); ++k) blocked[k] |= by_room_[k];
   }
   std::vector<std::size_t> who;
   std::vector<std::uint8_t> blocked;
 
  private:
-  const Scene& scene_;
-  const Scene* room_;
+  void move(const Pose& T) {
+    for (Ray& ray : rays_) {
+      ray.origin = (T * ray.origin.cast<double>()).cast<float>();
+      ray.direction = (T.linear() * ray.direction.cast<double>()).cast<float>();
+    }
+  }
+
+  const CoverageJob& job_;
   std::vector<Ray> rays_;
   std::vector<std::uint8_t> by_room_;
 };
@@ -135,7 +153,7 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
     else
       first.ask(i, ray_to(spots[i], look.origin));
   }
-  first.answer(look.T_room_table);
+  first.answer(look.pass, look.T_room_pass);
   for (std::size_t k = 0; k < first.who.size(); ++k) {
     const std::size_t i = first.who[k];
     if (first.blocked[k])
@@ -147,7 +165,7 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
     else
       second.ask(i, ray_to(spots[i], look.other));
   }
-  second.answer(look.T_room_table);
+  second.answer(look.pass, look.T_room_pass);
   for (std::size_t k = 0; k < second.who.size(); ++k)
     if (second.blocked[k])
       outcomes[second.who[k]].raise(Outcome::kSecondEye, others);
@@ -155,16 +173,18 @@ void look_at(const Look& look, std::span<const Spot> spots, Blocked& first, Bloc
       outcomes[second.who[k]].raise(Outcome::kSeen, Miss::kNone);
 }
 
-/// Places around the table at the scanners' heights; none without a pose.
-std::vector<Vec3d> places_around(const CoverageJob& job) {
-  if (job.poses.empty()) return {};
+/// Places around the table of a pass at the scanners' heights, in the frame of the first; none
+/// without a pose.
+std::vector<Vec3d> places_around(const CoverageJob& job, std::uint32_t pass) {
   double low = 1e300, high = -1e300, radius = 0.0;
   for (const CoveragePose& pose : job.poses) {
+    if (pose.pass != pass) continue;
     const Vec3d p = pose.T_table_sensor.translation();
     low = std::min(low, p.y());
     high = std::max(high, p.y());
     radius = std::max(radius, std::hypot(p.x(), p.z()));
   }
+  if (low > high) return {};
   const int heights = static_cast<int>(
       std::clamp(1.0 + std::ceil((high - low) / kHeightStep_m), 1.0, double(kMostHeights)));
   std::vector<Vec3d> places;
@@ -172,16 +192,17 @@ std::vector<Vec3d> places_around(const CoverageJob& job) {
     for (int d = 0; d < kDirections; ++d) {
       const double angle = 2.0 * std::numbers::pi * d / kDirections;
       const double y = heights > 1 ? low + (high - low) * h / (heights - 1) : low;
-      places.emplace_back(radius * std::sin(angle), y, radius * std::cos(angle));
+      const Vec3d p(radius * std::sin(angle), y, radius * std::cos(angle));
+      places.push_back(pass == 0 ? p : job.passes[pass].T_first_pass * p);
     }
   }
   return places;
 }
 
 /// Marks in `reached` the spots that any of the places sees.
-void reach(const Scene& scene, std::span<const Vec3d> places, double least_cosine,
-           std::span<const Spot> spots, std::span<std::uint8_t> reached) {
-  Blocked rays(scene);
+void reach(const CoverageJob& job, std::uint32_t pass, std::span<const Vec3d> places,
+           double least_cosine, std::span<const Spot> spots, std::span<std::uint8_t> reached) {
+  Blocked rays(job);
   for (const Vec3d& place : places) {
     rays.clear();
     for (std::size_t i = 0; i < spots.size(); ++i) {
@@ -189,7 +210,7 @@ void reach(const Scene& scene, std::span<const Vec3d> places, double least_cosin
       if (spots[i].normal.dot((place - spots[i].p).normalized()) > least_cosine)
         rays.ask(i, ray_to(spots[i], place));
     }
-    rays.answer();
+    rays.answer(pass);
     for (std::size_t k = 0; k < rays.who.size(); ++k)
       if (!rays.blocked[k]) reached[rays.who[k]] = 1;
   }
@@ -226,7 +247,9 @@ Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface,
                                                                    : CoverageState::kCovered;
   const std::vector<Spot> spots = empty_cells(surface);
   const std::vector<Look> looks = looks_of(job);
-  const std::vector<Vec3d> places = places_around(job);
+  std::vector<std::vector<Vec3d>> places;
+  for (std::uint32_t pass = 0; pass < job.passes.size(); ++pass)
+    places.push_back(places_around(job, pass));
   double flattest = 0.0;
   for (const ScannerModel& model : job.scanners)
     flattest = std::max(flattest, model.max_incidence_rad);
@@ -236,12 +259,13 @@ Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface,
     const auto mine = std::span(spots).subspan(begin, n);
     std::vector<Outcome> outcomes(n);
     std::vector<std::uint8_t> reached(n, 0);
-    Blocked first(job.scene, job.room), second(job.scene, job.room);
+    Blocked first(job), second(job);
     for (const Look& look : looks) {
       if (context.cancelled()) return;
       look_at(look, mine, first, second, outcomes);
     }
-    reach(job.scene, places, std::cos(flattest), mine, reached);
+    for (std::uint32_t pass = 0; pass < job.passes.size(); ++pass)
+      reach(job, pass, places[pass], std::cos(flattest), mine, reached);
     for (std::size_t i = 0; i < n; ++i)
       judge(surface.cells[mine[i].cell], outcomes[i].miss, reached[i] != 0, job.options.noise);
     context.advance(n);

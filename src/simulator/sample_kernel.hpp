@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <turnscan/core/instruction_set.hpp>
 
 namespace turnscan::sampling {
 
@@ -127,7 +128,7 @@ struct Kernel {
                      const Canvas& canvas, const Output& out);
 };
 
-enum class InstructionSet { kPortable, kAvx2, kAvx512 };
+using turnscan::InstructionSet;
 
 /// nullptr when it was not built or this machine lacks it.
 const Kernel* kernel_for(InstructionSet set);

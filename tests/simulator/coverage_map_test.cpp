@@ -377,6 +377,43 @@ TEST(CoverageMap, CanBeCancelled) {
   }
 }
 
+/// A box upright, and on its head 20 mm beside the axis.
+TEST(CoverageMap, OfTwoPassesIsThatOfBothOnTheSameSurface) {
+  const std::vector<TriangleMesh> box{test::box_mesh({-.05, 0, -.05}, {.05, .1, .05})};
+  Pose T_second_first = Pose::Identity();
+  T_second_first.linear() = Eigen::AngleAxisd(kPi, Vec3d::UnitX()).toRotationMatrix();
+  T_second_first.translation() = Vec3d(0.02, 0.1, 0.0);
+  std::vector<TriangleMesh> turned = box;
+  for (Vec3f& p : turned[0].vertices) p = (T_second_first * p.cast<double>()).cast<float>();
+  const auto scene = Scene::create(box, 0.3), second = Scene::create(turned, 0.3);
+  ASSERT_TRUE(scene && second);
+  const ScannerModel model = scanner();
+  std::vector<CoveragePose> poses = around(24, looking(0.9, 0.4, 0.05));
+  const CoverageMap once = map_of(box, model, poses), other = map_of(turned, model, poses);
+  for (int i = 0; i < 24; ++i) {
+    poses.push_back(poses[std::size_t(i)]);
+    poses.back().pass = 1;
+  }
+  const std::vector<CoveragePass> further{{&*second, T_second_first.inverse()}};
+  const auto both =
+      coverage_map(*scene, box, {&model, 1}, poses, coarse(), RunContext(), nullptr, further);
+  ASSERT_TRUE(both) << both.error().text();
+  EXPECT_EQ(both->samples, once.samples + other.samples);
+  EXPECT_NEAR(once.covered(), 5.0 / 6.0, 0.01);
+  EXPECT_NEAR(both->covered(), 1.0, 0.001);
+  EXPECT_GT(once.state_m2[std::size_t(CoverageState::kUnreachable)], 0.0095);
+  EXPECT_EQ(both->state_m2[std::size_t(CoverageState::kUnreachable)], 0.0);
+  // A second pass without frames still reaches nothing new; one that is not there is refused.
+  poses.resize(24);
+  const auto idle =
+      coverage_map(*scene, box, {&model, 1}, poses, coarse(), RunContext(), nullptr, further);
+  ASSERT_TRUE(idle);
+  EXPECT_EQ(idle->state_m2, once.state_m2);
+  poses.back().pass = 2;
+  EXPECT_FALSE(
+      coverage_map(*scene, box, {&model, 1}, poses, coarse(), RunContext(), nullptr, further));
+}
+
 /// The room stands still: turned with the table's frame, it hides from that frame only.
 TEST(CoverageMap, FindsWhatTheRoomHides) {
   const std::vector<TriangleMesh> box{test::box_mesh({-.1, 0, -.1}, {.1, .15, .1})};
