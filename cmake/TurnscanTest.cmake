@@ -18,10 +18,10 @@ function(turnscan_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${TEST_SOURCES})
-  target_link_libraries(${target} PRIVATE ${TEST_USES} turnscan_test_main GTest::gmock
+  target_link_libraries(${target} PRIVATE ${TEST_USES} turnscan_test_main turnscan_test_data
+                                          GTest::gmock
                                           turnscan_settings turnscan_warnings)
   target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")
-  target_compile_definitions(${target} PRIVATE TURNSCAN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   # GCC 12 sees overlong copies in "string + literal" (GCC bug 105329), and forgets that headers are
   # the system's when they are precompiled.
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")

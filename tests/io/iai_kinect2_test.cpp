@@ -4,8 +4,8 @@
 #include <turnscan/io/atomic_file.hpp>
 #include <turnscan/io/iai_kinect2.hpp>
 
-#include "tests/io/shared_data.hpp"
 #include "tests/io/temp_folder.hpp"
+#include "tests/support/shared_data.hpp"
 
 namespace turnscan {
 namespace {

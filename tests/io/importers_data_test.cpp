@@ -11,7 +11,7 @@
 #include <turnscan/turntable/table_frame.hpp>
 
 #include "tests/io/foreign_data.hpp"
-#include "tests/io/shared_data.hpp"
+#include "tests/support/shared_data.hpp"
 
 namespace turnscan {
 namespace {

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <turnscan/core/random.hpp>
 #include <turnscan/core/units.hpp>
+
+#include "tests/support/shared_data.hpp"
 
 namespace turnscan::testing {
 
@@ -116,8 +117,7 @@ FramePoints shuffled(const FramePoints& frame, std::uint64_t seed) {
 }
 
 std::optional<std::string> data_folder() {
-  const char* set = std::getenv("TURNSCAN_TEST_DATA");
-  const std::string folder = set ? set : std::string(TURNSCAN_SOURCE_DIR) + "/../shared/data";
+  const std::string folder = testing::shared_data("").string();
   if (!std::filesystem::is_directory(folder)) return std::nullopt;
   return folder;
 }

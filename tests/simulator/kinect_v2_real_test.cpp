@@ -7,8 +7,8 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <tests/io/shared_data.hpp>
 #include <tests/simulator/noise_scenes.hpp>
+#include <tests/support/shared_data.hpp>
 #include <vector>
 
 namespace turnscan {
