@@ -76,7 +76,7 @@ class DumpWriter {
 /// A scanner file of the simulator with the camera of a Kinect v1.
 inline std::filesystem::path kinect_v1_file(const std::filesystem::path& folder) {
   const double f = plugin::KinectV1().focal_pixels();
-  const std::filesystem::path file = folder / "kinect-v1-raw.toml";
+  std::filesystem::path file = folder / "kinect-v1-raw.toml";
   std::ofstream(file) << fmt::format(
       "columns = 640\nrows = 480\nfx = {0}\nfy = {0}\ncx = 320\ncy = 240\nnear = \"0.5m\"\n"
       "far = \"4m\"\n",

@@ -18,7 +18,6 @@ namespace {
 
 using testing::DumpWriter;
 using testing::opened;
-using testing::Taken;
 using testing::TempFolder;
 using testing::Variable;
 

@@ -279,7 +279,7 @@ std::filesystem::path scanner_file(const std::filesystem::path& folder, Film& fi
   const auto focal = [](int size, float angle) {
     return 0.5 * size / std::tan(0.5 * static_cast<double>(angle));
   };
-  const std::filesystem::path file = folder / "small.toml";
+  std::filesystem::path file = folder / "small.toml";
   std::ofstream(file) << fmt::format(
       "columns = {}\nrows = {}\nfx = {}\nfy = {}\ncx = {:.1f}\ncy = {:.1f}\nnear = \"0.3m\"\n"
       "far = \"4m\"\n",
