@@ -103,15 +103,16 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
 
 Result<StageRun> run_cloud(const Model& model, const std::string& stage, ReconstructOptions options,
                            const RunContext& context) {
-  if (options.surface.method == SurfaceMethod::kVolumetric && !of_points(stage))
-    return fail(ErrorCode::kUnsupported,
-                "method volumetric needs the frames of a recording; choose poisson or "
-                "concave-hull for a cloud");
+  std::string note;
+  if (options.surface.method == SurfaceMethod::kVolumetric) {
+    options.surface.method = SurfaceMethod::kPoisson;
+    note = "method volumetric needs the frames of a recording; a cloud takes poisson";
+  }
   options.crop.enabled = false;
   options.outliers.enabled = options.merge.cloud_outliers;
   options.base.enabled = false;
   const auto frames = sequence_of(model.data->cloud, model.data->viewpoints);
-  return run_on(*frames, model, stage, std::move(options), {}, context);
+  return run_on(*frames, model, stage, std::move(options), note, context);
 }
 
 /// Area-uniform points of a mesh, or the points of a cloud, thinned.

@@ -27,9 +27,11 @@ class ReconstructCommand : public Command {
     line.option(
         "--report", "FILE.json", report_,
         "Write what was done as JSON: counts, parameters with their reasons, times, checks");
-    line.repeatable("--save-stage", "NAME[=FILE.ply]", save_stages_,
-                    fmt::format("Write a stage's cloud, by default beside the mesh: {}",
-                                fmt::join(saveable_stages(), ", ")));
+    line.repeatable(
+        "--save-stage", "NAME[=FILE.ply]", save_stages_,
+        fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
+                    "--method volumetric, the others without)",
+                    fmt::join(saveable_stages(), ", ")));
     line.option(
         "--turntable", "FILE.json", turntable_,
         "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
@@ -92,6 +94,12 @@ class ReconstructCommand : public Command {
       return fail(ErrorCode::kInvalidOption,
                   "--save-stage {}: there is no such stage; use one of {}", stage,
                   fmt::join(stages, ", "));
+    const auto made = saveable_stages(options_.surface.method);
+    if (std::find(made.begin(), made.end(), stage) == made.end())
+      return fail(ErrorCode::kInvalidOption,
+                  "--save-stage {}: this method has no such stage; choose another --method, or one "
+                  "of {}",
+                  stage, fmt::join(made, ", "));
     const std::string file =
         equals == std::string::npos
             ? with_suffix(out_.substr(0, out_.size() - ending_of(out_).size()) + ".ply",

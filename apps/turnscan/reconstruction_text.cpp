@@ -82,13 +82,14 @@ Result<std::vector<std::string>> write_objects(const std::string& path, const Re
   std::vector<TriangleMesh> meshes;
   for (const ObjectResult& object : r.objects) meshes.push_back(object.mesh);
   if (meshes.size() == 1 || ending == ".3mf" || ending == ".glb") {
-    TURNSCAN_TRY(write_meshes(path, meshes));
+    TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence)
+                                    : write_meshes(path, meshes));
     return std::vector<std::string>{path};
   }
   std::vector<std::string> files;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     files.push_back(with_suffix(path, fmt::format("-{}", i + 1)));
-    TURNSCAN_TRY(write_mesh(files.back(), meshes[i]));
+    TURNSCAN_TRY(write_mesh(files.back(), meshes[i], r.objects[i].confidence));
   }
   return files;
 }

@@ -100,9 +100,6 @@ std::string free_recording(const std::string& mesh) {
 
 class ScanCommand : public Command {
  public:
-  // One object stands on the table, and nearly all of this method's work is done while frames come.
-  ScanCommand() { options_.surface.method = SurfaceMethod::kVolumetric; }
-
   void declare(CommandLine& line) override {
     line.required_repeatable("--device", "URI", setup_.devices,
                              "Sensor to scan with, e.g. virtual:doll (see docs/capture.md). May be "

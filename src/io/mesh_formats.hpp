@@ -37,6 +37,8 @@ Meshes decode_glb(std::string_view bytes);
 // Writers: meshes in metres, already checked.
 
 Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
+                             std::span<const float> confidence);
 Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);

@@ -144,6 +144,17 @@ Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh) {
   return write_meshes(path, std::span(&mesh, 1));
 }
 
+Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh,
+                    std::span<const float> confidence) {
+  if (!confidence.empty() && confidence.size() != mesh.vertices.size())
+    throw std::invalid_argument("write_mesh: the confidence does not fit the vertices");
+  TURNSCAN_ASSIGN(const WriteFormat* format, write_format(path));
+  if (confidence.empty() || format->extension != "ply") return write_mesh(path, mesh);
+  TURNSCAN_TRY(check_for_writing(path, std::span(&mesh, 1)));
+  return write_file_atomically(
+      path, [&](FileSink& sink) { return detail::write_ply_mesh_with(sink, mesh, confidence); });
+}
+
 Result<> check_mesh_output(const fs::path& path) {
   TURNSCAN_TRY(write_format(path));
   std::error_code error;

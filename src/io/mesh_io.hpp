@@ -44,6 +44,10 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& path,
 /// std::invalid_argument when an attribute's length does not fit or an index is out of range.
 Result<> write_meshes(const std::filesystem::path& path, std::span<const TriangleMesh> meshes);
 Result<> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// The same with a confidence of each vertex (none if empty), which PLY keeps as the property that
+/// Stanford's scans have: `confidence`. Throws std::invalid_argument when its length does not fit.
+Result<> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                    std::span<const float> confidence);
 
 /// To be asked before long work: whether write_meshes could write there (ending known, folder
 /// there and writable, not a directory).

@@ -39,11 +39,16 @@ Meshes decode_ply_sequence(std::string_view bytes) {
 Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes) {
   TriangleMesh joined;
   if (meshes.size() > 1) joined = join_meshes(meshes);
-  const TriangleMesh& mesh = meshes.size() > 1 ? joined : meshes.front();
+  return write_ply_mesh_with(sink, meshes.size() > 1 ? joined : meshes.front(), {});
+}
+
+Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
+                             std::span<const float> confidence) {
   PlyJob job;
   job.points = mesh.vertices;
   job.normals = mesh.normals;
   job.colors = mesh.colors;
+  job.confidence = confidence;
   job.triangles = mesh.triangles;
   job.name = mesh.name;
   return write_ply(sink, job);

@@ -60,6 +60,7 @@ std::string header_of(const PlyJob& job) {
   if (!job.colors.empty())
     text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!job.weights.empty()) text += "property float weight\n";
+  if (!job.confidence.empty()) text += "property float confidence\n";
   if (!job.frame.empty()) text += "property uint frame\n";
   if (!job.triangles.empty())
     text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n",
@@ -71,7 +72,7 @@ std::string header_of(const PlyJob& job) {
 }
 
 Result<> write_vertices(FileSink& sink, const PlyJob& job) {
-  return write_rows(sink, job.points.size(), 35, [&job](char*& at, std::size_t i) {
+  return write_rows(sink, job.points.size(), 39, [&job](char*& at, std::size_t i) {
     put_vector(at, job.points[i]);
     if (!job.normals.empty()) put_vector(at, job.normals[i]);
     if (!job.colors.empty()) {
@@ -80,6 +81,7 @@ Result<> write_vertices(FileSink& sink, const PlyJob& job) {
       put(at, job.colors[i].b);
     }
     if (!job.weights.empty()) put(at, job.weights[i]);
+    if (!job.confidence.empty()) put(at, job.confidence[i]);
     if (!job.frame.empty()) put(at, job.frame[i]);
   });
 }

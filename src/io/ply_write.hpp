@@ -20,6 +20,7 @@ struct PlyJob {
   std::span<const Vec3f> normals;
   std::span<const Rgb> colors;
   std::span<const float> weights;
+  std::span<const float> confidence;
   std::span<const std::uint32_t> frame;
   std::span<const std::array<std::uint32_t, 3>> triangles;
   int grid_width = 0;

@@ -28,6 +28,7 @@ struct DepthView {
   /// front of which the pixel and its neighbours saw nothing, 0 where that is not known. Bit 16: on
   /// the edge of something, hence perhaps a mixture of both sides.
   std::vector<std::uint32_t> pixels;
+  std::vector<Rgb> colors;    ///< per pixel, black where there is none; or empty
   std::uint32_t returns = 0;  ///< of the whole frame
   std::uint32_t kept = 0;     ///< of these, accepted
 
@@ -55,6 +56,7 @@ struct DepthView {
 struct ViewScale {
   double edge_step_m = 0.012;  ///< a neighbour farther than this makes an edge
   double spacing_m = 0.001;    ///< of the points of one frame; the pixel of resampled scans
+  bool colored = false;        ///< views carry colours where frames have any
 };
 
 /// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the

@@ -69,6 +69,7 @@ class Fitter {
       TURNSCAN_TRY(context.check());
       forget_the_platter();
       if (scale_.iterations > 0) move();
+      if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0) fair();
     }
     fit_.support.resize(n);
     return std::move(fit_);
@@ -225,6 +226,42 @@ class Fitter {
     for (int round = 0; round < kUnfolds && shorten_folding(step, round + 1 == kUnfolds); ++round) {
     }
     parallel_for(p.size(), 4096, [&](std::size_t v) { fit_.mesh.vertices[v] += step[v]; });
+  }
+
+  /// Where little or nothing was measured the volume ends in rags, pixel by pixel. Those vertices
+  /// move to the middle of their neighbours, held by what was measured around them.
+  void fair() {
+    constexpr int kRounds = 80;
+    constexpr float kMeasured = 0.05f;  // share of the typical support from which on vertices stay
+    auto& p = fit_.mesh.vertices;
+    const float typical = typical_support(), reach = float(scale_.fair_m);
+    std::vector<float> hold(p.size(), 1.0f);
+    for (std::uint32_t v = 0; v < p.size(); ++v)
+      hold[v] = std::min(1.0f, fit_.support[v] / (kMeasured * typical));
+    for (int ring = 1; ring <= scale_.fair_rings; ++ring) {
+      const std::vector<float> last = hold;
+      const float least = float(ring) / float(scale_.fair_rings + 1);
+      for (std::uint32_t v = 0; v < p.size(); ++v) {
+        neighbours_.each(v, [&](std::uint32_t u) {
+          if (last[u] < least) hold[v] = std::min(hold[v], least);
+        });
+      }
+    }
+    std::vector<std::uint32_t> loose;
+    for (std::uint32_t v = 0; v < p.size(); ++v) {
+      if (hold[v] < 1.0f && !stands(v)) loose.push_back(v);
+    }
+    const std::vector<Vec3f> start = p;
+    std::vector<Vec3f> next(loose.size());
+    for (int round = 0; round < kRounds; ++round) {
+      parallel_for(loose.size(), 4096, [&](std::size_t k) {
+        const std::uint32_t v = loose[k];
+        const Vec3f mean = neighbours_.mean(p, v, Vec3f(Vec3f::Zero()));
+        const Vec3f to = p[v] + 0.5f * (1.0f - hold[v]) * (mean - p[v]) - start[v];
+        next[k] = start[v] + to * std::min(1.0f, reach / std::max(to.norm(), 1e-9f));
+      });
+      for (std::size_t k = 0; k < loose.size(); ++k) p[loose[k]] = next[k];
+    }
   }
 
   /// Halves the steps, or takes them away, of triangles that would turn over. Whether there were

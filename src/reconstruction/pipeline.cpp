@@ -68,6 +68,14 @@ const std::vector<std::string>& saveable_stages() {
   return stages;
 }
 
+std::vector<std::string> saveable_stages(SurfaceMethod method) {
+  std::vector<std::string> stages;
+  for (const std::string& stage : saveable_stages()) {
+    if ((stage == "fitted") == (method == SurfaceMethod::kVolumetric)) stages.push_back(stage);
+  }
+  return stages;
+}
+
 Result<Reconstruction> reconstruct(const FrameSequence& sequence, const ReconstructOptions& options,
                                    const StageSink& sink, const RunContext& context) {
   TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options));

@@ -59,6 +59,9 @@ struct ObjectResult {
   std::size_t candidates = 0;      ///< of the voxel stage
   std::size_t surface_points = 0;  ///< oriented points given to the surface stage
   double invented_area_m2 = 0.0;   ///< surface far from any candidate
+  /// Per vertex, volumetric only: what its measurements weigh, over the median of the mesh, at most
+  /// 1. 0 where nothing was measured.
+  std::vector<float> confidence;
   std::vector<std::string> notes;  ///< what was repaired, for people
 };
 
@@ -75,6 +78,8 @@ struct Reconstruction {
 /// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented;
 /// fitted (volumetric only: vertices, weighted by their support).
 const std::vector<std::string>& saveable_stages();
+/// Those that a method has.
+std::vector<std::string> saveable_stages(SurfaceMethod method);
 /// Called with a stage's cloud (all objects together), table frame.
 using StageSink = std::function<Result<>(const std::string& stage, const PointCloud& cloud)>;
 

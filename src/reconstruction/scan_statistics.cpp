@@ -13,17 +13,22 @@ namespace turnscan {
 
 namespace {
 
-double median_nearest(const std::vector<Vec3f>& points) {
+/// Spacing of points in no order, from the nearest neighbour and from the eighth: of points strewn
+/// at random the nearest lies only half as far as the points of a grid of the same density.
+void spacing_of_strewn(const std::vector<Vec3f>& points, FrameStatistics& out) {
+  constexpr std::size_t kAround = 8;
   const KdTree tree(points);
-  std::vector<double> distances;
+  std::vector<double> nearest, eighth;
   const std::size_t step = std::max<std::size_t>(1, points.size() / 2000);
   for (std::size_t i = 0; i < points.size(); i += step) {
-    std::array<std::uint32_t, 2> index;
-    std::array<float, 2> squared;
-    if (tree.knn(points[i], 2, index.data(), squared.data()) == 2)
-      distances.push_back(std::sqrt(squared[1]));
+    std::array<std::uint32_t, kAround + 1> index;
+    std::array<float, kAround + 1> squared;
+    const std::size_t found = tree.knn(points[i], kAround + 1, index.data(), squared.data());
+    if (found > 1) nearest.push_back(std::sqrt(squared[1]));
+    if (found > kAround) eighth.push_back(std::sqrt(squared[kAround]));
   }
-  return median(distances);
+  out.spacing_m = median(nearest);
+  out.even_spacing_m = median(eighth, out.spacing_m) * std::sqrt(std::numbers::pi / kAround);
 }
 
 struct Thickness {
@@ -76,7 +81,7 @@ Thickness thickness_at(const MergedCloud& merged, const VoxelGrid& grid, const V
 FrameStatistics frame_statistics(const FramePoints& points) {
   FrameStatistics out;
   if (points.cell.empty()) {
-    out.spacing_m = median_nearest(points.cloud.points);
+    spacing_of_strewn(points.cloud.points, out);
     return out;
   }
   std::vector<double> steps, bends;
@@ -90,7 +95,7 @@ FrameStatistics frame_statistics(const FramePoints& points) {
     const Vec3f bend = p[i] - 0.5f * (p[i - 1] + p[i + 1]);
     bends.push_back(std::abs(depth ? bend.z() : bend.dot(points.viewpoint.value.cast<float>())));
   }
-  out.spacing_m = median(steps);
+  out.spacing_m = out.even_spacing_m = median(steps);
   out.noise_m = 1.4826 * median(bends) / std::sqrt(1.5);
   return out;
 }

@@ -7,8 +7,9 @@ namespace turnscan {
 
 /// Of single frames, before merging.
 struct FrameStatistics {
-  double spacing_m = 0.0;  ///< median distance between grid neighbours (or nearest neighbours)
-  double noise_m = 0.0;    ///< robust sigma of a point along its ray; 0 where there is no grid
+  double spacing_m = 0.0;       ///< median distance between grid neighbours (or nearest neighbours)
+  double even_spacing_m = 0.0;  ///< of a grid with as many points; theirs where there is one
+  double noise_m = 0.0;         ///< robust sigma of a point along its ray; 0 where there is no grid
 };
 
 /// Noise: second differences along the rows of the grid, z[i] - (z[i-1] + z[i+1]) / 2, have

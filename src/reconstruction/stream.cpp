@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/first_look.hpp>
@@ -19,9 +20,6 @@ Result<> check_options(const ReconstructOptions& options) {
   TURNSCAN_TRY(objects_to_keep(options.components));
   if (options.voxels.size_m && options.voxels.grid)
     return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
-  if (options.surface.method == SurfaceMethod::kVolumetric && options.color)
-    return fail(ErrorCode::kInvalidOption,
-                "colour: --method volumetric carries none; use --method poisson");
   return {};
 }
 
@@ -47,6 +45,9 @@ bool any_grid(const std::vector<Frame>& frames) {
     return !frame.depth.pixels.empty() || (frame.grid_width > 1 && frame.grid_height > 1);
   });
 }
+
+/// So many profiles of line scanners make a good first look.
+constexpr std::size_t kFirstProfiles = 256;
 
 /// A frame that is to be worked on, and its place.
 struct Placed {
@@ -99,12 +100,12 @@ class ReconstructionStream::Impl {
   }
 
   Result<TriangleMesh> preview(const RunContext& context) {
+    if (!volumetric())
+      return fail(ErrorCode::kInvalidOption,
+                  "preview: only --method volumetric shows the growing surface");
     const VolumetricStream* volume = nullptr;
     {
       const std::lock_guard lock(mutex_);
-      if (!volumetric())
-        return fail(ErrorCode::kInvalidOption,
-                    "preview: only --method volumetric shows the growing surface");
       volume = volume_.get();
     }
     return volume == nullptr ? TriangleMesh() : volume->preview(context);
@@ -126,6 +127,7 @@ class ReconstructionStream::Impl {
       out_.notes.push_back(
           fmt::format("the first {} frames show nothing on the platter", forgotten_));
     if (volumetric()) {
+      for (auto& [sensor, group] : groups_) TURNSCAN_TRY(add_group(group.flush(), sensor));
       TURNSCAN_TRY(volume_->finish(sink, context, out_));
     } else {
       TURNSCAN_TRY(reconstruct_points(std::move(merged_), profiles_, look_->cylinder, options_,
@@ -159,12 +161,23 @@ class ReconstructionStream::Impl {
       waiting_poses_.push_back(placed[i].T_table_sensor);
     }
     if (waiting_.size() < first_frames_) return {};
+    TURNSCAN_ASSIGN(const bool profiles, are_profiles());
+    if (profiles && first_frames_ < kFirstProfiles) {
+      first_frames_ = kFirstProfiles;
+      return wait({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+    }
     if (auto seen = look(context); !seen) {
       if (seen.error().code != ErrorCode::kTooFewPoints) return seen;
       look_later();
     }
     if (!look_) return wait({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
     return work({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+  }
+
+  Result<bool> are_profiles() const {
+    TURNSCAN_ASSIGN(const auto sheets, find_sheets(waiting_, header_, recipe_.rays));
+    return !sheets.empty() && std::all_of(sheets.begin(), sheets.end(),
+                                          [](const auto& sheet) { return sheet.has_value(); });
   }
 
   /// Nothing stands on the platter yet: waits for more frames, and forgets the oldest of many.
@@ -190,13 +203,6 @@ class ReconstructionStream::Impl {
     out_.notes = look.notes;
     recipe_.cylinder = look.cylinder;
     profiles_ = !any_grid(waiting_);
-    if (volumetric() && profiles_) {
-      const std::lock_guard lock(mutex_);
-      options_.surface.method = SurfaceMethod::kPoisson;
-      out_.notes.emplace_back(
-          "the frames are points without neighbours, as the profiles of a line scanner: "
-          "made with --method poisson");
-    }
     if (volumetric()) {
       const std::lock_guard lock(mutex_);
       TURNSCAN_ASSIGN(volume_, VolumetricStream::create(header_, options_, look, recipe_.rays));
@@ -218,25 +224,60 @@ class ReconstructionStream::Impl {
     return volumetric() ? add_views(placed, read, context) : add_points(placed, read, context);
   }
 
+  /// What a frame gives: a view, or a profile that waits for those after it.
+  struct Seen {
+    DepthView view;
+    std::optional<Profile> profile;
+    std::uint64_t returns = 0, kept = 0;
+  };
+
+  Result<Seen> see(const Frame& frame, const Pose& T_table_sensor) const {
+    Seen seen;
+    const std::size_t s = frame.info.sensor;
+    if (!look_->sheets.at(s)) {
+      TURNSCAN_ASSIGN(seen.view, volume_->view(frame, T_table_sensor));
+      seen.returns = seen.view.returns;
+      seen.kept = seen.view.kept;
+      return seen;
+    }
+    TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header_.sensors[s], recipe_.rays[s]));
+    seen.returns = points.cloud.size();
+    points = in_sheet_order(points, *look_->sheets[s]);
+    if (look_->cylinder) points = crop(points, SensorCrop(*look_->cylinder, T_table_sensor));
+    seen.kept = points.cloud.size();
+    seen.profile = Profile{std::move(points), T_table_sensor};
+    return seen;
+  }
+
   Result<> add_views(const std::vector<Placed>& placed, const FrameReader& read,
                      const RunContext& context) {
-    std::vector<Result<DepthView>> views(placed.size());
+    std::vector<Result<Seen>> seen(placed.size());
     parallel_for(placed.size(), 1, [&](std::size_t i) {
       if (context.cancelled()) return;
-      views[i] = read(placed[i].position).and_then([&](const Frame& frame) {
-        return volume_->view(frame, placed[i].T_table_sensor);
+      seen[i] = read(placed[i].position).and_then([&](const Frame& frame) {
+        return see(frame, placed[i].T_table_sensor);
       });
       context.advance();
     });
     TURNSCAN_TRY(context.check());
-    for (const auto& view : views) TURNSCAN_TRY(view);
-    for (std::size_t i = 0; i < views.size(); ++i) {
+    for (const auto& one : seen) TURNSCAN_TRY(one);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
       ++out_.frames;
-      out_.returns += views[i]->returns;
-      out_.cropped += views[i]->kept;
-      TURNSCAN_TRY(volume_->add(std::move(*views[i]), placed[i].info.sensor));
+      out_.returns += seen[i]->returns;
+      out_.cropped += seen[i]->kept;
+      const std::uint32_t sensor = placed[i].info.sensor;
+      if (seen[i]->profile) {
+        TURNSCAN_TRY(add_group(groups_[sensor].add(std::move(*seen[i]->profile)), sensor));
+      } else {
+        TURNSCAN_TRY(volume_->add(std::move(seen[i]->view), sensor));
+      }
     }
     return {};
+  }
+
+  Result<> add_group(const std::vector<Profile>& group, std::uint32_t sensor) {
+    if (group.empty()) return {};
+    return volume_->add(volume_->view(group, *look_->sheets[sensor]), sensor);
   }
 
   Result<> add_points(const std::vector<Placed>& placed, const FrameReader& read,
@@ -271,9 +312,10 @@ class ReconstructionStream::Impl {
   std::vector<Pose> waiting_poses_;
   std::size_t forgotten_ = 0;  ///< frames without an object, before the first look
   std::optional<FirstLook> look_;
-  bool profiles_ = false;  ///< frames without neighbours across
+  bool profiles_ = false;                          ///< frames without neighbours across
+  std::map<std::uint32_t, ProfileGroups> groups_;  ///< of line scanners
   MergedCloud merged_;
-  std::mutex mutex_;  ///< guards the pointer volume_, and the method against previews
+  std::mutex mutex_;  ///< guards the pointer volume_
   std::unique_ptr<VolumetricStream> volume_;
   Reconstruction out_;
 };

@@ -66,10 +66,9 @@ Result<TriangleMesh> run(const std::function<Result<Bytes>()>& work, const char*
 OptionTable describe(SurfaceOptions& o) {
   OptionTable table;
   table
-      .choice(
-          "method", o.method, {"poisson", "concave-hull", "volumetric"},
-          "Surface: Poisson (smooth, closed), concave hull (alpha shape), or volumetric (signed "
-          "distances of all frames, with what their rays passed through)")
+      .choice("method", o.method, {"poisson", "concave-hull", "volumetric"},
+              "Surface: volumetric (signed distances of all frames, with what their rays passed "
+              "through), or from points: Poisson (smooth, closed) or concave hull (alpha shape)")
       .number("poisson-depth", o.poisson_depth, {2, 13}, "Depth of Poisson's octree")
       .number("poisson-samples", o.samples_per_node, Quantity::kNone, {1.0, 100.0},
               "Samples per node of Poisson's octree; the thesis used 3 to 5 on noisier candidates")

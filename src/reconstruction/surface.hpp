@@ -12,7 +12,7 @@ namespace turnscan {
 enum class SurfaceMethod { kPoisson, kConcaveHull, kVolumetric };
 
 struct SurfaceOptions {
-  SurfaceMethod method = SurfaceMethod::kPoisson;
+  SurfaceMethod method = SurfaceMethod::kVolumetric;
   int poisson_depth = 8;
   double samples_per_node = 1.5;
   double poisson_scale = 1.1;

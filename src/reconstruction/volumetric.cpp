@@ -2,12 +2,15 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/closest_point.hpp>
 #include <turnscan/geometry/even_out.hpp>
 #include <turnscan/geometry/isosurface.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 #include <turnscan/geometry/simplify.hpp>
+#include <turnscan/reconstruction/mesh_color.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
@@ -37,6 +40,15 @@ double area_of(const TriangleMesh& mesh) {
   }
   return area;
 }
+
+/// With so many views, or if more may come, the usual scales do.
+constexpr std::size_t kFewViews = 24;
+
+bool few_views(const VolumetricInput& input) {
+  return !input.profiles && input.views.size() < kFewViews;
+}
+
+constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
 
 class Run {
  public:
@@ -102,31 +114,21 @@ class Run {
     });
   }
 
-  /// Fewer triangles if asked for; what no frame measured; how many points there are.
+  /// Fewer triangles if asked for; colour; what no frame measured; how many points there are.
   Result<> finish(VolumetricPiece& piece) {
-    if (options_.triangles && piece.mesh.triangles.size() > std::size_t(*options_.triangles)) {
-      TURNSCAN_ASSIGN(piece.mesh, simplify(piece.mesh, {std::size_t(*options_.triangles), 1e30}));
-      MeshFitScale measure = fit_scale();
-      measure.iterations = 0;
-      TURNSCAN_ASSIGN(MeshFit measured, fit_mesh(piece.mesh, input_.views, measure, context_));
-      piece.support = std::move(measured.support);
+    TURNSCAN_TRY(reduce(piece));
+    if (input_.colored) {
+      const double tolerance = 3.0 * input_.noise_m + 2.0 * scale_.cell_m;
+      TURNSCAN_TRY(timed("colour", [&] {
+        return color_from_views(piece.mesh, input_.views, tolerance, context_);
+      }));
     }
     std::vector<float> sorted = piece.support;
-    const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const float least = 0.02f * *middle;
-    const float base = scale_.floor_m ? float(*scale_.floor_m) : -1e30f;
-    for (const auto& t : piece.mesh.triangles) {
-      const auto& p = piece.mesh.vertices;
-      const double area = 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
-      const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
-      const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
-      if (high < base && high - low < 0.1f * float(scale_.cell_m))
-        piece.base_area_m2 += area;
-      else if (std::any_of(t.begin(), t.end(),
-                           [&](std::uint32_t v) { return piece.support[v] < least; }))
-        piece.invented_area_m2 += area;
-    }
+    const auto typical = float(median(sorted));
+    for (const float s : piece.support)
+      piece.confidence.push_back(typical > 0.0f ? std::min(1.0f, s / typical) : 0.0f);
+    const std::vector<std::uint8_t> invented = measure_invented(piece);
+    if (options_.mark_invented) paint_triangles(piece.mesh, invented);
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.truncation_m;
     box.max.array() += scale_.truncation_m;
@@ -137,6 +139,67 @@ class Run {
     return {};
   }
 
+  /// Quadrics only estimate how far a surface strays: it is measured, and tried again with less.
+  Result<TriangleMesh> within_error(const TriangleMesh& full, std::size_t triangles) const {
+    constexpr int kTries = 5;
+    const double bound = *options_.max_error_m;
+    double goal = bound;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(full, {triangles, goal, false}));
+      TURNSCAN_TRY(context_.check());
+      const double farthest = stray(full, fewer);
+      if (farthest <= bound) return fewer;
+      goal *= 0.9 * bound / farthest;
+    }
+    return full;
+  }
+
+  /// Distance of the vertex of one mesh that lies farthest from another mesh.
+  static double stray(const TriangleMesh& from, const TriangleMesh& to) {
+    const MeshDistance distance(to);
+    std::vector<double> distances(from.vertices.size());
+    parallel_for(distances.size(), 256, [&](std::size_t v) {
+      distances[v] = distance.closest(from.vertices[v].cast<double>()).distance;
+    });
+    return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
+  }
+
+  Result<> reduce(VolumetricPiece& piece) {
+    const std::size_t all = piece.mesh.triangles.size();
+    const std::size_t most = options_.triangles ? std::size_t(*options_.triangles) : all;
+    if (most >= all && !options_.max_error_m) return {};
+    TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&]() -> Result<TriangleMesh> {
+                      if (!options_.max_error_m) return simplify(piece.mesh, {most, 1e30, false});
+                      return within_error(piece.mesh, options_.triangles ? most : 0);
+                    }));
+    MeshFitScale measure = fit_scale();
+    measure.iterations = 0;
+    TURNSCAN_ASSIGN(MeshFit measured, fit_mesh(piece.mesh, input_.views, measure, context_));
+    piece.support = std::move(measured.support);
+    return {};
+  }
+
+  /// Adds up the areas that no frame measured. 1 for the triangles of the invented one.
+  std::vector<std::uint8_t> measure_invented(VolumetricPiece& piece) const {
+    const auto& p = piece.mesh.vertices;
+    const float base = scale_.floor_m ? float(*scale_.floor_m) : -1e30f;
+    std::vector<std::uint8_t> invented(piece.mesh.triangles.size(), 0);
+    for (std::size_t i = 0; i < invented.size(); ++i) {
+      const auto& t = piece.mesh.triangles[i];
+      const double area = 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+      const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+      const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+      if (high < base && high - low < 0.1f * float(scale_.cell_m)) {
+        piece.base_area_m2 += area;
+      } else if (std::any_of(t.begin(), t.end(),
+                             [&](std::uint32_t v) { return piece.confidence[v] < kInvented; })) {
+        invented[i] = 1;
+        piece.invented_area_m2 += area;
+      }
+    }
+    return invented;
+  }
+
   void keep_pieces(std::vector<TriangleMesh> pieces) {
     std::vector<double> areas;
     for (const TriangleMesh& piece : pieces) areas.push_back(area_of(piece));
@@ -144,11 +207,48 @@ class Run {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+    std::vector<std::size_t> floating;
     for (const std::size_t i : order) {
-      if (input_.keep > 0 && out_.pieces.size() >= std::size_t(input_.keep)) break;
-      if (areas[i] >= min_share_ * areas[order[0]])
-        out_.pieces.push_back({std::move(pieces[i]), {}, 0.0, 0.0, 0});
+      if (areas[i] < min_share_ * areas[order[0]]) continue;
+      if (!out_.pieces.empty() && floats(pieces[i])) {
+        floating.push_back(i);
+      } else if (input_.keep == 0 || out_.pieces.size() < std::size_t(input_.keep)) {
+        out_.pieces.push_back({});
+        out_.pieces.back().mesh = std::move(pieces[i]);
+      } else {
+        others_.push_back(bounds(pieces[i].vertices));
+      }
     }
+    for (const std::size_t i : floating) hang(pieces[i]);
+  }
+
+  /// Nothing on a platter hangs in the air: such a piece is a part of what stands beside it, and
+  /// no frame showed what holds it.
+  bool floats(const TriangleMesh& piece) const {
+    return scale_.floor_m &&
+           bounds(piece.vertices).min.y() > *scale_.floor_m + scale_.truncation_m + scale_.cell_m;
+  }
+
+  /// Adds a piece to the nearest one that stands, unless that was not kept.
+  void hang(const TriangleMesh& part) {
+    const Box own = bounds(part.vertices);
+    const auto away = [&](const Box& other) {
+      return (own.min - other.max).cwiseMax(other.min - own.max).cwiseMax(0.0).norm();
+    };
+    std::vector<double> distances;
+    for (const VolumetricPiece& piece : out_.pieces)
+      distances.push_back(away(bounds(piece.mesh.vertices)));
+    const auto nearest = std::min_element(distances.begin(), distances.end());
+    if (std::any_of(others_.begin(), others_.end(),
+                    [&](const Box& other) { return away(other) < *nearest; }))
+      return;
+    VolumetricPiece& piece = out_.pieces[std::size_t(nearest - distances.begin())];
+    const auto first = std::uint32_t(piece.mesh.vertices.size());
+    piece.mesh.vertices.insert(piece.mesh.vertices.end(), part.vertices.begin(),
+                               part.vertices.end());
+    for (const auto& [a, b, c] : part.triangles)
+      piece.mesh.triangles.push_back({first + a, first + b, first + c});
+    ++piece.hanging;
   }
 
   MeshFitScale fit_scale() const {
@@ -157,6 +257,7 @@ class Run {
     scale.reach_m = fit_reach_;
     scale.floor_m = 0.1 * input_.noise_m + 0.1 * scale_.cell_m;
     scale.limit_m = 2.0 * scale_.cell_m;
+    scale.fair_m = 4.0 * scale_.cell_m;
     scale.iterations = options_.fit ? options_.fit_iterations : 0;
     if (scale_.floor_m) scale.floor_height_m = *scale_.floor_m;
     return scale;
@@ -170,6 +271,7 @@ class Run {
   double min_share_;
   const RunContext& context_;
   EvenOutScale grid_;
+  std::vector<Box> others_;  ///< around what stands and is not kept
   VolumetricResult out_;
 };
 
@@ -187,7 +289,12 @@ OptionTable describe(VolumetricOptions& o) {
       .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
       .number("triangles", o.triangles, {4, 1000000000},
               "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
-              "of what the volume gives");
+              "of what the volume gives")
+      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
+              "Volumetric: as few triangles as keep the surface within this of what it would be "
+              "otherwise, still closed; with --triangles whichever ends sooner; automatic: all")
+      .flag("mark-invented", o.mark_invented,
+            "Volumetric: paint in magenta what no frame measured, the rest in its colour or grey");
   return table;
 }
 
@@ -205,9 +312,6 @@ Box measured_box(const VolumetricInput& input) {
 
 namespace {
 
-/// With so many views, or if more may come, the usual scales do.
-constexpr std::size_t kFewViews = 24;
-
 /// Where few views face a place, little but the samples' size averages the noise. Over a disc of
 /// radius r it falls as 1 / r, and the error on a surface that bends with radius R grows as
 /// r^2 / 8 R: they balance at r^3 = 4 R noise spacing / sqrt(pi views).
@@ -221,7 +325,7 @@ double balance(const VolumetricInput& input, double facing, double bend_m) {
 /// Larger samples for few views, with the reason.
 void widen_for_few(const VolumetricInput& input, double longest, double& cell,
                    std::string& reason) {
-  if (input.views.size() >= kFewViews) return;
+  if (!few_views(input)) return;
   // About a third of them face a place.
   const double facing = std::max(1.0, double(input.views.size()) / 3.0);
   const double gaps = std::min(input.spacing_m, 1.6 * input.spacing_m / std::sqrt(facing));
@@ -269,7 +373,7 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
   }
   scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
   // Many views outvote one that is misplaced; few do not.
-  const double few = input.views.size() < kFewViews ? 27.0 / double(input.views.size() + 1) : 0.0;
+  const double few = few_views(input) ? 27.0 / double(input.views.size() + 1) : 0.0;
   scale.truncation_m = choose(
       "truncation", options.truncation_m, std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m),
       fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,

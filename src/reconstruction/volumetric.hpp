@@ -16,6 +16,8 @@ struct VolumetricInput {
   /// Distance between samples over spacing_m. A camera's many frames fall between each other's
   /// pixels; a few range scans do not.
   double cells_of_spacing = 0.5;
+  bool profiles = false;             ///< of a line scanner: views are parts of one long scan
+  bool colored = false;              ///< the mesh gets the views' colours
   std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
   std::optional<int> grid;           ///< or: samples along the longest side
   int keep = 0;                      ///< largest pieces that are kept; 0: all
@@ -29,9 +31,11 @@ struct VolumetricChoice {
 struct VolumetricPiece {
   TriangleMesh mesh;
   std::vector<float> support;     ///< per vertex: sum of the weights of its measurements
+  std::vector<float> confidence;  ///< per vertex: support over its median, at most 1
   double invented_area_m2 = 0.0;  ///< where vertices have a fiftieth of the usual support or less
   double base_area_m2 = 0.0;      ///< closed flat on the platter
   std::size_t points = 0;         ///< measured, in the box of the piece
+  std::size_t hanging = 0;        ///< parts that hang in the air, shown by no frame to be connected
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first

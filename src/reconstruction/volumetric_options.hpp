@@ -12,6 +12,9 @@ struct VolumetricOptions {
   std::optional<double> fit_reach_m;
   int fit_iterations = 3;
   std::optional<int> triangles;  ///< at most so many
+  /// Fewer triangles where the surface stays within this of the full one.
+  std::optional<double> max_error_m;
+  bool mark_invented = false;  ///< paint what no frame measured
 };
 OptionTable describe(VolumetricOptions& options);
 

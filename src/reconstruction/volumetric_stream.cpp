@@ -14,7 +14,8 @@ constexpr double kNoiseSlack = 1.3;
 constexpr std::size_t kPreviewBricks = 4000;
 
 std::size_t bytes_of(const DepthView& view) {
-  return view.pixels.size() * sizeof(view.pixels[0]) + view.tiles.size() * sizeof(view.tiles[0]);
+  return view.pixels.size() * sizeof(view.pixels[0]) + view.colors.size() * sizeof(Rgb) +
+         view.tiles.size() * sizeof(view.tiles[0]);
 }
 
 /// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there
@@ -56,7 +57,7 @@ Result<std::unique_ptr<VolumetricStream>> VolumetricStream::create(
     const SequenceHeader& header, const ReconstructOptions& options, const FirstLook& look,
     const std::vector<RayTable>& rays) {
   std::unique_ptr<VolumetricStream> stream(new VolumetricStream(header, options, rays));
-  const double noise = look.noise_m, apart = look.spacing_m;
+  const double noise = look.noise_m, apart = look.even_spacing_m;
   VolumetricInput& input = stream->input_;
   stream->sensor_noise_m_ = input.noise_m = noise;
   // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
@@ -65,11 +66,14 @@ Result<std::unique_ptr<VolumetricStream>> VolumetricStream::create(
   if (std::all_of(sensors.begin(), sensors.end(),
                   [](const SensorInfo& s) { return s.kind == SensorKind::kPointScanner; }))
     input.cells_of_spacing = 0.9;
+  input.profiles = look.profiles;
   input.cylinder = look.cylinder;
   input.cell_m = options.voxels.size_m;
   input.grid = options.voxels.grid;
   TURNSCAN_ASSIGN(input.keep, objects_to_keep(options.components));
-  stream->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m};
+  stream->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m,
+                         options.color};
+  input.colored = options.color;
   return stream;
 }
 
@@ -192,9 +196,17 @@ Result<> VolumetricStream::finish(const StageSink& sink, const RunContext& conte
     object.check = check_mesh(object.mesh);
     object.points = piece.points;
     object.invented_area_m2 = piece.invented_area_m2;
+    object.confidence = std::move(piece.confidence);
+    if (options_.color && object.mesh.colors.empty())
+      object.notes.emplace_back("the recording has no colour");
     if (piece.base_area_m2 > 0.0)
       object.notes.push_back(
           fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+    if (piece.hanging > 0)
+      object.notes.push_back(
+          fmt::format("{} part{} of it hang{} in the air: no frame shows what "
+                      "connects them to the rest",
+                      piece.hanging, piece.hanging == 1 ? "" : "s", piece.hanging == 1 ? "s" : ""));
     fitted.points.insert(fitted.points.end(), object.mesh.vertices.begin(),
                          object.mesh.vertices.end());
     fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());

@@ -43,6 +43,11 @@ class VolumetricStream {
   /// What the method needs of a frame. May be called from several threads at once.
   Result<DepthView> view(const Frame& frame, const Pose& T_table_sensor) const;
 
+  /// The same of a line scanner's profiles.
+  DepthView view(std::span<const Profile> group, const LightSheet& sheet) const {
+    return view_of_profiles(group, sheet, view_scale_);
+  }
+
   /// Adds what a frame of this sensor gave, in order.
   Result<> add(DepthView view, std::uint32_t sensor);
 

@@ -209,8 +209,8 @@ class Outputs(harness.TestCase):
 
     def test_a_failing_run_leaves_the_old_result(self):
         (self.dir / "m.ply").write_text("old")
-        self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--voxel-min-points",
-                     "1000000", says="--voxel-min-points")
+        self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--method", "poisson",
+                     "--voxel-min-points", "1000000", says="--voxel-min-points")
         self.assertEqual((self.dir / "m.ply").read_text(), "old")
 
 

@@ -60,7 +60,11 @@ class Cancel(harness.TestCase):
 
     def test_reconstruct(self):
         self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--report", "r.json",
-                          "--save-stage", "merged"), made=["m.3mf", "r.json", "m-merged.ply"])
+                          "--save-stage", "fitted"), made=["m.3mf", "r.json", "m-fitted.ply"])
+
+    def test_reconstruct_from_points(self):
+        self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--method", "poisson",
+                          "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"])
 
     def test_demo(self):
         self.every_phase(("demo", "--object", "cylinder", "--frames", "60", "--out", "d"),
@@ -94,7 +98,8 @@ class Cancel(harness.TestCase):
     def test_a_ctrl_c_of_the_terminal_reaches_children_through_their_parent_only(self):
         """A terminal signals the whole group: the child must not die first and be taken for a
         failed library."""
-        args = ("reconstruct", str(shared_recording()), "-o", "m.ply", "--poisson-depth", "9")
+        args = ("reconstruct", str(shared_recording()), "-o", "m.ply", "--method", "poisson",
+                "--poisson-depth", "9")
         process = start(*args, cwd=self.dir, start_new_session=True)
         lines = []
         for line in process.stderr:

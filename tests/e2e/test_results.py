@@ -67,9 +67,10 @@ class Reconstruct(harness.TestCase):
 
     def test_the_number_of_threads_does_not_change_a_byte(self):
         for threads in (1, 2):
+            self.ok("reconstruct", self.rec, "-o", f"v{threads}.ply", "--threads", threads)
             self.ok("reconstruct", self.rec, "-o", f"m{threads}.ply", "--threads", threads,
-                    "--save-stage", f"candidates=c{threads}.ply")
-        for name in ("m", "c"):
+                    "--method", "poisson", "--save-stage", f"candidates=c{threads}.ply")
+        for name in ("v", "m", "c"):
             self.assertEqual((self.dir / f"{name}1.ply").read_bytes(),
                              (self.dir / f"{name}2.ply").read_bytes(), name)
 
@@ -85,8 +86,8 @@ class Reconstruct(harness.TestCase):
         self.assertNotEqual(a, c)
 
     def test_stages_are_saved_beside_the_mesh_or_where_one_says(self):
-        self.ok("reconstruct", self.rec, "-o", "m.stl", "--save-stage", "merged",
-                "--save-stage", "candidates=points.ply")
+        self.ok("reconstruct", self.rec, "-o", "m.stl", "--method", "poisson",
+                "--save-stage", "merged", "--save-stage", "candidates=points.ply")
         self.assertEqual(self.files(), ["m-merged.ply", "m.stl", "points.ply"])
         clouds = {}
         for name in ("m-merged.ply", "points.ply"):
@@ -94,6 +95,34 @@ class Reconstruct(harness.TestCase):
             self.assertEqual(info["kind"], "cloud")
             clouds[name] = info["points"]
         self.assertGreater(clouds["m-merged.ply"], clouds["points.ply"])
+
+    def test_a_stage_of_another_method_is_refused(self):
+        for stage, method in (("candidates", "volumetric"), ("fitted", "poisson")):
+            self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--method", method,
+                         "--save-stage", stage, says=[stage, "--method"])
+        self.assertEqual(self.files(), [])
+
+    def test_every_method_gives_a_mesh_and_the_default_is_volumetric(self):
+        self.ok("reconstruct", self.rec, "-o", "m.ply")
+        for method in ("volumetric", "poisson", "concave-hull"):
+            self.ok("reconstruct", self.rec, "-o", f"{method}.ply", "--method", method)
+            info = json.loads(self.ok("info", f"{method}.ply", "--json").stdout)
+            self.assertTrue(info["objects"][0]["watertight"], method)
+        self.assertEqual((self.dir / "m.ply").read_bytes(),
+                         (self.dir / "volumetric.ply").read_bytes())
+
+    def test_a_ply_mesh_has_a_confidence_and_marks_what_was_invented(self):
+        self.ok("reconstruct", self.rec, "-o", "m.ply", "--max-error", "0.3mm", "--mark-invented")
+        header = (self.dir / "m.ply").read_bytes().split(b"end_header")[0].decode()
+        self.assertIn("property float confidence", header)
+        self.assertIn("property uchar red", header)
+        self.ok("reconstruct", self.rec, "-o", "full.ply")
+        few, full = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]
+                     for n in ("m.ply", "full.ply"))
+        self.assertTrue(few["watertight"])
+        self.assertLess(few["triangles"], full["triangles"] / 2)
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--max-error", "0mm",
+                     says="max-error")
 
     def test_an_open_mesh_is_refused_unless_allowed(self):
         args = ("reconstruct", self.rec, "-o", "m.ply", "--method", "concave-hull", "--no-repair")
@@ -103,8 +132,10 @@ class Reconstruct(harness.TestCase):
         self.assertEqual(self.files(), ["m.ply"])
 
     def test_both_candidate_methods_run(self):
-        self.ok("reconstruct", self.rec, "-o", "a.ply", "--candidates", "sub-voxel")
-        self.ok("reconstruct", self.rec, "-o", "b.ply", "--candidates", "centroid")
+        self.ok("reconstruct", self.rec, "-o", "a.ply", "--method", "poisson",
+                "--candidates", "sub-voxel")
+        self.ok("reconstruct", self.rec, "-o", "b.ply", "--method", "poisson",
+                "--candidates", "centroid")
 
     def test_a_wrong_turntable_file_is_named(self):
         (self.dir / "t.json").write_text('{"axis": [0, 0, 0], "center_m": [0, 0, 1]}')

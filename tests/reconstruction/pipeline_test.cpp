@@ -57,6 +57,7 @@ MemorySequence one_ball(double sigma_m = 0.0003) { return balls({Vec3d(0, kRadiu
 
 ReconstructOptions coarse() {
   ReconstructOptions options;
+  options.surface.method = SurfaceMethod::kPoisson;
   options.surface.poisson_depth = 6;
   return options;
 }
@@ -146,15 +147,16 @@ TEST(Reconstruct, GivesTheSameBytesForOneAndTwoThreads) {
 }
 
 TEST(Reconstruct, GivesItsStagesToTheSink) {
-  std::set<std::string> seen;
-  const auto sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
-    EXPECT_FALSE(cloud.empty());
-    seen.insert(stage);
-    return {};
-  };
-  ASSERT_TRUE(reconstruct(one_ball(), coarse(), sink, RunContext()));
-  seen.insert("fitted");  // volumetric only
-  EXPECT_EQ(seen, std::set<std::string>(saveable_stages().begin(), saveable_stages().end()));
+  for (const ReconstructOptions& options : {coarse(), ReconstructOptions()}) {
+    std::vector<std::string> seen;
+    const auto sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
+      EXPECT_FALSE(cloud.empty());
+      seen.push_back(stage);
+      return {};
+    };
+    ASSERT_TRUE(reconstruct(one_ball(), options, sink, RunContext()));
+    EXPECT_EQ(seen, saveable_stages(options.surface.method));
+  }
 }
 
 TEST(Reconstruct, FailsWhenTheSinkFails) {
@@ -173,7 +175,7 @@ TEST(Reconstruct, SaysWhereThePointsWentWhenNothingIsLeft) {
   ASSERT_FALSE(cropped);
   EXPECT_EQ(cropped.error().code, ErrorCode::kTooFewPoints);
   EXPECT_THAT(cropped.error().message, HasSubstr("crop"));
-  options = {};
+  options = coarse();
   options.voxels.min_points = 100000000;
   const auto counted = reconstruct(one_ball(), options, {}, RunContext());
   ASSERT_FALSE(counted);
@@ -199,7 +201,9 @@ TEST(Reconstruct, StopsSoonWhenCancelledDuringTheSurface) {
   context.set_listener([&context](const Progress& p) {
     if (p.phase == "surface") context.cancel();
   });
-  EXPECT_EQ(reconstruct(one_ball(), {}, {}, context).error().code, ErrorCode::kCancelled);
+  ReconstructOptions options;
+  options.surface.method = SurfaceMethod::kPoisson;
+  EXPECT_EQ(reconstruct(one_ball(), options, {}, context).error().code, ErrorCode::kCancelled);
 }
 
 TEST(Reconstruct, LeavesOutFramesThatWereDropped) {

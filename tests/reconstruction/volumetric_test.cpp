@@ -7,8 +7,11 @@
 #include <tests/support/memory_sequence.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/closest_point.hpp>
+#include <turnscan/reconstruction/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_fit.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/profiles.hpp>
 #include <turnscan/reconstruction/volume.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
@@ -270,20 +273,133 @@ TEST(Volumetric, StandsFlatOnThePlatter) {
 }
 
 TEST(Volumetric, BothSidesOfAThinPlateSurvive) {
-  const auto plate = [](const Vec3d& o, const Vec3d& d) {
-    return to_box(o, d, Vec3d(-0.03, 0, -0.0025), Vec3d(0.03, 0.07, 0.0025));
-  };
-  const auto result = reconstruct(scan(plate, {60, 0.001}), volumetric(), {}, RunContext());
-  ASSERT_TRUE(result) << result.error().text();
-  double sum = 0.0;
-  std::size_t n = 0;
-  for (const Vec3f& v : result->objects[0].mesh.vertices) {
-    if (std::abs(v.x()) > 0.022f || v.y() < 0.01f || v.y() > 0.06f) continue;
-    sum += std::abs(double(v.z()));
-    ++n;
+  for (const double thickness : {0.003, 0.005}) {  // pixels lie 2.3 mm apart
+    const double half = 0.5 * thickness;
+    const auto plate = [&](const Vec3d& o, const Vec3d& d) {
+      return to_box(o, d, Vec3d(-0.03, 0, -half), Vec3d(0.03, 0.07, half));
+    };
+    const auto result = reconstruct(scan(plate, {60, 0.001}), volumetric(), {}, RunContext());
+    ASSERT_TRUE(result) << result.error().text();
+    double sum = 0.0;
+    std::size_t n = 0;
+    for (const Vec3f& v : result->objects[0].mesh.vertices) {
+      if (std::abs(v.x()) > 0.022f || v.y() < 0.01f || v.y() > 0.06f) continue;
+      sum += std::abs(double(v.z()));
+      ++n;
+    }
+    ASSERT_GT(n, 100u);
+    EXPECT_NEAR(2.0 * sum / double(n), thickness, 0.0005);
   }
-  ASSERT_GT(n, 100u);
-  EXPECT_NEAR(2.0 * sum / double(n), 0.005, 0.0005);
+}
+
+TEST(Volumetric, AnArmTwoPixelsWideSurvives) {
+  const auto post_with_arm = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(to_box(o, d, Vec3d(-0.015, 0, -0.015), Vec3d(0.015, 0.08, 0.015)),
+                  to_box(o, d, Vec3d(0.015, 0.05, -0.0025), Vec3d(0.06, 0.055, 0.0025)));
+  };
+  const auto result = reconstruct(scan(post_with_arm, {60, 0.001}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  Box middle, whole = bounds(result->objects[0].mesh.vertices);
+  for (const Vec3f& v : result->objects[0].mesh.vertices) {
+    if (v.x() > 0.025f && v.x() < 0.05f) middle.add(v.cast<double>());
+  }
+  EXPECT_NEAR(whole.max.x(), 0.06, 0.0015);
+  EXPECT_NEAR(middle.size().z(), 0.005, 0.002);  // each side within 1 mm
+  EXPECT_NEAR(middle.max.y(), 0.055, 0.001);
+}
+
+/// Profiles of a line scanner whose upright sheet of light holds the axis: one every 3 degrees,
+/// their points in no order.
+MemorySequence line_scan(const Trace& things) {
+  MemorySequence sequence;
+  SensorInfo sensor;
+  sensor.kind = SensorKind::kPointScanner;
+  Pose pose = Pose::Identity();
+  pose.linear().col(0) = -Vec3d::UnitX();
+  pose.linear().col(1) = -Vec3d::UnitY();
+  pose.translation() = Vec3d(0, 0.1, -0.4);
+  sensor.T_table_sensor = pose;
+  sequence.header_value.sensors = {sensor};
+  TurntableInfo table;
+  table.axis = -Vec3d::UnitY();
+  table.center_m = Vec3d(0, 0.1, 0.4);
+  table.radius_m = 0.12;
+  sequence.header_value.turntable = table;
+  for (std::uint32_t f = 0; f < 120; ++f) {
+    Frame frame;
+    frame.info.index = f;
+    frame.info.angle_rad = 2.0 * std::numbers::pi * f / 120;
+    const Pose view = rotation_about_y(-*frame.info.angle_rad) * pose;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3d ray(0, 0.0015 * ((i * 7) % 300 - 150), 1);
+      const double t = things(view.translation(), view.linear() * ray);
+      if (t > 0.0) frame.points.points.push_back((t * ray).cast<float>());
+    }
+    sequence.add(std::move(frame));
+  }
+  return sequence;
+}
+
+TEST(Volumetric, MakesASolidOfTheProfilesOfALineScanner) {
+  const auto result = reconstruct(line_scan(ball), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.0001);
+}
+
+TEST(Profiles, AreToldFromRangeScans) {
+  FramePoints line, plate, few;
+  for (int i = 0; i < 40; ++i) {
+    line.cloud.points.emplace_back(0.0f, 0.01f * float(i), 0.5f + 0.02f * float(i % 3));
+    // A plate in a plane that does not hold the viewpoint.
+    plate.cloud.points.emplace_back(0.01f * float(i % 6), 0.01f * float(i / 6), 0.5f);
+  }
+  few.cloud.points.assign(line.cloud.points.begin(), line.cloud.points.begin() + 9);
+  const auto sheet = find_sheet(line);
+  ASSERT_TRUE(sheet);
+  EXPECT_NEAR(std::abs(sheet->across.x()), 0.0, 1e-6);
+  EXPECT_FALSE(find_sheet(plate));
+  EXPECT_FALSE(find_sheet(few));
+}
+
+TEST(Profiles, AreOrderedAlongTheLineWithGapsInTheirCells) {
+  FramePoints line;
+  for (const int i : {3, 0, 12, 1, 2, 11, 13, 10, 4, 5})
+    line.cloud.points.emplace_back(0.0f, 0.001f * float(i), 0.5f);
+  const FramePoints row = in_sheet_order(line, {Vec3d::UnitZ(), Vec3d::UnitY()});
+  for (std::size_t i = 1; i < row.cloud.size(); ++i)
+    EXPECT_GT(row.cloud.points[i].y(), row.cloud.points[i - 1].y());
+  EXPECT_EQ(row.cell, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 7, 8, 9, 10}));
+}
+
+TEST(Profiles, AreGroupedWhileTheyAreSeenFromNearlyTheSamePlace) {
+  ProfileGroups groups;
+  std::vector<std::size_t> sizes;
+  for (int i = 0; i < 40; ++i) {
+    Profile profile;
+    profile.points.cloud.points = {Vec3f(0, 0, 0.4f)};
+    profile.T_table_sensor = rotation_about_y(i * std::numbers::pi / 180.0);
+    profile.T_table_sensor.translate(Vec3d(0, 0, -0.4));
+    const auto done = groups.add(profile);
+    if (!done.empty()) sizes.push_back(done.size());
+  }
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{9, 9, 9, 9}));  // of 1 degree each, one shared
+  EXPECT_EQ(groups.flush().size(), 8u);
+  EXPECT_TRUE(groups.flush().empty());
+}
+
+TEST(Volumetric, WhatHangsInTheAirBelongsToWhatStandsBelow) {
+  const auto with_balloon = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(ball(o, d), to_ball(o, d, Vec3d(0.06, 0.08, 0.0), 0.015));
+  };
+  const auto result = reconstruct(scan(with_balloon, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_EQ(result->objects[0].check.components, 2u);
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("hangs in the air")));
 }
 
 TEST(Volumetric, IsSolidWhateverWasRecorded) {
@@ -332,6 +448,116 @@ TEST(Volumetric, TakesAsFewTrianglesAsAskedFor) {
   EXPECT_TRUE(is_solid(result->objects[0].mesh));
 }
 
+TEST(Volumetric, MaxErrorBoundsHowFarFewerTrianglesStray) {
+  const MemorySequence sequence = scan(ball, {});
+  const auto full = reconstruct(sequence, volumetric(), {}, RunContext());
+  ReconstructOptions options = volumetric();
+  options.volumetric.max_error_m = 0.0003;
+  const auto fewer = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(full && fewer);
+  const TriangleMesh &a = full->objects[0].mesh, &b = fewer->objects[0].mesh;
+  EXPECT_LT(b.triangles.size(), a.triangles.size() / 2);
+  EXPECT_TRUE(is_solid(b));
+  const MeshDistance distance(b);
+  double farthest = 0.0;
+  for (const Vec3f& v : a.vertices)
+    farthest = std::max(farthest, distance.closest(v.cast<double>()).distance);
+  EXPECT_LE(farthest, 0.0003);
+  // Whichever ends sooner.
+  options.volumetric.triangles = int(a.triangles.size() / 2);
+  const auto both = reconstruct(sequence, options, {}, RunContext());
+  EXPECT_GT(both->objects[0].mesh.triangles.size(), 2 * b.triangles.size());
+}
+
+/// The ball's frames with images in which it is red on the side of +x (in the table frame) and
+/// green on the other.
+MemorySequence two_colors(const Rig& rig) {
+  MemorySequence sequence = scan(ball, rig);
+  const SensorInfo& sensor = sequence.header().sensors[0];
+  for (Frame& frame : sequence.data) {
+    const Pose pose = rotation_about_y(-*frame.info.angle_rad) * *sensor.T_table_sensor;
+    frame.color = ColorImage(160, 120);
+    for (int i = 0; i < 160 * 120; ++i) {
+      const double z = frame.depth.pixels[std::size_t(i)] * 1e-4;
+      const Vec3d p = pose * Vec3d(z * sensor.intrinsics.ray(i % 160, i / 160));
+      frame.color.pixels[std::size_t(i)] =
+          p.x() > kCenter.x() ? Rgb{200, 20, 10} : Rgb{10, 180, 20};
+    }
+  }
+  return sequence;
+}
+
+TEST(Volumetric, CarriesTheColoursOfTheFrames) {
+  ReconstructOptions options = volumetric();
+  options.color = true;
+  const auto result = reconstruct(two_colors({}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const TriangleMesh& mesh = result->objects[0].mesh;
+  ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+  std::size_t right = 0, looked = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double x = double(mesh.vertices[v].x()) - kCenter.x();
+    if (std::abs(x) < 0.003) continue;
+    ++looked;
+    right += (mesh.colors[v].r > mesh.colors[v].g) == (x > 0.0) ? 1 : 0;
+  }
+  EXPECT_GT(double(right), 0.98 * double(looked));
+  const auto plain = reconstruct(two_colors({}), volumetric(), {}, RunContext());
+  EXPECT_TRUE(plain->objects[0].mesh.colors.empty());
+  EXPECT_EQ(plain->objects[0].mesh.vertices, mesh.vertices);
+}
+
+TEST(Volumetric, SaysThatARecordingHasNoColour) {
+  ReconstructOptions options = volumetric();
+  options.color = true;
+  const auto result = reconstruct(scan(ball, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  EXPECT_TRUE(result->objects[0].mesh.colors.empty());
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("no colour")));
+}
+
+TEST(Volumetric, ConfidenceIsLowWhereNothingWasMeasured) {
+  const auto result = reconstruct(scan(ball, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const ObjectResult& object = result->objects[0];
+  ASSERT_EQ(object.confidence.size(), object.mesh.vertices.size());
+  double top = 0.0, base = 0.0;
+  std::size_t at_top = 0, at_base = 0;
+  for (std::size_t v = 0; v < object.confidence.size(); ++v) {
+    EXPECT_GE(object.confidence[v], 0.0f);
+    EXPECT_LE(object.confidence[v], 1.0f);
+    const double y = object.mesh.vertices[v].y();
+    if (y > kCenter.y() + 0.01) top += double(object.confidence[v]), ++at_top;
+    if (y < 1e-5) base += double(object.confidence[v]), ++at_base;
+  }
+  ASSERT_GT(at_base, 0u);
+  EXPECT_GT(top / double(at_top), 0.5);
+  EXPECT_EQ(base, 0.0);
+}
+
+TEST(Volumetric, MarksWhatItInvented) {
+  ReconstructOptions options = volumetric();
+  options.volumetric.mark_invented = true;
+  // A ball that floats: from above its underside is not seen.
+  const auto floating = [](const Vec3d& o, const Vec3d& d) {
+    return to_ball(o, d, kCenter, kRadius);
+  };
+  const auto result = reconstruct(scan(floating, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const ObjectResult& object = result->objects[0];
+  ASSERT_EQ(object.mesh.colors.size(), object.mesh.vertices.size());
+  double area = 0.0;
+  for (const auto& t : object.mesh.triangles) {
+    const auto& p = object.mesh.vertices;
+    if (std::all_of(t.begin(), t.end(),
+                    [&](std::uint32_t v) { return object.mesh.colors[v] == kInventedColor; }))
+      area += 0.5 * double((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm());
+  }
+  EXPECT_GT(object.invented_area_m2, 1e-4);
+  EXPECT_GE(area, 0.999 * object.invented_area_m2);
+  EXPECT_LT(area, 1.3 * object.invented_area_m2);
+}
+
 TEST(Volumetric, KeepsAsManyObjectsAsAskedFor) {
   const auto pair = [](const Vec3d& o, const Vec3d& d) {
     return nearer(to_ball(o, d, Vec3d(-0.05, 0.025, 0), 0.025),
@@ -346,10 +572,6 @@ TEST(Volumetric, KeepsAsManyObjectsAsAskedFor) {
 }
 
 TEST(Volumetric, RefusesWhatItCannotDo) {
-  ReconstructOptions options = volumetric();
-  options.color = true;
-  EXPECT_EQ(reconstruct(scan(ball, {}), options, {}, RunContext()).error().code,
-            ErrorCode::kInvalidOption);
   const auto nothing = [](const Vec3d&, const Vec3d&) { return 0.0; };
   EXPECT_EQ(reconstruct(scan(nothing, {}), volumetric(), {}, RunContext()).error().code,
             ErrorCode::kTooFewPoints);
@@ -379,7 +601,7 @@ TEST(Volumetric, FewViewsGetLargerSamplesAndALongerReach) {
 }
 
 TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
-  for (const char* name : {"truncation", "fit-reach", "fit-iterations", "triangles"}) {
+  for (const char* name : {"truncation", "fit-reach", "fit-iterations", "triangles", "max-error"}) {
     VolumetricOptions options;
     const auto wrong = describe(options).set(name, "-1");
     const auto checked = wrong ? describe(options).check() : wrong;

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/reconstruction/depth_window.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::uint32_t kFar = 65534;  // stands for "empty as far as it matters"
+
+/// Whether a neighbour is so much farther that the pixel may hold a mixture of both.
+bool beside_edge(const RawWindow& raw, int x, int y, int step) {
+  const int own = raw.at(x, y);
+  constexpr std::array<std::array<int, 2>, 4> kSides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  return std::any_of(kSides.begin(), kSides.end(), [&](const auto& side) {
+    const int u = x + side[0], v = y + side[1];
+    if (u < 0 || v < 0 || u >= raw.width || v >= raw.height) return true;
+    const std::uint16_t other = raw.at(u, v);
+    return !measured(other) || int(other) > own + step;
+  });
+}
+
+/// The least depth of the pixel and those around it: a pixel beside an edge may look past it.
+std::uint32_t clear_depth(const RawWindow& raw, int x, int y) {
+  if (raw.at(x, y) == kNoReturn) return 0;
+  std::uint32_t least = kFar;
+  for (int v = std::max(0, y - 1); v <= std::min(raw.height - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(raw.width - 1, x + 1); ++u) {
+      if (measured(raw.at(u, v))) least = std::min<std::uint32_t>(least, raw.at(u, v));
+    }
+  }
+  return least;
+}
+
+void make_tiles(DepthView& view) {
+  view.tiles_x = (view.width + DepthView::kTile - 1) / DepthView::kTile;
+  view.tiles_y = (view.height + DepthView::kTile - 1) / DepthView::kTile;
+  view.tiles.assign(std::size_t(view.tiles_x) * std::size_t(view.tiles_y), {});
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const std::uint32_t word = view.pixels[std::size_t(y) * std::size_t(view.width) + x];
+      DepthView::Tile& tile = view.tiles[std::size_t(y / DepthView::kTile) * view.tiles_x +
+                                         std::size_t(x / DepthView::kTile)];
+      const auto depth = std::uint16_t(word & 0xffffu), clear = std::uint16_t(word >> 17 << 1);
+      if (depth != 0) {
+        tile.nearest = std::min(tile.nearest, depth);
+        tile.farthest = std::max(tile.farthest, depth);
+      }
+      tile.clear = std::min(tile.clear, clear);
+      tile.clear_most = std::max(tile.clear_most, clear);
+    }
+  }
+}
+
+}  // namespace
+
+void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
+  const int step = int(std::lround(edge_step_m / double(view.unit_m)));
+  view.width = raw.width + 2;
+  view.height = raw.height + 2;
+  view.pixels.assign(std::size_t(view.width) * std::size_t(view.height), 0);
+  for (int y = 0; y < raw.height; ++y) {
+    for (int x = 0; x < raw.width; ++x) {
+      const std::uint16_t own = raw.at(x, y);
+      const std::uint32_t depth = measured(own) ? own : 0u;
+      view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
+          DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step),
+                          clear_depth(raw, x, y));
+    }
+  }
+  make_tiles(view);
+}
+
+void set_pose(DepthView& view, const Pose& T_table_view) {
+  const Pose inverse = T_table_view.inverse();
+  view.rotation = inverse.linear().cast<float>();
+  view.translation = inverse.translation().cast<float>();
+}
+
+}  // namespace turnscan
