@@ -7,6 +7,7 @@
 #include <turnscan/turntable/check.hpp>
 #include <turnscan/turntable/depth_bias.hpp>
 #include <turnscan/turntable/detect.hpp>
+#include <turnscan/turntable/gauge_ball.hpp>
 #include <turnscan/turntable/motion.hpp>
 #include <turnscan/turntable/picked_points.hpp>
 
@@ -20,21 +21,23 @@ namespace turnscan::cli {
 
 namespace {
 
-/// A recording with another offset of depth.
+/// A recording with other cameras and depth.
 class Corrected : public FrameSequence {
  public:
-  Corrected(const FrameSequence& sequence, const std::optional<DepthCorrection>& depth)
-      : sequence_(sequence), header_(sequence.header()) {
-    if (!depth || header_.sensors.empty()) return;
-    header_.sensors[0].depth_unit_m *= depth->scale;
-    header_.sensors[0].depth_bias_m = depth->bias_m;
+  static Result<Corrected> of(const FrameSequence& sequence, const Calibration& correction) {
+    Corrected out(sequence);
+    TURNSCAN_TRY(correct_sensor(correction, out.header_.sensors[0]));
+    return out;
   }
   const SequenceHeader& header() const override { return header_; }
-  const std::vector<FrameInfo>& frames() const override { return sequence_.frames(); }
-  Result<Frame> read(std::size_t position) const override { return sequence_.read(position); }
+  const std::vector<FrameInfo>& frames() const override { return sequence_->frames(); }
+  Result<Frame> read(std::size_t position) const override { return sequence_->read(position); }
 
  private:
-  const FrameSequence& sequence_;
+  explicit Corrected(const FrameSequence& sequence)
+      : sequence_(&sequence), header_(sequence.header()) {}
+
+  const FrameSequence* sequence_;
   SequenceHeader header_;
 };
 
@@ -69,13 +72,14 @@ class CalibrateCommand : public Command {
     line.flag("--from-motion", from_motion_,
               "Find axis, speed and angles from the motion of what stands on the platter");
     line.flag("--depth-bias", depth_bias_,
-              "First find the constant offset of the sensor's depth, from --platter-radius");
+              "First find the constant offset of the sensor's depth, from --platter-radius or "
+              "--gauge-ball");
     line.option("--depth-also", "RECORDING", depth_also_,
-                "With --depth-bias: the same platter at another distance, which tells the scale "
-                "of the sensor's depth, too");
-    line.option(
-        "--iai-kinect2", "FOLDER", iai_folder_,
-        "First add the depth offset of a Kinect v2 calibration in the layout of iai_kinect2");
+                "With --depth-bias: the same platter or ball at another distance, which tells the "
+                "scale of the sensor's depth, too");
+    line.option("--iai-kinect2", "FOLDER", iai_folder_,
+                "First take cameras and depth offset from a Kinect v2 calibration in the layout of "
+                "iai_kinect2");
     line.flag("--check", check_,
               "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
               "is wrong; nothing is calibrated");
@@ -86,6 +90,7 @@ class CalibrateCommand : public Command {
     line.group("device", "Device", describe(device_options_));
     line.group("average", "Averaging", describe(average_));
     line.group("detect", "Detection", describe(detect_options_));
+    line.group("gauge", "Gauge", describe(ball_options_));
     line.group("motion", "Motion", describe(motion_options_));
   }
 
@@ -97,14 +102,13 @@ class CalibrateCommand : public Command {
     if (check_ && !(json_.empty() && save_.empty()))
       return fail(ErrorCode::kInvalidOption,
                   "--check makes no calibration; leave out --json and --save");
-    if (depth_bias_ && !iai_folder_.empty())
-      return fail(ErrorCode::kInvalidOption,
-                  "--depth-bias and --iai-kinect2 both give the offset of depth; use one of them");
     if (!depth_also_.empty() && !depth_bias_)
       return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
-    if (depth_bias_ && !detect_options_.radius_m)
+    if (depth_bias_ && !detect_options_.radius_m && !ball_options_.diameter_m)
       return fail(ErrorCode::kInvalidOption,
-                  "--depth-bias needs a known size; give --platter-radius");
+                  "--depth-bias needs a known size; give --platter-radius or --gauge-ball");
+    if (ball_options_.diameter_m && !depth_bias_)
+      return fail(ErrorCode::kInvalidOption, "--gauge-ball is for --depth-bias; give both");
     if (recording_.empty() && device_.empty())
       return fail(ErrorCode::kInvalidOption, "RECORDING: missing; give it, or --device URI");
     if (!recording_.empty() && !device_.empty())
@@ -155,10 +159,11 @@ class CalibrateCommand : public Command {
   }
 
   Result<Calibration> calibrate_and_tell(const FrameSequence& sequence, Session& session) {
-    TURNSCAN_ASSIGN(const auto depth, depth_correction(sequence, session));
-    const Corrected corrected(sequence, depth);
+    TURNSCAN_ASSIGN(const Calibration correction, sensor_correction(sequence, session));
+    TURNSCAN_ASSIGN(const Corrected corrected, Corrected::of(sequence, correction));
     TURNSCAN_ASSIGN(Calibration found, calibrate(corrected, session));
-    found.depth = depth;
+    found.depth = correction.depth;
+    found.camera = correction.camera;
     // What is shown is what the file gives back.
     TURNSCAN_ASSIGN(Calibration calibration, parse_calibration(calibration_json(found)));
     TURNSCAN_TRY(session.context().check());
@@ -188,34 +193,55 @@ class CalibrateCommand : public Command {
                 wrong, findings.size());
   }
 
-  Result<std::optional<DepthCorrection>> depth_correction(const FrameSequence& recording,
-                                                          Session& session) const {
-    const SensorInfo& sensor = recording.header().sensors.front();
+  /// Camera and depth of the sensor; the rest of it says nothing.
+  Result<Calibration> sensor_correction(const FrameSequence& recording, Session& session) const {
+    Calibration out;
     if (!iai_folder_.empty()) {
       TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(iai_folder_));
-      DepthCorrection depth;
-      depth.bias_m = kinect.depth_shift_m;
-      depth.found = "iai_kinect2 calibration " + iai_folder_;
-      return depth;
+      out.depth = kinect.depth;
+      out.camera = kinect.camera;
     }
-    if (!depth_bias_) return std::nullopt;
+    if (!depth_bias_) return out;
+    TURNSCAN_ASSIGN(const Corrected calibrated, Corrected::of(recording, out));
+    TURNSCAN_ASSIGN(out.depth, depth_from_gauge(calibrated, out, session));
+    return out;
+  }
+
+  Result<DepthCorrection> depth_from_gauge(const FrameSequence& recording,
+                                           const Calibration& camera, Session& session) const {
+    TURNSCAN_ASSIGN(const DepthGauge here, gauge(recording, session));
+    if (!depth_also_.empty()) {
+      TURNSCAN_ASSIGN(const Recording opened, Recording::open(depth_also_));
+      TURNSCAN_ASSIGN(const Corrected also, Corrected::of(opened, camera));
+      if (also.header().sensors.front().depth_unit_m !=
+          recording.header().sensors.front().depth_unit_m)
+        return fail(ErrorCode::kInvalidOption,
+                    "--depth-also: the recordings have depth in different units; record both with "
+                    "the same sensor");
+      TURNSCAN_ASSIGN(const DepthGauge there, gauge(also, session));
+      return fit_depth(std::array{here, there});
+    }
+    DepthCorrection out;
+    out.bias_m = here.offset_m;
+    out.bias_sigma_m = here.sigma_m;
+    out.found = ball_options_.diameter_m
+                    ? fmt::format("a ball of {}",
+                                  format_quantity(*ball_options_.diameter_m, Quantity::kLength))
+                    : fmt::format("the platter's rim, whose radius is {}",
+                                  format_quantity(*detect_options_.radius_m, Quantity::kLength));
+    return out;
+  }
+
+  /// By the ball where one is stated: its size is known better than a platter's.
+  Result<DepthGauge> gauge(const FrameSequence& recording, Session& session) const {
+    const double recorded_m = recording.header().sensors.front().depth_bias_m;
     TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
-    const double radius = *detect_options_.radius_m;
-    if (depth_also_.empty())
-      return estimate_depth_bias(scan, radius, sensor.depth_bias_m, detect_options_,
-                                 session.context());
-    TURNSCAN_ASSIGN(const Recording also, Recording::open(depth_also_));
-    if (also.header().sensors.front().depth_unit_m != sensor.depth_unit_m)
-      return fail(ErrorCode::kInvalidOption,
-                  "--depth-also: the recordings have depth in different units; record both with "
-                  "the same sensor");
-    TURNSCAN_ASSIGN(const AveragedScan other, average(also, session));
-    TURNSCAN_ASSIGN(const DepthGauge here, gauge_depth(scan, radius, sensor.depth_bias_m,
-                                                       detect_options_, session.context()));
-    TURNSCAN_ASSIGN(const DepthGauge there,
-                    gauge_depth(other, radius, also.header().sensors.front().depth_bias_m,
-                                detect_options_, session.context()));
-    return fit_depth(std::array{here, there});
+    if (!ball_options_.diameter_m)
+      return gauge_depth(scan, *detect_options_.radius_m, recorded_m, detect_options_,
+                         session.context());
+    TURNSCAN_ASSIGN(const BallGauge ball, gauge_depth_with_ball(scan, *ball_options_.diameter_m,
+                                                                recorded_m, session.context()));
+    return ball.gauge;
   }
 
   Result<Calibration> calibrate(const FrameSequence& recording, Session& session) const {
@@ -284,6 +310,7 @@ class CalibrateCommand : public Command {
   bool detect_ = false, from_motion_ = false, check_ = false, depth_bias_ = false;
   AverageOptions average_;
   DetectOptions detect_options_;
+  BallOptions ball_options_;
   MotionOptions motion_options_;
 };
 

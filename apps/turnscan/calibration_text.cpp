@@ -62,6 +62,10 @@ std::string calibration_text(const Calibration& c) {
   if (c.depth)
     text += fmt::format("Depth: {:+.2f} mm, times {:.5f} ({})\n", c.depth->bias_m * 1e3,
                         c.depth->scale, c.depth->found);
+  if (c.camera)
+    text += fmt::format("Camera: fx {:.2f}, fy {:.2f}, cx {:.2f}, cy {:.2f} ({})\n",
+                        c.camera->intrinsics.fx, c.camera->intrinsics.fy, c.camera->intrinsics.cx,
+                        c.camera->intrinsics.cy, c.camera->found);
   for (const std::string& note : c.notes) text += fmt::format("Note: {}\n", note);
   return text;
 }

@@ -52,8 +52,11 @@ Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
   if (!turntable_file.empty()) {
     TURNSCAN_ASSIGN(const Calibration calibration, read_calibration(turntable_file));
     header.turntable = calibration.table;
-    if (calibration.depth) header.sensors[0].depth_bias_m = calibration.depth->bias_m;
+    if (auto fits = correct_sensor(calibration, header.sensors[0]); !fits)
+      return fail_at(turntable_file, fits.error().code, "{}", fits.error().message);
     header.sensors[0].T_table_sensor.reset();
+    for (std::size_t i = 0; i < calibration.others.size() && i + 1 < header.sensors.size(); ++i)
+      header.sensors[i + 1].T_table_sensor = calibration.others[i].T_table_sensor;
   }
   if (!motor_port.empty() && !options.speed_rad_s) options.speed_rad_s = motor_speed_rad_s;
   if (header.turntable && options.speed_rad_s) header.turntable->speed_rad_s = options.speed_rad_s;

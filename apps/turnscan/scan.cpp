@@ -219,7 +219,7 @@ class ScanCommand : public Command {
     notes_.push_back(check.text);
     if (check.moved) return false;
     set_table((*kept)->table);
-    if ((*kept)->depth) setup_.header.sensors[0].depth_bias_m = (*kept)->depth->bias_m;
+    TURNSCAN_TRY(correct_sensor(**kept, setup_.header.sensors[0]));
     notes_.push_back("the turntable's place is the one that was kept of this device");
     table_known_ = true;
     return true;

@@ -22,12 +22,48 @@ class Calibrated : public FrameSequence {
   std::vector<FrameInfo> frames_;
 };
 
-void correct_depth(const DepthCorrection& depth, SensorInfo& sensor) {
-  sensor.depth_unit_m *= depth.scale;
-  sensor.depth_bias_m = depth.bias_m;
+bool same_size(const CameraIntrinsics& a, const CameraIntrinsics& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+/// Header and sensors as the calibration has them.
+Result<> correct_header(const Calibration& calibration, SequenceHeader& header) {
+  if (header.sensors.empty()) return {};
+  header.sensors[0].T_table_sensor.reset();
+  TURNSCAN_TRY(correct_sensor(calibration, header.sensors[0]));
+  if (calibration.others.size() >= header.sensors.size())
+    return fail(ErrorCode::kInvalidOption,
+                "the calibration is of {} sensors, but the recording has {}; calibrate this "
+                "recording",
+                calibration.others.size() + 1, header.sensors.size());
+  for (std::size_t i = 0; i < calibration.others.size(); ++i)
+    header.sensors[i + 1].T_table_sensor = calibration.others[i].T_table_sensor;
+  return {};
 }
 
 }  // namespace
+
+Result<> correct_sensor(const Calibration& calibration, SensorInfo& sensor) {
+  if (calibration.depth) {
+    sensor.depth_unit_m *= calibration.depth->scale;
+    sensor.depth_bias_m = calibration.depth->bias_m;
+  }
+  if (!calibration.camera) return {};
+  const CameraCorrection& camera = *calibration.camera;
+  if (!same_size(camera.intrinsics, sensor.intrinsics))
+    return fail(ErrorCode::kInvalidOption,
+                "the calibrated camera has {} x {} pixels, but the depth images {} x {}; it is of "
+                "another sensor or mode",
+                camera.intrinsics.width, camera.intrinsics.height, sensor.intrinsics.width,
+                sensor.intrinsics.height);
+  sensor.intrinsics = camera.intrinsics;
+  if (camera.color_intrinsics && sensor.color_intrinsics &&
+      same_size(*camera.color_intrinsics, *sensor.color_intrinsics)) {
+    sensor.color_intrinsics = camera.color_intrinsics;
+    sensor.T_color_sensor = camera.T_color_sensor;
+  }
+  return {};
+}
 
 std::string_view name_of(CalibrationMethod method) {
   switch (method) {
@@ -55,10 +91,7 @@ Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& seq
       header.turntable ? header.turntable->speed_rad_s : std::optional<double>();
   header.turntable = calibration.table;
   if (!calibration.table.speed_rad_s) header.turntable->speed_rad_s = recorded_speed;
-  if (!header.sensors.empty()) {
-    header.sensors[0].T_table_sensor.reset();
-    if (calibration.depth) correct_depth(*calibration.depth, header.sensors[0]);
-  }
+  TURNSCAN_TRY(correct_header(calibration, header));
   const bool turns = !angles.empty() || calibration.table.speed_rad_s.has_value();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (turns) frames[i].T_table_sensor.reset();

@@ -27,6 +27,22 @@ struct DepthCorrection {
   std::string found;  ///< how
 };
 
+/// A depth camera as somebody calibrated it, in place of what the recording says of it.
+struct CameraCorrection {
+  CameraIntrinsics intrinsics;
+  std::optional<CameraIntrinsics> color_intrinsics;  ///< of colour that is not registered to depth
+  Pose T_color_sensor = Pose::Identity();            ///< where color_intrinsics are
+  std::string found;                                 ///< how
+};
+
+/// Where a further sensor stands.
+struct SensorPlace {
+  Pose T_table_sensor = Pose::Identity();  ///< with the platter at angle 0; table of sensor 0
+  double heading_sigma_rad = std::numeric_limits<double>::quiet_NaN();  ///< about the axis
+  double shift_sigma_m = std::numeric_limits<double>::quiet_NaN();      ///< in any direction
+  std::string found;                                                    ///< how
+};
+
 /// The turntable in the frame of sensor 0. A standard deviation that is not known is NaN. The
 /// texts `..._found` say for people how the figure was found; empty: it is not known.
 struct Calibration {
@@ -52,13 +68,21 @@ struct Calibration {
   std::vector<std::string> undetermined;
   std::vector<std::string> notes;
 
-  std::optional<DepthCorrection> depth;  ///< of sensor 0
+  std::optional<DepthCorrection> depth;    ///< of sensor 0
+  std::optional<CameraCorrection> camera;  ///< of sensor 0
+  std::vector<SensorPlace> others;         ///< sensors 1, 2, ...; empty: nothing is known of them
 };
 
+/// Depth and camera of sensor 0 as the calibration has them; colour where the recording has colour
+/// of that size that is not registered. Fails with kInvalidOption when the images have another
+/// size than the calibrated camera.
+Result<> correct_sensor(const Calibration& calibration, SensorInfo& sensor);
+
 /// The sequence as it looks with the calibration: its turntable, its angles in place of those of
-/// the frames, its correction of depth. Frames with poses of their own lose them, except with a
-/// calibration without angles and speed. `sequence` must outlive the result. Fails with
-/// kInvalidOption when the number of angles is not that of the frames.
+/// the frames, its camera and depth, the places of its other sensors. Frames with poses of their
+/// own lose them, except with a calibration without angles and speed. `sequence` must outlive the
+/// result. Fails with kInvalidOption when the number of angles is not that of the frames, when it
+/// knows more sensors than the sequence has, and as correct_sensor() does.
 Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& sequence,
                                                         const Calibration& calibration);
 

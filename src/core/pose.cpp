@@ -24,10 +24,13 @@ Result<Pose> pose_from(const Eigen::Matrix4d& matrix) {
   const double error = (r * r.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (!(error <= 1e-3) || r.determinant() < 0)
     return fail(ErrorCode::kFormat, "pose matrix: the upper left 3x3 block is not a rotation");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Pose pose = Pose::Identity();
-  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
+  pose.linear() = r;
   pose.translation() = matrix.topRightCorner<3, 1>();
+  // What is a rotation stays so to the last bit: a pose that was written reads back as it was.
+  if (error < 1e-14) return pose;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
   return pose;
 }
 

@@ -3,17 +3,23 @@
 
 #include <filesystem>
 #include <optional>
-#include <turnscan/core/camera.hpp>
+#include <turnscan/core/calibration.hpp>
 
 namespace turnscan {
 
+/// What was found in the folder; at least one of them.
 struct Kinect2Calibration {
-  double depth_shift_m = 0.0;                  ///< to be added to every depth
-  std::optional<CameraIntrinsics> intrinsics;  ///< of the depth camera, 512 x 424, if there
+  std::optional<DepthCorrection> depth;    ///< depthShift of calib_depth.yaml
+  std::optional<CameraCorrection> camera;  ///< calib_ir.yaml; colour if its files are there, too
 };
 
-/// Reads calib_depth.yaml (depthShift, millimetres) and, if it is there, calib_ir.yaml. Fails with
-/// kNotFound without the first, with kFormat when a value is missing, wrong or beyond 1 m.
+/// Reads calib_depth.yaml (depthShift, millimetres, which is added to every depth), calib_ir.yaml
+/// (512 x 424), and, where both are there, calib_color.yaml (1920 x 1080) and calib_pose.yaml,
+/// whose rotation and translation (metres) take a point from the depth to the colour camera.
+/// The images are expected as that driver's users see them: not mirrored. A calibration with
+/// eight coefficients of distortion is taken when the last three are zero.
+/// Fails with kNotFound with neither of the first two, kUnsupported for eight coefficients, and
+/// with kFormat when a value is missing, wrong or beyond 1 m, or a rotation is none.
 Result<Kinect2Calibration> read_iai_kinect2(const std::filesystem::path& folder);
 
 }  // namespace turnscan

@@ -28,14 +28,14 @@ const std::vector<Importer>& table() {
        {"angles", "point-unit", "sensor-position", "sensor-direction", "clockwise"}},
       {{ImportFormat::kTumRgbd, "tum", "TUM RGB-D folder (depth.txt, rgb.txt, groundtruth.txt)"},
        open_tum,
-       {"depth-unit", "intrinsics", "world-up", "clockwise"}},
+       {"depth-unit", "intrinsics", "iai-kinect2", "world-up", "clockwise"}},
       {{ImportFormat::kFramePose, "frame-pose",
         "frame-N.depth.png with frame-N.pose.txt and camera-intrinsics.txt"},
        open_frame_pose,
-       {"depth-unit", "intrinsics", "pose-direction", "world-up"}},
+       {"depth-unit", "intrinsics", "iai-kinect2", "pose-direction", "world-up"}},
       {{ImportFormat::kJsonPng, "json-png", "depth_N.png described by a JSON file"},
        open_json_png,
-       {"depth-unit", "pose-direction", "world-up", "clockwise"}}};
+       {"depth-unit", "iai-kinect2", "pose-direction", "world-up", "clockwise"}}};
   return importers;
 }
 
@@ -98,6 +98,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   note(o.depth_unit_m.has_value(), "depth-unit");
   note(o.point_unit != LengthUnit::kAuto, "point-unit");
   note(!o.intrinsics.empty(), "intrinsics");
+  note(!o.iai_kinect2.empty(), "iai-kinect2");
   note(!o.sensor_position.empty(), "sensor-position");
   note(!o.sensor_direction.empty(), "sensor-direction");
   note(o.pose_direction != PoseDirection::kAuto, "pose-direction");
@@ -139,6 +140,10 @@ OptionTable describe(ImportOptions& o) {
                "Unit of the coordinates of scans; auto takes it from the layout's definition");
   table.text("intrinsics", o.intrinsics,
              "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
+  table.text(
+      "iai-kinect2", o.iai_kinect2,
+      "Folder with a Kinect v2's calibration in the layout of iai_kinect2: cameras and offset "
+      "of depth are taken from there");
   table.text("sensor-position", o.sensor_position,
              "Where the scanner stands in the frame of its scans: x,y,z with units");
   table.text("sensor-direction", o.sensor_direction,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/atomic_file.hpp>
+#include <turnscan/io/iai_kinect2.hpp>
 #include <turnscan/io/importers_common.hpp>
 #include <turnscan/io/text_fields.hpp>
 
@@ -105,6 +106,13 @@ Result<double> depth_scale(const ImportOptions& options, std::optional<double> b
   return fail(ErrorCode::kMissingData,
               "import: the files do not say the unit of their depth images; state the length of "
               "one step, e.g. --depth-unit 1mm");
+}
+
+Result<CameraIntrinsics> iai_kinect2_intrinsics(const ImportOptions& options) {
+  TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(options.iai_kinect2));
+  if (kinect.camera) return kinect.camera->intrinsics;
+  return fail_at(options.iai_kinect2, ErrorCode::kMissingData,
+                 "there is no calib_ir.yaml; state the intrinsics: --intrinsics fx,fy,cx,cy");
 }
 
 Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {

@@ -74,6 +74,9 @@ Result<double> depth_scale(const ImportOptions& options, std::optional<double> b
 
 /// From options.intrinsics ("fx,fy,cx,cy" or a file), without the image size.
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
+/// Those of the depth camera in options.iai_kinect2. Fails with kMissingData when only the offset
+/// of depth is there.
+Result<CameraIntrinsics> iai_kinect2_intrinsics(const ImportOptions& options);
 /// The 3x3 matrix of a text file, without the image size.
 Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
 
@@ -93,6 +96,12 @@ Result<Pose> placed_pose(const Pose& pose, const ImportOptions& options);
 /// on the platter's surface.
 Result<> apply_turntable_options(const ImportOptions& options, bool on_platter,
                                  SequenceHeader& header);
+
+/// Cameras and depth offset of sensor 0 from options.iai_kinect2, if that is given; its colour
+/// camera where the frames have colour images of its size. Fails as read_iai_kinect2 does, and
+/// with kInvalidOption when the depth images are of another size.
+Result<> apply_iai_kinect2(const ImportOptions& options, const std::vector<ForeignFrame>& frames,
+                           SequenceHeader& header);
 
 /// Reads the size of the first frame's images; sets the sensor's image size where it is 0, and
 /// drops the colour of all frames, with a note, when it is not registered and has no camera.

@@ -102,6 +102,7 @@ void drop_unplaced(std::vector<ForeignFrame>& frames, SequenceHeader& header) {
 
 Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptions& options) {
   if (!options.intrinsics.empty()) return stated_intrinsics(options);
+  if (!options.iai_kinect2.empty()) return iai_kinect2_intrinsics(options);
   const fs::path path = folder / "camera-intrinsics.txt";
   std::error_code error;
   if (fs::exists(path, error)) return intrinsics_from_file(path);
@@ -122,6 +123,7 @@ OpenResult open_frame_pose(const fs::path& folder, const ImportOptions& options)
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options));
   if (auto good = check_indices(frames); !good) return at_path(folder, std::move(good).error());
   drop_unplaced(frames, header);
+  TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);

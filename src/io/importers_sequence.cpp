@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/cloud_io.hpp>
+#include <turnscan/io/iai_kinect2.hpp>
 #include <turnscan/io/image_io.hpp>
 #include <turnscan/io/importers_common.hpp>
 
@@ -35,6 +36,11 @@ Result<> check_size(const Image& image, const CameraIntrinsics& camera,
   return fail_at(path.string(), ErrorCode::kFormat,
                  "the image has {} x {} pixels, but its camera has {} x {}", image.width,
                  image.height, camera.width, camera.height);
+}
+
+std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<ForeignFrame>& frames) {
+  return std::find_if(frames.begin(), frames.end(),
+                      [](const ForeignFrame& f) { return !f.color.empty(); });
 }
 
 }  // namespace
@@ -71,6 +77,31 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
   return frame;
 }
 
+Result<> apply_iai_kinect2(const ImportOptions& options, const std::vector<ForeignFrame>& frames,
+                           SequenceHeader& header) {
+  if (options.iai_kinect2.empty() || frames.empty()) return {};
+  TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(options.iai_kinect2));
+  SensorInfo& sensor = header.sensors.front();
+  if (kinect.depth) sensor.depth_bias_m = kinect.depth->bias_m;
+  if (!kinect.camera) return {};
+  const CameraCorrection& camera = *kinect.camera;
+  TURNSCAN_ASSIGN(const DepthImage depth, read_depth_png(frames.front().data));
+  if (depth.width != camera.intrinsics.width || depth.height != camera.intrinsics.height)
+    return fail_at(frames.front().data.string(), ErrorCode::kInvalidOption,
+                   "the image has {} x {} pixels, but a Kinect v2 of --iai-kinect2 {} x {}",
+                   depth.width, depth.height, camera.intrinsics.width, camera.intrinsics.height);
+  sensor.intrinsics = camera.intrinsics;
+  const auto colored = first_colored(frames);
+  if (!camera.color_intrinsics || colored == frames.end()) return {};
+  TURNSCAN_ASSIGN(const ColorImage color, read_color(colored->color));
+  if (color.width != camera.color_intrinsics->width ||
+      color.height != camera.color_intrinsics->height)
+    return {};
+  sensor.color_intrinsics = camera.color_intrinsics;
+  sensor.T_color_sensor = camera.T_color_sensor;
+  return {};
+}
+
 Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>& frames) {
   SensorInfo& sensor = header.sensors.front();
   CameraIntrinsics& camera = sensor.intrinsics;
@@ -81,8 +112,7 @@ Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>&
     camera.height = depth.height;
   }
   TURNSCAN_TRY(camera.check());
-  const auto colored = std::find_if(frames.begin(), frames.end(),
-                                    [](const ForeignFrame& f) { return !f.color.empty(); });
+  const auto colored = first_colored(frames);
   if (colored == frames.end() || sensor.color_intrinsics) return {};
   TURNSCAN_ASSIGN(const ColorImage color, read_color(colored->color));
   if (color.width == camera.width && color.height == camera.height) return {};

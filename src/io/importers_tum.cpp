@@ -116,6 +116,7 @@ std::optional<Pose> pose_at(const std::vector<TimedPose>& poses, double time_s) 
 Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptions& options,
                                        SequenceHeader& header) {
   if (!options.intrinsics.empty()) return stated_intrinsics(options);
+  if (!options.iai_kinect2.empty()) return iai_kinect2_intrinsics(options);
   const std::string name = display_name(folder);
   for (const char* known : {"freiburg1", "freiburg2", "freiburg3"}) {
     if (name.find(known) == std::string::npos) continue;
@@ -190,6 +191,7 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
     add_note(header, "depth images have 5000 steps a metre, as the benchmark defines");
   header.sensors.push_back(sensor);
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, header));
+  TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);

@@ -92,6 +92,55 @@ Result<DepthCorrection> parse_depth(const JsonObject& object) {
   return depth;
 }
 
+OrderedJson camera_json(const CameraCorrection& camera) {
+  OrderedJson out;
+  out["intrinsics"] = json_of(camera.intrinsics);
+  if (camera.color_intrinsics) {
+    out["color_intrinsics"] = json_of(*camera.color_intrinsics);
+    out["T_color_sensor"] = json_of(camera.T_color_sensor);
+  }
+  put_text(out, "found", camera.found);
+  return out;
+}
+
+Result<CameraCorrection> parse_camera(const JsonObject& object) {
+  CameraCorrection camera;
+  TURNSCAN_ASSIGN(const JsonObject intrinsics, object.object("intrinsics"));
+  TURNSCAN_ASSIGN(camera.intrinsics, intrinsics_from_json(intrinsics));
+  if (object.has("color_intrinsics")) {
+    TURNSCAN_ASSIGN(const JsonObject color, object.object("color_intrinsics"));
+    TURNSCAN_ASSIGN(camera.color_intrinsics, intrinsics_from_json(color));
+    TURNSCAN_ASSIGN(camera.T_color_sensor, object.pose("T_color_sensor"));
+  }
+  TURNSCAN_ASSIGN(camera.found, object.text_or("found", ""));
+  return camera;
+}
+
+OrderedJson place_json(const SensorPlace& place) {
+  OrderedJson out;
+  out["T_table_sensor"] = json_of(place.T_table_sensor);
+  out["heading_sigma_deg"] = known_degrees(place.heading_sigma_rad);
+  out["shift_sigma_m"] = known(place.shift_sigma_m);
+  put_text(out, "found", place.found);
+  return out;
+}
+
+Result<std::vector<SensorPlace>> parse_places(const JsonObject& root) {
+  std::vector<SensorPlace> out;
+  if (!root.has("other_sensors")) return out;
+  TURNSCAN_ASSIGN(const std::vector<JsonObject> objects, root.objects("other_sensors"));
+  for (const JsonObject& object : objects) {
+    SensorPlace place;
+    TURNSCAN_ASSIGN(place.T_table_sensor, object.pose("T_table_sensor"));
+    TURNSCAN_ASSIGN(const double heading_deg, known_number(object, "heading_sigma_deg"));
+    place.heading_sigma_rad = radians_of(heading_deg);
+    TURNSCAN_ASSIGN(place.shift_sigma_m, known_number(object, "shift_sigma_m"));
+    TURNSCAN_ASSIGN(place.found, object.text_or("found", ""));
+    out.push_back(std::move(place));
+  }
+  return out;
+}
+
 Result<TurntableInfo> parse_table(const JsonObject& object) {
   TurntableInfo table;
   TURNSCAN_ASSIGN(table.axis, object.vector("axis"));
@@ -194,6 +243,11 @@ Result<Calibration> parse_whole(const JsonObject& root) {
     TURNSCAN_ASSIGN(const JsonObject depth, root.object("depth"));
     TURNSCAN_ASSIGN(c.depth, parse_depth(depth));
   }
+  if (root.has("camera")) {
+    TURNSCAN_ASSIGN(const JsonObject camera, root.object("camera"));
+    TURNSCAN_ASSIGN(c.camera, parse_camera(camera));
+  }
+  TURNSCAN_ASSIGN(c.others, parse_places(root));
   return c;
 }
 
@@ -218,6 +272,8 @@ std::string calibration_json(const Calibration& c) {
   out["undetermined"] = c.undetermined;
   if (!c.notes.empty()) out["notes"] = c.notes;
   if (c.depth) out["depth"] = depth_json(*c.depth);
+  if (c.camera) out["camera"] = camera_json(*c.camera);
+  for (const SensorPlace& place : c.others) out["other_sensors"].push_back(place_json(place));
   put_angles(out, c);
   return json_text(out);
 }

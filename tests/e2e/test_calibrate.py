@@ -98,6 +98,27 @@ class Calibrate(harness.TestCase):
         self.assertAlmostEqual(found["depth"]["bias_m"], -0.0255)
         self.refused(FAILED, "calibrate", self.rec, "--iai-kinect2", "none", says="calib_depth.yaml")
 
+    def test_a_calibrated_camera_is_kept_used_and_not_mistaken_for_another(self):
+        camera = json.loads((self.rec / "recording.json").read_text())["sensors"][0]["intrinsics"]
+        (self.dir / "k").mkdir()
+        (self.dir / "k" / "calib_ir.yaml").write_text(
+            "%YAML:1.0\ncameraMatrix: !!opencv-matrix\n   data: [ {}, 0., {},\n      0., {}, {}, 0., "
+            "0., 1. ]\ndistortionCoefficients: !!opencv-matrix\n   data: [ 0., 0., 0., 0., 0. ]\n"
+            .format(1.02 * camera["fx"], camera["cx"], 1.02 * camera["fy"], camera["cy"]))
+        found = self.calibrate(self.rec, "--detect", "--iai-kinect2", "k", "--save", "s.json")
+        self.assertAlmostEqual(found["camera"]["intrinsics"]["fx"], 1.02 * camera["fx"])
+        self.assertAlmostEqual(found["radius_m"], 0.15 / 1.02, delta=0.002)
+        self.ok("reconstruct", self.rec, "-o", "m.ply", "--turntable", "s.json", *harness.FAST)
+        text = (self.dir / "s.json").read_text().replace('"width": 512', '"width": 500')
+        (self.dir / "s.json").write_text(text)
+        self.refused(FAILED, "reconstruct", self.rec, "-o", "n.ply", "--turntable", "s.json",
+                     says="512 x 424")
+
+    def test_a_ball_is_a_gauge_of_depth(self):
+        self.refused(USAGE, "calibrate", self.rec, "--gauge-ball", "100mm", says="--depth-bias")
+        self.refused(FAILED, "calibrate", self.rec, "--depth-bias", "--gauge-ball", "300mm",
+                     says="no ball")
+
     def test_ways_that_exclude_each_other(self):
         self.refused(USAGE, "calibrate", self.rec, "--detect", "--from-motion")
         self.refused(USAGE, "calibrate", self.rec, "--check", "--json", "c.json")

@@ -58,6 +58,25 @@ TEST(FramePose, ReadsDepthColourPosesAndIntrinsics) {
   EXPECT_EQ(frame_of(*sequence, 1).color.at(1, 1), (Rgb{1, 2, 3}));
 }
 
+TEST(FramePose, TakesCamerasAndOffsetOfAKinect2Calibration) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  fs::create_directory(folder.path() / "k");
+  folder.put("k/calib_depth.yaml", "depthShift: -20\n");
+  ImportOptions options = with_depth_unit();
+  options.iai_kinect2 = (folder.path() / "k").string();
+  const auto sequence = open(folder.path(), options);
+  EXPECT_DOUBLE_EQ(sequence->header().sensors[0].depth_bias_m, -0.02);
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.fx, 585.0);
+  // Images of another size than a Kinect v2's.
+  folder.put("k/calib_ir.yaml",
+             "cameraMatrix: [ 365, 0, 250, 0, 365, 200, 0, 0, 1 ]\n"
+             "distortionCoefficients: [ 0, 0, 0, 0, 0 ]\n");
+  const Error error = refusal(folder.path(), options);
+  EXPECT_EQ(error.code, ErrorCode::kInvalidOption);
+  EXPECT_THAT(error.message, HasSubstr("512 x 424"));
+}
+
 TEST(FramePose, MissingDepthIsNoReturnWhicheverWayItIsMarked) {
   const TempFolder folder;
   put_frame_pose(folder);

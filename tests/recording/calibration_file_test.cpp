@@ -26,6 +26,26 @@ Calibration some_calibration(std::uint64_t seed) {
   c.start_s = random(10);
   c.undetermined = {"speed"};
   c.notes = {"one", "two"};
+  CameraCorrection camera;
+  camera.intrinsics.width = 512, camera.intrinsics.height = 424;
+  camera.intrinsics.fx = 360.0 + random(12), camera.intrinsics.fy = 361.0;
+  camera.intrinsics.distortion = {0.1 * random(13), -0.2, 1e-3, 0.0, 0.3};
+  if (seed % 2 == 0) {
+    camera.color_intrinsics = camera.intrinsics;
+    camera.T_color_sensor.translation() = Vec3d(-0.052, 0.01 * random(14), 0.0);
+  }
+  camera.found = "somebody";
+  c.camera = camera;
+  for (std::uint64_t i = 0; i < seed % 3; ++i) {
+    SensorPlace place;
+    place.T_table_sensor.linear() =
+        Eigen::AngleAxisd(random(15 + i), Vec3d::UnitY()).toRotationMatrix();
+    place.T_table_sensor.translation() = Vec3d(random(17), random(18), random(19));
+    place.heading_sigma_rad = i == 0 ? 1e-3 * random(20) : std::nan("");
+    place.shift_sigma_m = 1e-4;
+    place.found = "the object";
+    c.others.push_back(place);
+  }
   c.depth = DepthCorrection{-0.02 * random(11), 1.01, 1e-4, std::nan(""), "gauge"};
   return c;
 }
@@ -100,9 +120,14 @@ TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
     frames.back().info.T_table_sensor = Pose::Identity();
   }
   const testing::MemorySequence sequence(header, frames);
-  const Calibration c = some_calibration(2);
+  Calibration c = some_calibration(2);
+  c.camera->intrinsics.width = header.sensors[0].intrinsics.width;
+  c.camera->intrinsics.height = header.sensors[0].intrinsics.height;
+  c.others.clear();
   const auto seen = with_calibration(sequence, c);
-  ASSERT_TRUE(seen);
+  ASSERT_TRUE(seen) << seen.error().text();
+  EXPECT_EQ((*seen)->header().sensors[0].intrinsics.fx, c.camera->intrinsics.fx);
+  EXPECT_EQ((*seen)->header().sensors[0].intrinsics.distortion, c.camera->intrinsics.distortion);
   EXPECT_FALSE((*seen)->header().sensors[0].T_table_sensor);
   EXPECT_NEAR((*seen)->header().sensors[0].depth_unit_m, 1.01e-4, 1e-12);
   EXPECT_EQ((*seen)->frames()[7].angle_rad, c.angles_rad[7]);
@@ -112,6 +137,43 @@ TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
   Calibration wrong = c;
   wrong.angles_rad.pop_back();
   EXPECT_EQ(with_calibration(sequence, wrong).error().code, ErrorCode::kInvalidOption);
+  wrong = c;
+  wrong.camera->intrinsics.width += 1;
+  EXPECT_EQ(with_calibration(sequence, wrong).error().code, ErrorCode::kInvalidOption);
+  wrong = c;
+  wrong.others.resize(1);
+  EXPECT_EQ(with_calibration(sequence, wrong).error().code, ErrorCode::kInvalidOption);
+}
+
+TEST(WithCalibration, PlacesTheOtherSensors) {
+  SequenceHeader header = testing::small_header();
+  header.sensors.push_back(header.sensors[0]);
+  const testing::MemorySequence sequence(header, {testing::depth_frame(0)});
+  Calibration c;
+  c.table.center_m = Vec3d(0, 0, 1);
+  c.others.resize(1);
+  c.others[0].T_table_sensor.translation() = Vec3d(1, 2, 3);
+  const auto seen = with_calibration(sequence, c);
+  ASSERT_TRUE(seen) << seen.error().text();
+  EXPECT_EQ((*seen)->header().sensors[1].T_table_sensor->translation(), Vec3d(1, 2, 3));
+}
+
+TEST(CorrectSensor, TakesColourOnlyForImagesOfItsSizeThatAreNotRegistered) {
+  Calibration c;
+  c.camera.emplace();
+  SensorInfo registered = testing::small_header().sensors[0];
+  c.camera->intrinsics = registered.intrinsics;
+  c.camera->color_intrinsics = registered.intrinsics;
+  c.camera->color_intrinsics->fx = 77.0;
+  registered.color_intrinsics.reset();
+  SensorInfo own = registered, other = registered;
+  own.color_intrinsics = registered.intrinsics;
+  other.color_intrinsics = registered.intrinsics;
+  other.color_intrinsics->width += 1;
+  for (SensorInfo* sensor : {&registered, &own, &other}) ASSERT_TRUE(correct_sensor(c, *sensor));
+  EXPECT_FALSE(registered.color_intrinsics);
+  EXPECT_EQ(own.color_intrinsics->fx, 77.0);
+  EXPECT_NE(other.color_intrinsics->fx, 77.0);
 }
 
 }  // namespace
