@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   testing::MemorySequence memory;  // so that making the images is not timed
   memory.header_value = rig.header();
   for (std::size_t i = 0; i < rig.frames().size(); ++i) memory.add(*rig.read(i));
-  MotionOptions options;
+  FromMotionOptions options;
   if (argc > 8) options.speed_rad_s = speed * argument(argc, argv, 8, 1.0);
   const auto start = std::chrono::steady_clock::now();
   const auto found = calibrate_from_motion(memory, options, {}, {});

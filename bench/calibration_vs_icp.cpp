@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   free("GICP consecutive", FreeMethod::kGicp, FreeScheme::kConsecutive);
   free("GICP global", FreeMethod::kGicp, FreeScheme::kGlobal);
   start = Clock::now();
-  MotionOptions options;
+  FromMotionOptions options;
   options.speed_rad_s = speed;
   const auto found = calibrate_from_motion(memory, options, {}, {});
   if (!found) {

@@ -311,7 +311,7 @@ class CalibrateCommand : public Command {
   AverageOptions average_;
   DetectOptions detect_options_;
   BallOptions ball_options_;
-  MotionOptions motion_options_;
+  FromMotionOptions motion_options_;
 };
 
 }  // namespace

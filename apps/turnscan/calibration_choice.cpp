@@ -59,7 +59,7 @@ Result<CalibrationChoice> by_free_registration(const FrameSequence& sequence,
 
 Result<CalibrationChoice> from_motion(const FrameSequence& sequence, const CalibrationWish& wish,
                                       const std::string& why, const RunContext& context) {
-  MotionOptions options;
+  FromMotionOptions options;
   options.speed_rad_s = wish.speed_rad_s;
   TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(sequence, options, {}, context));
   CalibrationChoice out;
@@ -94,8 +94,7 @@ Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const Ru
 
 Result<CalibrationChoice> automatic(const FrameSequence& sequence, const CalibrationWish& wish,
                                     const RunContext& context) {
-  // Motion is found for one sensor; poses of frames are not questioned.
-  if (has_poses(sequence) || sequence.header().sensors.size() != 1) return CalibrationChoice();
+  if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
   const auto poses = frame_poses(sequence.header(), sequence.frames(), wish.speed_rad_s);
   if (!poses) {
     auto found = from_motion(sequence, wish, "the recording has no calibration", context);

@@ -62,6 +62,13 @@ std::string calibration_text(const Calibration& c) {
   if (c.depth)
     text += fmt::format("Depth: {:+.2f} mm, times {:.5f} ({})\n", c.depth->bias_m * 1e3,
                         c.depth->scale, c.depth->found);
+  for (std::size_t i = 0; i < c.others.size(); ++i) {
+    const SensorPlace& place = c.others[i];
+    text += fmt::format("Sensor {}: at {} mm in the table's frame{}{} ({})\n", i + 1,
+                        vector_text(place.T_table_sensor.translation(), 1e3, 1),
+                        spread(place.shift_sigma_m, 1e3, "mm"),
+                        spread(place.heading_sigma_rad, kDegrees, "deg of heading"), place.found);
+  }
   if (c.camera)
     text += fmt::format("Camera: fx {:.2f}, fy {:.2f}, cx {:.2f}, cy {:.2f} ({})\n",
                         c.camera->intrinsics.fx, c.camera->intrinsics.fy, c.camera->intrinsics.cx,

@@ -67,7 +67,7 @@ void TurnCounter::look_for_speed(const Frame& frame) {
   if (search_.valid() || *last_time_ - *first_time_ < attempt_s_ || kept_.size() < 8) return;
   attempt_s_ *= kLater;
   search_ = std::async(std::launch::async, [header = header_, kept = kept_] {
-    MotionOptions options;
+    FromMotionOptions options;
     options.use_angles = false;
     // A context of its own: this is not the phase that people are told about.
     const RunContext quiet;

@@ -11,11 +11,13 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kDefaultFrames = 920;
 constexpr double kMostFrames = 1e6;
+constexpr double kNever = 1e300;
 constexpr std::uint64_t kDropSalt = 0x64726f70ULL;
 
-/// Speed over time as a share of the full one: 0, up, 1, down to 0 at the end.
+/// Speed over time as a share of the full one: 0, up, 1, down to 0 at the end. Its time leaves the
+/// halt out.
 struct SpeedProfile {
-  double delay_s, up_s, down_s, end_s;
+  double delay_s, up_s, down_s, end_s, halt_at_s, halt_s;
 
   /// Integral from 0 to t of a ramp that starts at `begin` and reaches 1 after `length`.
   static double ramp_area(double t, double begin, double length) {
@@ -26,6 +28,7 @@ struct SpeedProfile {
 
   /// Turned by the time t at a full speed of 1.
   double turned(double t) const {
+    if (t > halt_at_s) t = std::max(halt_at_s, t - halt_s);
     return ramp_area(t, delay_s, up_s) - ramp_area(t, end_s - down_s, down_s);
   }
 };
@@ -37,7 +40,7 @@ Result<int> frame_count(const MotionOptions& o) {
     return fail(ErrorCode::kInvalidOption,
                 "speed = 0 makes no turn; give the number of frames with it");
   const double time_s = std::abs(o.turns) * kTurn / std::abs(*o.speed_rad_s) + o.start_delay_s +
-                        0.5 * (o.start_ramp_s + o.stop_ramp_s);
+                        o.halt_s + 0.5 * (o.start_ramp_s + o.stop_ramp_s);
   const double frames = std::round(time_s * o.fps);
   if (frames > kMostFrames)
     return fail(ErrorCode::kInvalidOption,
@@ -47,14 +50,27 @@ Result<int> frame_count(const MotionOptions& o) {
   return std::max(1, static_cast<int>(frames));
 }
 
+/// Something that happens has to happen within the recording.
+Result<> check_moment(const char* name, bool happens, double moment_s, double end_s) {
+  if (!happens || moment_s < end_s) return {};
+  return fail(ErrorCode::kInvalidOption, "{} = {} is not within the recording, which takes {}",
+              name, format_quantity(moment_s, Quantity::kTime),
+              format_quantity(end_s, Quantity::kTime));
+}
+
 Result<double> full_speed(const MotionOptions& o, const SpeedProfile& profile) {
   if (profile.delay_s + profile.up_s + profile.down_s > profile.end_s * (1.0 + 1e-12))
     return fail(ErrorCode::kInvalidOption,
-                "start-delay, start-ramp and stop-ramp take {} together, but the recording only {}",
-                format_quantity(profile.delay_s + profile.up_s + profile.down_s, Quantity::kTime),
-                format_quantity(profile.end_s, Quantity::kTime));
+                "start-delay, start-ramp, halt and stop-ramp take {} together, but the recording "
+                "only {}",
+                format_quantity(profile.delay_s + profile.up_s + profile.halt_s + profile.down_s,
+                                Quantity::kTime),
+                format_quantity(profile.end_s + profile.halt_s, Quantity::kTime));
+  TURNSCAN_TRY(check_moment("halt-at", o.halt_s != 0.0, o.halt_at_s, profile.end_s));
+  TURNSCAN_TRY(
+      check_moment("slip-at", o.slip_rad != 0.0, o.slip_at_s, profile.end_s + profile.halt_s));
   if (o.speed_rad_s) return *o.speed_rad_s;
-  const double turned = profile.turned(profile.end_s);
+  const double turned = profile.turned(profile.end_s + profile.halt_s);
   if (!(turned > 0.0))
     return fail(ErrorCode::kInvalidOption, "start-delay = {} leaves no time to turn",
                 format_quantity(profile.delay_s, Quantity::kTime));
@@ -81,6 +97,14 @@ OptionTable describe(MotionOptions& o, const std::string& speed_name) {
               "How long the platter takes to reach its speed.")
       .number("stop-ramp", o.stop_ramp_s, Quantity::kTime, {0.0, 1e5},
               "How long it takes to come to rest at the end.")
+      .number("halt-at", o.halt_at_s, Quantity::kTime, {0.0, 1e5},
+              "When the platter stops at once, if halt is given.")
+      .number("halt", o.halt_s, Quantity::kTime, {0.0, 1e5},
+              "How long it stands then before it goes on.")
+      .number("slip-at", o.slip_at_s, Quantity::kTime, {0.0, 1e5},
+              "When the platter jumps, if slip is given.")
+      .number("slip", o.slip_rad, Quantity::kAngle, {-kTurn, kTurn},
+              "By how much more it has turned from then on.")
       .number("ripple", o.ripple, Quantity::kNone, {0.0, 0.9},
               "Share of the speed by which it rises and falls: 0.01 for 1 %.")
       .number("ripple-cycles", o.ripple_cycles, Quantity::kNone, {0.01, 1000.0},
@@ -98,8 +122,12 @@ Result<std::vector<PlatterState>> platter_states(const MotionOptions& options) {
   MotionOptions copy = options;
   TURNSCAN_TRY(describe(copy).check());
   TURNSCAN_ASSIGN(const int count, frame_count(options));
-  const SpeedProfile profile{options.start_delay_s, options.start_ramp_s, options.stop_ramp_s,
-                             count / options.fps};
+  const SpeedProfile profile{options.start_delay_s,
+                             options.start_ramp_s,
+                             options.stop_ramp_s,
+                             count / options.fps - options.halt_s,
+                             options.halt_s > 0.0 ? options.halt_at_s : kNever,
+                             options.halt_s};
   TURNSCAN_ASSIGN(const double speed, full_speed(options, profile));
   std::vector<PlatterState> states(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -109,6 +137,8 @@ Result<std::vector<PlatterState>> platter_states(const MotionOptions& options) {
     // The integral of the ripple over theta.
     state.angle_rad =
         theta + options.ripple / options.ripple_cycles * std::sin(options.ripple_cycles * theta);
+    if (options.slip_rad != 0.0 && state.time_s >= options.slip_at_s)
+      state.angle_rad += options.slip_rad;
     state.travel = count > 1 ? double(i) / (count - 1) : 0.5;
   }
   return states;

@@ -22,6 +22,10 @@ struct MotionOptions {
   double start_delay_s = 0.0;  ///< at rest before it starts
   double start_ramp_s = 0.0;   ///< from rest to full speed, evenly
   double stop_ramp_s = 0.0;    ///< from full speed to rest, ending with the recording
+  double halt_at_s = 0.0;      ///< when the platter stops at once,
+  double halt_s = 0.0;         ///< and for how long it stands before it goes on; 0: never
+  double slip_at_s = 0.0;      ///< when it jumps,
+  double slip_rad = 0.0;       ///< and by how much more it has turned then; 0: never
   double ripple = 0.0;         ///< share of the speed by which it rises and falls
   double ripple_cycles = 7.0;  ///< of the ripple in one turn
   double wobble_rad = 0.0;     ///< angle between the axis and its mean
@@ -43,9 +47,11 @@ struct PlatterState {
 ///   omega * r(t) * (1 + ripple * cos(ripple_cycles * theta)),   theta(t) = omega * int_0^t r,
 /// where r rises from 0 to 1 during start_ramp after start_delay, and falls to 0 during stop_ramp
 /// before T. Without a speed, omega is such that theta(T) makes the turns: without ramps frame i
-/// of n stands at turns * 2 pi * i / n.
-/// Fails with kInvalidOption when an option is out of range, when delay and ramps take longer than
-/// the recording, or when the turns at the speed take more than a million frames.
+/// of n stands at turns * 2 pi * i / n. While the platter halts its time stands still, too; from
+/// slip_at on slip is added to the angle.
+/// Fails with kInvalidOption when an option is out of range, when delay, ramps and halt take longer
+/// than the recording, when halt or slip lie outside it, or when the turns at the speed take more
+/// than a million frames.
 Result<std::vector<PlatterState>> platter_states(const MotionOptions& options);
 
 /// Where the axis of the platter points at this angle: the rotation that takes its mean (+Y) there.

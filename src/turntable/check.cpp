@@ -15,6 +15,7 @@ using namespace detail;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kPairs = 6;
+constexpr double kAnglesWithin_deg = 1.0;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
 
 /// Some frames of another sequence.
@@ -138,6 +139,7 @@ class Checker {
     look_at_place(*found);
     look_at_direction(*found);
     look_at_speed(*found);
+    look_at_angles(*found);
     look_at_stops(*found);
     return std::move(findings_);
   }
@@ -252,11 +254,49 @@ class Checker {
         good ? "" : fmt::format(", {:+.2f} % off", 100.0 * (ratio - 1.0)));
   }
 
-  /// Stretches in which the table hardly turned, or jumped, after it had started.
-  void look_at_stops(const Calibration& found) {
-    if (!told(found, "angles") || !found.table.speed_rad_s) return;
+  /// Angles that every frame was recorded with, e.g. by an encoder, against those of the motion.
+  void look_at_angles(const Calibration& found) {
     const auto& frames = sequence_.frames();
-    const double usual = *found.table.speed_rad_s;
+    has_angles_ = std::all_of(frames.begin(), frames.end(),
+                              [](const FrameInfo& f) { return f.angle_rad.has_value(); });
+    if (!has_angles_ || !told(found, "angles")) return;
+    std::size_t worst = 0;
+    const auto off = [&](std::size_t i) {
+      const double recorded = *frames[i].angle_rad - *frames[0].angle_rad;
+      const double sign = recorded * found.angles_rad[i] < 0.0 ? -1.0 : 1.0;
+      return std::abs(sign * recorded - found.angles_rad[i]) * kDegrees;
+    };
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      if (off(i) > off(worst)) worst = i;
+    angles_good_ = off(worst) < kAnglesWithin_deg;
+    say(angles_good_,
+        "Angles: the recorded ones and those that the motion shows differ by {:.2f} deg at most, "
+        "at frame {}.",
+        off(worst), frames[worst].index);
+  }
+
+  /// Of the time that the recording takes, not of the motor: nullopt without times.
+  std::optional<double> usual_speed(const Calibration& found) const {
+    if (found.table.speed_rad_s) return found.table.speed_rad_s;
+    std::vector<double> speeds;
+    const auto& frames = sequence_.frames();
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+      const double dt = frames[i].time_s - frames[i - 1].time_s;
+      if (dt > 0.0) speeds.push_back((found.angles_rad[i] - found.angles_rad[i - 1]) / dt);
+    }
+    if (speeds.empty()) return std::nullopt;
+    return median(speeds);
+  }
+
+  /// Stretches in which the table hardly turned, or jumped, after it had started. Recorded angles
+  /// may have followed it.
+  void look_at_stops(const Calibration& found) {
+    if (!told(found, "angles")) return;
+    const auto speed = usual_speed(found);
+    if (!speed || !(std::abs(*speed) > 0.0)) return;
+    const auto& frames = sequence_.frames();
+    const double usual = *speed;
+    const bool followed = has_angles_ && angles_good_;
     const double span = frames.back().time_s - frames.front().time_s;
     // A window holds two steps from frame to frame at least.
     const double step = span / double(frames.size() - 1);
@@ -271,10 +311,12 @@ class Checker {
       if (frames[b].time_s > frames.back().time_s - 0.5) break;
       const double share = (found.angles_rad[b] - found.angles_rad[a]) / dt / usual;
       if (share > 0.5 && share < 1.7) continue;
-      say(false,
-          "Motor: about {:.1f} s the table {}; frames from there on have other angles than "
-          "a constant speed gives.",
-          frames[a].time_s, share <= 0.5 ? "slowed down or stopped" : "jumped ahead");
+      const std::string what = share <= -0.5  ? "jumped back"
+                               : share <= 0.5 ? "slowed down or stopped"
+                                              : "jumped ahead";
+      say(followed, "Motor: about {:.1f} s the table {}; {}.", frames[a].time_s, what,
+          followed ? "the recorded angles follow it"
+                   : "frames from there on have other angles than a constant speed gives");
       return;
     }
     say(true, "Motor: the table kept turning without a slip or a stop.");
@@ -284,6 +326,7 @@ class Checker {
   const CheckOptions& options_;
   const RunContext& context_;
   std::vector<Finding> findings_;
+  bool has_angles_ = false, angles_good_ = true;
 };
 
 }  // namespace

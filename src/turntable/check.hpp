@@ -29,12 +29,13 @@ struct Finding {
 };
 
 struct CheckOptions {
-  MotionOptions motion;
+  FromMotionOptions motion;
   DetectOptions detect;
 };
 
-/// Looks at closure, direction, speed, slips and stops, and at drift of what stands still. What
-/// cannot be looked at is said, too. Fails with kCancelled and what reading fails with.
+/// Looks at closure, direction, speed, recorded angles, slips and stops, and at drift of what
+/// stands still. What cannot be looked at is said, too. Fails with kCancelled and what reading
+/// fails with.
 Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,
                                              const CheckOptions& options,
                                              const RunContext& context);

@@ -2,7 +2,9 @@
 #include <array>
 #include <numbers>
 #include <turnscan/turntable/motion.hpp>
+#include <turnscan/turntable/motion_one.hpp>
 #include <turnscan/turntable/motion_start.hpp>
+#include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
 
@@ -19,7 +21,7 @@ enum class AngleSource { kTimes, kAngles, kNothing };
 
 class Calibrator {
  public:
-  Calibrator(const FrameSequence& sequence, const MotionOptions& options,
+  Calibrator(const FrameSequence& sequence, const FromMotionOptions& options,
              const DetectOptions& detect, const RunContext& context)
       : sequence_(sequence), options_(options), detect_(detect), context_(context) {}
 
@@ -35,6 +37,32 @@ class Calibrator {
     context_.advance();
     TURNSCAN_TRY(refine());
     return result();
+  }
+
+  /// After run(): some of what was seen, where it was at angle 0.
+  Result<MotionResult> compared(Calibration calibration, std::size_t most) const {
+    MotionResult out;
+    TURNSCAN_ASSIGN(const Pose T_table_sensor, table_from_sensor(calibration.table));
+    std::size_t all = 0;
+    for (const MotionFrame& frame : data_.frames) all += frame.samples.size();
+    const std::size_t stride = most == 0 ? all + 1 : std::max<std::size_t>(1, all / most);
+    std::size_t next = stride / 2;
+    for (std::size_t i = 0; i < data_.frames.size(); ++i) {
+      const auto& samples = data_.frames[i].samples;
+      const Pose T = rotation_about_y(-state_.angle[i]) * T_table_sensor;
+      for (; next < samples.size(); next += stride) {
+        MotionSample s = samples[next];
+        s.p = (T * s.p.cast<double>()).cast<float>();
+        s.n = (T.linear() * s.n.cast<double>()).cast<float>();
+        out.model.push_back(s);
+      }
+      next -= samples.size();
+    }
+    out.noise_m = data_.noise_m;
+    out.spacing_m = data_.spacing_m;
+    out.platter = data_.platter.has_value();
+    out.calibration = std::move(calibration);
+    return out;
   }
 
  private:
@@ -416,7 +444,7 @@ class Calibrator {
   }
 
   const FrameSequence& sequence_;
-  const MotionOptions& options_;
+  const FromMotionOptions& options_;
   const DetectOptions& detect_;
   const RunContext& context_;
   MotionData data_;
@@ -429,7 +457,7 @@ class Calibrator {
 
 }  // namespace
 
-OptionTable describe(MotionOptions& o) {
+OptionTable describe(FromMotionOptions& o) {
   OptionTable table;
   table
       .number("speed", o.speed_rad_s, Quantity::kAngularSpeed, {-1000.0, 1000.0},
@@ -444,11 +472,22 @@ OptionTable describe(MotionOptions& o) {
   return table;
 }
 
+Result<detail::MotionResult> detail::calibrate_one(const FrameSequence& sequence,
+                                                   const FromMotionOptions& options,
+                                                   const DetectOptions& detect, std::size_t most,
+                                                   const RunContext& context) {
+  Calibrator calibrator(sequence, options, detect, context);
+  TURNSCAN_ASSIGN(Calibration found, calibrator.run());
+  return calibrator.compared(std::move(found), most);
+}
+
 Result<Calibration> calibrate_from_motion(const FrameSequence& sequence,
-                                          const MotionOptions& options, const DetectOptions& detect,
-                                          const RunContext& context) {
-  MotionOptions checked = options;
+                                          const FromMotionOptions& options,
+                                          const DetectOptions& detect, const RunContext& context) {
+  FromMotionOptions checked = options;
   TURNSCAN_TRY(describe(checked).check());
+  if (sequence.header().sensors.size() > 1)
+    return detail::calibrate_several(sequence, options, detect, context);
   return Calibrator(sequence, options, detect, context).run();
 }
 

@@ -111,7 +111,7 @@ class Calibrate(harness.TestCase):
         self.ok("reconstruct", self.rec, "-o", "m.ply", "--turntable", "s.json", *harness.FAST)
         text = (self.dir / "s.json").read_text().replace('"width": 512', '"width": 500')
         (self.dir / "s.json").write_text(text)
-        self.refused(FAILED, "reconstruct", self.rec, "-o", "n.ply", "--turntable", "s.json",
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "n.ply", "--turntable", "s.json",
                      says="512 x 424")
 
     def test_a_ball_is_a_gauge_of_depth(self):
@@ -127,6 +127,41 @@ class Calibrate(harness.TestCase):
         out = self.ok("calibrate", self.rec, "--check").stdout
         self.assertIn("Direction", out)
         self.assertNotIn("WRONG", out)
+
+    def test_check_finds_a_halt_and_a_slip_that_nobody_recorded(self):
+        scene = ["simulate", "builtin:doll", "--height", "180mm", "--frames", "90", "--fps", "8",
+                 "--turns", "1.2"]
+        halt = ["--halt-at", "5s", "--halt", "1.5s"]
+        for name, fault, says in (
+                ("halt", halt, "slowed down or stopped"),
+                ("slip", ["--slip-at", "6s", "--slip", "25deg"], "jumped ahead")):
+            self.ok(*scene, *fault, "--no-angles", "-o", name)
+            result = self.refused(FAILED, "calibrate", name, "--check")
+            self.assertRegex(result.stdout, "WRONG  Motor: about [56].* s the table " + says)
+        # An encoder that saw it makes it right; one that did not is found out.
+        self.ok(*scene, *halt, "-o", "encoded")
+        self.assertIn("the recorded angles follow it", self.ok("calibrate", "encoded", "--check").stdout)
+        frames = (self.dir / "encoded" / "frames.csv").read_text().splitlines()
+        column = frames[0].split(",").index("angle_deg")
+        rows = [line.split(",") for line in frames]
+        for i, row in enumerate(rows[1:]):
+            row[column] = str(432.0 / 90 * i)
+        (self.dir / "encoded" / "frames.csv").write_text("".join(",".join(r) + "\n" for r in rows))
+        self.assertIn("WRONG  Angles", self.refused(FAILED, "calibrate", "encoded", "--check").stdout)
+
+    def test_two_sensors_at_different_azimuths_are_brought_to_one_heading(self):
+        sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
+        self.ok("simulate", "builtin:doll", "--height", "180mm", "--frames", "40", "--turns", "1.1",
+                "--scanner", sensor.format("15deg", "0deg"), "--scanner",
+                sensor.format("40deg", "130deg"), "-o", "two")
+        truth = json.loads((self.dir / "two" / "recording.json").read_text())
+        truth = truth["sensors"][1]["T_table_sensor"]
+        found = self.calibrate("two", "--from-motion", "--no-motion-angles", "--no-motion-table")
+        other = found["other_sensors"][0]
+        self.assertEqual(len(found["angles_deg"]), 80)
+        for row, true_row in zip(other["T_table_sensor"], truth):
+            for value, true_value in zip(row, true_row):
+                self.assertAlmostEqual(value, true_value, delta=0.008)
 
     @unittest.skipUnless((DATA / "d435_bear").is_dir(), "the data are not there")
     def test_a_real_bear_from_eight_depth_images_alone(self):

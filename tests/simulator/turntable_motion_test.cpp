@@ -78,6 +78,26 @@ TEST(TurntableMotion, WaitsThenSpeedsUpAndSlowsDownEvenly) {
   EXPECT_NEAR(s.back().angle_rad, kTurn, 0.001);
 }
 
+TEST(TurntableMotion, HaltsAndSlipsWhenItIsAskedTo) {
+  MotionOptions o;
+  o.frames = 300;
+  o.halt_at_s = 4.0;
+  o.halt_s = 2.0;
+  o.slip_at_s = 8.0;
+  o.slip_rad = -0.1;
+  const auto s = states_of(o);
+  const double full = kTurn / (10.0 - 2.0);
+  EXPECT_NEAR(speed_at(s, 60), full, 1e-9);
+  for (std::size_t i = 120; i < 180; ++i) EXPECT_NEAR(s[i].angle_rad, 4.0 * full, 1e-9);
+  EXPECT_NEAR(speed_at(s, 200), full, 1e-9);
+  EXPECT_NEAR(s[240].angle_rad - s[239].angle_rad, full / 30.0 - 0.1, 1e-9);
+  EXPECT_NEAR(s.back().angle_rad, kTurn - 0.1 - full / 30.0, 1e-9);
+  // With a speed, the halt takes frames of its own.
+  o.frames.reset();
+  o.speed_rad_s = full;
+  EXPECT_EQ(states_of(o).size(), 300u);
+}
+
 TEST(TurntableMotion, RipplesByTheShareAskedFor) {
   MotionOptions o;
   o.frames = 5000;
@@ -145,6 +165,20 @@ TEST(TurntableMotion, RefusesWhatCannotBe) {
   o.start_ramp_s = 0.6;
   o.stop_ramp_s = 0.6;
   expect_refused(o, "take 1.2s together, but the recording only 1s");
+  o = {};
+  o.frames = 30;
+  o.halt_s = 2.0;
+  expect_refused(o, "take 2s together, but the recording only 1s");
+  o = {};
+  o.frames = 30;
+  o.slip_rad = 0.1;
+  o.slip_at_s = 1.5;
+  expect_refused(o, "slip-at = 1.5s is not within the recording");
+  o = {};
+  o.frames = 60;
+  o.halt_s = 0.5;
+  o.halt_at_s = 1.8;
+  expect_refused(o, "halt-at = 1.8s is not within the recording");
   o = {};
   o.frames = 30;
   o.start_delay_s = 1.0;

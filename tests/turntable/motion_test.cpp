@@ -83,7 +83,7 @@ TEST(CalibrateFromMotion, FollowsASlowStart) {
 TEST(CalibrateFromMotion, LeavesARoundObjectsAnglesToTheStatedSpeedAndSaysSo) {
   const testing::Rig rig(rig_options("cylinder", 40, 1.1));
   EXPECT_EQ(calibrate_from_motion(rig, {}, {}, {}).error().code, ErrorCode::kMissingData);
-  MotionOptions options;
+  FromMotionOptions options;
   options.speed_rad_s = 1.1 * 2.0 * kPi / 30.0;
   const auto found = calibrate_from_motion(rig, options, {}, {});
   ASSERT_TRUE(found) << found.error().text();
@@ -114,7 +114,7 @@ TEST(CalibrateFromMotion, IsTheSameForAnyNumberOfThreads) {
 
 TEST(CalibrateFromMotion, RefusesWrongOptionsAndCancelling) {
   const testing::Rig rig(rig_options("letter-a", 12, 1.1));
-  MotionOptions options;
+  FromMotionOptions options;
   options.key_frames = 1;
   EXPECT_EQ(calibrate_from_motion(rig, options, {}, {}).error().code, ErrorCode::kInvalidOption);
   options = {};
