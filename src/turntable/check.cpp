@@ -15,7 +15,7 @@ using namespace detail;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kPairs = 6;
-constexpr double kAnglesWithin_deg = 1.0;
+constexpr double kAnglesWithin_deg = 1.5;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
 
 /// Some frames of another sequence.
@@ -260,19 +260,20 @@ class Checker {
     has_angles_ = std::all_of(frames.begin(), frames.end(),
                               [](const FrameInfo& f) { return f.angle_rad.has_value(); });
     if (!has_angles_ || !told(found, "angles")) return;
-    std::size_t worst = 0;
-    const auto off = [&](std::size_t i) {
+    std::vector<double> off;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
       const double recorded = *frames[i].angle_rad - *frames[0].angle_rad;
       const double sign = recorded * found.angles_rad[i] < 0.0 ? -1.0 : 1.0;
-      return std::abs(sign * recorded - found.angles_rad[i]) * kDegrees;
-    };
-    for (std::size_t i = 0; i < frames.size(); ++i)
-      if (off(i) > off(worst)) worst = i;
-    angles_good_ = off(worst) < kAnglesWithin_deg;
+      off.push_back(std::abs(sign * recorded - found.angles_rad[i]) * kDegrees);
+    }
+    // A plate that is seen edge on shows little of its turn: some frames may be far off.
+    std::sort(off.begin(), off.end());
+    const double most = off[off.size() * 9 / 10];
+    angles_good_ = most < kAnglesWithin_deg;
     say(angles_good_,
-        "Angles: the recorded ones and those that the motion shows differ by {:.2f} deg at most, "
-        "at frame {}.",
-        off(worst), frames[worst].index);
+        "Angles: of nine in ten frames the recorded ones lie within {:.2f} deg of those that the "
+        "motion shows.",
+        most);
   }
 
   /// Of the time that the recording takes, not of the motor: nullopt without times.
