@@ -147,7 +147,7 @@ class Calibrate(harness.TestCase):
         for i, row in enumerate(rows[1:]):
             row[column] = str(432.0 / 90 * i)
         (self.dir / "encoded" / "frames.csv").write_text("".join(",".join(r) + "\n" for r in rows))
-        self.assertIn("WRONG  Angles", self.refused(FAILED, "calibrate", "encoded", "--check").stdout)
+        self.assertIn("WRONG  Closure", self.refused(FAILED, "calibrate", "encoded", "--check").stdout)
 
     def test_two_sensors_at_different_azimuths_are_brought_to_one_heading(self):
         sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
