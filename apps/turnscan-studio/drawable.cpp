@@ -15,11 +15,15 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 
+#include "creases.hpp"
 #include "drawable_parts.hpp"
 
 namespace turnscan::studio {
 
 namespace {
+
+constexpr double kCrease_rad = 0.7;                  // between two faces; 40 degrees
+constexpr std::size_t kCreasesBelow = 1000000;       // triangles; beyond, edges are small
 
 /// The k-th of n points is the one at k * stride modulo n: any run of them is spread over all.
 std::uint64_t spread_stride(std::uint64_t n) {
@@ -142,7 +146,10 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading) {
   out->box = bounds(mesh.vertices);
   out->points = mesh.vertices.size();
   out->colored = !mesh.colors.empty();
-  out->chunks.push_back(make_surface(shading == Shading::kFlat ? exploded(mesh) : mesh));
+  const bool creases = mesh.normals.empty() && mesh.triangles.size() < kCreasesBelow;
+  out->chunks.push_back(make_surface(shading == Shading::kFlat ? exploded(mesh)
+                                     : creases ? split_at_creases(mesh, kCrease_rad)
+                                               : mesh));
   if (mesh.triangles.size() > kCoarseAbove) out->coarse = make_coarse(out->chunks.front());
   return out;
 }

@@ -208,7 +208,7 @@ void ExplorerMode::sync() {
     shown.data = model.data;
   }
   const Model* colored = store_->find(legend_model_);
-  view().set_legend(colored && colored->visible ? legend_ : Legend());
+  view().set_legend(colored && style_of(*colored).visible ? legend_ : Legend());
 }
 
 ItemStyle ExplorerMode::style_of(const Model& model) const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <turnscan/capture/capture.hpp>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <vector>
@@ -14,6 +15,13 @@
 #include "drawable.hpp"
 
 namespace turnscan::studio {
+
+/// What a recording has seen of the object so far.
+struct SeenSummary {
+  double area_m2 = 0.0, share_well = 0.0;
+  int sides = 0;
+  DrawablePtr picture;  ///< sensor frame, as the table stands now; nullptr once taken
+};
 
 /// What is shown of a sensor. Copied out as a whole.
 struct LiveState {
@@ -23,19 +31,25 @@ struct LiveState {
   std::uint64_t frames = 0, dropped = 0;
   double fps = 0.0;
   std::size_t points = 0;
+  bool table_known = false;  ///< by a calibration, or the source says it
+  /// Of this very device, from the last time that it was used; nullptr once taken.
+  std::shared_ptr<const Calibration> kept;
   DrawablePtr picture;       ///< of the last frame, sensor frame; nullptr once taken
   std::size_t averaged = 0;  ///< frames collected of those asked for
 
   bool recording = false;
-  std::uint64_t recorded = 0;
-  std::optional<double> turns;  ///< since the recording began; unknown without angles or speed
-  std::string finished;         ///< folder of a recording that has just ended; else empty
+  CaptureProgress progress;
+  std::optional<SeenSummary> seen;  ///< nullopt: it is not known how the table turns
+  std::string record_error;
+  std::string outcome;   ///< of a recording that has just ended: what was recorded and lost
+  std::string finished;  ///< its folder, where there is one; else empty
 };
 
 struct RecordingWish {
   std::string folder;
-  double turns = 1.0;  ///< 0: until it is stopped
-  std::optional<double> speed_rad_s;
+  CaptureOptions options;
+  std::string motor_port;  ///< empty: nobody turns the table from here
+  MotorOptions motor;
 };
 
 /// All members from the thread of the window.
@@ -50,7 +64,11 @@ class LiveFeed {
   void start(const std::string& uri);
   /// Ends everything; a recording keeps all whole frames and is finished. Waits for the thread.
   void stop();
+  /// The same without waiting: ended() tells when.
+  void cancel();
   bool running() const { return thread_.joinable(); }
+  /// Nothing comes any more; stop() would not wait.
+  bool ended() const { return ended_; }
 
   void set_filter(bool on) { filter_ = on; }
   void set_calibration(std::shared_ptr<const Calibration> calibration);
@@ -59,7 +77,7 @@ class LiveFeed {
   /// The collected frames with the header of their source, once all are there.
   std::unique_ptr<FrameSequence> take_collected();
   void record(const RecordingWish& wish);
-  void stop_recording() { stop_recording_ = true; }
+  void stop_recording();
 
   LiveState take_state();
 
@@ -70,11 +88,12 @@ class LiveFeed {
 
   std::thread thread_;
   std::unique_ptr<RunContext> context_;
-  std::atomic<bool> filter_ = false, stop_recording_ = false;
+  std::atomic<bool> filter_ = false, ended_ = true;
   std::mutex mutex_;  // guards what follows
   LiveState state_;
   std::shared_ptr<const Calibration> calibration_;
   std::optional<RecordingWish> wish_;
+  RunContext recording_context_;  ///< of the recording that is wished for, or runs
   std::size_t wanted_ = 0;
   std::vector<Frame> collected_;
   SequenceHeader header_;

@@ -64,6 +64,7 @@ ModelList::ModelList(ModelStore& store, QWidget* parent)
   layout->addWidget(make_buttons());
   layout->addWidget(tree_);
   layout->addWidget(properties_);
+  show_properties();
   connect(&store_, &ModelStore::changed, this, &ModelList::fill);
   connect(tree_, &QTreeWidget::itemChanged, this, &ModelList::on_item_changed);
   connect(tree_, &QTreeWidget::currentItemChanged, this, [this] {
@@ -182,6 +183,7 @@ void ModelList::show_properties() {
   const Model* model = store_.find(selected());
   properties_->setPlainText(model ? model->data->report : QString());
   properties_->setVisible(!store_.models().empty());
+  tree_->setVisible(!store_.models().empty());
 }
 
 }  // namespace turnscan::studio

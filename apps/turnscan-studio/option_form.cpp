@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSettings>
 #include <QSignalBlocker>
 #include <QStyle>
 #include <QWheelEvent>
@@ -227,6 +228,24 @@ void OptionForm::set_values(const QMap<QString, QString>& values) {
   }
   refresh();
   Q_EMIT changed();
+}
+
+void OptionForm::store(const QString& group) const {
+  QSettings settings;
+  settings.beginGroup(group);
+  settings.remove("");
+  const QMap<QString, QString> all = values();
+  for (auto it = all.begin(); it != all.end(); ++it) settings.setValue(it.key(), it.value());
+  settings.endGroup();
+}
+
+void OptionForm::restore(const QString& group) {
+  QSettings settings;
+  settings.beginGroup(group);
+  QMap<QString, QString> all;
+  for (const QString& key : settings.childKeys()) all[key] = settings.value(key).toString();
+  settings.endGroup();
+  set_values(all);
 }
 
 }  // namespace turnscan::studio

@@ -35,6 +35,10 @@ class OptionForm : public QWidget {
   /// Unknown names and values that no longer fit are passed over.
   void set_values(const QMap<QString, QString>& values);
 
+  /// Keeps values() in the settings, and takes them from there.
+  void store(const QString& group) const;
+  void restore(const QString& group);
+
   const OptionTable& table() const { return table_; }
 
  Q_SIGNALS:

@@ -39,18 +39,21 @@ Segments frustum_segments(const ScannerModel& model, const Pose& T_world_sensor,
   return lines;
 }
 
-Segments housing_segments(const Pose& T_world_sensor, double size_m) {
+Segments housing_segments(const ScannerModel& model, const Pose& T_world_sensor, double size_m) {
   Segments lines;
-  const Vec3d half(size_m, 0.35 * size_m, 0.25 * size_m);
+  const double side = 0.3 * size_m;
+  const Vec3d low = model.emitter_m.cwiseMin(model.receiver_m) - Vec3d(side, side, 2.0 * side);
+  const Vec3d high = model.emitter_m.cwiseMax(model.receiver_m) + Vec3d(side, side, 0.0);
   const auto corner = [&](int i) {
-    return Vec3d(T_world_sensor * Vec3d((i & 1) != 0 ? half.x() : -half.x(),
-                                        (i & 2) != 0 ? half.y() : -half.y(),
-                                        (i & 4) != 0 ? 0.0 : -2.0 * half.z()));
+    return Vec3d(T_world_sensor * Vec3d((i & 1) != 0 ? high.x() : low.x(),
+                                        (i & 2) != 0 ? high.y() : low.y(),
+                                        (i & 4) != 0 ? high.z() : low.z()));
   };
   for (int i = 0; i < 8; ++i)
     for (const int bit : {1, 2, 4})
       if ((i & bit) == 0) lines.add(corner(i), corner(i | bit));
-  const Vec3d top = T_world_sensor * Vec3d(0.0, -1.6 * half.y(), -half.z());
+  const Vec3d middle(0.5 * (low.x() + high.x()), low.y() - 0.6 * side, 0.5 * (low.z() + high.z()));
+  const Vec3d top = T_world_sensor * middle;
   lines.add(0.5 * (corner(0) + corner(4)), top);
   lines.add(0.5 * (corner(1) + corner(5)), top);
   return lines;

@@ -11,8 +11,8 @@ namespace turnscan::studio {
 /// The view frustum from the near to the far end, or to `reach_m`; of a line scanner the part of
 /// its sheet of light. World frame.
 Segments frustum_segments(const ScannerModel& model, const Pose& T_world_sensor, double reach_m);
-/// A housing that shows which way is up.
-Segments housing_segments(const Pose& T_world_sensor, double size_m);
+/// A housing around emitter and receiver; its ridge shows which way is up.
+Segments housing_segments(const ScannerModel& model, const Pose& T_world_sensor, double size_m);
 /// Rim and axis of the turntable, and an arrow the way it turns. Table frame.
 Segments table_segments(double radius_m, bool clockwise);
 /// A ball with colours of its own.

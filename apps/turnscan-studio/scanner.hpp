@@ -6,12 +6,12 @@
 #include <turnscan/turntable/average.hpp>
 #include <vector>
 
+#include "drawable.hpp"
 #include "mode.hpp"
 
 class QCheckBox;
 class QComboBox;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 class QTimer;
 
@@ -25,6 +25,7 @@ class LiveFeed;
 class MessageLabel;
 class OptionForm;
 class PickTool;
+class RecordPanel;
 struct LiveState;
 
 class ScannerMode : public Mode {
@@ -37,7 +38,7 @@ class ScannerMode : public Mode {
   void shut_down() override;
 
   void set_device(const QString& uri);
-  void set_folder(const QString& folder);
+  RecordPanel& recording() { return *record_; }
   const Calibration* calibration() const { return calibration_.get(); }
   void load_calibration(const QString& path);
   void save_calibration(const QString& path);
@@ -50,27 +51,33 @@ class ScannerMode : public Mode {
   void showEvent(QShowEvent* event) override;
 
  private:
-  struct RecordOptions;
+  struct CalibrationOptions;
 
   void build_device();
   void build_calibration();
   void build_recording();
   void list_devices();
+  QString chosen_uri() const;
   void toggle_play();
   void poll();
+  void ended();
   void show_state(const LiveState& state);
+  void show_picture(const LiveState& state);
+  void show_seen(const LiveState& state);
   void start_average();
   void average_done(std::unique_ptr<FrameSequence> frames);
+  void show_average(std::shared_ptr<const AveragedScan> scan, const DrawablePtr& drawable,
+                    const std::string& check);
   void calibrate();
   void start_picking(bool on);
   void fit_picks();
-  void show_calibration(std::shared_ptr<const Calibration> calibration);
+  void show_calibration(std::shared_ptr<const Calibration> calibration, bool kept = false);
   void draw_calibration();
   void toggle_record();
   void set_still(bool still);
 
   std::unique_ptr<LiveFeed> feed_;
-  std::unique_ptr<RecordOptions> options_;
+  std::unique_ptr<CalibrationOptions> options_;
   std::unique_ptr<PickTool> pick_tool_;
   std::shared_ptr<const AveragedScan> scan_;
   std::shared_ptr<const Calibration> calibration_;
@@ -79,14 +86,14 @@ class ScannerMode : public Mode {
   JobRunner* quick_;
   QTimer* poll_;
   QComboBox* device_;
-  QPushButton *play_, *average_, *calibrate_, *pick_, *undo_pick_, *record_;
-  QCheckBox *filter_, *reconstruct_;
-  QLabel *live_text_, *calibration_text_, *record_text_;
-  QLineEdit* folder_;
-  OptionForm *record_form_, *average_form_, *detect_form_;
-  MessageLabel *device_error_, *calibration_error_, *record_error_;
-  int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0;
-  bool averaging_ = false, still_ = false, recording_ = false, framed_ = false;
+  QPushButton *play_, *live_, *average_, *calibrate_, *pick_, *undo_pick_, *save_;
+  QCheckBox* filter_;
+  QLabel *live_text_, *calibration_text_;
+  RecordPanel* record_;
+  OptionForm *average_form_, *detect_form_;
+  MessageLabel *device_error_, *calibration_error_;
+  int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0, seen_item_ = 0;
+  bool averaging_ = false, still_ = false, framed_ = false, recording_ = false;
 };
 
 }  // namespace turnscan::studio

@@ -177,17 +177,10 @@ Result<> StagePanel::load_preset(const std::string& path) {
 }
 
 void StagePanel::store() const {
-  QSettings settings;
-  for (const auto& [stage, form] : forms_) {
-    settings.beginGroup("stages/" + QString::fromStdString(stage));
-    settings.remove("");
-    const QMap<QString, QString> values = form->values();
-    for (auto it = values.begin(); it != values.end(); ++it)
-      settings.setValue(it.key(), it.value());
-    settings.endGroup();
-  }
+  for (const auto& [stage, form] : forms_) form->store("stages/" + QString::fromStdString(stage));
 }
 
+/// All are read before the first is set: a change stores them.
 void StagePanel::restore() {
   QSettings settings;
   std::vector<QMap<QString, QString>> stored;

@@ -28,7 +28,7 @@ QLabel#title { font-size: 15px; font-weight: 600; }
 QLabel#field_error, QLabel#error { color: %error; }
 QLabel#error { padding: 7px 9px; border: 1px solid %error; border-radius: 5px; }
 QLineEdit, QPlainTextEdit, QTableWidget, QListWidget, QTreeWidget {
-  background: %field; color: %text; border: 1px solid %line; border-radius: 5px; }
+  background: %field; border: 1px solid %line; border-radius: 5px; }
 QLineEdit { padding: 3px 7px; min-height: 20px; }
 QLineEdit:focus, QTableWidget:focus, QTreeWidget:focus {
   border: 1px solid %accent; }

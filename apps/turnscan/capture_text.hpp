@@ -4,6 +4,7 @@
 #include <string>
 #include <turnscan/capture/capture.hpp>
 
+#include "capture_outcome.hpp"
 #include "command.hpp"
 
 namespace turnscan::cli {
@@ -17,8 +18,5 @@ std::function<void(const CaptureProgress&)> progress_in(Session& session);
 /// Several lines: what was recorded, what was lost and where, how hard it was.
 std::string capture_text(const CaptureResult& result, const std::string& folder);
 nlohmann::ordered_json capture_json(const CaptureResult& result, const SourceInfo& source);
-
-/// The result as the command's: an error that says what the recording holds; {} for a good end.
-Result<> outcome_of(const CaptureResult& result, const std::string& folder);
 
 }  // namespace turnscan::cli

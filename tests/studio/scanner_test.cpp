@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
@@ -14,12 +15,15 @@
 #include "driver.hpp"
 #include "explorer.hpp"
 #include "main_window.hpp"
+#include "motor_panel.hpp"
+#include "record_panel.hpp"
 #include "scene_view.hpp"
+#include "tests/capture/simulated_table.hpp"
 
 namespace turnscan::studio {
 namespace {
 
-class Scanner : public testing::Test {
+class Scanner : public ::testing::Test {
  protected:
   Scanner() {
     window.resize(1440, 900);
@@ -27,7 +31,7 @@ class Scanner : public testing::Test {
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
     QApplication::setActiveWindow(&window);
     window.show_mode("scanner");
-    mode().set_folder(folder.filePath("recording"));
+    mode().recording().set_folder(folder.filePath("recording"));
   }
   ScannerMode& mode() { return window.scanner(); }
   bool enabled(const QString& text) {
@@ -55,7 +59,7 @@ TEST_F(Scanner, CalibratesRecordsAndShowsTheMesh) {
   EXPECT_FALSE(content(folder.filePath("table.json")).isEmpty());
 }
 
-TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructs) {
+TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   mode().set_device(
       "virtual:letter-a?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=200");
   ASSERT_TRUE(click(button_with(mode(), "Play")));
@@ -63,11 +67,46 @@ TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructs) {
   ASSERT_TRUE(click(named(mode(), "record")));
   ASSERT_TRUE(wait_for([&] { return !window.explorer().store().models().empty(); }));
   ASSERT_TRUE(wait_idle(window));
-  const auto recording = Recording::open(folder.filePath("recording").toStdString());
+  const QString folder_of = folder.filePath("recording");
+  const auto recording = Recording::open(folder_of.toStdString());
   ASSERT_TRUE(recording.has_value());
   EXPECT_TRUE(recording->complete());
   EXPECT_GE(recording->frames().size(), 20u);
-  EXPECT_EQ(window.explorer().store().models().size(), 2u);
+  ASSERT_EQ(window.explorer().store().models().size(), 2u);
+  window.explorer().save_as(2, folder.filePath("mesh.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(run_command_line({"reconstruct", folder_of, "-o", folder.filePath("cli.ply")}), 0);
+  EXPECT_TRUE(content(folder.filePath("mesh.ply")) == content(folder.filePath("cli.ply")));
+}
+
+TEST_F(Scanner, AMotorTurnsTheTableAndWhatIsSeenIsShown) {
+  turnscan::testing::SimulatedTable table(true, turnscan::testing::BoardFault::kNone);
+  mode().recording().motor().set_port(QString::fromStdString(table.port()));
+  mode().set_device("virtual:letter-a?sensor=kinect-v2&calibration=true&realtime=1");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record"); }));
+  ASSERT_TRUE(click(button_with(mode(), "Turn")));
+  ASSERT_TRUE(wait_for([&] { return table.turning(); }));
+  ASSERT_TRUE(click(button_with(mode().recording().motor(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return !table.turning() && enabled("Turn"); }));
+  ASSERT_TRUE(type(named(mode(), "option:turns"), "0.12"));
+  ASSERT_TRUE(type(named(mode(), "option:speed"), "25"));
+  ASSERT_TRUE(click(named(mode(), "record")));
+  ASSERT_TRUE(wait_for([&] { return table.turning(); }));
+  bool seen = false, pictured = false;
+  ASSERT_TRUE(wait_for([&] {
+    for (const QLabel* label : mode().findChildren<QLabel*>("quiet"))
+      seen = seen || label->text().startsWith("Seen so far: about");
+    if (seen && !pictured) keep_picture(window, "scanner-recording");
+    pictured = pictured || seen;
+    return !window.explorer().store().models().empty();
+  }));
+  EXPECT_TRUE(seen);
+  EXPECT_TRUE(table.stands_within(2.0));
+  ASSERT_TRUE(wait_idle(window));
+  const auto recording = Recording::open(folder.filePath("recording").toStdString());
+  ASSERT_TRUE(recording.has_value());
+  EXPECT_TRUE(recording->frames().front().angle_rad.has_value());
 }
 
 TEST_F(Scanner, TheCircleFollowsTheClicksOnTheRim) {
@@ -102,7 +141,7 @@ TEST_F(Scanner, TheCircleFollowsTheClicksOnTheRim) {
 }
 
 TEST_F(Scanner, ALostDeviceKeepsWhatWasRecorded) {
-  mode().set_device("virtual:letter-a?sensor=kinect-v2&angles=1&frames=6000&fault=lost@10s");
+  mode().set_device("virtual:letter-a?sensor=kinect-v2&angles=1&realtime=1&fault=lost@4s");
   ASSERT_TRUE(click(button_with(mode(), "Play")));
   ASSERT_TRUE(wait_for([&] { return enabled("Record"); }));
   ASSERT_TRUE(click(named(mode(), "record")));
