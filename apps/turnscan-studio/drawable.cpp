@@ -22,8 +22,8 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr double kCrease_rad = 0.7;                  // between two faces; 40 degrees
-constexpr std::size_t kCreasesBelow = 1000000;       // triangles; beyond, edges are small
+constexpr double kCrease_rad = 0.7;             // between two faces; 40 degrees
+constexpr std::size_t kCreasesBelow = 1000000;  // triangles; beyond, edges are small
 
 /// The k-th of n points is the one at k * stride modulo n: any run of them is spread over all.
 std::uint64_t spread_stride(std::uint64_t n) {
@@ -148,8 +148,8 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading) {
   out->colored = !mesh.colors.empty();
   const bool creases = mesh.normals.empty() && mesh.triangles.size() < kCreasesBelow;
   out->chunks.push_back(make_surface(shading == Shading::kFlat ? exploded(mesh)
-                                     : creases ? split_at_creases(mesh, kCrease_rad)
-                                               : mesh));
+                                     : creases                 ? split_at_creases(mesh, kCrease_rad)
+                                                               : mesh));
   if (mesh.triangles.size() > kCoarseAbove) out->coarse = make_coarse(out->chunks.front());
   return out;
 }

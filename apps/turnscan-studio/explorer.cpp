@@ -40,6 +40,7 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or press Ctrl+O."));
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
+  connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
   connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
   connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);

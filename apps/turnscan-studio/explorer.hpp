@@ -24,6 +24,8 @@ class ExplorerMode : public Mode {
   bool open_file(const QString& path) override;
   void undo() override { store_->undo(); }
   void redo() override { store_->redo(); }
+  QString undo_text() const override { return store_->undo_text(); }
+  QString redo_text() const override { return store_->redo_text(); }
   void save() override;
   void remove_selected() override;
   void shut_down() override;

@@ -63,7 +63,6 @@ MainWindow::MainWindow()
   add_mode("simulator", tr("Scanner Simulator"), tr("Try a rig before it is built (F3)"),
            simulator_);
   connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
-  connect(&explorer_->store(), &ModelStore::changed, this, &MainWindow::update_undo);
   make_menus();
   connect(settings_, &ViewSettings::changed, this, &MainWindow::apply_settings);
   apply_settings();
@@ -102,6 +101,9 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
   mode_buttons_.emplace_back(name, button);
   connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
   connect(mode, &Mode::status, status_, &QLabel::setText);
+  connect(mode, &Mode::undo_changed, this, [this] {
+    if (undo_) update_undo();
+  });
   connect(mode, &Mode::recording_made, this, [this](const QString& folder, bool reconstruct) {
     show_mode("explorer");
     explorer_->take_recording(folder, reconstruct);
@@ -230,15 +232,11 @@ void MainWindow::apply_settings() {
 }
 
 void MainWindow::update_undo() {
-  const ModelStore& store = explorer_->store();
-  const bool here = &mode() == static_cast<Mode*>(explorer_);
-  const bool picking = &mode() == static_cast<Mode*>(scanner_);
-  undo_->setEnabled((here && store.can_undo()) || picking);
-  redo_->setEnabled(here && store.can_redo());
-  undo_->setText(picking            ? tr("Undo click")
-                 : store.can_undo() ? tr("Undo %1").arg(store.undo_text())
-                                    : tr("Undo"));
-  redo_->setText(store.can_redo() ? tr("Redo %1").arg(store.redo_text()) : tr("Redo"));
+  const QString undo = mode().undo_text(), redo = mode().redo_text();
+  undo_->setEnabled(!undo.isEmpty());
+  redo_->setEnabled(!redo.isEmpty());
+  undo_->setText(tr("Undo %1").arg(undo));
+  redo_->setText(tr("Redo %1").arg(redo));
 }
 
 void MainWindow::restore_window() {

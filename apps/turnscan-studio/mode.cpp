@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QSplitter>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include "scene_view.hpp"
@@ -31,15 +32,20 @@ Mode::Mode(const Services& services, QWidget* parent)
   rule->setObjectName("rule");
   rule->setFixedHeight(1);
   column->addWidget(rule);
-  auto* area = new QScrollArea(side);
-  body_ = scrolled_body(area);
-  column->addWidget(area, 1);
+  area_ = new QScrollArea(side);
+  body_ = scrolled_body(area_);
+  column->addWidget(area_, 1);
   split->addWidget(view_);
   split->addWidget(side);
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 0);
   split->setSizes({900, 390});
   layout->addWidget(split);
+}
+
+void Mode::reveal(QWidget* part) {
+  // Once the layout has made room for it.
+  QTimer::singleShot(0, part, [this, part] { area_->ensureWidgetVisible(part, 0, 24); });
 }
 
 }  // namespace turnscan::studio

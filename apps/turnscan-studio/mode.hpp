@@ -29,6 +29,9 @@ class Mode : public QWidget {
   virtual bool open_file(const QString& /*path*/) { return false; }
   virtual void undo() {}
   virtual void redo() {}
+  /// What undo and redo would take back and bring back; empty: nothing.
+  virtual QString undo_text() const { return {}; }
+  virtual QString redo_text() const { return {}; }
   virtual void save() {}
   virtual void remove_selected() {}
   /// The window closes: what must not be lost is brought to an end.
@@ -37,6 +40,8 @@ class Mode : public QWidget {
  Q_SIGNALS:
   /// One line for the status bar.
   void status(const QString& text);
+  /// undo_text() or redo_text() is another one.
+  void undo_changed();
   /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
   void recording_made(const QString& folder, bool reconstruct);
 
@@ -45,10 +50,13 @@ class Mode : public QWidget {
   ViewSettings& settings() const { return services_.settings; }
   /// Sections go here.
   QVBoxLayout* panel() const { return body_; }
+  /// Scrolls the panel so that a part of it is seen.
+  void reveal(QWidget* part);
 
  private:
   Services services_;
   SceneView* view_;
+  QScrollArea* area_;
   QVBoxLayout* body_;
 };
 

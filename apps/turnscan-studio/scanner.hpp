@@ -35,6 +35,7 @@ class ScannerMode : public Mode {
   ~ScannerMode() override;
 
   void undo() override { undo_pick(); }
+  QString undo_text() const override { return picks_.empty() ? QString() : tr("click"); }
   void shut_down() override;
 
   void set_device(const QString& uri);

@@ -250,6 +250,7 @@ void ScannerMode::undo_pick() {
 
 void ScannerMode::fit_picks() {
   undo_pick_->setEnabled(!picks_.empty());
+  Q_EMIT undo_changed();
   PointCloud cloud;
   for (const Vec3d& p : picks_) cloud.points.push_back(p.cast<float>());
   view().remove(picks_item_);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <turnscan/core/result.hpp>
 #include <vector>
 
 #include "drawable.hpp"
@@ -20,6 +21,7 @@ class QTimer;
 namespace turnscan {
 struct CoverageMapOptions;
 struct SceneDescription;
+struct ScannerEntry;
 struct ScannerModel;
 struct ScannerPlacement;
 struct PlacedObject;
@@ -29,6 +31,7 @@ namespace turnscan::studio {
 
 class MessageLabel;
 class OptionForm;
+struct ItemStyle;
 struct SimulationResult;
 
 /// Samples on their way from the threads that trace them to the view.
@@ -45,10 +48,16 @@ class SimulatorMode : public Mode {
 
   bool open_file(const QString& path) override;
   void shut_down() override { store(); }
+  void undo() override { go_to_step(step_ - 1); }
+  void redo() override { go_to_step(step_ + 1); }
+  QString undo_text() const override;
+  QString redo_text() const override;
   void remove_selected() override;
 
   void set_object(const QString& object);
   void add_scanner(const QString& model);
+  void load_scene(const QString& path);
+  void save_scene(const QString& path);
   void run();
   /// The scene as the command line's --scene reads it.
   const SceneDescription& scene();
@@ -72,6 +81,13 @@ class SimulatorMode : public Mode {
   void draw_slot(Slot& slot);
   void select_slot(int row);
   void drag_slot(Slot& slot);
+  bool add_slot(const ScannerEntry& entry);
+  void take_slot(int row);
+  ItemStyle lines_style(const Slot& slot) const;
+  void show_object(const QString& object);
+  void apply_scene(SceneDescription scene);
+  static Result<> read_text(const QString& text, SceneDescription& scene);
+  void go_to_step(int step);
   void place_changed();
   void show_samples();
   void clear_samples();
@@ -107,6 +123,8 @@ class SimulatorMode : public Mode {
   MessageLabel* error_;
   std::vector<std::pair<QString, OptionForm*>> forms_;
   int object_item_ = 0, table_item_ = 0, coverage_item_ = 0;
+  std::vector<QString> steps_;  ///< of undo: the scene as a text, oldest first
+  int step_ = 0;
   std::vector<int> sample_items_;
   std::size_t samples_shown_ = 0;
 };

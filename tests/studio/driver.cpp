@@ -7,6 +7,7 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSettings>
 #include <QTest>
 #include <algorithm>
 #include <cstdio>
@@ -18,6 +19,8 @@
 #include "section.hpp"
 
 namespace turnscan::studio {
+
+FirstStart::FirstStart() { QSettings().clear(); }
 
 StallWatch::StallWatch() {
   QObject::connect(&timer_, &QTimer::timeout, [this] {

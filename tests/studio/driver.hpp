@@ -14,6 +14,12 @@ namespace turnscan::studio {
 
 class MainWindow;
 
+/// Settings as at the first start, whatever the test before has left. To be a base of the fixture,
+/// before the window.
+struct FirstStart {
+  FirstStart();
+};
+
 /// The longest time for which the event loop did not come round.
 class StallWatch {
  public:

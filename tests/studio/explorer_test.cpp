@@ -27,7 +27,7 @@
 namespace turnscan::studio {
 namespace {
 
-class Explorer : public testing::Test {
+class Explorer : public ::testing::Test, FirstStart {
  protected:
   Explorer() {
     window.resize(1440, 900);

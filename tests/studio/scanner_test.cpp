@@ -23,7 +23,7 @@
 namespace turnscan::studio {
 namespace {
 
-class Scanner : public ::testing::Test {
+class Scanner : public ::testing::Test, FirstStart {
  protected:
   Scanner() {
     window.resize(1440, 900);

@@ -13,13 +13,14 @@
 
 #include "driver.hpp"
 #include "explorer.hpp"
+#include "jobs.hpp"
 #include "main_window.hpp"
 #include "scene_view.hpp"
 
 namespace turnscan::studio {
 namespace {
 
-class Simulator : public testing::Test {
+class Simulator : public ::testing::Test, FirstStart {
  protected:
   Simulator() {
     window.resize(1440, 900);
@@ -90,6 +91,32 @@ TEST_F(Simulator, AScannerIsPlacedByDragging) {
   QTest::mouseRelease(canvas, Qt::LeftButton, {}, at->toPoint() + QPoint(40, -20));
   run_for(50);
   EXPECT_NE(scene_toml(mode().scene()), before);
+}
+
+TEST_F(Simulator, TheRigIsThereAgainInTheNextRunAndItsChangesAreTakenBack) {
+  const auto text = [](MainWindow& w) { return scene_toml(w.simulator().scene()); };
+  const std::string first = text(window);
+  ASSERT_TRUE(type(named(mode(), "option:elevation"), "31"));
+  mode().add_scanner("gocator");
+  ASSERT_TRUE(type(named(mode(), "option:frames"), "45"));
+  ASSERT_TRUE(wait_for([&] { return mode().ready(); }));
+  const std::string changed = text(window);
+  ASSERT_NE(changed, first);
+  {
+    MainWindow next;
+    EXPECT_EQ(text(next), changed);
+    EXPECT_EQ(next.simulator().scanner_count(), 2);
+  }
+  mode().save_scene(folder.filePath("scene.toml"));
+  ASSERT_TRUE(wait_for([&] { return !window.jobs().busy(); }));
+  while (!mode().undo_text().isEmpty()) QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(mode().scanner_count(), 1);
+  while (!mode().redo_text().isEmpty())
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(text(window), changed);
+  mode().remove_selected();
+  mode().load_scene(folder.filePath("scene.toml"));
+  EXPECT_EQ(text(window), changed);
 }
 
 }  // namespace
