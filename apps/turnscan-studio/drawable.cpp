@@ -160,12 +160,15 @@ DrawablePtr make_drawable(const PointCloud& cloud) {
   out->box = bounds(cloud.points);
   out->points = cloud.size();
   out->colored = !cloud.colors.empty();
-  const std::size_t count = (cloud.size() + kChunkPoints - 1) / kChunkPoints;
+  std::vector<std::size_t> ends;
+  for (std::size_t end = 0; end < cloud.size();) {
+    end += ends.size() < kSmallChunks ? kSmallChunkPoints : kChunkPoints;
+    ends.push_back(std::min(end, cloud.size()));
+  }
   const std::uint64_t stride = spread_stride(cloud.size());
-  out->chunks.resize(count);
-  parallel_for(count, 1, [&](std::size_t c) {
-    out->chunks[c] =
-        make_chunk(cloud, c * kChunkPoints, std::min(cloud.size(), (c + 1) * kChunkPoints), stride);
+  out->chunks.resize(ends.size());
+  parallel_for(ends.size(), 1, [&](std::size_t c) {
+    out->chunks[c] = make_chunk(cloud, c == 0 ? 0 : ends[c - 1], ends[c], stride);
   });
   return out;
 }

@@ -12,8 +12,9 @@ enum class DrawableKind { kMesh, kCloud, kLines };
 
 struct Drawable {
   DrawableKind kind = DrawableKind::kMesh;
-  /// A cloud: pieces of kChunkPoints points, each spread over the whole cloud, so that the first
-  /// ones alone show its shape. Else one piece.
+  /// A cloud: pieces, each spread over the whole cloud, so that the first ones alone show its
+  /// shape; the first kSmallChunks small ones, so that a slow renderer can be given few points, and
+  /// then such of kChunkPoints points. Else one piece.
   std::vector<vtkSmartPointer<vtkPolyData>> chunks;
   /// Of a large mesh: fewer triangles, for while it moves.
   vtkSmartPointer<vtkPolyData> coarse;
@@ -22,7 +23,8 @@ struct Drawable {
   bool colored = false;
 };
 
-inline constexpr std::size_t kChunkPoints = 50000;
+inline constexpr std::size_t kSmallChunks = 10, kSmallChunkPoints = 10000;
+inline constexpr std::size_t kChunkPoints = 40000;
 inline constexpr std::size_t kCoarseAbove = 150000;  ///< triangles
 
 }  // namespace turnscan::studio

@@ -1,6 +1,7 @@
 #pragma once
 // What a SceneView consists of, for its own sources.
 
+#include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -21,7 +22,21 @@
 
 namespace turnscan::studio {
 
-class VtkCanvas;
+inline constexpr int kRestAfterMs = 180;    ///< the camera, after it moved
+inline constexpr double kViewAngle = 30.0;  ///< degrees, vertical
+
+/// The OpenGL surface; the mouse belongs to the view.
+class VtkCanvas : public QVTKOpenGLNativeWidget {
+ public:
+  explicit VtkCanvas(SceneView* view) : QVTKOpenGLNativeWidget(view), view_(view) {}
+
+ protected:
+  bool event(QEvent* event) override;
+
+ private:
+  SceneView* view_;
+};
+
 class ViewOverlay;
 
 struct SceneView::Item {
@@ -55,8 +70,8 @@ struct SceneView::Parts {
   QTimer render;  ///< the next frame
   QTimer rest;    ///< the camera has come to rest
   QTimer more;    ///< the next piece of the points that are still missing
-  bool moving = false, complete = false;
-  std::size_t budget = 60000, chunks_a_frame = 2, points_drawn = 0;
+  bool moving = false, complete = false, warm = false;
+  std::size_t budget = 40000, chunks_a_frame = 1, points_drawn = 0;
   double longest_ms = 0.0;
   std::vector<vtkSmartPointer<vtkActor>> pending;
 
@@ -66,6 +81,7 @@ struct SceneView::Parts {
 
   void fly(double share);
   void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
+  void warm_up();
   void show_first(bool moving_now);
   void drop(Item& item) {
     for (auto& renderer : renderers) {

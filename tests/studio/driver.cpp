@@ -11,6 +11,7 @@
 #include <QTest>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 
 #include "jobs.hpp"
 #include "main_window.hpp"
@@ -22,18 +23,31 @@ namespace turnscan::studio {
 
 FirstStart::FirstStart() { QSettings().clear(); }
 
+namespace {
+
+double thread_cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
+}
+
+}  // namespace
+
 StallWatch::StallWatch() {
   QObject::connect(&timer_, &QTimer::timeout, [this] {
     longest_ms_ = std::max(longest_ms_, 1e-6 * double(since_.nsecsElapsed()));
+    longest_cpu_ms_ = std::max(longest_cpu_ms_, thread_cpu_ms() - cpu_since_ms_);
     since_.restart();
+    cpu_since_ms_ = thread_cpu_ms();
   });
-  since_.start();
+  reset();
   timer_.start(2);
 }
 
 void StallWatch::reset() {
-  longest_ms_ = 0.0;
+  longest_ms_ = longest_cpu_ms_ = 0.0;
   since_.restart();
+  cpu_since_ms_ = thread_cpu_ms();
 }
 
 bool wait_for(const std::function<bool()>& condition, double seconds) {
@@ -108,6 +122,27 @@ void keep_picture(QWidget& window, const QString& name) {
   if (folder.isEmpty()) return;
   run_for(60);
   window.grab().save(QDir(folder).filePath(name + ".png"));
+}
+
+double difference_from_kept(const QImage& image, const QString& name) {
+  const QString file = QDir(TURNSCAN_STUDIO_PICTURES).filePath(name + ".png");
+  const QImage now = image.scaled(96, 72, Qt::IgnoreAspectRatio, Qt::SmoothTransformation)
+                         .convertToFormat(QImage::Format_RGB888);
+  if (qEnvironmentVariableIsSet("TURNSCAN_KEEP_PICTURES") && !QFile::exists(file)) {
+    now.save(file);
+    return 0.0;
+  }
+  const QImage kept = QImage(file).convertToFormat(QImage::Format_RGB888);
+  if (kept.size() != now.size()) return 1.0;
+  int far = 0;
+  for (int y = 0; y < now.height(); ++y)
+    for (int x = 0; x < now.width(); ++x) {
+      const QRgb a = now.pixel(x, y), b = kept.pixel(x, y);
+      const int away = std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)),
+                                 std::abs(qBlue(a) - qBlue(b))});
+      far += away > 40 ? 1 : 0;
+    }
+  return double(far) / (now.width() * now.height());
 }
 
 double busyness(const QImage& image) {

@@ -20,17 +20,19 @@ struct FirstStart {
   FirstStart();
 };
 
-/// The longest time for which the event loop did not come round.
+/// The longest time for which the event loop did not come round, on the clock, and in processor
+/// time of its own thread, which other work on the machine does not lengthen.
 class StallWatch {
  public:
   StallWatch();
   void reset();
   double longest_ms() const { return longest_ms_; }
+  double longest_cpu_ms() const { return longest_cpu_ms_; }
 
  private:
   QTimer timer_;
   QElapsedTimer since_;
-  double longest_ms_ = 0.0;
+  double cpu_since_ms_ = 0.0, longest_ms_ = 0.0, longest_cpu_ms_ = 0.0;
 };
 
 /// Runs the event loop until the condition holds; false after `seconds`.
@@ -54,6 +56,10 @@ QByteArray content(const QString& path);
 
 /// Writes the whole window as NAME.png into the folder TURNSCAN_SCREENSHOTS, if that is set.
 void keep_picture(QWidget& window, const QString& name);
+/// How far a picture is from pictures/NAME.png, both reduced to 96 x 72: the share of places whose
+/// colour differs clearly. Another renderer's edges and fonts stay below one in a hundred. 1 where
+/// there is no such picture. With TURNSCAN_KEEP_PICTURES set it is written instead, and 0.
+double difference_from_kept(const QImage& image, const QString& name);
 /// Share of the pixels that differ clearly from their left neighbour: 0 for an empty view.
 double busyness(const QImage& image);
 

@@ -1,0 +1,126 @@
+// How the window looks: sizes, themes, and pictures of the view against kept ones.
+
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QComboBox>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTest>
+#include <cmath>
+#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/simulator/builtin_objects.hpp>
+
+#include "driver.hpp"
+#include "explorer.hpp"
+#include "jobs.hpp"
+#include "main_window.hpp"
+#include "model_list.hpp"
+#include "scanner.hpp"
+#include "scene_view.hpp"
+#include "section.hpp"
+#include "simulator.hpp"
+#include "theme.hpp"
+#include "view_settings.hpp"
+
+namespace turnscan::studio {
+namespace {
+
+class Layout : public ::testing::Test, FirstStart {
+ protected:
+  Layout() {
+    window.resize(1440, 900);
+    window.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+  }
+  bool settled() {
+    return wait_for([&] { return !window.jobs().busy() && window.mode().view().settled(); });
+  }
+
+  QTemporaryDir folder;
+  MainWindow window;
+};
+
+/// Buttons and texts of the panel that have less room than they need, by name.
+std::string cramped(QWidget& mode) {
+  std::string found;
+  for (const QWidget* each : mode.findChildren<QWidget*>()) {
+    const auto* button = qobject_cast<const QAbstractButton*>(each);
+    if (!button || !button->isVisible() || button->text().isEmpty()) continue;
+    const QFontMetrics metrics = button->fontMetrics();
+    if (button->width() < metrics.horizontalAdvance(button->text()) + 8 ||
+        button->height() < metrics.height())
+      found += button->text().toStdString() + "; ";
+  }
+  return found;
+}
+
+TEST_F(Layout, EveryModeIsUsableOnASmallScreenAndOnALargeOne) {
+  for (const QSize size : {QSize(1280, 800), QSize(3840, 2160)}) {
+    window.resize(size);
+    for (const char* name : {"scanner", "explorer", "simulator"}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(size.width()));
+      window.show_mode(name);
+      for (Section* section : window.mode().findChildren<Section*>()) section->set_open(true);
+      ASSERT_TRUE(settled());
+      EXPECT_EQ(window.size(), size);
+      EXPECT_EQ(cramped(window.mode()), "");
+      EXPECT_GT(window.mode().view().width(), size.width() * 6 / 10);
+      for (const QScrollArea* area : window.mode().findChildren<QScrollArea*>())
+        EXPECT_LE(area->widget()->width(), area->viewport()->width());
+      keep_picture(window, QString("layout-%1-%2").arg(name).arg(size.width()));
+    }
+  }
+}
+
+TEST_F(Layout, TheDarkThemeReachesEveryMode) {
+  window.settings().set_dark(true);
+  for (const char* name : {"scanner", "explorer", "simulator"}) {
+    window.show_mode(name);
+    ASSERT_TRUE(settled());
+    keep_picture(window, QString("dark-%1").arg(name));
+    const QImage all = window.grab().toImage().scaled(64, 40).convertToFormat(QImage::Format_RGB32);
+    double sum = 0.0;
+    for (int y = 0; y < all.height(); ++y)
+      for (int x = 0; x < all.width(); ++x) sum += qGray(all.pixel(x, y));
+    EXPECT_LT(sum / (all.width() * all.height()), 90.0) << name;
+  }
+  window.settings().set_dark(false);
+}
+
+TEST_F(Layout, TheViewsLookLikeTheKeptPictures) {
+  const QString file = folder.filePath("letter.ply");
+  ASSERT_TRUE(write_mesh(file.toStdString(), *builtin_object("letter-a")));
+  window.open(file);
+  ASSERT_TRUE(settled());
+  SceneView& view = window.mode().view();
+  view.look(StandardView::kCorner);
+  ASSERT_TRUE(settled());
+  EXPECT_LT(difference_from_kept(view.screenshot(), "explorer-letter"), 0.04);
+  // The other side is another picture: the comparison sees it.
+  view.look(StandardView::kTop);
+  ASSERT_TRUE(settled());
+  EXPECT_GT(difference_from_kept(view.screenshot(), "explorer-letter"), 0.04);
+  window.show_mode("simulator");
+  window.simulator().set_object("builtin:letter-a");
+  window.simulator().add_scanner("gocator");
+  window.simulator().set_folder(folder.filePath("scan"));
+  ASSERT_TRUE(wait_for([&] { return window.simulator().ready(); }));
+  ASSERT_TRUE(settled());
+  SceneView& rig = window.mode().view();
+  rig.look(StandardView::kCorner);
+  ASSERT_TRUE(settled());
+  EXPECT_LT(difference_from_kept(rig.screenshot(), "simulator-rig"), 0.04);
+  window.simulator().remove_selected();
+  ASSERT_TRUE(type(named(window.simulator(), "option:frames"), "12"));
+  ASSERT_TRUE(wait_for([&] { return window.simulator().ready(); }));
+  ASSERT_TRUE(click(button_with(window.simulator(), "Scan")));
+  ASSERT_TRUE(settled());
+  rig.fly_to(Vec3d(0, 0.1, 0), 0.25, Vec3d(0.55, 0.45, 1.0));
+  ASSERT_TRUE(settled());
+  EXPECT_LT(difference_from_kept(rig.screenshot(), "simulator-coverage"), 0.04);
+}
+
+}  // namespace
+}  // namespace turnscan::studio
