@@ -98,7 +98,19 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
       cli::choose_calibration(recording, {"auto", options.merge.speed_rad_s, false}, context));
   TURNSCAN_ASSIGN(const auto frames, cli::with_choice(recording, choice));
   if (choice.calibration) options.merge.speed_rad_s.reset();  // it is in the angles
-  return run_on(*frames, model, stage, std::move(options), choice.note, context);
+  TURNSCAN_ASSIGN(StageRun run,
+                  run_on(*frames, model, stage, std::move(options), choice.note, context));
+  // Frames that are damaged, too: what was left out is told with what was made.
+  if (recording.notes().empty()) return run;
+  QString notes;
+  for (const std::string& note : recording.notes())
+    notes += QObject::tr("\nNote: %1").arg(QString::fromStdString(note));
+  for (auto& [name, data] : run.models) {
+    auto told = std::make_shared<ModelData>(*data);
+    told->report += notes;
+    data = std::move(told);
+  }
+  return run;
 }
 
 Result<StageRun> run_cloud(const Model& model, const std::string& stage, ReconstructOptions options,
