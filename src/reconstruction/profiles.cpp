@@ -34,6 +34,7 @@ Vec3d mean_of(const std::vector<Vec3f>& points) {
 void join_rows(const FramePoints& a, const FramePoints& b, std::uint32_t first_a,
                std::uint32_t first_b, const std::vector<double>& place,
                std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  if (a.cell.empty() || b.cell.empty()) return;
   const auto follows = [](const FramePoints& row, std::size_t i) {
     return row.cell[i + 1] == row.cell[i] + 1;
   };

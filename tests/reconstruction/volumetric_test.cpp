@@ -349,6 +349,26 @@ TEST(Volumetric, MakesASolidOfTheProfilesOfALineScanner) {
   EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.0001);
 }
 
+TEST(Profiles, ThatSawNothingPartTheirGroup) {
+  const LightSheet sheet{Vec3d::UnitZ(), Vec3d::UnitY()};
+  FramePoints line;
+  for (int i = 0; i < 40; ++i) line.cloud.points.emplace_back(0.0f, 0.001f * float(i), 0.5f);
+  line = in_sheet_order(line, sheet);
+  const FramePoints nothing = in_sheet_order(FramePoints(), sheet);
+  std::vector<Profile> group;
+  for (const FramePoints& points : {line, nothing, line, line, nothing}) {
+    group.push_back({points, Pose::Identity()});
+    group.back().T_table_sensor.translation().x() = 0.001 * double(group.size());
+  }
+  const DepthView view = view_of_profiles(group, sheet, {0.01, 0.001});
+  ASSERT_FALSE(view.empty());
+  std::size_t between = 0;  // the pixels of the two lines beside each other, and between them
+  for (const std::uint32_t word : view.pixels) between += (word & 0xffffu) != 0 ? 1 : 0;
+  EXPECT_GT(between, 3u * 39u);
+  EXPECT_LT(between, 6u * 80u);
+  EXPECT_TRUE(view_of_profiles(std::vector<Profile>{group[1]}, sheet, {}).empty());
+}
+
 TEST(Profiles, AreToldFromRangeScans) {
   FramePoints line, plate, few;
   for (int i = 0; i < 40; ++i) {
