@@ -64,8 +64,10 @@ Result<PointCloud> preview(const Recording& recording, const RunContext& context
 
 }  // namespace
 
-ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report) {
+ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report,
+                        std::vector<float> confidence) {
   auto data = std::make_shared<ModelData>();
+  data->confidence = std::move(confidence);
   data->kind = ModelKind::kMesh;
   data->source = source;
   data->report = mesh_report(mesh) + (report.isEmpty() ? "" : "\n\n" + report);
@@ -143,7 +145,7 @@ Result<NamedModels> load_models(const std::string& path, const RunContext& conte
 Result<> save_model(const ModelData& data, const std::string& path) {
   switch (data.kind) {
     case ModelKind::kMesh:
-      return write_mesh(path, data.mesh);
+      return write_mesh(path, data.mesh, data.confidence);
     case ModelKind::kCloud:
       return write_cloud(path, data.cloud);
     case ModelKind::kRecording:

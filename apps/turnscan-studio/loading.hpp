@@ -17,7 +17,8 @@ using NamedModels = std::vector<std::pair<QString, ModelDataPtr>>;
 /// `turnscan info` does. Fails as the readers do.
 Result<NamedModels> load_models(const std::string& path, const RunContext& context);
 
-ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report = {});
+ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report = {},
+                        std::vector<float> confidence = {});
 ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString& report = {},
                          std::vector<Viewpoint> viewpoints = {});
 Result<ModelDataPtr> recording_model(const std::string& folder, const RunContext& context);

@@ -24,6 +24,7 @@ enum class ModelKind { kMesh, kCloud, kRecording };
 struct ModelData {
   ModelKind kind = ModelKind::kCloud;
   TriangleMesh mesh;
+  std::vector<float> confidence;      ///< of each vertex of mesh, or empty; saved with it
   PointCloud cloud;                   ///< of a recording: a preview
   std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
   std::shared_ptr<const Recording> recording;

@@ -83,7 +83,8 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
         result->objects.size() == 1
             ? QObject::tr("%1 mesh").arg(model.name)
             : QObject::tr("%1 %2").arg(model.name, QString::fromStdString(object.mesh.name));
-    out.models.emplace_back(name, mesh_model(std::move(object.mesh), source, report));
+    out.models.emplace_back(
+        name, mesh_model(std::move(object.mesh), source, report, std::move(object.confidence)));
     context.advance();
   }
   out.choices = std::move(result->choices);

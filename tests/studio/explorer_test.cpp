@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QFile>
 #include <QLabel>
 #include <QMouseEvent>
@@ -60,6 +61,9 @@ TEST_F(Explorer, ReconstructsARecordingToTheBytesOfTheCommandLine) {
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(window.explorer().store().models().size(), 1u);
   ASSERT_TRUE(type(in_panel("option:voxel-size"), "3"));
+  auto* method = qobject_cast<QComboBox*>(in_panel("option:method"));
+  ASSERT_NE(method, nullptr);
+  method->setCurrentText("poisson");
   ASSERT_TRUE(click(in_panel("run:candidates")));
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(window.explorer().store().models().size(), 2u);
@@ -73,7 +77,8 @@ TEST_F(Explorer, ReconstructsARecordingToTheBytesOfTheCommandLine) {
   keep_picture(window, "explorer-mesh");
   EXPECT_GT(busyness(window.mode().view().screenshot()), 0.005);
   ASSERT_EQ(run_command_line({"reconstruct", recording, "-o", path("cli.ply"), "--voxel-size",
-                              "3mm", "--save-stage", "candidates=" + path("cli-candidates.ply")}),
+                              "3mm", "--method", "poisson", "--save-stage",
+                              "candidates=" + path("cli-candidates.ply")}),
             0);
   EXPECT_TRUE(content(path("mesh.ply")) == content(path("cli.ply")));
   EXPECT_TRUE(content(path("candidates.ply")) == content(path("cli-candidates.ply")));

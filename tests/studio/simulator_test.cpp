@@ -69,7 +69,10 @@ TEST_F(Simulator, RecordsTheBytesOfTheCommandLineAndSendsThemToReconstruction) {
                            "truth/object.ply", "truth/scene.toml"})
     EXPECT_TRUE(content(folder.filePath(QString("scan/") + file)) ==
                 content(folder.filePath(QString("cli/") + file)))
-        << file;
+        << file << "\n"
+        << (QString(file).endsWith(".toml") ? content(folder.filePath(QString("scan/") + file))
+                                            : QByteArray())
+               .toStdString();
   ASSERT_TRUE(click(named(mode(), "simulator_reconstruct")));
   ASSERT_TRUE(wait_idle(window));
   EXPECT_EQ(window.explorer().store().models().size(), 2u);
