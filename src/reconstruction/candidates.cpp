@@ -12,8 +12,9 @@ constexpr std::size_t kVoxelsAChunk = 4096;
 Vec3f mean_direction(const MergedCloud& merged, const VoxelGrid& grid,
                      const VoxelGrid::Voxel& voxel) {
   Vec3d sum = Vec3d::Zero();
-  for (std::uint32_t k = voxel.begin; k < voxel.end; ++k)
-    sum += merged.towards_sensor(grid.order()[k]).cast<double>();
+  merged.for_each_of(grid.order(), voxel.begin, voxel.end, [&](std::size_t, std::uint32_t i) {
+    sum += merged.towards_sensor(i).cast<double>();
+  });
   return (sum / voxel.count()).cast<float>();
 }
 
@@ -29,8 +30,9 @@ Rgb mean_color(const MergedCloud& merged, const VoxelGrid& grid, const VoxelGrid
 
 Vec3f centroid(const MergedCloud& merged, const VoxelGrid& grid, const VoxelGrid::Voxel& voxel) {
   Vec3d sum = Vec3d::Zero();
-  for (std::uint32_t k = voxel.begin; k < voxel.end; ++k)
-    sum += merged.cloud.points[grid.order()[k]].cast<double>();
+  merged.for_each_of(grid.order(), voxel.begin, voxel.end, [&](std::size_t, std::uint32_t i) {
+    sum += merged.cloud.points[i].cast<double>();
+  });
   return (sum / voxel.count()).cast<float>();
 }
 
@@ -40,13 +42,12 @@ void count_voxel(const MergedCloud& merged, const VoxelGrid& grid, const VoxelGr
   counts.assign(std::size_t(s) * s * s, 0);
   const Vec3d low = voxel.index.cast<double>() * grid.size_m();
   const double scale = s / grid.size_m();
-  for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
-    const std::uint32_t i = grid.order()[k];
+  merged.for_each_of(grid.order(), voxel.begin, voxel.end, [&](std::size_t, std::uint32_t i) {
     const Vec3d p = (merged.cloud.points[i].cast<double>() - low) * scale;
     walk_sub_voxels(p, merged.towards_sensor(i).cast<double>(), s,
                     options.line == SubVoxelLine::kChord,
                     [&](int x, int y, int z) { ++counts[std::size_t((z * s + y) * s + x)]; });
-  }
+  });
 }
 
 /// Positions of the highest count, as points.

@@ -25,6 +25,21 @@ struct MergedCloud {
 
   /// Unit vector from point i towards the sensor that saw it.
   Vec3f towards_sensor(std::size_t i) const;
+
+  /// Calls visit(k, i) for the points i = order[k] of [begin, end). Points that are neighbours in
+  /// space come from frames that lie far apart in memory: those ahead are asked for in time.
+  template <class Visit>
+  void for_each_of(const std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
+                   const Visit& visit) const {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k + kAhead < order.size()) {
+        __builtin_prefetch(&cloud.points[order[k + kAhead]]);
+        __builtin_prefetch(&cloud.frame[order[k + kAhead]]);
+      }
+      visit(k, order[k]);
+    }
+  }
 };
 
 /// The per-frame part: a pure function of one frame. Crop (if any), filter, then to the table.

@@ -35,14 +35,9 @@ class Projector {
     height_ = std::max(kTukey * scale.noise_m, 0.5 * scale.radius_m);
     const std::size_t n = grid.order().size();
     for (auto& column : columns_) column.resize(n + refinement::kLanes);
-    parallel_for(n, 16384, [&](std::size_t k) {
-      const std::uint32_t i = grid.order()[k];
-      const Vec3f& p = merged.cloud.points[i];
-      const Vec3f view = merged.towards_sensor(i);
-      for (int a = 0; a < 3; ++a) {
-        columns_[std::size_t(a)][k] = p[a];
-        columns_[std::size_t(a + 3)][k] = view[a];
-      }
+    constexpr std::size_t kSlice = 16384;
+    parallel_for((n + kSlice - 1) / kSlice, 1, [&](std::size_t slice) {
+      gather(merged, grid.order(), slice * kSlice, std::min(n, (slice + 1) * kSlice));
     });
   }
 
@@ -63,6 +58,19 @@ class Projector {
   }
 
  private:
+  /// Points and views side by side, in the order of the voxels.
+  void gather(const MergedCloud& merged, const std::vector<std::uint32_t>& order, std::size_t begin,
+              std::size_t end) {
+    merged.for_each_of(order, begin, end, [&](std::size_t k, std::uint32_t i) {
+      const Vec3f& p = merged.cloud.points[i];
+      const Vec3f view = merged.towards_sensor(i);
+      for (int a = 0; a < 3; ++a) {
+        columns_[std::size_t(a)][k] = p[a];
+        columns_[std::size_t(a + 3)][k] = view[a];
+      }
+    });
+  }
+
   /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge lets slope and curvature
   /// fade where too few points carry them.
   static Eigen::Matrix<double, 6, 1> fit(const Moments& s) {

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/reconstruction/voxel_grid.hpp>
+#include <utility>
 
 namespace turnscan {
 
@@ -18,17 +20,38 @@ struct KeyedPoint {
   std::uint32_t point;
 };
 
+constexpr std::size_t kDigits = std::size_t{1} << kRadixBits;
+constexpr std::size_t kSlice = std::size_t{1} << 18;  // items that one thread counts and moves
+
+/// Where each slice puts its items of each digit: behind those of smaller digits, and of earlier
+/// slices, which keeps the order of equal keys.
+void to_places(std::vector<std::array<std::uint32_t, kDigits>>& counts) {
+  std::uint32_t place = 0;
+  for (std::size_t d = 0; d < kDigits; ++d)
+    for (auto& of_slice : counts) place += std::exchange(of_slice[d], place);
+}
+
 /// Stable radix sort by key: points of one voxel stay in ascending order.
 void sort_by_key(std::vector<KeyedPoint>& items, std::uint64_t max_key) {
   std::vector<KeyedPoint> other(items.size());
+  std::vector<std::array<std::uint32_t, kDigits>> places((items.size() + kSlice - 1) / kSlice);
   for (std::uint32_t shift = 0; shift < 64 && (max_key >> shift) != 0; shift += kRadixBits) {
-    std::vector<std::size_t> start((1u << kRadixBits) + 1, 0);
     const auto digit = [shift](const KeyedPoint& item) {
-      return std::size_t(item.key >> shift) & ((1u << kRadixBits) - 1);
+      return std::size_t(item.key >> shift) & (kDigits - 1);
     };
-    for (const KeyedPoint& item : items) ++start[digit(item) + 1];
-    for (std::size_t d = 1; d < start.size(); ++d) start[d] += start[d - 1];
-    for (const KeyedPoint& item : items) other[start[digit(item)]++] = item;
+    const auto each_of = [&](std::size_t slice, const auto& visit) {
+      const std::size_t end = std::min(items.size(), (slice + 1) * kSlice);
+      for (std::size_t i = slice * kSlice; i < end; ++i) visit(items[i], places[slice]);
+    };
+    parallel_for(places.size(), 1, [&](std::size_t slice) {
+      places[slice].fill(0);
+      each_of(slice, [&](const KeyedPoint& item, auto& count) { ++count[digit(item)]; });
+    });
+    to_places(places);
+    parallel_for(places.size(), 1, [&](std::size_t slice) {
+      each_of(slice,
+              [&](const KeyedPoint& item, auto& place) { other[place[digit(item)]++] = item; });
+    });
     items.swap(other);
   }
 }
