@@ -98,7 +98,9 @@ TEST(IaiKinect2, ReadsTheCalibrationsOfRealSensors) {
   for (const auto& entry : std::filesystem::directory_iterator(data)) {
     const auto found = read_iai_kinect2(entry.path());
     ASSERT_TRUE(found) << found.error().text();
-    if (found->depth) EXPECT_LT(std::abs(found->depth->bias_m), 0.07);
+    if (found->depth) {
+      EXPECT_LT(std::abs(found->depth->bias_m), 0.07);
+    }
     if (!found->camera || !found->camera->color_intrinsics) continue;
     EXPECT_NEAR(found->camera->intrinsics.fx, 365.0, 50.0);
     EXPECT_NEAR(found->camera->color_intrinsics->fx, 1060.0, 50.0);
