@@ -101,13 +101,15 @@ bool is_there(const std::filesystem::path& path) {
   return std::filesystem::exists(path, error);
 }
 
-/// What `parse` makes of the file; its error gets the path.
+/// What `parse` makes of the file; its error gets the path. Numbers that make no sense are damage.
 template <class Parse>
 auto parsed(const std::filesystem::path& path, const Parse& parse) -> decltype(parse("")) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));
   auto value = parse(std::string_view(text));
-  if (!value) return fail_at(path.string(), value.error().code, "{}", value.error().message);
-  return value;
+  if (value) return value;
+  const Error& error = value.error();
+  const bool variant = error.code == ErrorCode::kUnsupported;
+  return fail_at(path.string(), variant ? error.code : ErrorCode::kFormat, "{}", error.message);
 }
 
 }  // namespace

@@ -108,11 +108,12 @@ Result<double> depth_scale(const ImportOptions& options, std::optional<double> b
               "one step, e.g. --depth-unit 1mm");
 }
 
-Result<CameraIntrinsics> iai_kinect2_intrinsics(const ImportOptions& options) {
+Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options) {
+  std::optional<CameraIntrinsics> camera;
+  if (options.iai_kinect2.empty()) return camera;
   TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(options.iai_kinect2));
-  if (kinect.camera) return kinect.camera->intrinsics;
-  return fail_at(options.iai_kinect2, ErrorCode::kMissingData,
-                 "there is no calib_ir.yaml; state the intrinsics: --intrinsics fx,fy,cx,cy");
+  if (kinect.camera) camera = kinect.camera->intrinsics;
+  return camera;
 }
 
 Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {

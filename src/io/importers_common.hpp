@@ -74,9 +74,8 @@ Result<double> depth_scale(const ImportOptions& options, std::optional<double> b
 
 /// From options.intrinsics ("fx,fy,cx,cy" or a file), without the image size.
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
-/// Those of the depth camera in options.iai_kinect2. Fails with kMissingData when only the offset
-/// of depth is there.
-Result<CameraIntrinsics> iai_kinect2_intrinsics(const ImportOptions& options);
+/// Those of the depth camera in options.iai_kinect2, if that folder is stated and holds them.
+Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options);
 /// The 3x3 matrix of a text file, without the image size.
 Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
 

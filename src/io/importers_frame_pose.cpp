@@ -102,7 +102,8 @@ void drop_unplaced(std::vector<ForeignFrame>& frames, SequenceHeader& header) {
 
 Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptions& options) {
   if (!options.intrinsics.empty()) return stated_intrinsics(options);
-  if (!options.iai_kinect2.empty()) return iai_kinect2_intrinsics(options);
+  TURNSCAN_ASSIGN(const auto kinect, iai_kinect2_intrinsics(options));
+  if (kinect) return *kinect;
   const fs::path path = folder / "camera-intrinsics.txt";
   std::error_code error;
   if (fs::exists(path, error)) return intrinsics_from_file(path);

@@ -116,7 +116,8 @@ std::optional<Pose> pose_at(const std::vector<TimedPose>& poses, double time_s) 
 Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptions& options,
                                        SequenceHeader& header) {
   if (!options.intrinsics.empty()) return stated_intrinsics(options);
-  if (!options.iai_kinect2.empty()) return iai_kinect2_intrinsics(options);
+  TURNSCAN_ASSIGN(const auto kinect, iai_kinect2_intrinsics(options));
+  if (kinect) return *kinect;
   const std::string name = display_name(folder);
   for (const char* known : {"freiburg1", "freiburg2", "freiburg3"}) {
     if (name.find(known) == std::string::npos) continue;

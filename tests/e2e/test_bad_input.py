@@ -181,7 +181,7 @@ class Outputs(harness.TestCase):
         self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--report", "no/r.json",
                      says="no")
         self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--save-stage",
-                     "merged=no/c.ply", says="no")
+                     "fitted=no/c.ply", says="no")
         self.refused(FAILED, "evaluate", "cube.ply", "--reference", "cube.ply", "--json",
                      "no/e.json", says="no")
         self.refused(FAILED, "render", "cube.ply", "-o", "no/p.png", says="no")
