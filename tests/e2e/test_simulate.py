@@ -180,8 +180,6 @@ class Refused(harness.TestCase):
                            (("builtin:cylinder", "--distance", "-1m"), "distance"),
                            (("builtin:cylinder", "--start-ramp", "10s"), "start-ramp"),
                            (("builtin:cylinder", "--next-pass", "tip=90"), "next-pass"),
-                           (("builtin:cylinder", "--next-pass", "tip=90deg", "--coverage", "c.ply"),
-                            "--coverage"),
                            (("builtin:cylinder", "--scene", "none.toml"), "none.toml")):
             self.refused(FAILED if "none.toml" in args else USAGE, "simulate", *args, "--frames",
                          "2", "--out", "rec", says=says)
