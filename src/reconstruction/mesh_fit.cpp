@@ -238,15 +238,6 @@ class Fitter {
     std::vector<float> hold(p.size(), 1.0f);
     for (std::uint32_t v = 0; v < p.size(); ++v)
       hold[v] = std::min(1.0f, fit_.support[v] / (kMeasured * typical));
-    for (int ring = 1; ring <= scale_.fair_rings; ++ring) {
-      const std::vector<float> last = hold;
-      const float least = float(ring) / float(scale_.fair_rings + 1);
-      for (std::uint32_t v = 0; v < p.size(); ++v) {
-        neighbours_.each(v, [&](std::uint32_t u) {
-          if (last[u] < least) hold[v] = std::min(hold[v], least);
-        });
-      }
-    }
     std::vector<std::uint32_t> loose;
     for (std::uint32_t v = 0; v < p.size(); ++v) {
       if (hold[v] < 1.0f && !stands(v)) loose.push_back(v);

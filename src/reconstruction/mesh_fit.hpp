@@ -15,7 +15,6 @@ struct MeshFitScale {
   double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
   double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
   double feature = 0.1;  ///< a bend, shared with neighbours, of so many deviations counts a quarter
-  int fair_rings = 0;    ///< so many rings of vertices around it follow, the less the farther
   double fair_m = 0.0;   ///< what was not measured is smoothed; vertices move at most so far
   double limit_m = 0.002;  ///< a vertex moves at most so far in one iteration
   float edge_weight = 0.1f;

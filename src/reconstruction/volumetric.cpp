@@ -78,7 +78,10 @@ class Run {
     TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
     keep_pieces(std::move(pieces));
     if (out_.pieces.empty())
-      return fail(ErrorCode::kTooFewPoints, "volumetric: the frames show no surface");
+      return fail(
+          ErrorCode::kTooFewPoints,
+          "volumetric: the frames show no surface: where one sees something, others see past "
+          "it; check the turntable's place and the angles");
     for (VolumetricPiece& piece : out_.pieces) {
       TURNSCAN_ASSIGN(piece.mesh,
                       timed("even out", [&] { return even_out(piece.mesh, grid_, context_); }));
