@@ -17,6 +17,20 @@ namespace turnscan {
 
 namespace {
 
+/// A piece of so few vertices may be turned inside out where it is fitted to the frames.
+constexpr std::size_t kCrumb = 64;
+
+/// Positive when its triangles face outward.
+double volume_of(const TriangleMesh& mesh) {
+  double six = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3d p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>(),
+                r = mesh.vertices[c].cast<double>();
+    six += p.dot(q.cross(r));
+  }
+  return six / 6.0;
+}
+
 using Clock = std::chrono::steady_clock;
 
 std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
@@ -77,11 +91,7 @@ class Run {
     TURNSCAN_ASSIGN(TriangleMesh mesh, surface(box));
     TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
     keep_pieces(std::move(pieces));
-    if (out_.pieces.empty())
-      return fail(
-          ErrorCode::kTooFewPoints,
-          "volumetric: the frames show no surface: where one sees something, others see past "
-          "it; check the turntable's place and the angles");
+    if (out_.pieces.empty()) return no_surface();
     for (VolumetricPiece& piece : out_.pieces) {
       TURNSCAN_ASSIGN(piece.mesh,
                       timed("even out", [&] { return even_out(piece.mesh, grid_, context_); }));
@@ -92,10 +102,20 @@ class Run {
       piece.support = std::move(fitted.support);
       TURNSCAN_TRY(finish(piece));
     }
+    std::erase_if(out_.pieces, [](const VolumetricPiece& piece) {
+      return piece.mesh.vertices.size() < kCrumb && volume_of(piece.mesh) <= 0.0;
+    });
+    if (out_.pieces.empty()) return no_surface();
     return std::move(out_);
   }
 
  private:
+  static tl::unexpected<Error> no_surface() {
+    return fail(ErrorCode::kTooFewPoints,
+                "volumetric: the frames show no surface: where one sees something, others see past "
+                "it; check the turntable's place and the angles");
+  }
+
   Result<TriangleMesh> surface(Box box) {
     const double rim = scale_.truncation_m + 4.0 * scale_.cell_m;
     box.min.array() -= rim;
@@ -203,6 +223,8 @@ class Run {
     return invented;
   }
 
+  /// Pieces without a volume are holes within others (few frames leave such voids, and nobody sees
+  /// or prints them) or folded crumbs of a voxel.
   void keep_pieces(std::vector<TriangleMesh> pieces) {
     std::vector<double> areas;
     for (const TriangleMesh& piece : pieces) areas.push_back(area_of(piece));
@@ -212,7 +234,7 @@ class Run {
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
     std::vector<std::size_t> floating;
     for (const std::size_t i : order) {
-      if (areas[i] < min_share_ * areas[order[0]]) continue;
+      if (areas[i] < min_share_ * areas[order[0]] || volume_of(pieces[i]) <= 0.0) continue;
       if (!out_.pieces.empty() && floats(pieces[i])) {
         floating.push_back(i);
       } else if (input_.keep == 0 || out_.pieces.size() < std::size_t(input_.keep)) {
