@@ -6,6 +6,14 @@
 #include <stdexcept>
 #include <turnscan/core/instruction_set.hpp>
 
+/// What a family passes on to KernelChoice: of kPortableKernel, kAvx2Kernel and kAvx512Kernel those
+/// that are built for this machine (turnscan_kernels in cmake/).
+#ifdef TURNSCAN_X86_KERNELS
+#define TURNSCAN_KERNELS kPortableKernel, &kAvx2Kernel, &kAvx512Kernel
+#else
+#define TURNSCAN_KERNELS kPortableKernel, nullptr, nullptr
+#endif
+
 namespace turnscan {
 
 /// Kernels that give the same bytes, one per instruction set; null where one was not built. All

@@ -120,13 +120,6 @@ bool encode_rgb_rows(const unsigned char* pixels, int width, int height, std::st
   return true;
 }
 
-std::uint32_t big_endian_32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
 /// Deflate cannot make data shorter than about a 1032nd (zlib, technical details).
 bool can_hold(std::size_t file_bytes, const PngInfo& info) {
   const std::uint64_t bits = static_cast<std::uint64_t>(info.width) *
@@ -142,7 +135,14 @@ int PngInfo::channels() const {
   return color_type >= 0 && color_type < 7 ? kChannels[static_cast<std::size_t>(color_type)] : 0;
 }
 
-bool looks_like_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
+std::uint32_t big_endian_32(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+bool looks_like_png(std::string_view bytes) { return bytes.starts_with(kPngSignature); }
 
 Result<PngInfo> read_png_info(std::string_view bytes) {
   if (!looks_like_png(bytes)) return fail(ErrorCode::kUnsupported, "not a PNG image");

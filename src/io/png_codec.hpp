@@ -9,7 +9,11 @@
 
 namespace turnscan::detail {
 
+constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 bool looks_like_png(std::string_view bytes);
+
+/// Four bytes as PNG orders them.
+std::uint32_t big_endian_32(std::string_view bytes, std::size_t at);
 
 /// What the first chunk says.
 struct PngInfo {

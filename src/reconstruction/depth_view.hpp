@@ -48,8 +48,24 @@ struct DepthView {
     return raw | (edge ? kEdge : 0u) | (clear >> 1 << 17);
   }
   bool empty() const { return pixels.empty(); }
+  /// Image point, in window pixels, of a point of the view's frame that lies before it.
+  Eigen::Vector2f project(const Vec3f& p_view) const {
+    const float z = parallel ? 1.0f : p_view.z();
+    float x = p_view.x() / z, y = p_view.y() / z;
+    if (distorted) distort(x, y);
+    return {x * fx + cx, y * fy + cy};
+  }
   /// Position of the sensor, or direction towards it, in the table frame.
   Viewpoint viewpoint() const;
+
+ private:
+  void distort(float& x, float& y) const {
+    const auto& k = distortion;
+    const float r2 = x * x + y * y, radial = 1.0f + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    const float a = x * radial + 2.0f * k[2] * x * y + k[3] * (r2 + 2.0f * x * x);
+    y = y * radial + k[2] * (r2 + 2.0f * y * y) + 2.0f * k[3] * x * y;
+    x = a;
+  }
 };
 
 /// What makes a view out of a frame.

@@ -29,12 +29,10 @@ class BallTest {
 
   Sight operator()(const Vec3f& center_table) const {
     const Vec3f c = view_.rotation * center_table + view_.translation;
-    const float z = view_.parallel ? 1.0f : c.z();
     if (!view_.parallel && c.z() < 2.0f * radius_) return Sight::kNothing;
     // Distortion of the lens across the ball is within the widened radius.
-    float x = c.x() / z, y = c.y() / z;
-    if (view_.distorted) distort(x, y);
-    const float u = x * view_.fx + view_.cx, v = y * view_.fy + view_.cy;
+    const Eigen::Vector2f middle = view_.project(c);
+    const float u = middle.x(), v = middle.y();
     const float reach = 1.1f * radius_ / (view_.parallel ? 1.0f : c.z() - radius_);
     const float du = reach * view_.fx + 1.0f, dv = reach * view_.fy + 1.0f;
     if (!(u + du > 0.0f) || !(v + dv > 0.0f) || !(u - du < float(view_.width)) ||
@@ -53,14 +51,6 @@ class BallTest {
   }
 
  private:
-  void distort(float& x, float& y) const {
-    const auto& k = view_.distortion;
-    const float r2 = x * x + y * y, radial = 1.0f + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    const float a = x * radial + 2.0f * k[2] * x * y + k[3] * (r2 + 2.0f * x * x);
-    y = y * radial + k[2] * (r2 + 2.0f * y * y) + 2.0f * k[3] * x * y;
-    x = a;
-  }
-
   static void join(DepthView::Tile& all, const DepthView::Tile& t) {
     all.nearest = std::min(all.nearest, t.nearest);
     all.farthest = std::max(all.farthest, t.farthest);

@@ -2,6 +2,7 @@
 #include <array>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/knn.hpp>
+#include <turnscan/geometry/mesh_measure.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 #include <turnscan/geometry/wrap.hpp>
 #include <turnscan/reconstruction/finish.hpp>
@@ -12,13 +13,6 @@ namespace {
 
 /// What Poisson invents is kept where its area is at most this much above the tight continuation's.
 constexpr double kSwollen = 1.25;
-
-double triangle_area(const TriangleMesh& mesh, std::size_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  const Vec3d u = (mesh.vertices[b] - mesh.vertices[a]).cast<double>();
-  const Vec3d v = (mesh.vertices[c] - mesh.vertices[a]).cast<double>();
-  return 0.5 * u.cross(v).norm();
-}
 
 /// 1 for vertices without a candidate within reach.
 std::vector<std::uint8_t> find_unsupported(const TriangleMesh& mesh, const KdTree& tree,

@@ -15,16 +15,8 @@ constexpr Rgb kPlain{190, 190, 190};
 /// Pixel of a view that shows a point of the view's frame, or -1.
 std::ptrdiff_t pixel_of(const DepthView& view, const Vec3f& p) {
   if (!view.parallel && !(p.z() > 0.0f)) return -1;
-  const float z = view.parallel ? 1.0f : p.z();
-  float a = p.x() / z, b = p.y() / z;
-  if (view.distorted) {
-    const auto& k = view.distortion;
-    const float r2 = a * a + b * b, radial = 1.0f + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-    const float da = a * radial + 2.0f * k[2] * a * b + k[3] * (r2 + 2.0f * a * a);
-    b = b * radial + k[2] * (r2 + 2.0f * b * b) + 2.0f * k[3] * a * b;
-    a = da;
-  }
-  const float u = a * view.fx + view.cx + 0.5f, v = b * view.fy + view.cy + 0.5f;
+  const Eigen::Vector2f image = view.project(p);
+  const float u = image.x() + 0.5f, v = image.y() + 0.5f;
   if (!(u >= 0.0f && v >= 0.0f && u < float(view.width) && v < float(view.height))) return -1;
   return std::ptrdiff_t(int(v)) * view.width + int(u);
 }

@@ -8,11 +8,7 @@ extern const Kernel kPortableKernel, kAvx2Kernel, kAvx512Kernel;
 namespace {
 
 KernelChoice<Kernel>& choice() {
-#ifdef TURNSCAN_X86_KERNELS
-  static KernelChoice<Kernel> kernels(kPortableKernel, &kAvx2Kernel, &kAvx512Kernel);
-#else
-  static KernelChoice<Kernel> kernels(kPortableKernel, nullptr, nullptr);
-#endif
+  static KernelChoice<Kernel> kernels(TURNSCAN_KERNELS);
   return kernels;
 }
 

@@ -10,16 +10,24 @@ namespace turnscan {
 
 namespace {
 
+/// Rows x, y, z of a frame in which the viewpoint looks at `center` along z.
+Eigen::Matrix3d facing(const Viewpoint& viewpoint, const Vec3d& center) {
+  const Vec3d towards = viewpoint.direction_from(center);
+  const Vec3d z = -(towards.norm() > 0.5 ? towards : Vec3d(0, 0, -1));
+  const Vec3d x = z.unitOrthogonal();
+  Eigen::Matrix3d rows;
+  rows.row(0) = x, rows.row(1) = z.cross(x), rows.row(2) = z;
+  return rows;
+}
+
 /// Draws triangles of a range scan into an image of depths; the nearest surface stays.
 class Resampler {
  public:
   Resampler(const ScanSurface& surface, double pixel_m) : surface_(surface) {
     const Box box = bounds(surface.points);
     const Vec3d center = box.center();
-    const Vec3d towards = surface.viewpoint.direction_from(center);
-    const Vec3d z = -(towards.norm() > 0.5 ? towards : Vec3d(0, 0, -1));
-    const Vec3d x = z.unitOrthogonal(), y = z.cross(x);
-    rotation_.row(0) = x, rotation_.row(1) = y, rotation_.row(2) = z;
+    rotation_ = facing(surface.viewpoint, center);
+    const Vec3d z = rotation_.row(2);
     parallel_ = surface.viewpoint.parallel;
     const double away = parallel_ ? 0.0 : (center - surface.viewpoint.value).norm();
     origin_ = parallel_ ? center - (box.size().norm() + 0.01) * z : surface.viewpoint.value;
@@ -153,9 +161,8 @@ class Resampler {
 /// Where a viewpoint sees points: on the plane at their middle that faces it.
 std::vector<Vec3f> seen_places(const ScanSurface& s) {
   const Vec3d center = bounds(s.points).center();
-  const Vec3d towards = s.viewpoint.direction_from(center);
-  const Vec3d z = -(towards.norm() > 0.5 ? towards : Vec3d(0, 0, -1));
-  const Vec3d x = z.unitOrthogonal(), y = z.cross(x);
+  const Eigen::Matrix3d rotation = facing(s.viewpoint, center);
+  const Vec3d x = rotation.row(0), y = rotation.row(1), z = rotation.row(2);
   const double away = s.viewpoint.parallel ? 0.0 : (center - s.viewpoint.value).dot(z);
   std::vector<Vec3f> out;
   for (const Vec3f& p : s.points) {

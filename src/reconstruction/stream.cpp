@@ -161,10 +161,12 @@ class ReconstructionStream::Impl {
       waiting_poses_.push_back(placed[i].T_table_sensor);
     }
     if (waiting_.size() < first_frames_) return {};
-    TURNSCAN_ASSIGN(const bool profiles, are_profiles());
-    if (profiles && first_frames_ < kFirstProfiles) {
-      first_frames_ = kFirstProfiles;
-      return wait({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+    if (first_frames_ < kFirstProfiles) {
+      TURNSCAN_ASSIGN(const bool profiles, are_profiles());
+      if (profiles) {
+        first_frames_ = kFirstProfiles;
+        return wait({placed.begin() + std::ptrdiff_t(count), placed.end()}, read, context);
+      }
     }
     if (auto seen = look(context); !seen) {
       if (seen.error().code != ErrorCode::kTooFewPoints) return seen;

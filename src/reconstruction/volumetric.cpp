@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/closest_point.hpp>
 #include <turnscan/geometry/even_out.hpp>
 #include <turnscan/geometry/isosurface.hpp>
-#include <turnscan/geometry/mesh_check.hpp>
+#include <turnscan/geometry/mesh_measure.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 #include <turnscan/geometry/simplify.hpp>
 #include <turnscan/reconstruction/mesh_color.hpp>
@@ -20,20 +18,7 @@ namespace {
 /// A piece of so few vertices may be turned inside out where it is fitted to the frames.
 constexpr std::size_t kCrumb = 64;
 
-/// Positive when its triangles face outward.
-double volume_of(const TriangleMesh& mesh) {
-  double six = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3d p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>(),
-                r = mesh.vertices[c].cast<double>();
-    six += p.dot(q.cross(r));
-  }
-  return six / 6.0;
-}
-
 using Clock = std::chrono::steady_clock;
-
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
 /// Calls take(p_table) for what about most_views of the views measured, edges left out.
 template <class Take>
@@ -44,22 +29,6 @@ void for_each_point_inside(const VolumetricInput& input, std::size_t most_views,
       if (!input.cylinder || input.cylinder->contains(p.cast<double>())) take(p);
     });
   }
-}
-
-double area_of(const TriangleMesh& mesh) {
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    area += 0.5 *
-            (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
-  }
-  return area;
-}
-
-/// With so many views, or if more may come, the usual scales do.
-constexpr std::size_t kFewViews = 24;
-
-bool few_views(const VolumetricInput& input) {
-  return !input.profiles && input.views.size() < kFewViews;
 }
 
 constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
@@ -103,7 +72,7 @@ class Run {
       TURNSCAN_TRY(finish(piece));
     }
     std::erase_if(out_.pieces, [](const VolumetricPiece& piece) {
-      return piece.mesh.vertices.size() < kCrumb && volume_of(piece.mesh) <= 0.0;
+      return piece.mesh.vertices.size() < kCrumb && signed_volume(piece.mesh) <= 0.0;
     });
     if (out_.pieces.empty()) return no_surface();
     return std::move(out_);
@@ -209,7 +178,7 @@ class Run {
     std::vector<std::uint8_t> invented(piece.mesh.triangles.size(), 0);
     for (std::size_t i = 0; i < invented.size(); ++i) {
       const auto& t = piece.mesh.triangles[i];
-      const double area = 0.5 * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+      const double area = triangle_area(piece.mesh, i);
       const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
       const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
       if (high < base && high - low < 0.1f * float(scale_.cell_m)) {
@@ -227,14 +196,14 @@ class Run {
   /// or prints them) or folded crumbs of a voxel.
   void keep_pieces(std::vector<TriangleMesh> pieces) {
     std::vector<double> areas;
-    for (const TriangleMesh& piece : pieces) areas.push_back(area_of(piece));
+    for (const TriangleMesh& piece : pieces) areas.push_back(surface_area(piece));
     std::vector<std::size_t> order(pieces.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
     std::vector<std::size_t> floating;
     for (const std::size_t i : order) {
-      if (areas[i] < min_share_ * areas[order[0]] || volume_of(pieces[i]) <= 0.0) continue;
+      if (areas[i] < min_share_ * areas[order[0]] || signed_volume(pieces[i]) <= 0.0) continue;
       if (!out_.pieces.empty() && floats(pieces[i])) {
         floating.push_back(i);
       } else if (input_.keep == 0 || out_.pieces.size() < std::size_t(input_.keep)) {
@@ -302,27 +271,6 @@ class Run {
 
 }  // namespace
 
-OptionTable describe(VolumetricOptions& o) {
-  OptionTable table;
-  table
-      .number("truncation", o.truncation_m, Quantity::kLength, {1e-5, 1.0},
-              "Volumetric: how far along its ray a measurement counts; automatic: from its noise")
-      .flag("fit", o.fit, "Volumetric: move the vertices onto the frames' measurements")
-      .number("fit-reach", o.fit_reach_m, Quantity::kLength, {1e-5, 0.1},
-              "Volumetric: measurements farther from a vertex, across its normal, do not count in "
-              "the fit; automatic: from the spacing")
-      .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
-      .number("triangles", o.triangles, {4, 1000000000},
-              "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
-              "of what the volume gives")
-      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
-              "Volumetric: as few triangles as keep the surface within this of what it would be "
-              "otherwise, still closed; with --triangles whichever ends sooner; automatic: all")
-      .flag("mark-invented", o.mark_invented,
-            "Volumetric: paint in magenta what no frame measured, the rest in its colour or grey");
-  return table;
-}
-
 std::vector<Vec3f> sample_points(const VolumetricInput& input) {
   std::vector<Vec3f> points;
   for_each_point_inside(input, 64, [&](const Vec3f& p) { points.push_back(p); });
@@ -333,83 +281,6 @@ Box measured_box(const VolumetricInput& input) {
   RobustBox points;
   for_each_point_inside(input, 64, [&](const Vec3f& p) { points.add(p); });
   return points.box();
-}
-
-namespace {
-
-/// Where few views face a place, little but the samples' size averages the noise. Over a disc of
-/// radius r it falls as 1 / r, and the error on a surface that bends with radius R grows as
-/// r^2 / 8 R: they balance at r^3 = 4 R noise spacing / sqrt(pi views).
-double balance(const VolumetricInput& input, double facing, double bend_m) {
-  // A few views may be misplaced all alike.
-  const double independent = std::max(1.0, facing - 3.0);
-  return std::cbrt(4.0 * bend_m * input.noise_m * input.spacing_m /
-                   std::sqrt(std::numbers::pi * independent));
-}
-
-/// Larger samples for few views, with the reason.
-void widen_for_few(const VolumetricInput& input, double longest, double& cell,
-                   std::string& reason) {
-  if (!few_views(input)) return;
-  // About a third of them face a place.
-  const double facing = std::max(1.0, double(input.views.size()) / 3.0);
-  const double gaps = std::min(input.spacing_m, 1.6 * input.spacing_m / std::sqrt(facing));
-  if (cell < gaps) {
-    cell = gaps;
-    reason = fmt::format("the spacing of a frame's points, {}, in {} frames", mm(input.spacing_m),
-                         input.views.size());
-  }
-  const double bend = longest / 16.0, radius = balance(input, facing, bend);
-  if (cell < 0.5 * radius) {
-    cell = 0.5 * radius;
-    reason = fmt::format("half of {}, where noise of {} and bends of {} err alike", mm(radius),
-                         mm(input.noise_m), mm(bend));
-  }
-}
-
-}  // namespace
-
-VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
-                             const Box& box) {
-  VolumetricScale out;
-  VolumeScale& scale = out.volume;
-  const auto choose = [&](const char* option, const std::optional<double>& given, double automatic,
-                          const std::string& reason) {
-    const double value = given.value_or(automatic);
-    out.choices.push_back({option, mm(value), given ? "given" : reason});
-    return value;
-  };
-  const double longest = box.size().maxCoeff();
-  double cell = input.cells_of_spacing * input.spacing_m;
-  std::string reason = fmt::format("{:g} of the spacing of a frame's points, {}",
-                                   input.cells_of_spacing, mm(input.spacing_m));
-  if (cell < 0.5 * input.noise_m) {
-    cell = 0.5 * input.noise_m;
-    reason = fmt::format("half the noise, {}", mm(input.noise_m));
-  }
-  widen_for_few(input, longest, cell, reason);
-  if (cell < longest / 600.0) {
-    cell = longest / 600.0;
-    reason = fmt::format("a 600th of the longest side, {}", mm(longest));
-  }
-  if (input.grid) {
-    cell = longest / *input.grid;
-    reason = fmt::format("voxel-grid {} along {}", *input.grid, mm(longest));
-  }
-  scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
-  // Many views outvote one that is misplaced; few do not.
-  const double few = few_views(input) ? 27.0 / double(input.views.size() + 1) : 0.0;
-  scale.truncation_m = choose(
-      "truncation", options.truncation_m, std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m),
-      fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
-                  mm(input.noise_m)));
-  scale.behind_m = scale.truncation_m * 2.0 / 3.0;
-  scale.cylinder = input.cylinder;
-  if (input.cylinder) scale.floor_m = std::max(input.cylinder->margin_m, 0.0);
-  out.fit_reach_m =
-      choose("fit-reach", options.fit_reach_m, std::max(0.55 * input.spacing_m, 1.2 * scale.cell_m),
-             "0.55 times the spacing of a frame's points");
-  return out;
 }
 
 Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,

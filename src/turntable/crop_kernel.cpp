@@ -8,11 +8,7 @@ extern const Kernel kPortableKernel, kAvx2Kernel, kAvx512Kernel;
 namespace {
 
 const KernelChoice<Kernel>& choice() {
-#ifdef TURNSCAN_X86_KERNELS
-  static const KernelChoice<Kernel> kernels(kPortableKernel, &kAvx2Kernel, &kAvx512Kernel);
-#else
-  static const KernelChoice<Kernel> kernels(kPortableKernel, nullptr, nullptr);
-#endif
+  static const KernelChoice<Kernel> kernels(TURNSCAN_KERNELS);
   return kernels;
 }
 
