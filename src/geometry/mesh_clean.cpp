@@ -1,8 +1,10 @@
 // Merging, dropping, splitting and joining.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/edge_table.hpp>
 #include <turnscan/geometry/knn.hpp>
@@ -165,20 +167,31 @@ TriangleMesh join_meshes(const std::vector<TriangleMesh>& meshes) {
 }
 
 std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
-  std::vector<Vec3d> sums(mesh.vertices.size(), Vec3d::Zero());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  struct Share {
+    Vec3d normal = Vec3d::Zero();
+    std::array<double, 3> angle{};
+  };
+  std::vector<Share> shares(mesh.triangles.size());
+  parallel_for(shares.size(), 4096, [&](std::size_t t) {
     const Vec3d normal = detail::doubled_area_normal(mesh, t).normalized();
-    if (!(normal.squaredNorm() > 0.5)) continue;
+    if (!(normal.squaredNorm() > 0.5)) return;
+    shares[t].normal = normal;
     const Triangle& v = mesh.triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3d at = mesh.vertices[v[c]].cast<double>();
       const Vec3d u = mesh.vertices[v[(c + 1) % 3]].cast<double>() - at;
       const Vec3d w = mesh.vertices[v[(c + 2) % 3]].cast<double>() - at;
-      sums[v[c]] += normal * std::atan2(u.cross(w).norm(), u.dot(w));
+      shares[t].angle[c] = std::atan2(u.cross(w).norm(), u.dot(w));
     }
+  });
+  std::vector<Vec3d> sums(mesh.vertices.size(), Vec3d::Zero());
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[mesh.triangles[t][c]] += shares[t].normal * shares[t].angle[c];
   }
   std::vector<Vec3f> normals(sums.size());
-  for (std::size_t v = 0; v < sums.size(); ++v) normals[v] = sums[v].normalized().cast<float>();
+  parallel_for(sums.size(), 4096,
+               [&](std::size_t v) { normals[v] = sums[v].normalized().cast<float>(); });
   return normals;
 }
 

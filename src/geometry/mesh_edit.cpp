@@ -73,16 +73,34 @@ TriangleMesh extract(const TriangleMesh& mesh, std::span<const std::uint32_t> tr
   part.name = mesh.name;
   part.triangles.reserve(triangles.size());
   for (const std::uint32_t t : triangles) part.triangles.push_back(mesh.triangles[t]);
+  const auto take = [&](std::uint32_t v) {
+    part.vertices.push_back(mesh.vertices[v]);
+    if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[v]);
+    if (!mesh.colors.empty()) part.colors.push_back(mesh.colors[v]);
+  };
+  // A table of all vertices is quicker than sorting, but not for each of many crumbs.
+  if (triangles.size() >= mesh.vertices.size() / 16) {
+    std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
+    for (const auto& t : part.triangles) {
+      for (const std::uint32_t v : t) place[v] = 1;
+    }
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < place.size(); ++v) {
+      if (place[v] == 0) continue;
+      take(v);
+      place[v] = count++;
+    }
+    for (auto& t : part.triangles) {
+      for (std::uint32_t& v : t) v = place[v];
+    }
+    return part;
+  }
   std::vector<std::uint32_t> used;
   used.reserve(3 * triangles.size());
   for (const auto& t : part.triangles) used.insert(used.end(), t.begin(), t.end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::uint32_t v : used) {
-    part.vertices.push_back(mesh.vertices[v]);
-    if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[v]);
-    if (!mesh.colors.empty()) part.colors.push_back(mesh.colors[v]);
-  }
+  for (const std::uint32_t v : used) take(v);
   for (auto& t : part.triangles) {
     for (std::uint32_t& v : t) {
       v = std::uint32_t(std::lower_bound(used.begin(), used.end(), v) - used.begin());

@@ -10,8 +10,10 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kBlock = 512;  // vertices that are looked up together
-constexpr double kTukey = 4.685;     // standard deviations; 95 % efficient for normal noise
+constexpr std::size_t kBlock = 256;  // vertices that are looked up together
+/// Each step looks at twice as many views as the one before it, but not at fewer than these.
+constexpr std::size_t kFewestViews = 128;
+constexpr double kTukey = 4.685;  // standard deviations; 95 % efficient for normal noise
 constexpr int kUnfolds = 5;
 constexpr float kLeastTurn = 0.3f;  // cosine between a triangle's normals before and after a step
 constexpr float kFacing = 0.2f;     // rays that graze the surface say little about it
@@ -45,11 +47,50 @@ struct Neighbours {
   }
 };
 
+/// Vertices that face alike and lie near each other stand together, so that a view that sees one
+/// of them sees most, and one that sees none can be left out.
+std::vector<std::uint32_t> order_by_facing(const std::vector<Vec3f>& positions,
+                                           const std::vector<Vec3f>& normals) {
+  Box box = bounds(positions);
+  const double side = std::max(box.size().maxCoeff(), 1e-9);
+  // Of each axis 10 bits of position, interleaved; before them one of 24 directions: the cube's
+  // face that the normal goes through, and the quarter of it.
+  const auto spread = [](std::uint64_t v) {
+    std::uint64_t out = 0;
+    for (int bit = 0; bit < 10; ++bit) out |= (v >> bit & 1) << (3 * bit);
+    return out;
+  };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> key(positions.size());
+  parallel_for(positions.size(), 4096, [&](std::size_t v) {
+    int axis = 0;
+    normals[v].cwiseAbs().maxCoeff(&axis);
+    std::uint64_t code = std::uint64_t(axis);
+    for (int a = 0; a < 3; ++a) code = 2 * code + (normals[v][a] < 0.0f ? 1 : 0);
+    code <<= 30;
+    for (int a = 0; a < 3; ++a) {
+      const double at = (double(positions[v][a]) - box.min[a]) / side * 1023.0;
+      code |= spread(std::uint64_t(std::clamp(at, 0.0, 1023.0))) << a;
+    }
+    key[v] = {code, std::uint32_t(v)};
+  });
+  std::sort(key.begin(), key.end());
+  std::vector<std::uint32_t> order(key.size());
+  for (std::size_t i = 0; i < key.size(); ++i) order[i] = key[i].second;
+  return order;
+}
+
+/// A ball around the vertices of a block, and a cone around their normals.
+struct Patch {
+  Vec3f center = Vec3f::Zero(), axis = Vec3f::Zero();
+  float radius = 0.0f, opening = 0.0f;  // metres, radians
+};
+
 class Fitter {
  public:
   Fitter(const TriangleMesh& mesh, std::span<const DepthView> views, const MeshFitScale& scale)
       : views_(views), scale_(scale), neighbours_(mesh) {
     fit_.mesh = mesh;
+    order_ = order_by_facing(mesh.vertices, vertex_normals(mesh));
     for (const DepthView& view : views) kernels_.push_back(kernel_of(view));
   }
 
@@ -59,25 +100,37 @@ class Fitter {
     context.begin_phase("fit", blocks * std::size_t(std::max(1, scale_.iterations)));
     for (int iteration = 0; iteration < std::max(1, scale_.iterations); ++iteration) {
       take_columns(iteration);
-      fit_.support.assign(pad(n), 0.0f);
-      offset_.assign(pad(n), 0.0f);
+      const std::size_t step = views_apart(scale_.iterations - 1 - iteration);
+      std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f);
       parallel_for(blocks, 1, [&](std::size_t b) {
         if (context.cancelled()) return;
-        measure(b * kBlock, std::min(n, (b + 1) * kBlock));
+        measure(b * kBlock, std::min(n, (b + 1) * kBlock), step, {weight.data(), offset.data()});
         context.advance();
       });
       TURNSCAN_TRY(context.check());
+      fit_.support.resize(n);
+      offset_.resize(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        fit_.support[order_[i]] = weight[i];
+        offset_[order_[i]] = offset[i];
+      }
       forget_the_platter();
       if (scale_.iterations > 0) move();
       if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0) fair();
     }
-    fit_.support.resize(n);
     return std::move(fit_);
   }
 
  private:
   static std::size_t pad(std::size_t n) {
     return (n + detail::kVertexRow - 1) / detail::kVertexRow * detail::kVertexRow;
+  }
+
+  /// With so many steps to go.
+  std::size_t views_apart(int to_go) const {
+    std::size_t step = 1;
+    for (; to_go > 0 && views_.size() / (2 * step) >= kFewestViews; --to_go) step *= 2;
+    return step;
   }
 
   /// Positions and smoothed normals as the kernel reads them.
@@ -94,19 +147,35 @@ class Fitter {
     }
     const std::size_t padded = pad(n);
     for (auto& column : columns_) column.assign(padded, 0.0f);
-    parallel_for(n, 4096, [&](std::size_t v) {
+    parallel_for(n, 4096, [&](std::size_t i) {
+      const std::uint32_t v = order_[i];
       for (int a = 0; a < 3; ++a) {
-        columns_[std::size_t(a)][v] = fit_.mesh.vertices[v][a];
-        columns_[std::size_t(a + 3)][v] = normals_[v][a];
+        columns_[std::size_t(a)][i] = fit_.mesh.vertices[v][a];
+        columns_[std::size_t(a + 3)][i] = normals_[v][a];
       }
     });
   }
 
-  void measure(std::size_t begin, std::size_t end) {
+  /// Of the vertices that stand at [begin, end).
+  Patch patch(std::size_t begin, std::size_t end) const {
+    Patch out;
     Box box;
-    for (std::size_t v = begin; v < end; ++v) box.add(fit_.mesh.vertices[v].cast<double>());
-    const Vec3f center = box.center().cast<float>();
-    const float radius = float(0.5 * box.size().norm());
+    for (std::size_t i = begin; i < end; ++i) {
+      box.add(fit_.mesh.vertices[order_[i]].cast<double>());
+      out.axis += normals_[order_[i]];
+    }
+    out.center = box.center().cast<float>();
+    out.radius = float(0.5 * box.size().norm());
+    out.axis.normalize();
+    float least = 1.0f;
+    for (std::size_t i = begin; i < end; ++i)
+      least = std::min(least, out.axis.dot(normals_[order_[i]]));
+    out.opening = std::acos(std::clamp(least, -1.0f, 1.0f));
+    return out;
+  }
+
+  void measure(std::size_t begin, std::size_t end, std::size_t step, detail::VertexSums sums) {
+    const Patch around = patch(begin, end);
     const detail::VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
                                         columns_[3].data(), columns_[4].data(), columns_[5].data()};
     const detail::FitScale scale{float(1.0 / (scale_.reach_m * scale_.reach_m)),
@@ -115,15 +184,31 @@ class Fitter {
                                  float(kTukey),
                                  kFacing,
                                  scale_.edge_weight};
-    detail::VertexSums sums{fit_.support.data(), offset_.data()};
-    for (std::size_t v = 0; v < views_.size(); ++v) {
-      if (outside_window(views_[v], center, radius)) continue;
+    for (std::size_t v = 0; v < views_.size(); v += step) {
+      if (turned_away(views_[v], around) || outside_window(views_[v], around)) continue;
       detail::add_view_to_vertices(kernels_[v], columns, begin, pad(end), scale, sums);
     }
   }
 
-  static bool outside_window(const DepthView& view, const Vec3f& center, float radius) {
-    const Vec3f c = view.rotation * center + view.translation;
+  /// Whether no vertex of the patch faces the view.
+  static bool turned_away(const DepthView& view, const Patch& patch) {
+    constexpr float kHalfPi = 1.5707963f, kSlack = 0.01f;
+    const Vec3f axis = view.rotation * patch.axis;
+    const Vec3f c = view.rotation * patch.center + view.translation;
+    const float distance = c.norm();
+    // Directions to the sensor differ across the patch.
+    float wide = patch.opening + kSlack;
+    if (!view.parallel) {
+      if (distance <= 2.0f * patch.radius) return false;
+      wide += std::asin(patch.radius / distance);
+    }
+    const float facing = view.parallel ? -axis.z() : -axis.dot(c) / distance;
+    return std::acos(std::clamp(facing, -1.0f, 1.0f)) - wide > std::acos(kFacing) && wide < kHalfPi;
+  }
+
+  static bool outside_window(const DepthView& view, const Patch& patch) {
+    const Vec3f c = view.rotation * patch.center + view.translation;
+    const float radius = patch.radius;
     if (view.parallel || view.distorted) return false;
     if (c.z() <= radius) return true;
     const float reach = 1.1f * radius / (c.z() - radius);
@@ -284,6 +369,7 @@ class Fitter {
   Neighbours neighbours_;
   std::vector<detail::ViewKernel> kernels_;
   MeshFit fit_;
+  std::vector<std::uint32_t> order_;  // place in the columns: vertex
   std::vector<Vec3f> normals_;
   std::vector<float> offset_;
   std::array<std::vector<float>, 6> columns_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/closest_point.hpp>
@@ -20,15 +21,20 @@ constexpr std::size_t kCrumb = 64;
 
 using Clock = std::chrono::steady_clock;
 
-/// Calls take(p_table) for what about most_views of the views measured, edges left out.
+/// Calls take(p_table) for what a view measured, edges left out.
+template <class Take>
+void for_each_point_inside(const VolumetricInput& input, const DepthView& view, const Take& take) {
+  for_each_point(view, [&](const Vec3f& p) {
+    if (!input.cylinder || input.cylinder->contains(p.cast<double>())) take(p);
+  });
+}
+
+/// For about most_views of the views.
 template <class Take>
 void for_each_point_inside(const VolumetricInput& input, std::size_t most_views, const Take& take) {
   const std::size_t step = std::max<std::size_t>(1, input.views.size() / most_views);
-  for (std::size_t v = 0; v < input.views.size(); v += step) {
-    for_each_point(input.views[v], [&](const Vec3f& p) {
-      if (!input.cylinder || input.cylinder->contains(p.cast<double>())) take(p);
-    });
-  }
+  for (std::size_t v = 0; v < input.views.size(); v += step)
+    for_each_point_inside(input, input.views[v], take);
 }
 
 constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
@@ -124,11 +130,19 @@ class Run {
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.truncation_m;
     box.max.array() += scale_.truncation_m;
-    for_each_point_inside(input_, input_.views.size(), [&](const Vec3f& p) {
-      const auto q = p.cast<double>().array();
-      if ((q >= box.min.array()).all() && (q <= box.max.array()).all()) ++piece.points;
-    });
+    piece.points = points_in(box);
     return {};
+  }
+
+  std::size_t points_in(const Box& box) const {
+    std::vector<std::size_t> counts(input_.views.size(), 0);
+    parallel_for(counts.size(), 4, [&](std::size_t v) {
+      for_each_point_inside(input_, input_.views[v], [&](const Vec3f& p) {
+        const auto q = p.cast<double>().array();
+        if ((q >= box.min.array()).all() && (q <= box.max.array()).all()) ++counts[v];
+      });
+    });
+    return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
   }
 
   /// Quadrics only estimate how far a surface strays: it is measured, and tried again with less.

@@ -179,6 +179,85 @@ TEST(Volumetric, IsFarBelowTheNoiseOfTheSensor) {
   EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.00025);
 }
 
+std::vector<DepthView> views_of(const MemorySequence& sequence) {
+  const SensorInfo& sensor = sequence.header().sensors[0];
+  const RayTable rays(sensor.intrinsics);
+  std::vector<DepthView> views;
+  for (std::size_t f = 0; f < sequence.frames().size(); ++f) {
+    const Pose pose = rotation_about_y(-*sequence.frames()[f].angle_rad) * *sensor.T_table_sensor;
+    auto view = make_view(*sequence.read(f), sensor, rays, pose, {},
+                          [&](const Vec3f& p) { return (pose * p.cast<double>()).y() > 0.005; });
+    EXPECT_TRUE(view) << view.error().text();
+    if (view) views.push_back(std::move(*view));
+  }
+  return views;
+}
+
+/// A ball of rings of quads, open at the poles.
+TriangleMesh ball_mesh() {
+  constexpr std::uint32_t kRings = 90, kAround = 180;
+  TriangleMesh mesh;
+  for (std::uint32_t r = 1; r < kRings; ++r) {
+    for (std::uint32_t a = 0; a < kAround; ++a) {
+      const double up = std::numbers::pi * r / kRings, turn = 2.0 * std::numbers::pi * a / kAround;
+      const Vec3d n(std::sin(up) * std::cos(turn), std::cos(up), std::sin(up) * std::sin(turn));
+      mesh.vertices.push_back((kCenter + kRadius * n).cast<float>());
+      if (r + 1 == kRings) continue;
+      const std::uint32_t v = (r - 1) * kAround + a, beside = v - a + (a + 1) % kAround;
+      mesh.triangles.push_back({v, beside, v + kAround});
+      mesh.triangles.push_back({beside, beside + kAround, v + kAround});
+    }
+  }
+  return mesh;
+}
+
+/// The triangles within `rings` of the vertices, and where those are in what it gives.
+TriangleMesh around(const TriangleMesh& mesh, std::vector<std::uint32_t>& vertices, int rings) {
+  std::vector<bool> in(mesh.vertices.size(), false);
+  for (const std::uint32_t v : vertices) in[v] = true;
+  TriangleMesh out;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<bool> before = in;
+    out.triangles.clear();
+    for (const auto& t : mesh.triangles) {
+      if (!before[t[0]] && !before[t[1]] && !before[t[2]]) continue;
+      out.triangles.push_back(t);
+      for (const std::uint32_t v : t) in[v] = true;
+    }
+  }
+  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    if (!in[v]) continue;
+    place[v] = std::uint32_t(out.vertices.size());
+    out.vertices.push_back(mesh.vertices[v]);
+  }
+  for (auto& t : out.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+  for (std::uint32_t& v : vertices) v = place[v];
+  return out;
+}
+
+TEST(MeshFit, LeavesOutOnlyViewsThatSeeNothingOfAPatch) {
+  const std::vector<DepthView> views = views_of(scan(ball, {24, 0.001}));
+  const TriangleMesh mesh = ball_mesh();
+  MeshFitScale scale;
+  scale.iterations = 0;
+  const auto all = fit_mesh(mesh, views, scale, RunContext());
+  ASSERT_TRUE(all) << all.error().text();
+  double total = 0.0;
+  for (std::uint32_t probe = 900; probe < 7000; probe += 611) {
+    // Two places on opposite sides: no view is turned away from both.
+    std::vector<std::uint32_t> places{probe, probe + 8010};
+    const TriangleMesh part = around(mesh, places, 5);
+    ASSERT_LT(part.vertices.size(), 256u);
+    const auto alone = fit_mesh(part, views, scale, RunContext());
+    ASSERT_TRUE(alone) << alone.error().text();
+    EXPECT_EQ(alone->support[places[0]], all->support[probe]) << probe;
+    EXPECT_EQ(alone->support[places[1]], all->support[probe + 8010]) << probe;
+    total += all->support[probe] + all->support[probe + 8010];
+  }
+  EXPECT_GT(total, 20.0);
+}
+
 TEST(MeshFit, BringsVerticesBackToWhatWasMeasured) {
   const MemorySequence sequence = scan(ball, {60, 0.001});
   ReconstructOptions options = volumetric();
@@ -187,16 +266,7 @@ TEST(MeshFit, BringsVerticesBackToWhatWasMeasured) {
   ASSERT_TRUE(result) << result.error().text();
   TriangleMesh mesh = result->objects[0].mesh;
   for (Vec3f& v : mesh.vertices) v += 0.0007f * (v - kCenter.cast<float>()).normalized();
-  const SensorInfo& sensor = sequence.header().sensors[0];
-  const RayTable rays(sensor.intrinsics);
-  std::vector<DepthView> views;
-  for (std::size_t f = 0; f < sequence.frames().size(); ++f) {
-    const Pose pose = rotation_about_y(-*sequence.frames()[f].angle_rad) * *sensor.T_table_sensor;
-    auto view = make_view(*sequence.read(f), sensor, rays, pose, {},
-                          [&](const Vec3f& p) { return (pose * p.cast<double>()).y() > 0.005; });
-    ASSERT_TRUE(view) << view.error().text();
-    views.push_back(std::move(*view));
-  }
+  const std::vector<DepthView> views = views_of(sequence);
   MeshFitScale scale;
   scale.noise_m = 0.001;
   scale.reach_m = 0.0015;
