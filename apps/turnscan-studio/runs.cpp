@@ -57,6 +57,7 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
   StageRun out;
   if (of_points(stage) && options.surface.method == SurfaceMethod::kVolumetric)
     options.surface.method = SurfaceMethod::kPoisson;
+  options.keep_points = stage == "merged";
   StageCatch caught{stage, {}, false};
   auto result = reconstruct(frames, options, caught.sink(), context);
   const QString source = QObject::tr("%1 of %2").arg(QString::fromStdString(stage), model.name);

@@ -59,6 +59,7 @@ class ReconstructCommand : public Command {
     TURNSCAN_ASSIGN(const auto frames, with_choice(*sequence, choice));
     if (choice.calibration) options.merge.speed_rad_s.reset();  // it is in the angles
     // Saved only at the end, with the mesh: a run that fails leaves nothing behind.
+    options.keep_points = stage_files_.count("merged") > 0;
     const StageSink sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
       if (stage_files_.count(stage) > 0) clouds_[stage] = cloud;
       return {};

@@ -1,8 +1,8 @@
 #pragma once
 // One candidate point (or, with ties, a few) per surviving voxel (thesis 3.4.3).
 
-#include <turnscan/reconstruction/merge.hpp>
-#include <turnscan/reconstruction/voxel_grid.hpp>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/reconstruction/measurements.hpp>
 
 namespace turnscan {
 
@@ -23,17 +23,14 @@ struct Candidates {
   std::vector<std::uint32_t> voxel;   ///< position in grid.voxels()
 };
 
-/// Centroid: the mean of the voxel's points. Sub-voxel counting (figure 3.12): for each point, the
-/// line through sensor and point is walked across the point's voxel (exact traversal, Amanatides
-/// and Woo 1987) and counted in each sub-voxel it meets; the centres of the sub-voxels with the
-/// highest count are the candidates, all of them when they tie, each with its share of the weight.
-/// kChord walks the whole chord; kTowardsSensor only from the point towards the sensor, which moves
-/// a noisy plane outwards.
-Result<Candidates> find_candidates(const MergedCloud& merged, const VoxelGrid& grid,
-                                   const CandidateOptions& options, const RunContext& context);
-
-/// Counts of one voxel, sub-voxel (x, y, z) at (z * s + y) * s + x. For tests and figures.
-std::vector<std::uint32_t> count_sub_voxels(const MergedCloud& merged, const VoxelGrid& grid,
-                                            std::size_t voxel, const CandidateOptions& options);
+/// Of each voxel of `grid`, which is measurements.grid or what a filter left of it. Centroid: the
+/// mean of the voxel's points. Sub-voxel counting (figure 3.12): for each point, the line through
+/// sensor and point is walked across the point's voxel (exact traversal, Amanatides and Woo 1987)
+/// and counted in each sub-voxel it meets; the centres of the sub-voxels with the highest count are
+/// the candidates, all of them when they tie, each with its share of the weight. kChord walks the
+/// whole chord; kTowardsSensor only from the point towards the sensor, which moves a noisy plane
+/// outwards. PointSums does the counting; measurements have peaks or else give centroids.
+Result<Candidates> find_candidates(const Measurements& measurements, const VoxelGrid& grid,
+                                   const RunContext& context);
 
 }  // namespace turnscan

@@ -29,6 +29,9 @@ struct ReconstructOptions {
   SurfaceOptions surface;
   VolumetricOptions volumetric;
   bool color = false;
+  /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
+  /// methods from points keep sums only, and the sink gets the later stages.
+  bool keep_points = false;
 };
 
 /// The options of one stage, for the command line, a TOML table and a page of the manual.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <turnscan/reconstruction/finish.hpp>
 #include <turnscan/reconstruction/point_stages.hpp>
-#include <turnscan/reconstruction/scan_statistics.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 
 namespace turnscan {
@@ -13,20 +12,20 @@ std::string mm(double metres) { return format_quantity(metres, Quantity::kLength
 /// One run: the stages in their order share its members.
 class Run {
  public:
-  Run(MergedCloud merged, bool profiles, const std::optional<Cylinder>& cylinder,
+  Run(const Measurements& measurements, double spacing_m, const std::optional<Cylinder>& cylinder,
       const ReconstructOptions& options, const StageSink& sink, const RunContext& context,
       Reconstruction& out)
-      : merged_(std::move(merged)),
-        profiles_(profiles),
+      : measurements_(measurements),
+        spacing_m_(spacing_m),
         cylinder_(cylinder),
         options_(options),
         sink_(sink),
         context_(context),
-        out_(out) {}
+        out_(out),
+        grid_(measurements.grid) {}
 
   Result<> operator()() {
-    TURNSCAN_TRY(timed("merge", [&] { return filter(); }));
-    TURNSCAN_TRY(timed("voxels", [&] { return count_voxels(); }));
+    TURNSCAN_TRY(timed("voxels", [&] { return choose_voxels(); }));
     TURNSCAN_TRY(timed("candidates", [&] { return choose_candidates(); }));
     TURNSCAN_TRY(timed("normals", [&] { return orient(); }));
     TURNSCAN_TRY(timed("refine", [&] { return refine(); }));
@@ -56,8 +55,7 @@ class Run {
     return sink_ ? sink_(stage, cloud) : Result<>();
   }
 
-  Result<> filter();
-  Result<> count_voxels();
+  Result<> choose_voxels();
   Result<> choose_candidates();
   Result<> orient();
   Result<> refine();
@@ -65,97 +63,45 @@ class Run {
   Result<> build_surfaces();
   Result<ObjectResult> build_surface(const PointCloud& object);
 
-  MergedCloud merged_;
-  bool profiles_;
+  const Measurements& measurements_;
+  double spacing_m_;
   std::optional<Cylinder> cylinder_;
   const ReconstructOptions& options_;
   const StageSink& sink_;
   const RunContext& context_;
   Reconstruction& out_;
-  double cloud_spacing_m_ = 0.0;
-  std::optional<VoxelGrid> grid_;
+  VoxelGrid grid_;  ///< what is left of the measurements' voxels
   Components components_;
   Candidates candidates_;
   std::vector<PointCloud> objects_;  ///< oriented points, with base
 };
 
-Result<> Run::filter() {
-  if (options_.merge.cloud_outliers) {
-    TURNSCAN_ASSIGN(const auto keep,
-                    statistical_outlier_mask(std::span<const Vec3f>(merged_.cloud.points),
-                                             options_.outliers, context_));
-    std::size_t kept = 0;
-    PointCloud& cloud = merged_.cloud;
-    for (std::size_t i = 0; i < keep.size(); ++i) {
-      if (!keep[i]) continue;
-      cloud.points[kept] = cloud.points[i];
-      cloud.frame[kept] = cloud.frame[i];
-      if (!cloud.colors.empty()) cloud.colors[kept] = cloud.colors[i];
-      ++kept;
-    }
-    cloud.points.resize(kept);
-    cloud.frame.resize(kept);
-    if (!cloud.colors.empty()) cloud.colors.resize(kept);
-  }
-  out_.points = merged_.cloud.size();
-  if (merged_.cloud.size() < 100)
-    return fail(ErrorCode::kTooFewPoints,
-                "{} of {} returns are left after crop and filter; check the turntable's place, "
-                "--crop-margin and --crop-radius",
-                merged_.cloud.size(), merged_.returns);
-  return save("merged", merged_.cloud);
-}
-
-Result<> Run::count_voxels() {
-  // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
-  const double noise = out_.sensor_noise_m, step = out_.frame_spacing_m;
-  const double pixels = std::sqrt(std::max(0.25 * step * step, step * step - 2 * noise * noise));
-  const CloudStatistics statistics = cloud_statistics(merged_, 3.0 * std::max(pixels, noise));
-  out_.merged_noise_m = std::max(statistics.noise_m, 1e-5);
-  cloud_spacing_m_ = statistics.spacing_m;
-  double size = std::max(2.0 * statistics.spacing_m, out_.merged_noise_m);
-  std::string reason =
-      fmt::format("the larger of the thickness of the cloud, {}, and twice its spacing, {}",
-                  mm(out_.merged_noise_m), mm(statistics.spacing_m));
-  if (const double apart = profiles_ ? frames_apart(merged_, pixels) : 0.0; apart > size) {
-    size = apart;
-    reason = fmt::format("the profiles lie up to {} apart", mm(apart));
-  }
-  const double longest = bounds(merged_.cloud.points).size().maxCoeff();
-  if (options_.voxels.grid) {
-    size = longest / *options_.voxels.grid;
-    reason = fmt::format("voxel-grid {} along {}", *options_.voxels.grid, mm(longest));
-  } else if (size < longest / 2000.0) {
-    size = longest / 2000.0;
-    reason = fmt::format("a 2000th of the cloud's longest side {}", mm(longest));
-  }
-  size = length_or(options_.voxels.size_m, "voxel-size", size, reason);
-  context_.begin_phase("voxels", 3);
-  TURNSCAN_ASSIGN(grid_, VoxelGrid::build(merged_.cloud.points, size, context_));
-  context_.advance();
-  const ThresholdChoice threshold = choose_min_points(*grid_);
+Result<> Run::choose_voxels() {
+  const double size = grid_.size_m();
+  context_.begin_phase("voxels", 2);
+  const ThresholdChoice threshold = choose_min_points(grid_);
   const int m = options_.voxels.min_points.value_or(threshold.min_points);
   choose("voxel-min-points", std::to_string(m),
          options_.voxels.min_points
              ? "given"
              : fmt::format("a tenth of the typical count {:.0f}", threshold.typical_count));
-  grid_->filter(count_filter(*grid_, m));
+  grid_.filter(count_filter(grid_, m));
   context_.advance();
-  if (grid_->voxels().empty())
+  if (grid_.voxels().empty())
     return fail(ErrorCode::kTooFewPoints,
                 "no voxel has {} points (typical are {:.0f}); lower --voxel-min-points", m,
                 threshold.typical_count);
-  const double gap = length_or(options_.components.gap_m, "object-gap",
-                               std::max(3.0 * size, 4.0 * statistics.spacing_m),
-                               "the larger of 3 voxels and 4 times the cloud's spacing");
+  const double gap =
+      length_or(options_.components.gap_m, "object-gap", std::max(3.0 * size, 4.0 * spacing_m_),
+                "the larger of 3 voxels and 4 times the cloud's spacing");
   std::optional<double> floor;
   if (cylinder_) floor = cylinder_->margin_m + std::max(3.0 * size, gap);
-  TURNSCAN_ASSIGN(components_, find_components(*grid_, options_.components,
+  TURNSCAN_ASSIGN(components_, find_components(grid_, options_.components,
                                                static_cast<int>(std::lround(gap / size)), floor));
   context_.advance();
   std::vector<std::uint8_t> in_object;
   for (std::int32_t label : components_.label) in_object.push_back(label >= 0 ? 1 : 0);
-  grid_->filter(in_object);
+  grid_.filter(in_object);
   std::erase(components_.label, -1);
   if (components_.crumbs > 0)
     out_.notes.push_back(fmt::format("{} crumbs dropped", components_.crumbs));
@@ -163,26 +109,26 @@ Result<> Run::count_voxels() {
     out_.notes.push_back(fmt::format("pieces above the platter joined to what stands below: {}",
                                      components_.joined));
   PointCloud centers;
-  for (const VoxelGrid::Voxel& voxel : grid_->voxels()) {
-    centers.points.push_back(grid_->center(voxel).cast<float>());
+  for (const VoxelGrid::Voxel& voxel : grid_.voxels()) {
+    centers.points.push_back(grid_.center(voxel).cast<float>());
     centers.weights.push_back(static_cast<float>(voxel.count()));
   }
   return save("voxels", centers);
 }
 
 Result<> Run::choose_candidates() {
-  TURNSCAN_ASSIGN(candidates_, find_candidates(merged_, *grid_, options_.candidates, context_));
+  TURNSCAN_ASSIGN(candidates_, find_candidates(measurements_, grid_, context_));
   out_.objects.resize(components_.voxel_count.size());
   for (std::uint32_t voxel : candidates_.voxel)
     ++out_.objects[std::size_t(components_.label[voxel])].candidates;
-  for (std::size_t v = 0; v < grid_->voxels().size(); ++v)
-    out_.objects[std::size_t(components_.label[v])].points += grid_->voxels()[v].count();
+  for (std::size_t v = 0; v < grid_.voxels().size(); ++v)
+    out_.objects[std::size_t(components_.label[v])].points += grid_.voxels()[v].count();
   return save("candidates", candidates_.cloud);
 }
 
 Result<> Run::orient() {
   const double radius = length_or(options_.normals.radius_m, "normal-radius",
-                                  std::max(2.5 * grid_->size_m(), 3.0 * out_.merged_noise_m),
+                                  std::max(2.5 * grid_.size_m(), 3.0 * out_.merged_noise_m),
                                   "the larger of 2.5 voxels and 3 times the cloud's thickness");
   return estimate_normals(candidates_, radius, context_);
 }
@@ -191,13 +137,13 @@ Result<> Run::refine() {
   if (!options_.refine.enabled) return save("refined", candidates_.cloud);
   // Enough measurements under the weight that the fitted height is good to a tenth of the noise
   // (a height field of degree 2 has about twice the mean's standard deviation).
-  const double size = grid_->size_m(), noise = out_.merged_noise_m;
+  const double size = grid_.size_m(), noise = out_.merged_noise_m;
   const double target = std::max(0.1 * noise, 0.05 * size);
-  const double wanted = cloud_spacing_m_ * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
+  const double wanted = spacing_m_ * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
   const double radius = length_or(options_.refine.radius_m, "refine-radius",
                                   std::clamp(wanted, 0.75 * size, 3.0 * size),
                                   fmt::format("so that a fitted height is good to {}", mm(target)));
-  TURNSCAN_ASSIGN(candidates_, refine_candidates(merged_, *grid_, candidates_, {radius, noise},
+  TURNSCAN_ASSIGN(candidates_, refine_candidates(measurements_, grid_, candidates_, {radius, noise},
                                                  options_.refine.iterations, context_));
   return save("refined", candidates_.cloud);
 }
@@ -216,8 +162,8 @@ Result<> Run::split_objects() {
   for (std::size_t o = 0; o < objects_.size(); ++o) {
     PointCloud& object = objects_[o];
     if (options_.base.enabled && cylinder_) {
-      const double reach = cylinder_->margin_m + 3.0 * grid_->size_m();
-      const BaseResult base = close_base(object, grid_->size_m(), reach);
+      const double reach = cylinder_->margin_m + 3.0 * grid_.size_m();
+      const BaseResult base = close_base(object, grid_.size_m(), reach);
       object.points.insert(object.points.end(), base.added.points.begin(), base.added.points.end());
       object.normals.insert(object.normals.end(), base.added.normals.begin(),
                             base.added.normals.end());
@@ -241,7 +187,7 @@ Result<> Run::split_objects() {
 Result<ObjectResult> Run::build_surface(const PointCloud& object) {
   ObjectResult result;
   FinishedMesh finished;
-  const double reach = std::max(3.0 * grid_->size_m(), 1.5 * out_.frame_spacing_m);
+  const double reach = std::max(3.0 * grid_.size_m(), 1.5 * out_.frame_spacing_m);
   if (options_.surface.method == SurfaceMethod::kPoisson) {
     TURNSCAN_ASSIGN(TriangleMesh raw, poisson_surface(object, options_.surface, context_));
     if (options_.surface.repair) {
@@ -250,12 +196,12 @@ Result<ObjectResult> Run::build_surface(const PointCloud& object) {
       finished.mesh = std::move(raw);
     }
   } else {
-    const double alpha = options_.surface.alpha_m.value_or(2.5 * grid_->size_m());
+    const double alpha = options_.surface.alpha_m.value_or(2.5 * grid_.size_m());
     choose("alpha", mm(alpha), options_.surface.alpha_m ? "given" : "2.5 voxels");
     TURNSCAN_ASSIGN(TriangleMesh raw, concave_hull(object, alpha, context_));
     if (options_.surface.repair) {
       TURNSCAN_ASSIGN(finished,
-                      finish_concave_hull(raw, object, 0.8 * grid_->size_m(), reach, context_));
+                      finish_concave_hull(raw, object, 0.8 * grid_.size_m(), reach, context_));
     } else {
       finished.mesh = std::move(raw);
       finished.notes.push_back("a concave hull is not 2-manifold by nature; repair is off");
@@ -291,11 +237,11 @@ Result<> Run::build_surfaces() {
 
 }  // namespace
 
-Result<> reconstruct_points(MergedCloud merged, bool profiles,
+Result<> reconstruct_points(const Measurements& measurements, double spacing_m,
                             const std::optional<Cylinder>& cylinder,
                             const ReconstructOptions& options, const StageSink& sink,
                             const RunContext& context, Reconstruction& out) {
-  return Run(std::move(merged), profiles, cylinder, options, sink, context, out)();
+  return Run(measurements, spacing_m, cylinder, options, sink, context, out)();
 }
 
 }  // namespace turnscan

@@ -29,16 +29,10 @@ using Moments = std::array<double, refinement::kMoments>;
 
 class Projector {
  public:
-  Projector(const MergedCloud& merged, const VoxelGrid& grid, const RefineScale& scale)
-      : grid_(grid) {
+  Projector(const Measurements& measurements, const RefineScale& scale)
+      : measurements_(measurements), grid_(measurements.grid) {
     reach_ = kReach * scale.radius_m;
     height_ = std::max(kTukey * scale.noise_m, 0.5 * scale.radius_m);
-    const std::size_t n = grid.order().size();
-    for (auto& column : columns_) column.resize(n + refinement::kLanes);
-    constexpr std::size_t kSlice = 16384;
-    parallel_for((n + kSlice - 1) / kSlice, 1, [&](std::size_t slice) {
-      gather(merged, grid.order(), slice * kSlice, std::min(n, (slice + 1) * kSlice));
-    });
   }
 
   /// One step: the site moves onto the fitted height field over its own tangent plane.
@@ -58,19 +52,6 @@ class Projector {
   }
 
  private:
-  /// Points and views side by side, in the order of the voxels.
-  void gather(const MergedCloud& merged, const std::vector<std::uint32_t>& order, std::size_t begin,
-              std::size_t end) {
-    merged.for_each_of(order, begin, end, [&](std::size_t k, std::uint32_t i) {
-      const Vec3f& p = merged.cloud.points[i];
-      const Vec3f view = merged.towards_sensor(i);
-      for (int a = 0; a < 3; ++a) {
-        columns_[std::size_t(a)][k] = p[a];
-        columns_[std::size_t(a + 3)][k] = view[a];
-      }
-    });
-  }
-
   /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge lets slope and curvature
   /// fade where too few points carry them.
   static Eigen::Matrix<double, 6, 1> fit(const Moments& s) {
@@ -130,14 +111,14 @@ class Projector {
   }
 
   refinement::Measurements measurements() const {
-    return {columns_[0].data(), columns_[1].data(), columns_[2].data(),
-            columns_[3].data(), columns_[4].data(), columns_[5].data()};
+    const auto& c = measurements_.columns;
+    return {c[0].data(), c[1].data(), c[2].data(), c[3].data(),
+            c[4].data(), c[5].data(), c[6].data()};
   }
 
+  const Measurements& measurements_;
   const VoxelGrid& grid_;
   double reach_ = 0.0, height_ = 0.0;
-  /// In the grid's order: neighbours lie together in memory. kLanes more can be read.
-  std::array<std::vector<float>, 6> columns_;
 };
 
 double median_support(const std::vector<Site>& sites) {
@@ -267,14 +248,12 @@ OptionTable describe(RefineOptions& o) {
   return table;
 }
 
-Result<Candidates> refine_candidates(const MergedCloud& merged, const VoxelGrid& grid,
+Result<Candidates> refine_candidates(const Measurements& measurements, const VoxelGrid& grid,
                                      const Candidates& candidates, const RefineScale& scale,
                                      int iterations, const RunContext& context) {
   if (candidates.cloud.normals.size() != candidates.cloud.size())
     throw std::invalid_argument("refine_candidates: candidates need normals");
-  const double cell = std::max(scale.radius_m, 0.5 * scale.noise_m);
-  TURNSCAN_ASSIGN(const VoxelGrid index, VoxelGrid::build(merged.cloud.points, cell, context));
-  const Projector projector(merged, index, scale);
+  const Projector projector(measurements, scale);
   // A surface that is smooth over radius_m needs no candidates much closer than that.
   const double spacing = std::max(grid.size_m(), 0.6 * scale.radius_m);
   std::vector<Site> sites;

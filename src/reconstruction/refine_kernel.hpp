@@ -9,7 +9,8 @@
 
 namespace turnscan::refinement {
 
-/// Measurements, structure of arrays: positions in metres and unit vectors to their sensors.
+/// Measurements, structure of arrays: positions in metres, vectors to their sensors (mean of unit
+/// vectors), and how often each counts.
 struct Measurements {
   const float* x;
   const float* y;
@@ -17,6 +18,7 @@ struct Measurements {
   const float* view_x;
   const float* view_y;
   const float* view_z;
+  const float* count;
 };
 
 /// Tangent frame at a site and the reach of the weights.

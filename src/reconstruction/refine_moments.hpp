@@ -52,7 +52,7 @@ void add_moments(const Measurements& m, std::size_t begin, std::size_t end, cons
     const F a = cut(1.0f - x * x - y * y), b = cut(1.0f - s * s);
     const F cosine =
         load(m.view_x + i) * f.n[0] + load(m.view_y + i) * f.n[1] + load(m.view_z + i) * f.n[2];
-    const F w = a * a * a * b * b;
+    const F w = a * a * a * b * b * load(m.count + i);
     const I counts = (cosine > all(f.facing)) & first_lanes(end - i);
     // What does not count may be anything: its weight is zero, and so must be its terms.
     sums.add(counts ? w : F{}, counts ? x : F{}, counts ? y : F{}, counts ? h : F{});

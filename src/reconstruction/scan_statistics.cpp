@@ -1,7 +1,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
@@ -45,34 +48,46 @@ constexpr double kOnALine = 0.5;
 /// looked at.
 constexpr std::size_t kEnough = 2048;
 
-/// Points of `order` within r of p are spread along the normal with sigma.
-Thickness thickness_at(const MergedCloud& merged, const VoxelGrid& grid, const Vec3f& p, double r) {
+/// The points that a grid has sorted, in its order.
+struct SortedPoints {
+  const std::vector<Vec3f>& points;
+  const VoxelGrid& grid;
+  Vec3f point(std::size_t k) const { return points[grid.order()[k]]; }
+  double count(std::size_t) const { return 1.0; }
+};
+
+/// Items within r of p are spread along the normal with sigma. items: those of the grid's voxels.
+template <class Items>
+Thickness thickness_at(const Items& items, const VoxelGrid& grid, const Vec3f& p, double r) {
   const VoxelIndex low = ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
   const VoxelIndex high = ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
   Vec3d sum = Vec3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  std::size_t n = 0, around = 0;
-  grid.for_each_in_box(low, high, [&](std::uint32_t v) { around += grid.voxels()[v].count(); });
+  std::size_t around = 0;
+  double n = 0.0;
+  grid.for_each_in_box(
+      low, high, [&](std::uint32_t v) { around += grid.voxels()[v].end - grid.voxels()[v].begin; });
   const std::size_t step = std::max<std::size_t>(1, around / kEnough);
   std::size_t skip = 0;  // points of the next voxel to leave out first
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {
     const VoxelGrid::Voxel& voxel = grid.voxels()[v];
     std::size_t k = voxel.begin + skip;
     for (; k < voxel.end; k += step) {
-      const Vec3d d = (merged.cloud.points[grid.order()[k]] - p).cast<double>();
+      const Vec3d d = (items.point(k) - p).template cast<double>();
       if (d.squaredNorm() > r * r) continue;
-      sum += d;
-      squares += d * d.transpose();
-      ++n;
+      const double w = items.count(k);
+      sum += w * d;
+      squares += w * d * d.transpose();
+      n += w;
     }
     skip = k - voxel.end;
   });
-  if (n < 8) return {};
-  const Vec3d mean = sum / double(n);
-  const Eigen::Matrix3d covariance = squares / double(n) - mean * mean.transpose();
+  if (n < 8.0) return {};
+  const Vec3d mean = sum / n;
+  const Eigen::Matrix3d covariance = squares / n - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   const Vec3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return {extent[0], double(n * step) / (std::numbers::pi * r * r),
+  return {extent[0], n * double(step) / (std::numbers::pi * r * r),
           extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }
 
@@ -100,18 +115,20 @@ FrameStatistics frame_statistics(const FramePoints& points) {
   return out;
 }
 
-CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m) {
+namespace {
+
+/// Looks at samples with radius r: thickness_of(sample, r). The wider, the fewer rounds are left.
+template <class At>
+CloudStatistics statistics(double start_radius_m, const At& thickness_of) {
   constexpr std::size_t kSamples = 1500;
-  const auto& points = merged.cloud.points;
   CloudStatistics out;
   double r = start_radius_m;
   for (int round = 0; round < 9; ++round, r *= std::numbers::sqrt2) {
-    auto grid = VoxelGrid::build(points, r, RunContext());
-    if (!grid) return out;
     std::vector<double> sigmas(kSamples), densities(kSamples), spreads(kSamples);
+    const auto look = thickness_of(r);
+    if (!look) return out;
     parallel_for(kSamples, 16, [&](std::size_t s) {
-      const std::size_t i = mix64(s) % points.size();
-      const Thickness t = thickness_at(merged, *grid, points[i], r);
+      const Thickness t = (*look)(mix64(s));
       sigmas[s] = t.sigma;
       densities[s] = t.density;
       spreads[s] = t.spread;
@@ -122,6 +139,37 @@ CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_
     if (density > 0.0 && out.noise_m < r / 4.5 && median(spreads) > kOnALine) break;
   }
   return out;
+}
+
+}  // namespace
+
+CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m) {
+  using Look = std::function<Thickness(std::uint64_t)>;
+  const auto& points = merged.cloud.points;
+  return statistics(start_radius_m, [&](double r) -> std::optional<Look> {
+    auto built = VoxelGrid::build(points, r, RunContext());
+    if (!built) return std::nullopt;
+    const auto grid = std::make_shared<const VoxelGrid>(std::move(*built));
+    return [grid, r, &points](std::uint64_t key) {
+      return thickness_at(SortedPoints{points, *grid}, *grid, points[key % points.size()], r);
+    };
+  });
+}
+
+CloudStatistics cloud_statistics(const Measurements& measurements, double start_radius_m) {
+  using Look = std::function<Thickness(std::uint64_t)>;
+  const VoxelGrid& grid = measurements.grid;
+  std::vector<std::uint64_t> sum;  // of the points up to a cell
+  for (std::size_t i = 0; i < measurements.size(); ++i)
+    sum.push_back((i > 0 ? sum.back() : 0) + std::uint64_t(measurements.count(i)));
+  if (sum.empty()) return {};
+  return statistics(start_radius_m, [&](double r) -> std::optional<Look> {
+    return [&, r](std::uint64_t key) {
+      const auto at = std::upper_bound(sum.begin(), sum.end(), key % sum.back());
+      const Vec3f p = measurements.point(std::size_t(at - sum.begin()));
+      return thickness_at(measurements, grid, p, r);
+    };
+  });
 }
 
 double frames_apart(const MergedCloud& merged, double point_spacing_m) {

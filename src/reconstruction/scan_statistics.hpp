@@ -1,6 +1,7 @@
 #pragma once
 // What the data say about themselves: spacing and noise, from which automatic values follow.
 
+#include <turnscan/reconstruction/measurements.hpp>
 #include <turnscan/reconstruction/merge.hpp>
 
 namespace turnscan {
@@ -28,6 +29,9 @@ struct CloudStatistics {
 /// scanner. Thickness: the square root of the smallest eigenvalue of the covariance. Deterministic.
 /// Starts at start_radius_m; ends at 16 times that.
 CloudStatistics cloud_statistics(const MergedCloud& merged, double start_radius_m);
+
+/// The same of measurements in cells. What is thinner than the cells may look thinner than it is.
+CloudStatistics cloud_statistics(const Measurements& measurements, double start_radius_m);
 
 /// How far apart neighbouring frames lie where they lie far apart: of 95 % of the points the
 /// nearest point of another frame is nearer. For line scanners, whose profiles part with the

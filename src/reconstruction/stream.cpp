@@ -3,7 +3,7 @@
 #include <mutex>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/first_look.hpp>
-#include <turnscan/reconstruction/point_stages.hpp>
+#include <turnscan/reconstruction/point_stream.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 #include <turnscan/reconstruction/unused_options.hpp>
@@ -119,6 +119,7 @@ class ReconstructionStream::Impl {
                     *options_.merge.pass);
       if (waiting_.empty())
         return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
+      whole_ = true;
       TURNSCAN_TRY(look(context));
     }
     for (const std::string& name : unused_options(options_))
@@ -130,8 +131,7 @@ class ReconstructionStream::Impl {
       for (auto& [sensor, group] : groups_) TURNSCAN_TRY(add_group(group.flush(), sensor));
       TURNSCAN_TRY(volume_->finish(sink, context, out_));
     } else {
-      TURNSCAN_TRY(reconstruct_points(std::move(merged_), profiles_, look_->cylinder, options_,
-                                      sink, context, out_));
+      TURNSCAN_TRY(points_->finish(sink, context, out_));
     }
     return std::move(out_);
   }
@@ -204,10 +204,11 @@ class ReconstructionStream::Impl {
     out_.choices = look.choices;
     out_.notes = look.notes;
     recipe_.cylinder = look.cylinder;
-    profiles_ = !any_grid(waiting_);
     if (volumetric()) {
       const std::lock_guard lock(mutex_);
       TURNSCAN_ASSIGN(volume_, VolumetricStream::create(header_, options_, look, recipe_.rays));
+    } else {
+      points_.emplace(options_, look, !any_grid(waiting_));
     }
     look_ = std::move(look);
     std::vector<Placed> placed;
@@ -294,13 +295,19 @@ class ReconstructionStream::Impl {
     });
     TURNSCAN_TRY(context.check());
     for (const auto& part : parts) TURNSCAN_TRY(part);
+    std::vector<FramePart> seen;
+    std::vector<Viewpoint> viewpoints;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Viewpoint& own = header_.sensors[placed[i].info.sensor].viewpoint;
-      append(*parts[i], own.transformed(placed[i].T_table_sensor), merged_);
-      ++out_.frames;
+      viewpoints.push_back(own.transformed(placed[i].T_table_sensor));
+      seen.push_back(std::move(*parts[i]));
     }
-    out_.returns = merged_.returns;
-    out_.cropped = merged_.cropped;
+    TURNSCAN_TRY(points_->add(seen, viewpoints, whole_, context));
+    for (const FramePart& part : seen) {
+      ++out_.frames;
+      out_.returns += part.returns;
+      out_.cropped += part.cropped;
+    }
     return {};
   }
 
@@ -314,9 +321,9 @@ class ReconstructionStream::Impl {
   std::vector<Pose> waiting_poses_;
   std::size_t forgotten_ = 0;  ///< frames without an object, before the first look
   std::optional<FirstLook> look_;
-  bool profiles_ = false;                          ///< frames without neighbours across
+  bool whole_ = false;                             ///< the first look sees all frames
   std::map<std::uint32_t, ProfileGroups> groups_;  ///< of line scanners
-  MergedCloud merged_;
+  std::optional<PointStream> points_;
   std::mutex mutex_;  ///< guards the pointer volume_
   std::unique_ptr<VolumetricStream> volume_;
   Reconstruction out_;

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/reconstruction/key_sort.hpp>
 #include <turnscan/reconstruction/voxel_grid.hpp>
-#include <utility>
 
 namespace turnscan {
 
@@ -13,47 +12,16 @@ namespace {
 constexpr int kMaxSide = 1 << 21;
 /// Rows (z, y) are indexed directly; more than this would be a cloud of a few points far apart.
 constexpr std::uint64_t kMaxRows = 1ULL << 26;
-constexpr std::uint32_t kRadixBits = 11;
 
-struct KeyedPoint {
-  std::uint64_t key;
-  std::uint32_t point;
-};
-
-constexpr std::size_t kDigits = std::size_t{1} << kRadixBits;
-constexpr std::size_t kSlice = std::size_t{1} << 18;  // items that one thread counts and moves
-
-/// Where each slice puts its items of each digit: behind those of smaller digits, and of earlier
-/// slices, which keeps the order of equal keys.
-void to_places(std::vector<std::array<std::uint32_t, kDigits>>& counts) {
-  std::uint32_t place = 0;
-  for (std::size_t d = 0; d < kDigits; ++d)
-    for (auto& of_slice : counts) place += std::exchange(of_slice[d], place);
-}
-
-/// Stable radix sort by key: points of one voxel stay in ascending order.
-void sort_by_key(std::vector<KeyedPoint>& items, std::uint64_t max_key) {
-  std::vector<KeyedPoint> other(items.size());
-  std::vector<std::array<std::uint32_t, kDigits>> places((items.size() + kSlice - 1) / kSlice);
-  for (std::uint32_t shift = 0; shift < 64 && (max_key >> shift) != 0; shift += kRadixBits) {
-    const auto digit = [shift](const KeyedPoint& item) {
-      return std::size_t(item.key >> shift) & (kDigits - 1);
-    };
-    const auto each_of = [&](std::size_t slice, const auto& visit) {
-      const std::size_t end = std::min(items.size(), (slice + 1) * kSlice);
-      for (std::size_t i = slice * kSlice; i < end; ++i) visit(items[i], places[slice]);
-    };
-    parallel_for(places.size(), 1, [&](std::size_t slice) {
-      places[slice].fill(0);
-      each_of(slice, [&](const KeyedPoint& item, auto& count) { ++count[digit(item)]; });
-    });
-    to_places(places);
-    parallel_for(places.size(), 1, [&](std::size_t slice) {
-      each_of(slice,
-              [&](const KeyedPoint& item, auto& place) { other[place[digit(item)]++] = item; });
-    });
-    items.swap(other);
-  }
+/// low, high: the outermost voxels.
+Result<> check_extent(const Vec3d& low, const Vec3d& high, double size_m) {
+  const Vec3d sides = (high - low).array() + 1.0;
+  if (sides.maxCoeff() <= kMaxSide && low.cwiseAbs().maxCoeff() < 1e9 &&
+      sides.y() * sides.z() <= double(kMaxRows))
+    return {};
+  return fail(ErrorCode::kInvalidOption,
+              "voxel-size {} is too small for a cloud of {:.3g} m; choose a larger one",
+              format_quantity(size_m, Quantity::kLength), size_m * sides.maxCoeff());
 }
 
 }  // namespace
@@ -62,9 +30,11 @@ OptionTable describe(VoxelOptions& o) {
   OptionTable table;
   table
       .number("voxel-size", o.size_m, Quantity::kLength, {1e-5, 1.0},
-              "Edge of a voxel; automatic: from noise and density")
-      .number("voxel-grid", o.grid, {2, 100000},
-              "Or: number of voxels along the longest side (the thesis uses 150)")
+              "Edge of a voxel; automatic: from noise and density of the first frames")
+      .number(
+          "voxel-grid", o.grid, {2, 100000},
+          "Or: number of voxels along the longest side that the first frames show (the thesis uses "
+          "150)")
       .number("voxel-min-points", o.min_points, {1, 1e9},
               "M: voxels with fewer points are dropped; automatic: a tenth of the typical count");
   return table;
@@ -85,14 +55,10 @@ Result<VoxelGrid> VoxelGrid::build(const std::vector<Vec3f>& points, double size
   VoxelGrid grid;
   grid.size_m_ = size_m;
   const Vec3d low = (box.min / size_m).array().floor(), high = (box.max / size_m).array().floor();
-  if (!((high - low).maxCoeff() < kMaxSide) || !(low.cwiseAbs().maxCoeff() < 1e9) ||
-      (high.y() - low.y() + 1) * (high.z() - low.z() + 1) > double(kMaxRows))
-    return fail(ErrorCode::kInvalidOption,
-                "voxel-size {} is too small for a cloud of {:.3g} m; choose a larger one",
-                format_quantity(size_m, Quantity::kLength), box.size().maxCoeff());
+  TURNSCAN_TRY(check_extent(low, high, size_m));
   grid.low_ = low.cast<int>();
   grid.extent_ = (high - low).cast<int>() + VoxelIndex::Ones();
-  std::vector<KeyedPoint> items(points.size());
+  std::vector<KeyedItem> items(points.size());
   const double scale = 1.0 / size_m;
   const auto index_of = [&](std::size_t i) -> VoxelIndex {
     return (points[i].cast<double>() * scale).array().floor().cast<int>();
@@ -109,14 +75,32 @@ Result<VoxelGrid> VoxelGrid::build(const std::vector<Vec3f>& points, double size
   grid.order_.resize(items.size());
   const std::uint64_t nx = std::uint64_t(grid.extent_.x()), ny = std::uint64_t(grid.extent_.y());
   for (std::uint32_t i = 0; i < items.size(); ++i) {
-    grid.order_[i] = items[i].point;
+    grid.order_[i] = items[i].item;
     const std::uint64_t k = items[i].key;
     if (i == 0 || k != items[i - 1].key) {
       const VoxelIndex local(int(k % nx), int(k / nx % ny), int(k / nx / ny));
-      grid.voxels_.push_back({grid.low_ + local, i, i});
+      grid.voxels_.push_back({grid.low_ + local, i, i, 0});
     }
     grid.voxels_.back().end = i + 1;
+    ++grid.voxels_.back().points;
   }
+  grid.index_rows();
+  return grid;
+}
+
+Result<VoxelGrid> VoxelGrid::of_counted(std::vector<Voxel> voxels, double size_m) {
+  if (voxels.empty()) return fail(ErrorCode::kTooFewPoints, "voxels: there are no points to count");
+  VoxelGrid grid;
+  grid.size_m_ = size_m;
+  VoxelIndex high = voxels.front().index;
+  grid.low_ = high;
+  for (const Voxel& voxel : voxels) {
+    grid.low_ = grid.low_.cwiseMin(voxel.index);
+    high = high.cwiseMax(voxel.index);
+  }
+  TURNSCAN_TRY(check_extent(grid.low_.cast<double>(), high.cast<double>(), size_m));
+  grid.extent_ = high - grid.low_ + VoxelIndex::Ones();
+  grid.voxels_ = std::move(voxels);
   grid.index_rows();
   return grid;
 }

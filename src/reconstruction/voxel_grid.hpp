@@ -10,7 +10,7 @@ namespace turnscan {
 
 struct VoxelOptions {
   std::optional<double> size_m;   ///< edge of a voxel
-  std::optional<int> grid;        ///< or: voxels along the longest side of the cloud
+  std::optional<int> grid;        ///< or: voxels along the longest side that the first frames show
   std::optional<int> min_points;  ///< M: voxels with fewer points go
 };
 OptionTable describe(VoxelOptions& options);
@@ -25,13 +25,18 @@ class VoxelGrid {
     VoxelIndex index;
     std::uint32_t begin;  ///< its points are order()[begin, end), in ascending order
     std::uint32_t end;
-    std::uint32_t count() const { return end - begin; }
+    std::uint32_t points;  ///< how many points were counted
+    std::uint32_t count() const { return points; }
   };
 
   /// Sorts points into voxels in O(n). Fails with kInvalidOption when a side would take more than
   /// 2^21 voxels, kTooFewPoints when there are no points, kCancelled. points must outlive the grid.
   static Result<VoxelGrid> build(const std::vector<Vec3f>& points, double size_m,
                                  const RunContext& context);
+
+  /// Voxels that were counted elsewhere, ordered by (z, y, x); begin and end stay as they are,
+  /// order() is empty. Fails as build does.
+  static Result<VoxelGrid> of_counted(std::vector<Voxel> voxels, double size_m);
 
   double size_m() const { return size_m_; }
   const std::vector<Voxel>& voxels() const { return voxels_; }

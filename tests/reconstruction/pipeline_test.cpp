@@ -147,7 +147,9 @@ TEST(Reconstruct, GivesTheSameBytesForOneAndTwoThreads) {
 }
 
 TEST(Reconstruct, GivesItsStagesToTheSink) {
-  for (const ReconstructOptions& options : {coarse(), ReconstructOptions()}) {
+  ReconstructOptions points = coarse();
+  points.keep_points = true;
+  for (const ReconstructOptions& options : {points, ReconstructOptions()}) {
     std::vector<std::string> seen;
     const auto sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
       EXPECT_FALSE(cloud.empty());

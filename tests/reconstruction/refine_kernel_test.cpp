@@ -14,16 +14,17 @@ namespace {
 constexpr std::size_t kPoints = 1003;
 
 struct Data {
-  std::array<std::vector<float>, 6> columns;
+  std::array<std::vector<float>, 7> columns;
   Measurements view() const {
-    return {columns[0].data(), columns[1].data(), columns[2].data(),
-            columns[3].data(), columns[4].data(), columns[5].data()};
+    return {columns[0].data(), columns[1].data(), columns[2].data(), columns[3].data(),
+            columns[4].data(), columns[5].data(), columns[6].data()};
   }
 };
 
 float uniform(std::uint64_t counter) { return float(mix64(counter) >> 40) * 0x1p-24f; }
 
-/// Points in a cube of 10 mm; views all around. What lies behind the last is not a number.
+/// Points in a cube of 10 mm; views all around; each counts up to 5 times. What lies behind the
+/// last is not a number.
 Data measurements() {
   Data data;
   for (std::size_t c = 0; c < 6; ++c) {
@@ -31,6 +32,8 @@ Data measurements() {
       data.columns[c].push_back((uniform(10 * i + c) - 0.5f) * (c < 3 ? 0.01f : 2.0f));
     data.columns[c].resize(kPoints + kLanes, std::nanf(""));
   }
+  for (std::size_t i = 0; i < kPoints; ++i) data.columns[6].push_back(float(1 + mix64(i) % 5));
+  data.columns[6].resize(kPoints + kLanes, std::nanf(""));
   return data;
 }
 
@@ -65,7 +68,7 @@ std::array<double, kMoments> plain_sums(const Data& data, std::size_t begin, std
     const double x = dot(f.u, d) * f.inverse_reach, y = dot(f.v, d) * f.inverse_reach;
     const double h = dot(f.n, d), s = h * f.inverse_height;
     if (dot(f.n, view) <= f.facing || x * x + y * y >= 1.0 || s * s >= 1.0) continue;
-    const double w = std::pow(1.0 - x * x - y * y, 3) * std::pow(1.0 - s * s, 2);
+    const double w = c[6][i] * std::pow(1.0 - x * x - y * y, 3) * std::pow(1.0 - s * s, 2);
     std::size_t m = 0;
     for (int degree = 0; degree <= 4; ++degree)
       for (int b = 0; b <= degree; ++b) out[m++] += w * std::pow(x, degree - b) * std::pow(y, b);

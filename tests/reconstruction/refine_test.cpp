@@ -10,18 +10,17 @@ namespace turnscan {
 namespace {
 
 struct Oriented {
-  std::unique_ptr<MergedCloud> merged;
-  std::unique_ptr<VoxelGrid> grid;
+  Measurements measurements;
+  VoxelGrid grid;
   Candidates candidates;
 };
 
-Oriented orient(MergedCloud merged, double size, double radius) {
+Oriented orient(const MergedCloud& merged, double size, double radius) {
   Oriented out;
-  out.merged = std::make_unique<MergedCloud>(std::move(merged));
-  out.grid =
-      std::make_unique<VoxelGrid>(*VoxelGrid::build(out.merged->cloud.points, size, RunContext()));
-  out.grid->filter(count_filter(*out.grid, choose_min_points(*out.grid).min_points));
-  out.candidates = *find_candidates(*out.merged, *out.grid, {}, RunContext());
+  out.measurements = testing::measured(merged, size);
+  out.grid = out.measurements.grid;
+  out.grid.filter(count_filter(out.grid, choose_min_points(out.grid).min_points));
+  out.candidates = *find_candidates(out.measurements, out.grid, RunContext());
   EXPECT_TRUE(estimate_normals(out.candidates, radius, RunContext()));
   return out;
 }
@@ -46,7 +45,7 @@ TEST(Normals, OfBothSidesOfAThinPlatePointApart) {
     below.value.y() = -below.value.y();
     merged.viewpoints.push_back(below);
   }
-  const Oriented o = orient(std::move(merged), 0.001, 0.004);
+  const Oriented o = orient(merged, 0.001, 0.004);
   for (std::size_t i = 0; i < o.candidates.cloud.size(); ++i) {
     const Vec3f& p = o.candidates.cloud.points[i];
     if (std::max(std::abs(p.x()), std::abs(p.z())) > 0.015f) continue;
@@ -59,14 +58,14 @@ TEST(Normals, WithTooFewNeighboursPointToTheSensor) {
   merged.viewpoints = {{Vec3d::UnitZ(), true}};
   merged.cloud.points = {Vec3f(0, 0, 0), Vec3f(1, 0, 0)};
   merged.cloud.frame = {0, 0};
-  const Oriented o = orient(std::move(merged), 0.01, 0.02);
+  const Oriented o = orient(merged, 0.01, 0.02);
   for (const Vec3f& n : o.candidates.cloud.normals) EXPECT_LT((n - Vec3f::UnitZ()).norm(), 1e-6f);
 }
 
 TEST(Refine, BringsANoisyPlaneBelowATenthOfTheNoise) {
   Oriented o = orient(testing::noisy_plane(300000, 0.04, 0.0015), 0.001, 0.0045);
   const auto refined =
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
+      refine_candidates(o.measurements, o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
   ASSERT_TRUE(refined);
   double sum = 0.0, squares = 0.0;
   std::size_t n = 0;
@@ -84,7 +83,7 @@ TEST(Refine, BringsANoisyPlaneBelowATenthOfTheNoise) {
 TEST(Refine, KeepsTheRadiusOfANoisySphere) {
   Oriented o = orient(testing::noisy_sphere(500000, 0.04, 0.001), 0.001, 0.004);
   const auto refined =
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.0015, 0.001}, 3, RunContext());
+      refine_candidates(o.measurements, o.grid, o.candidates, {0.0015, 0.001}, 3, RunContext());
   ASSERT_TRUE(refined);
   double sum = 0.0;
   for (const Vec3f& p : refined->cloud.points) sum += p.norm() - 0.04;
@@ -94,7 +93,7 @@ TEST(Refine, KeepsTheRadiusOfANoisySphere) {
 TEST(Refine, LeavesOneCandidateAVoxelAndSide) {
   Oriented o = orient(testing::noisy_plane(300000, 0.03, 0.0015), 0.001, 0.0045);
   const auto refined =
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
+      refine_candidates(o.measurements, o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
   ASSERT_TRUE(refined);
   const auto grid = VoxelGrid::build(refined->cloud.points, 0.0012, RunContext());  // 0.6 radii
   // The mean of a voxel's candidates may round into its neighbour.
@@ -105,10 +104,10 @@ TEST(Refine, IsTheSameForOneAndTwoThreads) {
   Oriented o = orient(testing::noisy_plane(50000, 0.02, 0.001), 0.001, 0.003);
   set_thread_count(1);
   const auto one =
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.001, 0.001}, 2, RunContext());
+      refine_candidates(o.measurements, o.grid, o.candidates, {0.001, 0.001}, 2, RunContext());
   set_thread_count(2);
   const auto two =
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.001, 0.001}, 2, RunContext());
+      refine_candidates(o.measurements, o.grid, o.candidates, {0.001, 0.001}, 2, RunContext());
   set_thread_count(0);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->cloud.points, two->cloud.points);
@@ -119,9 +118,10 @@ TEST(Refine, GivesNothingOnceCancelled) {
   Oriented o = orient(testing::noisy_plane(5000, 0.02, 0.001), 0.002, 0.004);
   const RunContext context;
   context.cancel();
-  EXPECT_EQ(
-      refine_candidates(*o.merged, *o.grid, o.candidates, {0.001, 0.001}, 2, context).error().code,
-      ErrorCode::kCancelled);
+  EXPECT_EQ(refine_candidates(o.measurements, o.grid, o.candidates, {0.001, 0.001}, 2, context)
+                .error()
+                .code,
+            ErrorCode::kCancelled);
 }
 
 TEST(FrameStatistics, FindTheNoiseAndSpacingOfADepthImage) {
@@ -145,6 +145,13 @@ TEST(CloudStatistics, FindThicknessAndDensity) {
   const MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
   const CloudStatistics s = cloud_statistics(merged, 0.002);
   EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);  // two of three sensors look at 32 degrees
+  EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
+}
+
+TEST(CloudStatistics, OfCellsAreThoseOfTheirPoints) {
+  const MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
+  const CloudStatistics s = cloud_statistics(testing::measured(merged, 0.001), 0.002);
+  EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);
   EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <charconv>
 #include <numbers>
 #include <tests/support/memory_sequence.hpp>
 #include <thread>
@@ -103,12 +104,43 @@ TEST(ReconstructionStream, GivesTheBytesOfABatchHoweverTheFramesCome) {
 
 TEST(ReconstructionStream, GivesTheSameBytesForAnyNumberOfThreads) {
   const MemorySequence sequence = ball(48);
-  set_thread_count(1);
-  const auto one = streamed(sequence, with(SurfaceMethod::kVolumetric), 10);
-  set_thread_count(3);
-  const auto three = streamed(sequence, with(SurfaceMethod::kVolumetric), 10);
-  set_thread_count(0);
-  expect_same(one, three);
+  ReconstructOptions sub_voxels = with(SurfaceMethod::kPoisson);
+  sub_voxels.candidates.method = CandidateMethod::kSubVoxel;
+  for (const auto& options : {with(SurfaceMethod::kVolumetric), sub_voxels}) {
+    set_thread_count(1);
+    const auto one = streamed(sequence, options, 10);
+    for (const int threads : {2, 8}) {
+      set_thread_count(threads);
+      expect_same(one, streamed(sequence, options, 10));
+    }
+    set_thread_count(0);
+  }
+}
+
+TEST(ReconstructionStream, TheSecondFilterSeesAllPoints) {
+  const MemorySequence sequence = ball(40);
+  ReconstructOptions options = with(SurfaceMethod::kPoisson);
+  const auto all = streamed(sequence, options, 10);
+  options.merge.cloud_outliers = true;
+  const auto filtered = streamed(sequence, options, 10);
+  ASSERT_TRUE(all && filtered);
+  EXPECT_LT(filtered->points, all->points);
+  EXPECT_GT(filtered->points, all->points / 2);
+  expect_same(filtered, streamed(sequence, options, 40));
+}
+
+TEST(ReconstructionStream, AGridLiesAlongWhatTheFirstFramesShow) {
+  ReconstructOptions options = with(SurfaceMethod::kPoisson);
+  options.voxels.grid = 40;
+  const auto result = streamed(ball(64), options, 10);
+  ASSERT_TRUE(result);
+  const auto choice = std::find_if(result->choices.begin(), result->choices.end(),
+                                   [](const Choice& c) { return c.option == "voxel-size"; });
+  ASSERT_NE(choice, result->choices.end());
+  double size = 0.0;
+  const char* text = choice->value.c_str();
+  ASSERT_EQ(std::from_chars(text, text + choice->value.size(), size).ec, std::errc());
+  EXPECT_NEAR(size, 2e3 * (kRadius + 0.005) / 40, 0.15) << choice->value << " " << choice->reason;
 }
 
 TEST(ReconstructionStream, WaitsUntilSomethingStandsOnThePlatter) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <turnscan/core/random.hpp>
 #include <turnscan/reconstruction/merge.hpp>
+#include <turnscan/reconstruction/point_sums.hpp>
 
 namespace turnscan::testing {
 
@@ -48,6 +49,35 @@ inline MergedCloud noisy_sphere(std::size_t n, double radius_m, double sigma_m) 
     merged.cloud.frame.push_back(f);
   }
   return merged;
+}
+
+/// The points of a cloud, frame by frame.
+struct Frames {
+  std::vector<PointCloud> clouds;
+  std::vector<Viewpoint> viewpoints;
+
+  explicit Frames(const MergedCloud& merged)
+      : clouds(merged.viewpoints.size()), viewpoints(merged.viewpoints) {
+    for (std::size_t i = 0; i < merged.cloud.size(); ++i) {
+      PointCloud& cloud = clouds[merged.cloud.frame[i]];
+      cloud.points.push_back(merged.cloud.points[i]);
+      if (!merged.cloud.colors.empty()) cloud.colors.push_back(merged.cloud.colors[i]);
+    }
+  }
+  std::vector<PointsSeen> seen() const {
+    std::vector<PointsSeen> out;
+    for (std::size_t f = 0; f < clouds.size(); ++f)
+      out.push_back({clouds[f].points, clouds[f].colors, viewpoints[f]});
+    return out;
+  }
+};
+
+inline Measurements measured(const MergedCloud& merged, double voxel_m,
+                             const CandidateOptions& options = {}) {
+  PointSums sums(voxel_m, options);
+  const Frames frames(merged);
+  if (!sums.add(frames.seen())) return {};
+  return std::move(*sums.collect(1, RunContext()));
 }
 
 }  // namespace turnscan::testing
