@@ -1,3 +1,5 @@
+#include <time.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -22,6 +24,7 @@
 #include "commands.hpp"
 #include "output_file.hpp"
 #include "reconstruction_text.hpp"
+#include "scan_ahead.hpp"
 
 namespace turnscan::cli {
 
@@ -29,6 +32,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+/// Of the whole process.
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
 
 constexpr int kDetectFrames = 20;
 constexpr std::size_t kBatch = 16;  ///< frames that are added together
@@ -114,6 +124,7 @@ class ScanCommand : public Command {
     line.flag("--allow-open", allow_open_, "Write meshes that are not watertight, too");
     setup_.declare(line);
     line.group("limits", "End of the recording", describe(setup_.options.limits));
+    line.group("ahead", "Work while frames come", describe_ahead());
     for (StageOptions& stage : describe_stages(options_))
       line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
   }
@@ -127,9 +138,11 @@ class ScanCommand : public Command {
     TURNSCAN_TRY(find_table(*source, session));
     TURNSCAN_TRY(wait(*source, session));
     TURNSCAN_ASSIGN(const auto feeder, make_feeder());
+    if (motion_will_tell()) ahead_ = std::make_unique<ScanAhead>(recording_, options_, *ahead_at_);
     TURNSCAN_ASSIGN(const CaptureResult captured,
                     record(*source, motor ? &*motor : nullptr, feeder.get(), session));
     const auto end_of_turn = Clock::now();
+    const double processor_before_s = processor_seconds();
     source->stop();
     TURNSCAN_TRY(outcome_of(captured, recording_));
     TURNSCAN_ASSIGN(Reconstruction result, reconstruct_all(feeder.get(), session));
@@ -137,19 +150,29 @@ class ScanCommand : public Command {
     TURNSCAN_TRY(session.context().check());
     TURNSCAN_ASSIGN(const auto files, write_objects(out_, result));
     keep_found(source->info());
-    const double after_s = std::chrono::duration<double>(Clock::now() - end_of_turn).count();
+    after_s_ = std::chrono::duration<double>(Clock::now() - end_of_turn).count();
+    processor_after_s_ = processor_seconds() - processor_before_s;
     if (!report_.empty())
-      TURNSCAN_TRY(
-          write_file_atomically(report_, report_json(captured, result, source->info(), after_s)));
+      TURNSCAN_TRY(write_file_atomically(report_, report_json(captured, result, source->info())));
     session.print("{}{}", capture_text(captured, recording_), reconstruction_text(result));
     for (const std::string& note : notes_) session.print("Note: {}\n", note);
-    session.print("The mesh was there {:.1f} s after the last frame\n", after_s);
+    session.print(
+        "The mesh was there {:.1f} s after the last frame, with {:.1f} s of processor time\n",
+        after_s_, processor_after_s_);
     for (const std::string& file : files) session.print("Wrote {}\n", file);
     if (!report_.empty()) session.print("Wrote {}\n", report_);
     return {};
   }
 
  private:
+  OptionTable describe_ahead() {
+    OptionTable table;
+    table.number("ahead", ahead_at_, Quantity::kNone, {0.5, 0.98},
+                 "Where nothing is known of the turntable: begin to calibrate from motion and to "
+                 "reconstruct when this share of the recording is there. auto: at its end");
+    return table;
+  }
+
   Result<> check_outputs() {
     if (auto good = check_mesh_output(out_); !good) {
       Error error = std::move(good).error();
@@ -242,11 +265,28 @@ class ScanCommand : public Command {
     return std::make_unique<Feeder>(std::move(stream));
   }
 
+  /// Whether place, speed and angles are to come from the motion of what one sensor sees.
+  bool motion_will_tell() const {
+    const auto& table = setup_.header.turntable;
+    const bool speed_known = setup_.options.speed_rad_s || (table && table->speed_rad_s);
+    return ahead_at_ && setup_.header.sensors.size() == 1 && !speed_known;
+  }
+
   Result<CaptureResult> record(FrameSource& source, Motor* motor, Feeder* feeder,
                                Session& session) const {
     CaptureHooks hooks;
     hooks.motor = motor;
     hooks.progress = progress_in(session);
+    if (ahead_) {
+      hooks.progress = [show = hooks.progress, this](const CaptureProgress& progress) {
+        show(progress);
+        ahead_->progress(progress.fraction);
+      };
+      hooks.frame = [this](const Frame&) -> Result<> {
+        ahead_->frame_came();
+        return {};
+      };
+    }
     if (feeder != nullptr) {
       hooks.frame = [feeder](const Frame& frame) -> Result<> {
         feeder->add(frame);
@@ -262,7 +302,25 @@ class ScanCommand : public Command {
 
   Result<Reconstruction> reconstruct_all(Feeder* feeder, Session& session) {
     if (feeder != nullptr) return with_hint(feeder->finish(session.context()));
+    if (ahead_) {
+      TURNSCAN_ASSIGN(ScanAhead::Outcome ahead, with_hint(ahead_->finish(session.context())));
+      if (!ahead.note.empty()) notes_.push_back(ahead.note);
+      ahead_report_ = report_of(ahead);
+      if (ahead.kept) found_ = std::move(ahead.calibration);
+      if (ahead.kept) return std::move(ahead.reconstruction);
+    }
     return with_hint(reconstruct_recording(session));
+  }
+
+  static nlohmann::ordered_json report_of(const ScanAhead::Outcome& ahead) {
+    nlohmann::ordered_json out;
+    out["frames"] = ahead.frames_ahead;
+    out["kept"] = ahead.kept;
+    if (ahead.closure_limit_m > 0.0) {
+      out["closure_mm"] = ahead.closure_m * 1e3;
+      out["closure_limit_mm"] = ahead.closure_limit_m * 1e3;
+    }
+    return out;
   }
 
   Result<Reconstruction> reconstruct_recording(Session& session) {
@@ -296,13 +354,15 @@ class ScanCommand : public Command {
   }
 
   std::string report_json(const CaptureResult& captured, const Reconstruction& result,
-                          const SourceInfo& info, double after_s) const {
+                          const SourceInfo& info) const {
     nlohmann::ordered_json out;
     out["software"] = std::string("turnscan ") + version();
     out["recording"] = recording_;
     out["mesh"] = out_;
     out["notes"] = notes_;
-    out["seconds_after_the_last_frame"] = after_s;
+    out["seconds_after_the_last_frame"] = after_s_;
+    out["processor_seconds_after_the_last_frame"] = processor_after_s_;
+    if (!ahead_report_.is_null()) out["ahead"] = ahead_report_;
     out["capture"] = capture_json(captured, info);
     out["reconstruction"] =
         nlohmann::ordered_json::parse(turnscan::report_json(result, options_), nullptr, false);
@@ -312,7 +372,11 @@ class ScanCommand : public Command {
   CaptureSetup setup_;
   ReconstructOptions options_;
   std::string out_, recording_, report_;
+  double after_s_ = 0.0, processor_after_s_ = 0.0;
   bool no_wait_ = false, allow_open_ = false, table_known_ = false;
+  std::optional<double> ahead_at_ = 0.85;
+  std::unique_ptr<ScanAhead> ahead_;
+  nlohmann::ordered_json ahead_report_;
   std::optional<Calibration> found_;  ///< from the object's motion
   std::vector<std::string> notes_;
 };

@@ -10,9 +10,10 @@ namespace turnscan {
 namespace {
 
 constexpr double kFirstAttempt_s = 4.0;
-constexpr double kLater = 1.5;         ///< each attempt looks at so many times as long
-constexpr std::size_t kMostKept = 64;  ///< frames in memory, spread over the time so far
-constexpr double kGoodSigma = 0.02;    ///< of the speed, relative
+constexpr double kLater = 1.5;                    ///< each attempt looks at so many times as long
+constexpr std::size_t kMostKept = 64;             ///< frames in memory, spread over the time so far
+constexpr double kGoodSigma = 0.02;               ///< of the speed, relative
+constexpr double kWell_rad = 3.1415926535897932;  ///< after which the speed is found once more
 
 }  // namespace
 
@@ -20,7 +21,7 @@ TurnCounter::TurnCounter(const SequenceHeader& header, std::optional<double> spe
                          bool find_speed, bool wait)
     : header_(header),
       speed_(speed_rad_s),
-      find_speed_(find_speed),
+      find_speed_(find_speed && !speed_rad_s),
       wait_(wait),
       attempt_s_(kFirstAttempt_s) {
   if (speed_) found_ = "stated speed";
@@ -43,7 +44,7 @@ void TurnCounter::add(const Frame& frame) {
     found_ = "angles of the frames";
     return;
   }
-  if (!speed_ && find_speed_ && info.status == FrameStatus::kOk && info.sensor == 0)
+  if (find_speed_ && !found_well_ && info.status == FrameStatus::kOk && info.sensor == 0)
     look_for_speed(frame);
   if (speed_ && first_time_ && last_time_) {
     const double since = std::max(*first_time_, start_time_.value_or(*first_time_));
@@ -53,7 +54,7 @@ void TurnCounter::add(const Frame& frame) {
 
 void TurnCounter::look_for_speed(const Frame& frame) {
   take_result();
-  if (speed_ || !first_time_) return;
+  if (found_well_ || !first_time_) return;
   if (seen_++ % every_ == 0) {
     Frame copy = frame;
     copy.color = ColorImage();
@@ -64,8 +65,9 @@ void TurnCounter::look_for_speed(const Frame& frame) {
     kept_.resize((kept_.size() + 1) / 2);
     every_ *= 2;
   }
-  if (search_.valid() || *last_time_ - *first_time_ < attempt_s_ || kept_.size() < 8) return;
+  if (search_.valid() || kept_.size() < 8 || !time_to_look()) return;
   attempt_s_ *= kLater;
+  last_search_ = speed_.has_value();
   search_ = std::async(std::launch::async, [header = header_, kept = kept_] {
     FromMotionOptions options;
     options.use_angles = false;
@@ -76,10 +78,17 @@ void TurnCounter::look_for_speed(const Frame& frame) {
   if (wait_) take_result();
 }
 
+bool TurnCounter::time_to_look() const {
+  if (speed_) return turned_.value_or(0.0) > kWell_rad;
+  return *last_time_ - *first_time_ >= attempt_s_;
+}
+
 void TurnCounter::take_result() {
   if (!search_.valid()) return;
   if (!wait_ && search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   const Result<Calibration> found = search_.get();
+  found_well_ = last_search_;
+  if (found_well_) kept_.clear();
   if (!found) {
     trouble_ = found.error().message;
     return;
@@ -96,7 +105,6 @@ void TurnCounter::take_result() {
   speed_ = speed;
   start_time_ = found->start_s;
   found_ = "motion";
-  kept_.clear();
 }
 
 }  // namespace turnscan

@@ -11,7 +11,8 @@
 namespace turnscan {
 
 /// By the frames' own angles; by a known speed and the frames' times; or by the speed that is found
-/// from the motion of what the first seconds show (turntable/motion.hpp, on a thread of its own).
+/// from the motion of what the first seconds show (turntable/motion.hpp, on a thread of its own),
+/// and once more after half a turn, which shows it ten times as well.
 class TurnCounter {
  public:
   /// wait: frames wait while the speed is looked for, so that the same frames give the same end.
@@ -33,11 +34,13 @@ class TurnCounter {
 
  private:
   void look_for_speed(const Frame& frame);
+  bool time_to_look() const;
   void take_result();
 
   SequenceHeader header_;
   std::optional<double> speed_;
   bool find_speed_, wait_;
+  bool found_well_ = false;  ///< from half a turn
   std::optional<double> first_time_, last_time_, first_angle_, start_time_;
   std::optional<double> turned_;
   std::string found_, trouble_;
@@ -46,6 +49,7 @@ class TurnCounter {
   std::size_t every_ = 1, seen_ = 0;
   double attempt_s_;
   std::future<Result<Calibration>> search_;
+  bool last_search_ = false;  ///< search_ is the one after half a turn
 };
 
 }  // namespace turnscan

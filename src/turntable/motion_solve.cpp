@@ -22,6 +22,7 @@ constexpr double kLead = 0.003;  // standard deviation of MotionState::lead
 constexpr double kFloor = 0.6;   // of squared cosines
 constexpr double kStill = 2e-5;  // radians from frame to frame while the table stands
 constexpr int kShared = 6;       // unknowns of all frames: two tilts, two shifts, two leads
+constexpr double kHeld = 1e-7;   // standard deviation of what is held, radians or metres
 constexpr double kStart = 0.5;   // of the speed in a second, while the table starts or stops
 
 std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
@@ -107,7 +108,12 @@ class Solver {
  public:
   Solver(const MotionData& data, const MotionState& start, const std::vector<FramePair>& pairs,
          const AngleLaw& law, const SolveOptions& options)
-      : data_(data), pairs_(pairs), law_(law), options_(options), n_(data.frames.size()) {
+      : data_(data),
+        pairs_(pairs),
+        law_(law),
+        options_(options),
+        n_(data.frames.size()),
+        start_(start.angle) {
     out_.state = start;
     std::set<std::uint32_t> used;
     for (const FramePair& pair : pairs) used.insert(pair.from);
@@ -238,7 +244,11 @@ class Solver {
   void add_law() {
     const double unit = unit_;
     const auto& angle = out_.state.angle;
-    add_row({{0, 1.0}}, angle[0], unit / (1e-7 * 1e-7));
+    add_row({{0, 1.0}}, angle[0], unit / (kHeld * kHeld));
+    for (int i = 1; i < int(n_) && !law_.held.empty(); ++i) {
+      const auto k = std::size_t(i);
+      if (law_.held[k] != 0) add_row({{i, 1.0}}, angle[k] - start_[k], unit / (kHeld * kHeld));
+    }
     if (law_.nominal_sigma_rad > 0.0) {
       const double zero = *data_.frames[0].nominal_rad;
       for (int i = 1; i < int(n_); ++i) {
@@ -297,6 +307,7 @@ class Solver {
     shared(2, 2) += unit / (shift * shift);
     shared(3, 3) += unit / (shift * shift);
     add_axis_prior(unit, tilt, shift);
+    for (int k = 0; k < 4 && options_.hold_axis; ++k) shared(k, k) += unit / (kHeld * kHeld);
     for (int k = 0; k < 2; ++k) {
       shared(4 + k, 4 + k) += unit / (kLead * kLead);
       right_[first + 4 + k] -= unit / (kLead * kLead) * out_.state.lead[std::size_t(k)];
@@ -368,6 +379,7 @@ class Solver {
   const AngleLaw& law_;
   const SolveOptions& options_;
   std::size_t n_;
+  const std::vector<double>& start_;
   double uses_ = 1.0;    ///< how often the same noise is counted
   double excess_ = 1.0;  ///< of the spread of pairs' mean residuals over that of noise
   double unit_ = 1.0;    ///< what a residual of one standard deviation weighs

@@ -36,6 +36,7 @@ struct AngleLaw {
   std::optional<double> stated_rad_s;  ///< mean speed that somebody stated
   double nominal_sigma_rad = 0.0;      ///< of the frames' own angles; 0: none
   double nominal_sign = 1.0;
+  std::vector<std::uint8_t> held;  ///< per frame: its angle stays as it is; may be empty
 };
 
 struct SolveOptions {
@@ -44,6 +45,7 @@ struct SolveOptions {
   double floor_m = 0.0;      ///< residuals up to this count in full until the end
   std::size_t stride = 1;    ///< use every so manyth sample
   bool hold_angles = false;  ///< leave the angles to the law
+  bool hold_axis = false;    ///< axis and centre stay as they are
   bool covariance = false;
   std::optional<double> scale_m;  ///< of the residuals, where it is known
   std::optional<double> unit_m2;  ///< as in MotionSolution, where it is known

@@ -2,6 +2,7 @@
 
 import fcntl
 import json
+import math
 import os
 import pathlib
 import random
@@ -198,7 +199,14 @@ class Scan(harness.TestCase):
         report = json.loads((self.dir / "r.json").read_text())
         self.assertEqual(report["capture"]["turns_counted_by"], "motion")
         self.assertAlmostEqual(report["capture"]["turns"], 1.01, delta=0.05)
+        # After half a turn the speed was looked for once more.
+        self.assertAlmostEqual(math.degrees(report["capture"]["speed_rad_s"]), 12.0, delta=0.03)
         self.assertTrue(description(self.dir / "doll.recording")["complete"])
+        # It was calibrated and reconstructed from most of the turn, and the rest fitted it.
+        self.assertTrue(report["ahead"]["kept"], report)
+        self.assertAlmostEqual(report["ahead"]["frames"], 0.85 * report["capture"]["frames"],
+                               delta=5)
+        self.assertLess(report["ahead"]["closure_mm"], report["ahead"]["closure_limit_mm"])
         # The next scan knows where the table is, and with its speed works while frames come.
         self.ok("scan", "--device", self.DEVICE, "-o", "next.3mf", "--report", "r.json", "--speed",
                 "12deg/s", *self.FAST)
@@ -208,6 +216,20 @@ class Scan(harness.TestCase):
         self.ok("reconstruct", "next.recording", "-o", "again.3mf", "--calibration", "recorded",
                 "--method", "volumetric", "--voxel-size", "3mm", "--quiet")
         self.assertEqual((self.dir / "next.3mf").read_bytes(),
+                         (self.dir / "again.3mf").read_bytes())
+
+    def test_what_was_worked_out_ahead_is_not_kept_when_the_turn_does_not_close(self):
+        # The table jumps after the frames that the calibration is from.
+        self.ok("scan", "--device", self.DEVICE + "&slip-at=20s&slip=60deg", "--ahead", "0.55",
+                "-o", "doll.3mf", "--report", "r.json", *self.FAST)
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertFalse(report["ahead"]["kept"], report)
+        self.assertIn("was not kept", " ".join(report["notes"]))
+        self.assert_closed()
+        # Then the whole recording was worked on, as it would be now.
+        self.ok("reconstruct", "doll.recording", "-o", "again.3mf", "--voxel-size", "3mm",
+                "--quiet")
+        self.assertEqual((self.dir / "doll.3mf").read_bytes(),
                          (self.dir / "again.3mf").read_bytes())
 
     def test_all_is_known_and_the_object_comes_later(self):
