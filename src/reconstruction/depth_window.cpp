@@ -6,7 +6,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::uint32_t kFar = 65534;  // stands for "empty as far as it matters"
+constexpr std::uint16_t kFar = 65534;  // stands for "empty as far as it matters"
 
 /// Whether a neighbour is so much farther that the pixel may hold a mixture of both.
 bool beside_edge(const RawWindow& raw, int x, int y, int step) {
@@ -20,16 +20,33 @@ bool beside_edge(const RawWindow& raw, int x, int y, int step) {
   });
 }
 
-/// The least depth of the pixel and those around it: a pixel beside an edge may look past it.
-std::uint32_t clear_depth(const RawWindow& raw, int x, int y) {
-  if (raw.at(x, y) == kNoReturn) return 0;
-  std::uint32_t least = kFar;
-  for (int v = std::max(0, y - 1); v <= std::min(raw.height - 1, y + 1); ++v) {
-    for (int u = std::max(0, x - 1); u <= std::min(raw.width - 1, x + 1); ++u) {
-      if (measured(raw.at(u, v))) least = std::min<std::uint32_t>(least, raw.at(u, v));
+/// A pixel this near to another may look past what that one sees: its own share of the edge, and a
+/// pixel that the sensor's filter spreads it by.
+constexpr int kMayLookPast = 2;
+
+/// Per pixel the least depth of those around it.
+Image<std::uint16_t> clear_depths(const RawWindow& raw) {
+  const int w = raw.width, h = raw.height;
+  Image<std::uint16_t> rows(w, h), out(w, h);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      std::uint16_t least = kFar;
+      const int end = std::min(w - 1, x + kMayLookPast);
+      for (int u = std::max(0, x - kMayLookPast); u <= end; ++u)
+        least = std::min(least, measured(raw.at(u, y)) ? raw.at(u, y) : kFar);
+      rows.at(x, y) = least;
     }
   }
-  return least;
+  for (int y = 0; y < h; ++y) {
+    const int end = std::min(h - 1, y + kMayLookPast);
+    for (int x = 0; x < w; ++x) {
+      std::uint16_t least = kFar;
+      for (int v = std::max(0, y - kMayLookPast); v <= end; ++v)
+        least = std::min(least, rows.at(x, v));
+      out.at(x, y) = raw.at(x, y) == kNoReturn ? std::uint16_t(0) : least;
+    }
+  }
+  return out;
 }
 
 void make_tiles(DepthView& view) {
@@ -58,14 +75,14 @@ void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
   const int step = int(std::lround(edge_step_m / double(view.unit_m)));
   view.width = raw.width + 2;
   view.height = raw.height + 2;
+  const Image<std::uint16_t> clear = clear_depths(raw);
   view.pixels.assign(std::size_t(view.width) * std::size_t(view.height), 0);
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const std::uint16_t own = raw.at(x, y);
       const std::uint32_t depth = measured(own) ? own : 0u;
       view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
-          DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step),
-                          clear_depth(raw, x, y));
+          DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step), clear.at(x, y));
     }
   }
   make_tiles(view);

@@ -44,12 +44,16 @@ void add_view(const ViewKernel& view, const float origin[3], float cell, const F
 inline constexpr std::size_t kVertexRow = 64;
 struct VertexColumns {
   const float *x, *y, *z, *nx, *ny, *nz;
+  const float* spread;  ///< squared: measurements scatter so much more here than the noise says
 };
-/// Sums over views: of weights, of weight times distance along the vertex's normal.
+/// Sums over views: of weights, of weight times distance along the vertex's normal, of the weights
+/// of measurements within kNear deviations of the noise.
 struct VertexSums {
   float* weight;
   float* offset;
+  float* near;
 };
+inline constexpr float kNear = 1.5f;
 struct FitScale {
   float inverse_reach2;  ///< of the kernel across the normal
   float noise;           ///< of a depth along its ray

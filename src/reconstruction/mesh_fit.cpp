@@ -17,6 +17,21 @@ constexpr double kTukey = 4.685;  // standard deviations; 95 % efficient for nor
 constexpr int kUnfolds = 5;
 constexpr float kLeastTurn = 0.3f;  // cosine between a triangle's normals before and after a step
 constexpr float kFacing = 0.2f;     // rays that graze the surface say little about it
+/// Dark or slanted places are noisier than others, up to so many times as far as it matters.
+constexpr float kWidest = 4.0f;
+/// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
+constexpr float kUsualSpread = 1.2f;
+
+/// How many times the noise measurements scatter, when a share of them lies within kNear of its
+/// deviations: of normal errors it is erf(kNear / (sqrt(2) times)).
+float times_the_noise(float share) {
+  float low = 1.0f, high = kWidest * kUsualSpread;
+  for (int round = 0; round < 12; ++round) {
+    const float middle = 0.5f * (low + high);
+    (std::erf(detail::kNear / (1.4142136f * middle)) > share ? low : high) = middle;
+  }
+  return low;
+}
 
 /// Who is joined to whom, by an edge.
 struct Neighbours {
@@ -96,24 +111,18 @@ class Fitter {
 
   Result<MeshFit> run(const RunContext& context) {
     const std::size_t n = fit_.mesh.vertices.size();
-    const std::size_t blocks = (n + kBlock - 1) / kBlock;
-    context.begin_phase("fit", blocks * std::size_t(std::max(1, scale_.iterations)));
-    for (int iteration = 0; iteration < std::max(1, scale_.iterations); ++iteration) {
+    const int rounds = std::max(1, scale_.iterations), looks = scale_.iterations > 0 ? 1 : 0;
+    context.begin_phase("fit", (n + kBlock - 1) / kBlock * std::size_t(rounds + looks));
+    spread_.assign(n, 1.0f);
+    if (looks > 0) {
+      std::fill(spread_.begin(), spread_.end(), kWidest * kWidest);
+      take_columns(0);
+      TURNSCAN_TRY(measure_all(views_apart(rounds - 1), context));
+      take_spread();
+    }
+    for (int iteration = 0; iteration < rounds; ++iteration) {
       take_columns(iteration);
-      const std::size_t step = views_apart(scale_.iterations - 1 - iteration);
-      std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f);
-      parallel_for(blocks, 1, [&](std::size_t b) {
-        if (context.cancelled()) return;
-        measure(b * kBlock, std::min(n, (b + 1) * kBlock), step, {weight.data(), offset.data()});
-        context.advance();
-      });
-      TURNSCAN_TRY(context.check());
-      fit_.support.resize(n);
-      offset_.resize(n);
-      for (std::size_t i = 0; i < n; ++i) {
-        fit_.support[order_[i]] = weight[i];
-        offset_[order_[i]] = offset[i];
-      }
+      TURNSCAN_TRY(measure_all(views_apart(rounds - 1 - iteration), context));
       forget_the_platter();
       if (scale_.iterations > 0) move();
       if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0) fair();
@@ -146,14 +155,47 @@ class Fitter {
       normals_.swap(next);
     }
     const std::size_t padded = pad(n);
-    for (auto& column : columns_) column.assign(padded, 0.0f);
+    for (auto& column : columns_) column.assign(padded, 1.0f);
     parallel_for(n, 4096, [&](std::size_t i) {
       const std::uint32_t v = order_[i];
       for (int a = 0; a < 3; ++a) {
         columns_[std::size_t(a)][i] = fit_.mesh.vertices[v][a];
         columns_[std::size_t(a + 3)][i] = normals_[v][a];
       }
+      columns_[6][i] = spread_[v];
     });
+  }
+
+  /// How much more measurements scatter than the noise says, from those of the neighbours, too.
+  void take_spread() {
+    parallel_for(spread_.size(), 1024, [&](std::size_t v) {
+      const float count = neighbours_.count(v);
+      const float all = fit_.support[v] + count * neighbours_.mean(fit_.support, v, 0.0f);
+      const float near = near_[v] + count * neighbours_.mean(near_, v, 0.0f);
+      const float times = times_the_noise(all > 1e-3f ? near / all : 1.0f) / kUsualSpread;
+      const float spread = std::clamp(times, 1.0f, kWidest);
+      spread_[v] = spread * spread;
+    });
+  }
+
+  /// With every step-th view.
+  Result<> measure_all(std::size_t step, const RunContext& context) {
+    const std::size_t n = fit_.mesh.vertices.size();
+    std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
+    parallel_for((n + kBlock - 1) / kBlock, 1, [&](std::size_t b) {
+      if (context.cancelled()) return;
+      measure(b * kBlock, std::min(n, (b + 1) * kBlock), step,
+              {weight.data(), offset.data(), near.data()});
+      context.advance();
+    });
+    TURNSCAN_TRY(context.check());
+    for (auto* sums : {&fit_.support, &offset_, &near_}) sums->resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      fit_.support[order_[i]] = weight[i];
+      offset_[order_[i]] = offset[i];
+      near_[order_[i]] = near[i];
+    }
+    return {};
   }
 
   /// Of the vertices that stand at [begin, end).
@@ -177,7 +219,8 @@ class Fitter {
   void measure(std::size_t begin, std::size_t end, std::size_t step, detail::VertexSums sums) {
     const Patch around = patch(begin, end);
     const detail::VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
-                                        columns_[3].data(), columns_[4].data(), columns_[5].data()};
+                                        columns_[3].data(), columns_[4].data(), columns_[5].data(),
+                                        columns_[6].data()};
     const detail::FitScale scale{float(1.0 / (scale_.reach_m * scale_.reach_m)),
                                  float(scale_.noise_m),
                                  float(scale_.floor_m),
@@ -371,8 +414,9 @@ class Fitter {
   MeshFit fit_;
   std::vector<std::uint32_t> order_;  // place in the columns: vertex
   std::vector<Vec3f> normals_;
-  std::vector<float> offset_;
-  std::array<std::vector<float>, 6> columns_;
+  std::vector<float> offset_, near_;  // as VertexSums, by vertex
+  std::vector<float> spread_;         // squared, as VertexColumns::spread
+  std::array<std::vector<float>, 7> columns_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/closest_point.hpp>
+#include <turnscan/reconstruction/depth_window.hpp>
 #include <turnscan/reconstruction/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_fit.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
@@ -274,6 +275,20 @@ TEST(MeshFit, BringsVerticesBackToWhatWasMeasured) {
   ASSERT_TRUE(fitted) << fitted.error().text();
   EXPECT_GT(median_error_to_ball(mesh), 0.0005);
   EXPECT_LT(median_error_to_ball(fitted->mesh), 0.0002);
+}
+
+TEST(MeshFit, FollowsAPlaceThatIsNoisierThanTheRest) {
+  // A dark ball: its measurements scatter four times as far as the noise says.
+  const std::vector<DepthView> views = views_of(scan(ball, {40, 0.004}));
+  TriangleMesh mesh = ball_mesh();
+  for (Vec3f& v : mesh.vertices) v += 0.005f * (v - kCenter.cast<float>()).normalized();
+  MeshFitScale scale;
+  scale.noise_m = 0.001;
+  scale.reach_m = 0.003;
+  scale.limit_m = 0.004;
+  const auto fitted = fit_mesh(mesh, views, scale, RunContext());
+  ASSERT_TRUE(fitted) << fitted.error().text();
+  EXPECT_LT(median_error_to_ball(fitted->mesh), 0.0008);
 }
 
 TEST(Volumetric, FlyingPixelsLeaveNothingBehind) {
@@ -705,6 +720,22 @@ TEST(DepthView, PacksDepthEdgeAndWhatIsClear) {
   EXPECT_EQ(word & 0xffffu, 9001u);
   EXPECT_NE(word & DepthView::kEdge, 0u);
   EXPECT_EQ(word >> 17 << 1, 8000u);
+}
+
+TEST(DepthView, SeesPastNothingThatANeighbourTwoPixelsAwaySaw) {
+  RawWindow raw(9, 9);
+  for (auto& depth : raw.pixels) depth = kOutsideCrop;
+  raw.at(4, 4) = 9000;
+  raw.at(0, 0) = kNoReturn;
+  DepthView view;
+  pack_window(raw, 0.01, view);
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const std::uint32_t clear = view.pixels[std::size_t(11 * (y + 1) + x + 1)] >> 17 << 1;
+      const bool near = std::abs(x - 4) <= 2 && std::abs(y - 4) <= 2;
+      EXPECT_EQ(clear, x + y == 0 ? 0u : near ? 9000u : 65534u) << x << " " << y;
+    }
+  }
 }
 
 }  // namespace
