@@ -1,10 +1,12 @@
 // Calibration from motion against the truth of simulated recordings.
 // Usage: calibration_motion [OBJECT] [FRAMES] [TURNS] [RIPPLE] [START_S] [SEED] [PLATTER]
-//   [STATED]: speed that is stated, as a share of the true one
+//   [STATED] [ANGLES.csv]: speed that is stated, as a share of the true one (0: none); each frame's
+//   time, true angle, error and stated deviation
 
 #include <fmt/format.h>
 
 #include <chrono>
+#include <fstream>
 #include <numbers>
 #include <turnscan/simulator/builtin_objects.hpp>
 #include <turnscan/turntable/motion.hpp>
@@ -19,6 +21,17 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double argument(int argc, char** argv, int index, double fallback) {
   return argc > index ? std::stod(argv[index]) : fallback;
+}
+
+void write_angles(const char* path, const testing::Rig& rig, const Calibration& found) {
+  std::ofstream out(path);
+  out << "time_s,angle_deg,error_deg,sigma_deg\n";
+  for (std::size_t i = 0; i < found.angles_rad.size(); ++i) {
+    const double truth = rig.true_angle(i);
+    out << fmt::format("{:.4f},{:.4f},{:.5f},{:.5f}\n", rig.frames()[i].time_s, truth * kDegrees,
+                       (found.angles_rad[i] - truth) * kDegrees,
+                       found.angle_sigma_rad[i] * kDegrees);
+  }
 }
 
 /// Speed grows evenly over start_s; then a ripple, once and five times a turn.
@@ -54,7 +67,8 @@ int main(int argc, char** argv) {
   memory.header_value = rig.header();
   for (std::size_t i = 0; i < rig.frames().size(); ++i) memory.add(*rig.read(i));
   FromMotionOptions options;
-  if (argc > 8) options.speed_rad_s = speed * argument(argc, argv, 8, 1.0);
+  if (argument(argc, argv, 8, 0.0) > 0.0)
+    options.speed_rad_s = speed * argument(argc, argv, 8, 1.0);
   const auto start = std::chrono::steady_clock::now();
   const auto found = calibrate_from_motion(memory, options, {}, {});
   const double seconds =
@@ -83,6 +97,12 @@ int main(int argc, char** argv) {
              100.0 * (*found->table.speed_rad_s / speed - 1.0),
              100.0 * found->speed_sigma_rad_s / std::abs(speed), angles, worst,
              found->start_s.value_or(-1.0));
+  if (argc > 9) write_angles(argv[9], rig, *found);
+  double squares = 0.0;
+  for (std::size_t i = 1; i < found->angles_rad.size(); ++i)
+    squares += std::pow((found->angles_rad[i] - rig.true_angle(i)) / found->angle_sigma_rad[i], 2);
+  fmt::print("angles' errors are {:.2f} times what is stated (root mean square)\n",
+             std::sqrt(squares / double(found->angles_rad.size() - 1)));
   fmt::print("residuals {:.3f} mm; {}\nundetermined: {}\n", found->residual_rms_m * 1e3,
              found->axis_found, fmt::join(found->undetermined, ", "));
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <numbers>
 #include <turnscan/turntable/motion.hpp>
+#include <turnscan/turntable/motion_model.hpp>
 #include <turnscan/turntable/motion_one.hpp>
 #include <turnscan/turntable/motion_start.hpp>
 #include <turnscan/turntable/table_frame.hpp>
@@ -16,6 +17,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStandsWithin = 0.2 * kDegree;
 constexpr double kTellsLaws = 8.0;     ///< difference of MotionSolution::misfit
 constexpr double kTellsTheTurn = 2.0;  ///< turn_information below which the angles are not seen
+
+constexpr std::size_t kModelFrames = 24;
 
 enum class AngleSource { kTimes, kAngles, kNothing };
 
@@ -208,7 +211,18 @@ class Calibrator {
     // At last with all frames; the pairs follow the angles.
     options.iterations = 3;
     options.covariance = true;
-    return solve(options, true);
+    TURNSCAN_TRY(solve(options, true));
+    return refine_with_model();
+  }
+
+  /// Few views, far apart, have too little in common for a model.
+  Result<> refine_with_model() {
+    if (!data_.projective || data_.keys.size() < kModelFrames) return {};
+    ModelOptions model;
+    model.hold_angles = !tells_turn_;
+    TURNSCAN_ASSIGN(solution_, solve_model(data_, solution_, law_, model, context_));
+    state_ = solution_.state;
+    return {};
   }
 
   /// Few frames have no samples to spare.
@@ -387,13 +401,19 @@ class Calibrator {
       while (next < data_.frames.size() && data_.frames[next].position < i) ++next;
       if (next < data_.frames.size() && data_.frames[next].position == i) {
         out.angles_rad[i] = state_.angle[next];
-        out.angle_sigma_rad[i] = solution_.angle_sigma[next];
+        out.angle_sigma_rad[i] = next == 0 ? 0.0 : angle_sigma(next);
         continue;
       }
       out.angles_rad[i] = between(next, infos[i].time_s);
     }
     out.angles_found = tells_turn_ ? "motion of each frame" : "the law of the motor alone";
     if (!tells_turn_) out.undetermined.emplace_back("angles");
+  }
+
+  /// As for the axis: what silhouettes shift, a few hundredths of a pixel.
+  double angle_sigma(std::size_t i) const {
+    return std::hypot(solution_.angle_sigma[i],
+                      tells_turn_ ? 0.03 * data_.spacing_m / data_.extent_m : 0.0);
   }
 
   double between(std::size_t next, double time_s) const {

@@ -294,6 +294,7 @@ class Loader {
       }
     }
     drop_mixed(view, inside);
+    frame.raw = trimmed(view, inside);
     smooth(view, inside);
     sample_depth(view, inside, seed, samples_of(key), frame, cloud);
     if (!key) return;

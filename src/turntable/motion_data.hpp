@@ -35,7 +35,8 @@ struct MotionFrame {
   std::optional<double> nominal_rad;
   std::uint32_t pass = 0;
   std::vector<MotionSample> samples;
-  MotionView view;  ///< empty unless a key frame
+  MotionView view;  ///< smoothed; empty unless a key frame
+  MotionView raw;   ///< of depth images: as it was seen, without pixels mixed of two surfaces
 };
 
 struct MotionData {

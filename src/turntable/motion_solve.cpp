@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/turntable/motion_solve.hpp>
+#include <turnscan/turntable/motion_law.hpp>
 
 namespace turnscan::detail {
 
@@ -20,17 +21,8 @@ constexpr double kHuber = 1.5;
 constexpr double kOwn = 0.005;   // of a single pair's, as a share of the turn between its views
 constexpr double kLead = 0.003;  // standard deviation of MotionState::lead
 constexpr double kFloor = 0.6;   // of squared cosines
-constexpr double kStill = 2e-5;  // radians from frame to frame while the table stands
 constexpr int kShared = 6;       // unknowns of all frames: two tilts, two shifts, two leads
 constexpr double kHeld = 1e-7;   // standard deviation of what is held, radians or metres
-constexpr double kStart = 0.5;   // of the speed in a second, while the table starts or stops
-
-std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
-  int least = 0;
-  n.cwiseAbs().minCoeff(&least);
-  const Vec3d u = n.cross(Vec3d::Unit(least)).normalized();
-  return {u, n.cross(u)};
-}
 
 /// Normal equations of one pair. Unknowns: two tilts of the axis, two shifts of the centre, angle
 /// of `to` less angle of `from`.
@@ -115,6 +107,8 @@ class Solver {
         n_(data.frames.size()),
         start_(start.angle) {
     out_.state = start;
+    all_.resize(n_);
+    std::iota(all_.begin(), all_.end(), std::size_t{0});
     std::set<std::uint32_t> used;
     for (const FramePair& pair : pairs) used.insert(pair.from);
     // The noise of a frame is the same in all its pairs: more of them say no more about it.
@@ -230,83 +224,31 @@ class Solver {
     right_[from] -= sum.right[4];
   }
 
-  /// One equation: sum of coefficient * step = -error, in units of its standard deviation.
-  void add_row(std::initializer_list<std::pair<int, double>> terms, double error, double weight) {
-    for (const auto& [i, a] : terms) {
-      right_[i] -= weight * a * error;
-      for (const auto& [k, b] : terms) {
-        if (i >= k) triplets_.emplace_back(i, k, weight * a * b);
-      }
-    }
-  }
-
-  /// weight: how many residuals' worth; equations of the law are in units of the residuals' scale.
   void add_law() {
-    const double unit = unit_;
-    const auto& angle = out_.state.angle;
-    add_row({{0, 1.0}}, angle[0], unit / (kHeld * kHeld));
-    for (int i = 1; i < int(n_) && !law_.held.empty(); ++i) {
-      const auto k = std::size_t(i);
-      if (law_.held[k] != 0) add_row({{i, 1.0}}, angle[k] - start_[k], unit / (kHeld * kHeld));
-    }
-    if (law_.nominal_sigma_rad > 0.0) {
-      const double zero = *data_.frames[0].nominal_rad;
-      for (int i = 1; i < int(n_); ++i) {
-        const double nominal =
-            law_.nominal_sign * (*data_.frames[std::size_t(i)].nominal_rad - zero);
-        add_row({{i, 1.0}}, angle[std::size_t(i)] - nominal,
-                unit / (law_.nominal_sigma_rad * law_.nominal_sigma_rad));
+    const AddLawRow add = [&](std::span<const LawTerm> terms, double error, double worth) {
+      const double weight = unit_ * worth;
+      for (const auto& [i, a] : terms) {
+        right_[i] -= weight * a * error;
+        for (const auto& [k, b] : terms) {
+          if (i >= k) triplets_.emplace_back(i, k, weight * a * b);
+        }
       }
-    }
-    if (law_.timed) add_speed_law(unit);
-    // Keeps a frame that shows nothing from being without any equation.
-    for (int i = 0; i < int(n_); ++i) triplets_.emplace_back(i, i, unit * 1e-2);
-  }
-
-  void add_speed_law(double unit) {
+    };
     const auto& angle = out_.state.angle;
-    const auto time = [&](int i) { return data_.frames[std::size_t(i)].time_s; };
-    for (int i = 0; i + 1 < int(n_) && !law_.still.empty(); ++i) {
-      if (law_.still[std::size_t(i)] == 0 || law_.still[std::size_t(i) + 1] == 0) continue;
-      add_row({{i + 1, 1.0}, {i, -1.0}}, angle[std::size_t(i) + 1] - angle[std::size_t(i)],
-              unit / (kStill * kStill));
+    law_cost_ = detail::add_law(data_, all_, angle, law_, add);
+    for (std::size_t i = 1; i < law_.held.size(); ++i) {
+      if (law_.held[i] != 0)
+        add(std::array{LawTerm{int(i), 1.0}}, angle[i] - start_[i], 1.0 / (kHeld * kHeld));
     }
-    const double wander = law_.wander * std::abs(law_.speed_rad_s);
-    for (int i = 1; i + 1 < int(n_); ++i) {
-      const double h = time(i) - time(i - 1), g = time(i + 1) - time(i);
-      if (!(h > 0.0 && g > 0.0)) continue;
-      const double error = (angle[std::size_t(i) + 1] - angle[std::size_t(i)]) / g -
-                           (angle[std::size_t(i)] - angle[std::size_t(i) - 1]) / h;
-      const bool loose = !law_.loose.empty() && law_.loose[std::size_t(i)] != 0;
-      const double sigma =
-          (loose ? kStart * std::abs(law_.speed_rad_s) : wander) * std::sqrt(0.5 * (g + h));
-      // A start or a stop is a large change at one moment.
-      const double robust = 1.0 / (1.0 + std::pow(error / (4.0 * sigma), 2));
-      law_cost_ += 16.0 * std::log1p(std::pow(error / (4.0 * sigma), 2)) + 2.0 * std::log(sigma);
-      add_row({{i + 1, 1.0 / g}, {i, -1.0 / g - 1.0 / h}, {i - 1, 1.0 / h}}, error,
-              robust * unit / (sigma * sigma));
-    }
-    if (!law_.stated_rad_s) return;
-    const int last = int(n_) - 1;
-    const double span = time(last) - time(0);
-    const double sigma = std::max(1e-3 * std::abs(*law_.stated_rad_s) * span, 1e-4);
-    add_row({{last, 1.0}}, angle.back() - *law_.stated_rad_s * span, unit / (sigma * sigma));
   }
 
   Result<> solve() {
-    law_cost_ = 0.0;
     add_law();
     const int first = int(n_);
-    // Where the platter was seen it says roughly where the axis is; a platter may wobble.
-    const double unit = unit_;
     Shared shared = shared_;
-    double tilt = 0.35, shift = 0.2;
-    if (data_.platter) tilt = 0.002, shift = 0.003;
-    shared(0, 0) += unit / (tilt * tilt);
-    shared(1, 1) += unit / (tilt * tilt);
-    shared(2, 2) += unit / (shift * shift);
-    shared(3, 3) += unit / (shift * shift);
-    add_axis_prior(unit, tilt, shift);
+    const double unit = unit_;
+    add_axis_prior(data_, out_.state.axis, out_.state.center, unit, shared.topLeftCorner<4, 4>(),
+                   right_.segment<4>(first));
     for (int k = 0; k < 4 && options_.hold_axis; ++k) shared(k, k) += unit / (kHeld * kHeld);
     for (int k = 0; k < 2; ++k) {
       shared(4 + k, 4 + k) += unit / (kLead * kLead);
@@ -326,29 +268,11 @@ class Solver {
     return {};
   }
 
-  /// Pulls towards the platter, where one was seen.
-  void add_axis_prior(double unit, double tilt, double shift) {
-    if (!data_.platter) return;
-    const auto [u, v] = across(out_.state.axis);
-    const Vec3d lean = out_.state.axis.cross(data_.platter->axis);  // the turn that would get there
-    const auto first = Eigen::Index(n_);
-    right_[first] += unit / (tilt * tilt) * lean.dot(u);
-    right_[first + 1] += unit / (tilt * tilt) * lean.dot(v);
-    const Vec3d off = data_.platter->center_m - out_.state.center;
-    right_[first + 2] += unit / (shift * shift) * off.dot(u);
-    right_[first + 3] += unit / (shift * shift) * off.dot(v);
-  }
-
   /// Returns how far the farthest point moved, about.
   double apply() {
-    const auto [u, v] = across(out_.state.axis);
     const auto first = Eigen::Index(n_);
-    const Vec3d turn = step_[first] * u + step_[first + 1] * v;
-    const Vec3d shift = step_[first + 2] * u + step_[first + 3] * v;
-    const double size = std::min(turn.norm(), 0.2);
-    if (size > 0.0)
-      out_.state.axis = (Eigen::AngleAxisd(size, turn.normalized()) * out_.state.axis).normalized();
-    out_.state.center += shift * std::min(1.0, 0.05 / std::max(shift.norm(), 1e-12));
+    const auto [size, shift] =
+        move_axis(step_.segment<4>(first), out_.state.axis, out_.state.center);
     for (const int k : {0, 1}) out_.state.lead[std::size_t(k)] += step_[first + 4 + k];
     double most = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -356,7 +280,7 @@ class Solver {
       out_.state.angle[i] += step;
       most = std::max(most, std::abs(step));
     }
-    return std::max({0.1 * most, 0.1 * size, shift.norm()});
+    return std::max({0.1 * most, 0.1 * size, shift});
   }
 
   void find_covariance() {
@@ -380,9 +304,10 @@ class Solver {
   const SolveOptions& options_;
   std::size_t n_;
   const std::vector<double>& start_;
-  double uses_ = 1.0;    ///< how often the same noise is counted
-  double excess_ = 1.0;  ///< of the spread of pairs' mean residuals over that of noise
-  double unit_ = 1.0;    ///< what a residual of one standard deviation weighs
+  std::vector<std::size_t> all_;  ///< frames
+  double uses_ = 1.0;             ///< how often the same noise is counted
+  double excess_ = 1.0;           ///< of the spread of pairs' mean residuals over that of noise
+  double unit_ = 1.0;             ///< what a residual of one standard deviation weighs
   double cost_ = 0.0, law_cost_ = 0.0;
   MotionSolution out_;
   std::vector<Eigen::Triplet<double>> triplets_;
