@@ -37,10 +37,6 @@ void CaptureSetup::declare_table(CommandLine& line) {
 }
 
 Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
-  if (devices.size() > 1 && !turntable_file.empty())
-    return fail(ErrorCode::kInvalidOption,
-                "turntable: {} tells where one sensor stands, but {} are given; leave it out",
-                turntable_file, devices.size());
   session.context().begin_phase("open device", 0);
   TURNSCAN_ASSIGN(auto source, open_sources(devices, session.context()));
   header = source->info().header;
@@ -51,11 +47,19 @@ Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
         source->info().identities[i];
   if (!turntable_file.empty()) {
     TURNSCAN_ASSIGN(const Calibration calibration, read_calibration(turntable_file));
+    if (calibration.others.size() + 1 != header.sensors.size())
+      return fail(ErrorCode::kInvalidOption,
+                  "turntable: {} tells where {} sensor{} stand{}, but there {}; calibrate from a "
+                  "recording of all of them (turnscan calibrate RECORDING --from-motion --save)",
+                  turntable_file, calibration.others.size() + 1,
+                  calibration.others.empty() ? "" : "s", calibration.others.empty() ? "s" : "",
+                  header.sensors.size() == 1 ? std::string("is one")
+                                             : fmt::format("are {}", header.sensors.size()));
     header.turntable = calibration.table;
     if (auto fits = correct_sensor(calibration, header.sensors[0]); !fits)
       return fail_at(turntable_file, fits.error().code, "{}", fits.error().message);
     header.sensors[0].T_table_sensor.reset();
-    for (std::size_t i = 0; i < calibration.others.size() && i + 1 < header.sensors.size(); ++i)
+    for (std::size_t i = 0; i < calibration.others.size(); ++i)
       header.sensors[i + 1].T_table_sensor = calibration.others[i].T_table_sensor;
   }
   if (!motor_port.empty() && !options.speed_rad_s) options.speed_rad_s = motor_speed_rad_s;

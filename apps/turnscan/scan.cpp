@@ -195,14 +195,14 @@ class ScanCommand : public Command {
       return {};
     }
     session.context().begin_phase("look for the turntable", 0);
-    auto scan = mean_of_next(source, kDetectFrames, session.context());
+    auto scan = mean_of_next(source, 0, kDetectFrames, session.context());
     const auto none = [](const Error& error) {
       return error.code == ErrorCode::kMissingData || error.code == ErrorCode::kTooFewPoints ||
              error.code == ErrorCode::kUnsupported;
     };
     if (!scan && !none(scan.error())) return tl::unexpected<Error>(std::move(scan).error());
     if (!scan) return {};  // nothing to be seen yet
-    if (table_known_) return check_given(*scan, session);
+    if (table_known_) return check_given(source, *scan, session);
     TURNSCAN_ASSIGN(const bool kept, take_kept(source, *scan, session));
     if (kept) return {};
     const auto platter = detect_platter(*scan, DetectOptions(), session.context());
@@ -224,13 +224,36 @@ class ScanCommand : public Command {
     setup_.header.turntable->speed_rad_s = setup_.options.speed_rad_s;
   }
 
-  Result<> check_given(const AveragedScan& scan, Session& session) {
-    TURNSCAN_ASSIGN(const Calibration calibration, read_calibration(setup_.turntable_file));
-    TURNSCAN_ASSIGN(const RigCheck check, check_rig(scan, calibration, session.context()));
-    if (check.moved)
-      return fail_at(setup_.turntable_file, ErrorCode::kMissingData,
-                     "{}; calibrate anew, or leave out --turntable", check.text);
+  Result<> check_given(FrameSource& source, const AveragedScan& first, Session& session) {
+    TURNSCAN_ASSIGN(Calibration calibration, read_calibration(setup_.turntable_file));
+    TURNSCAN_TRY(check_one(first, calibration, "", session));
+    const TurntableInfo table = calibration.table;
+    const std::vector<SensorPlace> others = std::move(calibration.others);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      TURNSCAN_ASSIGN(const AveragedScan scan,
+                      mean_of_next(source, std::uint32_t(k + 1), kDetectFrames, session.context()));
+      calibration = Calibration();
+      calibration.table = table_before(others[k].T_table_sensor);
+      calibration.table.radius_m = table.radius_m;
+      TURNSCAN_TRY(check_one(scan, calibration, fmt::format("sensor {}: ", k + 1), session));
+    }
     return {};
+  }
+
+  Result<> check_one(const AveragedScan& scan, const Calibration& calibration,
+                     const std::string& who, Session& session) const {
+    TURNSCAN_ASSIGN(const RigCheck check, check_rig(scan, calibration, session.context()));
+    if (!check.moved) return {};
+    return fail_at(setup_.turntable_file, ErrorCode::kMissingData,
+                   "{}{}; calibrate anew, or leave out --turntable", who, check.text);
+  }
+
+  /// As a sensor sees the table that stands so before it.
+  static TurntableInfo table_before(const Pose& T_table_sensor) {
+    TurntableInfo table;
+    table.axis = T_table_sensor.linear().transpose() * Vec3d::UnitY();
+    table.center_m = T_table_sensor.inverse() * Vec3d::Zero();
+    return table;
   }
 
   Result<bool> take_kept(const FrameSource& source, const AveragedScan& scan, Session& session) {
@@ -339,6 +362,7 @@ class ScanCommand : public Command {
   /// For the next scan with this device. That it cannot be kept is no reason to fail.
   void keep_found(const SourceInfo& info) {
     if (!found_ || info.identities.empty()) return;
+    found_->others.clear();  // they were there this time
     if (auto kept = keep_calibration(info.identities.front(), *found_); !kept)
       notes_.push_back("the calibration could not be kept: " + kept.error().text());
   }

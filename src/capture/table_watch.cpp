@@ -13,8 +13,8 @@ constexpr std::size_t kLeastPixels = 100;
 constexpr int kLeastFrames = 5;
 constexpr double kWait_s = 10.0;
 
-/// The next frame of sensor 0 that is not lost.
-Result<Frame> next_frame(FrameSource& source, const RunContext& context) {
+/// The next frame of the sensor that is not lost.
+Result<Frame> next_frame(FrameSource& source, std::uint32_t sensor, const RunContext& context) {
   for (;;) {
     TURNSCAN_ASSIGN(Delivery delivery, source.next(kWait_s, context));
     if (delivery.kind == Delivery::Kind::kNothing)
@@ -24,22 +24,23 @@ Result<Frame> next_frame(FrameSource& source, const RunContext& context) {
     if (delivery.kind == Delivery::Kind::kEnd)
       return fail(ErrorCode::kMissingData, "the source ended before the recording began");
     const FrameInfo& info = delivery.frame.info;
-    if (info.sensor == 0 && info.status == FrameStatus::kOk) return std::move(delivery.frame);
+    if (info.sensor == sensor && info.status == FrameStatus::kOk) return std::move(delivery.frame);
   }
 }
 
 }  // namespace
 
-Result<AveragedScan> mean_of_next(FrameSource& source, int frames, const RunContext& context) {
+Result<AveragedScan> mean_of_next(FrameSource& source, std::uint32_t sensor, int frames,
+                                  const RunContext& context) {
   std::vector<std::shared_ptr<const Frame>> kept;
   for (int i = 0; i < frames; ++i) {
-    TURNSCAN_ASSIGN(Frame frame, next_frame(source, context));
+    TURNSCAN_ASSIGN(Frame frame, next_frame(source, sensor, context));
     kept.push_back(std::make_shared<const Frame>(std::move(frame)));
   }
   const MemoryFrames sequence(source.info().header, std::move(kept));
   AverageOptions average;
   average.frames = frames;
-  return average_frames(sequence, spread_positions(sequence, 0, std::size_t(frames)), average,
+  return average_frames(sequence, spread_positions(sequence, sensor, std::size_t(frames)), average,
                         context);
 }
 
@@ -53,7 +54,7 @@ Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
   TURNSCAN_ASSIGN(const DepthCrop crop, DepthCrop::create(cylinder, pose, header.sensors[0]));
   bool waiting = false;
   for (int seen = 0; seen < kLeastFrames;) {
-    TURNSCAN_ASSIGN(Frame frame, next_frame(source, context));
+    TURNSCAN_ASSIGN(Frame frame, next_frame(source, 0, context));
     if (frame.depth.empty()) return {};  // of a scanner that gives points nothing is known here
     crop.apply(frame.depth);
     const auto pixels =

@@ -7,10 +7,11 @@
 
 namespace turnscan {
 
-/// The mean of the next `frames` frames of sensor 0, which are taken from the source: for
+/// The mean of the next `frames` frames of a sensor, which are taken from the source: for
 /// detect_platter() and check_rig(). Fails as FrameSource::next() and average_frames() do, and with
 /// kMissingData when the source ends.
-Result<AveragedScan> mean_of_next(FrameSource& source, int frames, const RunContext& context);
+Result<AveragedScan> mean_of_next(FrameSource& source, std::uint32_t sensor, int frames,
+                                  const RunContext& context);
 
 /// Takes frames until something stands on the platter in five of them one after the other: returns
 /// more than 10 mm above it, more than 40 mm within its rim, in at least 100 pixels. told: called

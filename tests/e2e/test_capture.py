@@ -264,10 +264,33 @@ class Scan(harness.TestCase):
         self.assertLess(found["accuracy"]["median_m"], 0.0005)
         self.assertLess(found["mesh_area_m2"], 1.1 * found["reference_area_m2"])
 
+    def test_two_sensors_that_know_nothing_find_each_other(self):
+        # Neither table nor azimuth is known to them, and their clocks do not agree.
+        device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&elevation="
+        low, high = device + "15deg", device + "45deg&azimuth=120deg&seed=2&serial=1&clock=3s"
+        self.ok("scan", "--device", low, "--device", high, "-o", "doll.ply", *self.FAST)
+        self.ok("simulate", "builtin:doll", "--frames", "1", "-o", "one")
+        self.ok("evaluate", "doll.ply", "--reference", "one/truth/object.ply", "--samples", "20000",
+                "--align", "icp", "--json", "e.json")
+        found = json.loads((self.dir / "e.json").read_text())
+        self.assertLess(found["accuracy"]["median_m"], 0.0005)
+        self.assertLess(found["mesh_area_m2"], 1.1 * found["reference_area_m2"])
+        # What was found of both can be kept and given to the next scan, which checks both.
+        self.ok("calibrate", "doll.recording", "--from-motion", "--save", "both.json")
+        self.assertEqual(len(json.loads((self.dir / "both.json").read_text())["other_sensors"]), 1)
+        known = ("--turntable", "both.json", "--speed", "12deg/s")
+        self.ok("scan", "--device", low, "--device", high, *known, "-o", "next.3mf", *self.FAST)
+        self.ok("reconstruct", "next.recording", "-o", "again.3mf", "--calibration", "recorded",
+                "--voxel-size", "3mm", "--quiet")
+        self.assertEqual((self.dir / "next.3mf").read_bytes(),
+                         (self.dir / "again.3mf").read_bytes())
+        self.refused(FAILED, "scan", "--device", low, "--device", high + "&distance=0.95m", *known,
+                     "-o", "moved.3mf", *self.FAST, says="sensor 1: the rig has moved")
+        self.refused(USAGE, "scan", "--device", low, *known, "-o", "alone.3mf", *self.FAST,
+                     says=("where 2 sensors stand", "there is one"))
+
     def test_wrong_usage(self):
         self.refused(USAGE, "scan", "--device", self.DEVICE, "-o", "doll.xyz")
-        self.refused(USAGE, "scan", "--device", self.DEVICE, "--device", self.DEVICE + "&serial=1",
-                     "--turntable", "t.json", "-o", "doll.3mf", says="tells where one sensor")
         self.refused(USAGE, "scan", "--device", self.DEVICE, "--device", self.DEVICE,
                      "-o", "doll.3mf", says="given twice")
         self.refused(FAILED, "scan", "--device", "virtual:unicorn", "-o", "doll.3mf")
