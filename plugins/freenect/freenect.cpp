@@ -187,7 +187,8 @@ void turnscan_device::open(const std::string& address) {
 }
 
 /// From what the library offers: millimetres if it can, else raw values of 11 bits; with colour,
-/// depth that is registered to it.
+/// depth that is registered to it and nothing else: how the two cameras stand to each other is a
+/// secret of the device that the library keeps.
 void turnscan_device::choose_modes() {
   using namespace turnscan::plugin;
   const auto find = [&](freenect_depth_format format) {
@@ -201,9 +202,11 @@ void turnscan_device::choose_modes() {
     }
     return false;
   };
-  const bool registered = with_color_ && find(FREENECT_DEPTH_REGISTERED);
-  with_color_ = registered;
-  if (!registered && !find(FREENECT_DEPTH_MM) && !find(FREENECT_DEPTH_11BIT))
+  if (with_color_ && !find(FREENECT_DEPTH_REGISTERED))
+    throw Failure{TURNSCAN_UNSUPPORTED,
+                  "this libfreenect offers no depth that is registered to the colours; leave out "
+                  "color=1"};
+  if (!with_color_ && !find(FREENECT_DEPTH_MM) && !find(FREENECT_DEPTH_11BIT))
     throw Failure{TURNSCAN_UNSUPPORTED, "the Kinect offers no depth that turnscan understands"};
   if (freenect_set_depth_mode(device_.get(), depth_mode_) < 0)
     throw Failure{TURNSCAN_FAILED, "the Kinect refuses its depth mode; plug it in again"};
@@ -239,7 +242,7 @@ void turnscan_device::describe(turnscan_device_info& info) const {
   turnscan_camera& camera = info.camera;
   camera.width = depth_mode_.width;
   camera.height = depth_mode_.height;
-  camera.fx = camera.fy = constants_.focal_pixels();
+  camera.fx = camera.fy = with_color_ ? constants_.color_focal_pixels : constants_.focal_pixels();
   camera.cx = 0.5 * depth_mode_.width;
   camera.cy = 0.5 * depth_mode_.height;
   info.depth_kind = TURNSCAN_DEPTH_STEPS;

@@ -14,6 +14,9 @@ struct KinectV1 {
   double reference_cm = 120.0;  ///< distance of the reference plane
   double pixel = 0.1042;        ///< size of a pixel of half the resolution on the sensor
   double shift = 200.0;         ///< of the pattern at the reference plane
+  /// Of the colour camera's image of 640 pixels, from which registered depth is seen (the nominal
+  /// value of ROS's openni_camera: 1050 for 1280 pixels). No device tells its own.
+  double color_focal_pixels = 525.0;
 
   /// Of the image of 640 pixels: reference distance over the size of two of its pixels.
   double focal_pixels() const { return reference_cm / (2.0 * pixel); }
