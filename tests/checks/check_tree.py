@@ -40,7 +40,7 @@ LIBRARIES = [
     ("toml++", r"toml\+\+/|toml\.hpp", ("apps/", "src/simulator/"), False),
     ("nlohmann-json in a public header", r"nlohmann/", ("src/", "apps/", "tests/", "bench/"), False),
     ("a driver's library (devices are plug-ins)",
-     r"OpenNI\.h|libfreenect|librealsense|k4a/", ("plugins/", "tests/capture/openni2/"), False),
+     r"OpenNI\.h|libfreenect|librealsense|k4a/", ("plugins/", "tests/capture/openni2/", "tests/capture/freenect/"), False),
     ("GoogleTest", r"gtest/|gmock/|rapidcheck", ("tests/",), False),
 ]
 
