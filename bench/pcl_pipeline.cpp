@@ -30,6 +30,7 @@ struct Options {
   int poisson_depth = 8;
   double poisson_samples = 1.5;
   double poisson_scale = 1.1;
+  double poisson_point_weight = 4.0;
   std::string json;
 };
 
@@ -43,6 +44,8 @@ OptionTable describe(Options& o) {
       .number("poisson-depth", o.poisson_depth, {2, 13}, "as turnscan's")
       .number("poisson-samples", o.poisson_samples, Quantity::kNone, {1.0, 100.0}, "as turnscan's")
       .number("poisson-scale", o.poisson_scale, Quantity::kNone, {1.0, 10.0}, "as turnscan's")
+      .number("poisson-point-weight", o.poisson_point_weight, Quantity::kNone, {0.0, 100.0},
+              "as turnscan's")
       .text("json", o.json, "file for the figures");
   return table;
 }
@@ -122,6 +125,7 @@ TriangleMesh poisson(const OrientedCloud::Ptr& oriented, const Options& options)
   poisson.setDepth(options.poisson_depth);
   poisson.setSamplesPerNode(static_cast<float>(options.poisson_samples));
   poisson.setScale(static_cast<float>(options.poisson_scale));
+  poisson.setPointWeight(static_cast<float>(options.poisson_point_weight));
   OrientedCloud vertices;
   std::vector<pcl::Vertices> polygons;
   poisson.reconstruct(vertices, polygons);
