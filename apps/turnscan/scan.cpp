@@ -398,7 +398,7 @@ class ScanCommand : public Command {
   std::string out_, recording_, report_;
   double after_s_ = 0.0, processor_after_s_ = 0.0;
   bool no_wait_ = false, allow_open_ = false, table_known_ = false;
-  std::optional<double> ahead_at_ = 0.85;
+  std::optional<double> ahead_at_ = 0.8;
   std::unique_ptr<ScanAhead> ahead_;
   nlohmann::ordered_json ahead_report_;
   std::optional<Calibration> found_;  ///< from the object's motion
