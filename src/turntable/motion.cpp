@@ -215,12 +215,11 @@ class Calibrator {
     return refine_with_model();
   }
 
-  /// Few views, far apart, have too little in common for a model.
+  /// Few views, far apart, have too little in common for a model; and where the angles are the
+  /// law's, pairs of views do not drift.
   Result<> refine_with_model() {
-    if (!data_.projective || data_.keys.size() < kModelFrames) return {};
-    ModelOptions model;
-    model.hold_angles = !tells_turn_;
-    TURNSCAN_ASSIGN(solution_, solve_model(data_, solution_, law_, model, context_));
+    if (!data_.projective || !tells_turn_ || data_.keys.size() < kModelFrames) return {};
+    TURNSCAN_ASSIGN(solution_, solve_model(data_, solution_, law_, {}, context_));
     state_ = solution_.state;
     return {};
   }

@@ -246,10 +246,8 @@ class Bundle {
     add_law(data_, knots_, angle_, law_, add);
     add_axis_prior(data_, state_.axis, state_.center, unit_, matrix_.bottomRightCorner<4, 4>(),
                    right_.tail<4>());
-    const Index held = options_.hold_angles ? n_ : 0;
-    factors_.compute(matrix_.bottomRightCorner(n_ + 4 - held, n_ + 4 - held));
-    step_ = Eigen::VectorXd::Zero(n_ + 4);
-    step_.tail(n_ + 4 - held) = factors_.solve(right_.tail(n_ + 4 - held));
+    factors_.compute(matrix_);
+    step_ = factors_.solve(right_);
     if (factors_.info() != Eigen::Success || !step_.allFinite())
       return fail(ErrorCode::kLibrary, "motion: the system of equations cannot be solved");
     return {};
@@ -278,12 +276,10 @@ class Bundle {
     const Index size = factors_.rows();
     const Eigen::MatrixXd inverse = factors_.solve(Eigen::MatrixXd::Identity(size, size));
     out_.covariance = unit_ * inverse.bottomRightCorner<4, 4>();
-    if (!options_.hold_angles) {
-      for (std::size_t f = 0; f < out_.angle_sigma.size(); ++f) {
-        const auto [a, share] = between(f);
-        const double low = inverse(a, a), high = inverse(a + 1, a + 1);
-        out_.angle_sigma[f] = std::sqrt(unit_ * std::max(0.0, low + share * (high - low)));
-      }
+    for (std::size_t f = 0; f < out_.angle_sigma.size(); ++f) {
+      const auto [a, share] = between(f);
+      const double low = inverse(a, a), high = inverse(a + 1, a + 1);
+      out_.angle_sigma[f] = std::sqrt(unit_ * std::max(0.0, low + share * (high - low)));
     }
     out_.state = state_;
     return std::move(out_);

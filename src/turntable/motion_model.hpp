@@ -11,7 +11,6 @@ struct ModelOptions {
   std::size_t most_knots = 232;    ///< between which corrections of the angles are interpolated
   std::size_t most_places = 3200;  ///< of the object's surface, about
   int iterations = 6;
-  bool hold_angles = false;  ///< leave the angles to the law
 };
 
 /// Refines a solution of solve_motion(), of depth images. The model is places of the object's

@@ -70,6 +70,23 @@ TEST(GaugeBall, FindsWhatWasTakenOffTheDepthWithinWhatItStates) {
   EXPECT_GT(small->gauge.sigma_m, 3e-4);
 }
 
+// Noise that moves the normals with the points pulls a small ball by millimetres, always outwards.
+TEST(GaugeBall, IsNotPulledByNoise) {
+  double sum = 0.0, stated = 0.0;
+  for (const std::uint64_t seed : {2, 3, 5}) {
+    testing::RigOptions options = rig_with_ball(seed, 0.04);
+    options.noise_m = 0.003;
+    options.distance_m = 0.7;
+    const auto found = gauge_depth_with_ball(scan_of(options), 0.08, 0.0, {});
+    ASSERT_TRUE(found) << seed << ": " << found.error().text();
+    sum += found->gauge.offset_m;
+    stated += std::pow(found->gauge.sigma_m, 2);
+  }
+  EXPECT_LT(std::abs(sum), 2.0 * std::sqrt(stated));
+  EXPECT_LT(std::abs(sum / 3.0), 0.0025);
+  EXPECT_LT(std::sqrt(stated / 3.0), 0.004);
+}
+
 TEST(GaugeBall, RefusesWhatIsNoBallAndTwoOfThem) {
   testing::RigOptions empty = testing::random_rig(2);
   empty.frames = 4;
