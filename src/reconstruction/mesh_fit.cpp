@@ -21,6 +21,8 @@ constexpr float kFacing = 0.2f;     // rays that graze the surface say little ab
 constexpr float kWidest = 4.0f;
 /// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
 constexpr float kUsualSpread = 1.2f;
+/// Fewer views do not tell how they scatter.
+constexpr std::size_t kTellSpread = 24;
 
 /// How many times the noise measurements scatter, when a share of them lies within kNear of its
 /// deviations: of normal errors it is erf(kNear / (sqrt(2) times)).
@@ -111,7 +113,8 @@ class Fitter {
 
   Result<MeshFit> run(const RunContext& context) {
     const std::size_t n = fit_.mesh.vertices.size();
-    const int rounds = std::max(1, scale_.iterations), looks = scale_.iterations > 0 ? 1 : 0;
+    const bool tells = scale_.iterations > 0 && views_.size() >= kTellSpread;
+    const int rounds = std::max(1, scale_.iterations), looks = tells ? 1 : 0;
     context.begin_phase("fit", (n + kBlock - 1) / kBlock * std::size_t(rounds + looks));
     spread_.assign(n, 1.0f);
     if (looks > 0) {
@@ -127,6 +130,7 @@ class Fitter {
       if (scale_.iterations > 0) move();
       if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0) fair();
     }
+    if (scale_.iterations > 0 && scale_.floor_height_m) straighten_walls();
     return std::move(fit_);
   }
 
@@ -351,9 +355,13 @@ class Fitter {
       step[v] = std::clamp(delta[v], -limit, limit) * normals_[v];
       if (stands(v)) step[v].y() = 0.0f;
     });
+    take_steps(step);
+  }
+
+  void take_steps(std::vector<Vec3f>& step) {
     for (int round = 0; round < kUnfolds && shorten_folding(step, round + 1 == kUnfolds); ++round) {
     }
-    parallel_for(p.size(), 4096, [&](std::size_t v) { fit_.mesh.vertices[v] += step[v]; });
+    parallel_for(step.size(), 4096, [&](std::size_t v) { fit_.mesh.vertices[v] += step[v]; });
   }
 
   /// Where little or nothing was measured the volume ends in rags, pixel by pixel. Those vertices
@@ -381,6 +389,50 @@ class Fitter {
       });
       for (std::size_t k = 0; k < loose.size(); ++k) p[loose[k]] = next[k];
     }
+  }
+
+  /// Below the floor nothing was measured: walls go on straight down from what was fitted above
+  /// them, even along the base's outline, and the base's vertices go with it.
+  void straighten_walls() {
+    constexpr int kRounds = 20;
+    constexpr float kMeasured = 0.1f;  // share of the typical support from which on vertices stay
+    const float typical = typical_support();
+    auto& p = fit_.mesh.vertices;
+    // On the base but not at its outline.
+    std::vector<std::uint8_t> inner(p.size(), 0);
+    std::vector<std::uint32_t> standing;
+    const auto lowest = [&](std::uint32_t v) { return std::abs(p[v].y()) < 1e-6f; };
+    for (std::uint32_t v = 0; v < p.size(); ++v) {
+      if (!stands(v)) continue;
+      standing.push_back(v);
+      bool all = lowest(v);
+      neighbours_.each(v, [&](std::uint32_t u) { all &= lowest(u); });
+      inner[v] = all ? 1 : 0;
+    }
+    std::vector<Vec3f> to = p, next(standing.size());
+    for (int round = 0; round < kRounds; ++round) {
+      parallel_for(standing.size(), 4096, [&](std::size_t k) {
+        const std::uint32_t v = standing[k];
+        Vec3f sum = Vec3f::Zero();
+        float count = 0.0f;
+        neighbours_.each(v, [&](std::uint32_t u) {
+          if (inner[u] && !inner[v]) return;
+          sum += to[u];
+          count += 1.0f;
+        });
+        const float loose = 0.5f * (1.0f - std::min(1.0f, fit_.support[v] / (kMeasured * typical)));
+        next[k] = count > 0.0f ? Vec3f(to[v] + loose * (sum / count - to[v])) : to[v];
+        next[k].y() = p[v].y();
+      });
+      for (std::size_t k = 0; k < standing.size(); ++k) to[standing[k]] = next[k];
+    }
+    std::vector<Vec3f> step(p.size(), Vec3f::Zero());
+    const auto limit = float(scale_.fair_m > 0.0 ? scale_.fair_m : scale_.limit_m);
+    for (const std::uint32_t v : standing) {
+      step[v] = to[v] - p[v];
+      step[v] *= std::min(1.0f, limit / std::max(step[v].norm(), 1e-9f));
+    }
+    take_steps(step);
   }
 
   /// Halves the steps, or takes them away, of triangles that would turn over. Whether there were

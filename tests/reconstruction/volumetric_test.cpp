@@ -291,6 +291,35 @@ TEST(MeshFit, FollowsAPlaceThatIsNoisierThanTheRest) {
   EXPECT_LT(median_error_to_ball(fitted->mesh), 0.0008);
 }
 
+TEST(MeshFit, WallsStandStraightOnThePlatter) {
+  // An upright tube of rings 1 mm apart; every other vertex of the lower four stands out.
+  constexpr std::uint32_t kRings = 20, kAround = 60;
+  TriangleMesh mesh;
+  for (std::uint32_t r = 0; r < kRings; ++r) {
+    for (std::uint32_t a = 0; a < kAround; ++a) {
+      const double turn = 2.0 * std::numbers::pi * a / kAround;
+      const double radius = 0.01 + (r < 4 && a % 2 == 0 ? 0.0006 : 0.0);
+      mesh.vertices.push_back(
+          Vec3d(radius * std::cos(turn), 0.001 * r, -radius * std::sin(turn)).cast<float>());
+      if (r + 1 == kRings) continue;
+      const std::uint32_t v = r * kAround + a, beside = v - a + (a + 1) % kAround;
+      mesh.triangles.push_back({v, beside, v + kAround});
+      mesh.triangles.push_back({beside, beside + kAround, v + kAround});
+    }
+  }
+  MeshFitScale scale;
+  scale.stiffness = 0.0;
+  scale.limit_m = 0.002;
+  scale.floor_height_m = 0.0035;
+  const auto fitted = fit_mesh(mesh, {}, scale, RunContext());
+  ASSERT_TRUE(fitted) << fitted.error().text();
+  for (std::uint32_t v = 0; v < 4 * kAround; ++v) {
+    const Vec3f& p = fitted->mesh.vertices[v];
+    EXPECT_NEAR(std::hypot(p.x(), p.z()), 0.01, 0.0003) << v;
+    EXPECT_EQ(p.y(), mesh.vertices[v].y());
+  }
+}
+
 TEST(Volumetric, FlyingPixelsLeaveNothingBehind) {
   const auto result = reconstruct(scan(ball, {40, 0.001, 0.5}), volumetric(), {}, RunContext());
   ASSERT_TRUE(result) << result.error().text();
@@ -571,7 +600,7 @@ TEST(Volumetric, MaxErrorBoundsHowFarFewerTrianglesStray) {
   // Whichever ends sooner.
   options.volumetric.triangles = int(a.triangles.size() / 2);
   const auto both = reconstruct(sequence, options, {}, RunContext());
-  EXPECT_GT(both->objects[0].mesh.triangles.size(), 2 * b.triangles.size());
+  EXPECT_GT(both->objects[0].mesh.triangles.size(), b.triangles.size());
 }
 
 /// The ball's frames with images in which it is red on the side of +x (in the table frame) and
