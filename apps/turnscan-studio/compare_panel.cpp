@@ -1,21 +1,59 @@
 #include "compare_panel.hpp"
 
 #include <QComboBox>
-#include <QFontDatabase>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <turnscan/evaluation/evaluate.hpp>
 
+#include "evaluation_text.hpp"
 #include "models.hpp"
 #include "option_form.hpp"
 #include "section.hpp"
 
 namespace turnscan::studio {
+
+namespace {
+
+/// Cells of a row of a table, the first to the left, the others to the right.
+QString row_of(const QStringList& cells, const QString& tag) {
+  QString row = "<tr>";
+  for (int i = 0; i < cells.size(); ++i)
+    row += QString("<%1 align='%2' style='padding: 2px %3px 2px 0; font-weight: normal'>%4</%1>")
+               .arg(tag, i == 0 ? "left" : "right")
+               .arg(i + 1 < cells.size() ? 14 : 0)
+               .arg(cells[i]);
+  return row + "</tr>";
+}
+
+QString errors_of(const QString& name, const ErrorStatistics& e) {
+  const auto mm = [](double value_m) { return QString::number(1e3 * value_m, 'f', 3); };
+  return row_of({name, mm(e.mean), mm(e.median), mm(e.p95), mm(e.max)}, "td");
+}
+
+/// The figures of `turnscan evaluate`, as narrow as the panel.
+QString html_of(const Evaluation& e) {
+  const auto percent = [](double share) { return QString("%1 %").arg(100.0 * share, 0, 'f', 2); };
+  QString html = "<table cellspacing='0'>";
+  html += row_of({QObject::tr("Error, mm"), QObject::tr("mean"), QObject::tr("median"),
+                  QObject::tr("p95"), QObject::tr("max")},
+                 "th");
+  html += errors_of(QObject::tr("Accuracy"), e.accuracy);
+  html += errors_of(QObject::tr("Completeness"), e.completeness);
+  html += "</table><p></p><table cellspacing='0'>";
+  html +=
+      row_of({QObject::tr("Within"), QObject::tr("precision"), QObject::tr("recall"), "F"}, "th");
+  for (const ThresholdScore& s : e.scores)
+    html += row_of({QString("%1 mm").arg(1e3 * s.threshold_m), percent(s.precision),
+                    percent(s.recall), QString::number(s.f, 'f', 4)},
+                   "td");
+  return html + "</table>";
+}
+
+}  // namespace
 
 ComparePanel::ComparePanel(ModelStore& store, QWidget* parent)
     : QWidget(parent), store_(store), options_(std::make_unique<EvaluateOptions>()) {
@@ -54,15 +92,13 @@ ComparePanel::ComparePanel(ModelStore& store, QWidget* parent)
   layout->addLayout(row);
   error_ = new MessageLabel(this);
   layout->addWidget(error_);
-  text_ = new QPlainTextEdit(this);
-  text_->setReadOnly(true);
-  text_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  text_->setLineWrapMode(QPlainTextEdit::NoWrap);
-  text_->setFixedHeight(150);
-  text_->setObjectName("compare_text");
-  text_->setVisible(false);
-  layout->addWidget(text_);
-  auto* details = new Section(tr("Options of distances"), false, this);
+  figures_ = new QLabel(this);
+  figures_->setTextFormat(Qt::RichText);
+  figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  figures_->setObjectName("compare_figures");
+  figures_->setVisible(false);
+  layout->addWidget(figures_);
+  auto* details = new Section(tr("Options of distances"), false, this, Section::kNested);
   form_ = new OptionForm(describe(*options_), {}, details);
   details->body()->addWidget(form_);
   layout->addWidget(details);
@@ -80,9 +116,13 @@ int ComparePanel::compared() const { return compared_->currentData().toInt(); }
 
 QString ComparePanel::first_error() const { return form_->first_error(); }
 
-void ComparePanel::show_text(const QString& text) {
-  text_->setPlainText(text);
-  text_->setVisible(!text.isEmpty());
+void ComparePanel::show_figures(const std::optional<Evaluation>& figures) {
+  figures_->setText(figures ? html_of(*figures) : QString());
+  figures_->setToolTip(
+      figures ? "<pre>" + QString::fromStdString(cli::evaluation_text(*figures)).toHtmlEscaped() +
+                    "</pre>"
+              : QString());
+  figures_->setVisible(figures.has_value());
 }
 
 void ComparePanel::show_error(const QString& text) { error_->show_text(text); }

@@ -2,15 +2,16 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
 
 class QComboBox;
 class QLabel;
-class QPlainTextEdit;
 class QPushButton;
 
 namespace turnscan {
+struct Evaluation;
 struct EvaluateOptions;
-}
+}  // namespace turnscan
 
 namespace turnscan::studio {
 
@@ -32,7 +33,8 @@ class ComparePanel : public QWidget {
   int compared() const;
   const EvaluateOptions& options() const { return *options_; }
   QString first_error() const;
-  void show_text(const QString& text);
+  /// Nothing is shown without.
+  void show_figures(const std::optional<Evaluation>& figures);
   void show_error(const QString& text);
   void stop();
 
@@ -49,7 +51,7 @@ class ComparePanel : public QWidget {
   QComboBox *reference_, *compared_;
   QPushButton* ways_[3];
   OptionForm* form_;
-  QPlainTextEdit* text_;
+  QLabel* figures_;
   MessageLabel* error_;
   Way way_ = kOff;
 };

@@ -154,11 +154,12 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading) {
   return out;
 }
 
-DrawablePtr make_drawable(const PointCloud& cloud) {
+DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m) {
   auto out = std::make_shared<Drawable>();
   out->kind = DrawableKind::kCloud;
   out->box = bounds(cloud.points);
   out->points = cloud.size();
+  out->spacing_m = spacing_m;
   out->colored = !cloud.colors.empty();
   std::vector<std::size_t> ends;
   for (std::size_t end = 0; end < cloud.size();) {

@@ -30,7 +30,9 @@ enum class Shading {
 
 /// A mesh without triangles gives something that draws nothing.
 DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth);
-DrawablePtr make_drawable(const PointCloud& cloud);
+/// spacing_m: how far its points lie apart; they are drawn so large that they touch. 0: not known,
+/// all are drawn in the view's point size.
+DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m = 0.0);
 DrawablePtr make_drawable(const Segments& segments);
 
 const Box& box_of(const Drawable& drawable);

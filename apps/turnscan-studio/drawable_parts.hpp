@@ -20,6 +20,7 @@ struct Drawable {
   vtkSmartPointer<vtkPolyData> coarse;
   Box box;
   std::size_t points = 0;
+  double spacing_m = 0.0;  ///< of a cloud whose points are to touch; else 0
   bool colored = false;
 };
 

@@ -4,12 +4,14 @@
 #include <QFileInfo>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <turnscan/io/atomic_file.hpp>
 
 #include "compare_panel.hpp"
 #include "explorer_tools.hpp"
 #include "jobs.hpp"
 #include "loading.hpp"
 #include "model_list.hpp"
+#include "paths.hpp"
 #include "runs.hpp"
 #include "scene_view.hpp"
 #include "section.hpp"
@@ -38,13 +40,17 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   panel()->addWidget(comparison);
   panel()->addStretch();
   view().set_empty_text(tr("Nothing loaded yet"),
-                        tr("Drop meshes, point clouds or recordings here, or press Ctrl+O."));
+                        tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
+  view().set_empty_actions({{tr("Open…"), [this] { open_dialog(); }},
+                            {tr("Scan an object"), [this] { Q_EMIT mode_wanted("scanner"); }},
+                            {tr("Simulate a scan"), [this] { Q_EMIT mode_wanted("simulator"); }}});
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
   connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
   connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
   connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
   connect(stages_, &StagePanel::run, this, &ExplorerMode::run_stage);
+  connect(stages_, &StagePanel::save_preset, this, &ExplorerMode::save_preset);
   connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
   connect(compare_, &ComparePanel::changed, this, &ExplorerMode::sync);
   connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
@@ -127,6 +133,7 @@ void ExplorerMode::run_stage(const QString& stage) {
           store_->set_visible(id, false);
           list_->select(ids.front());
           stages_->show_used(run.choices);
+          view().fit_unless_moved();  // of a recording it has shown the table, too
         });
       },
       [this](const QString& text) { stages_->show_error(text); });
@@ -177,7 +184,18 @@ void ExplorerMode::save_as(int id, const QString& path) {
       [this, saved = model->data, path](const RunContext& context) -> Result<Finish> {
         context.begin_phase("write", 0);
         TURNSCAN_TRY(save_model(*saved, path.toStdString()));
-        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(path)); });
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::save_preset(const QString& path) {
+  stages_->show_error({});
+  jobs().start(
+      tr("Save preset"), this,
+      [this, path, text = stages_->preset_text()](const RunContext&) -> Result<Finish> {
+        TURNSCAN_TRY(write_file_atomically(path.toStdString(), text));
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
       },
       [this](const QString& text) { stages_->show_error(text); });
 }
@@ -239,7 +257,7 @@ void ExplorerMode::run_comparison() {
           store_->set_visible(a.id, false);
           store_->set_visible(b.id, false);
           list_->select(id);
-          compare_->show_text(made.text);
+          compare_->show_figures(made.figures);
           Legend legend;
           legend.title = tr("Distance to %1").arg(b.name);
           legend.continuous = true;

@@ -35,6 +35,7 @@ class ExplorerMode : public Mode {
   void take_recording(const QString& folder, bool reconstruct);
   void run_stage(const QString& stage);
   void save_as(int id, const QString& path);
+  void save_preset(const QString& path);
 
   ModelStore& store() { return *store_; }
   ModelList& list() { return *list_; }

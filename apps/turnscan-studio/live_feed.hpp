@@ -71,6 +71,8 @@ class LiveFeed {
   bool ended() const { return ended_; }
 
   void set_filter(bool on) { filter_ = on; }
+  /// How many points of a picture are drawn, at most.
+  void set_most_points(std::size_t most) { most_points_ = most; }
   void set_calibration(std::shared_ptr<const Calibration> calibration);
   /// Collects frames for an averaged scan.
   void collect(std::size_t frames);
@@ -89,6 +91,7 @@ class LiveFeed {
   std::thread thread_;
   std::unique_ptr<RunContext> context_;
   std::atomic<bool> filter_ = false, ended_ = true;
+  std::atomic<std::size_t> most_points_ = 40000;
   std::mutex mutex_;  // guards what follows
   LiveState state_;
   std::shared_ptr<const Calibration> calibration_;

@@ -15,9 +15,9 @@ namespace turnscan::studio {
 namespace {
 
 constexpr double kPictureEvery_s = 0.06, kSeenEvery_s = 0.25, kSilence_s = 2.0;
-constexpr std::size_t kShownPoints = 150000;
 constexpr std::size_t kSeenPerFrame = 12000;
 constexpr double kCropMargin_m = 0.006;
+constexpr double kBehind_m = 0.003;  // the picture itself, in the same colours, lies before it
 constexpr double kMotorSpeed_rad_s = 0.17453293;  // as the command line's
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -140,6 +140,7 @@ void LiveFeed::Session::begin_seen(const SequenceHeader& header, const CaptureOp
   speed_rad_s_ = options.speed_rad_s;
   if (!speed_rad_s_ && header.turntable) speed_rad_s_ = header.turntable->speed_rad_s;
   seen_.reset();
+  T_turned_sensor_.assign(header.sensors.size(), std::nullopt);
   if (header.turntable) seen_.emplace(cell_size(header));
 }
 
@@ -156,6 +157,7 @@ void LiveFeed::Session::see(const Frame& frame) {
   if (!turned || !crop || !points) return;
   const Pose pose = *sensor_pose(header_, s);
   const Pose back = Pose(Eigen::AngleAxisd(-*turned, Vec3d::UnitY())) * pose;
+  T_turned_sensor_.at(s) = back;
   const auto& all = points->cloud.points;
   const std::size_t step = all.size() / kSeenPerFrame + 1;
   std::vector<Vec3f> kept;
@@ -174,8 +176,11 @@ void LiveFeed::Session::show_seen(double turned_rad, const Pose& T_table_sensor)
   summary.sides = seen_->sides();
   PointCloud cloud = seen_->cloud();
   const Pose now = T_table_sensor.inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
-  for (Vec3f& p : cloud.points) p = (now * p.cast<double>()).cast<float>();
-  summary.picture = make_drawable(cloud);
+  for (Vec3f& p : cloud.points) {
+    const Vec3d at = now * p.cast<double>();
+    p = (at + kBehind_m * at.normalized()).cast<float>();
+  }
+  summary.picture = make_drawable(cloud, seen_->cell_m());
   const std::lock_guard lock(feed_.mutex_);
   feed_.state_.seen = std::move(summary);
 }
@@ -226,9 +231,21 @@ DrawablePtr LiveFeed::Session::draw(const Frame& frame, std::size_t& count) {
   if (!points) return nullptr;
   std::optional<SensorCrop> crop;
   if (feed_.filter_) crop = object_crop(header, s);
-  const PointCloud shown = live_picture(*points, crop, kShownPoints);
-  count = shown.size();
-  return make_drawable(shown);
+  const LivePicture shown = live_picture(*points, crop, feed_.most_points_, tint_of(s));
+  count = shown.points;
+  const double fx = header.sensors[s].intrinsics.fx;
+  return make_drawable(shown, points->width > 0 && fx > 0.0 ? 1.0 / fx : 0.0);
+}
+
+/// While it records: what was seen of the object so far, on the picture itself.
+Tint LiveFeed::Session::tint_of(std::size_t sensor) const {
+  if (!seen_ || !T_turned_sensor_.at(sensor)) return {};
+  const auto crop = object_crop(header_, sensor);
+  if (!crop) return {};
+  return [this, crop, pose = *T_turned_sensor_[sensor]](const Vec3f& p) -> std::optional<Rgb> {
+    if (!crop->keeps(p)) return std::nullopt;
+    return seen_->color_at((pose * p.cast<double>()).cast<float>());
+  };
 }
 
 }  // namespace turnscan::studio

@@ -5,6 +5,7 @@
 #include <turnscan/core/camera.hpp>
 
 #include "live_feed.hpp"
+#include "live_picture.hpp"
 #include "seen_so_far.hpp"
 
 namespace turnscan::studio {
@@ -31,6 +32,7 @@ struct LiveFeed::Session {
   void show_seen(double turned_rad, const Pose& T_table_sensor);
   void show(const Frame& frame);
   DrawablePtr draw(const Frame& frame, std::size_t& count);
+  Tint tint_of(std::size_t sensor) const;
 
   LiveFeed& feed_;
   FrameSource& source_;
@@ -44,6 +46,8 @@ struct LiveFeed::Session {
   SequenceHeader header_;
   std::optional<double> speed_rad_s_, first_time_s_;
   std::optional<SeenSoFar> seen_;
+  /// Of the last frame of each sensor, the table turned back; where that is known.
+  std::vector<std::optional<Pose>> T_turned_sensor_;
 };
 
 }  // namespace turnscan::studio

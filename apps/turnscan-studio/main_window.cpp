@@ -1,6 +1,7 @@
 #include "main_window.hpp"
 
 #include <QApplication>
+#include <QBuffer>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -16,10 +17,12 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <turnscan/core/version.hpp>
+#include <turnscan/io/atomic_file.hpp>
 
 #include "explorer.hpp"
 #include "job_bar.hpp"
 #include "jobs.hpp"
+#include "paths.hpp"
 #include "scanner.hpp"
 #include "scene_view.hpp"
 #include "simulator.hpp"
@@ -53,8 +56,11 @@ MainWindow::MainWindow()
   column->addWidget(stack_, 1);
   setCentralWidget(center);
   statusBar()->addWidget(status_, 1);
-  statusBar()->addPermanentWidget(new JobBar(*jobs_, this));
+  auto* job_bar = new JobBar(*jobs_, this);
+  statusBar()->addPermanentWidget(job_bar);
   statusBar()->setSizeGripEnabled(false);
+  // As high without a job: the view is not to jump when one begins.
+  statusBar()->setMinimumHeight(job_bar->sizeHint().height() + 6);
   scanner_ = new ScannerMode({*jobs_, *settings_}, stack_);
   add_mode("scanner", tr("3D Scanner"), tr("Calibrate and record with a sensor (F1)"), scanner_);
   explorer_ = new ExplorerMode({*jobs_, *settings_}, stack_);
@@ -101,6 +107,7 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
   mode_buttons_.emplace_back(name, button);
   connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
   connect(mode, &Mode::status, status_, &QLabel::setText);
+  connect(mode, &Mode::mode_wanted, this, &MainWindow::show_mode);
   connect(mode, &Mode::undo_changed, this, [this] {
     if (undo_) update_undo();
   });
@@ -202,8 +209,18 @@ void MainWindow::open(const QString& path) {
 
 void MainWindow::screenshot(const QString& path) {
   const QImage picture = mode().view().screenshot();
-  status_->setText(picture.save(path) ? tr("Wrote %1").arg(path)
-                                      : tr("%1: the picture cannot be written there").arg(path));
+  const auto no = [this](const QString& text) { status_->setText(text); };
+  jobs_->start(
+      tr("Save screenshot"), this,
+      [this, picture, path](const RunContext&) -> Result<Finish> {
+        QByteArray png;
+        QBuffer buffer(&png);
+        if (!picture.save(&buffer, "PNG"))
+          return fail_at(path.toStdString(), ErrorCode::kIo, "the picture cannot be packed");
+        TURNSCAN_TRY(write_file_atomically(path.toStdString(), png.toStdString()));
+        return Finish([this, path] { status_->setText(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      no);
 }
 
 void MainWindow::add_recent(const QString& path) {
@@ -219,7 +236,7 @@ void MainWindow::add_recent(const QString& path) {
 void MainWindow::fill_recent() {
   recent_->clear();
   for (const QString& path : QSettings().value("files/recent").toStringList())
-    recent_->addAction(path, this, [this, path] { open(path); });
+    recent_->addAction(shown_path(path), this, [this, path] { open(path); });
   if (recent_->isEmpty()) recent_->addAction(tr("No files yet"))->setEnabled(false);
 }
 
@@ -243,8 +260,9 @@ void MainWindow::restore_window() {
   const QSettings settings;
   resize(1440, 900);
   restoreGeometry(settings.value("window/geometry").toByteArray());
+  const QString last = settings.value("window/mode").toString();  // before a mode is stored
   show_mode("explorer");
-  show_mode(settings.value("window/mode", "explorer").toString());
+  show_mode(last);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

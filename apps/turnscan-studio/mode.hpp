@@ -42,6 +42,8 @@ class Mode : public QWidget {
   void status(const QString& text);
   /// undo_text() or redo_text() is another one.
   void undo_changed();
+  /// Another mode is where it goes on; see MainWindow::show_mode().
+  void mode_wanted(const QString& name);
   /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
   void recording_made(const QString& folder, bool reconstruct);
 

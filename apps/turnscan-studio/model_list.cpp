@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <QVariant>
 
 #include "models.hpp"
 #include "section.hpp"
@@ -92,10 +93,14 @@ QWidget* ModelList::make_buttons() {
   act(tr("Own colours on/off"), [this] {
     if (const Model* m = store_.find(selected())) store_.set_color(m->id, m->color, !m->own_colors);
   });
-  act(tr("Duplicate\tCtrl+D"), [this] { store_.duplicate(selected()); });
+  auto* duplicate = menu->addAction(tr("Duplicate"));
+  duplicate->setShortcut(QKeySequence("Ctrl+D"));
+  addAction(duplicate);  // a shortcut of a menu alone works only while that is open
+  connect(duplicate, &QAction::triggered, this, [this] { store_.duplicate(selected()); });
   menu->addSeparator();
   act(tr("Delete\tDel"), [this] { store_.remove(selected()); });
   edit->setMenu(menu);
+  edit->setProperty("menu", true);
   edit->setPopupMode(QToolButton::InstantPopup);
   connect(tree_, &QTreeWidget::customContextMenuRequested, menu, [this, menu](const QPoint& at) {
     if (tree_->itemAt(at)) menu->popup(tree_->viewport()->mapToGlobal(at));

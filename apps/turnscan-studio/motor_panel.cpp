@@ -59,7 +59,7 @@ MotorPanel::MotorPanel(QWidget* parent) : QWidget(parent), jobs_(new JobRunner(t
   text_ = quiet_label(tr("With a motor, Record turns the table by itself."), this);
   error_ = new MessageLabel(this);
   stops_form_ = new OptionForm(describe(stops_), {}, this);
-  auto* details = new Section(tr("Board"), false, this);
+  auto* details = new Section(tr("Board"), false, this, Section::kNested);
   form_ = new OptionForm(describe(options_), {}, details);
   details->body()->addWidget(form_);
   layout->addLayout(row);

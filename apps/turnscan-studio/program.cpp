@@ -7,6 +7,9 @@
 #include <QSurfaceFormat>
 #include <clocale>
 
+/// Of a static library, resources are only there when somebody asks for them, in no namespace.
+static void load_resources() { Q_INIT_RESOURCE(studio); }
+
 namespace turnscan::studio {
 
 void prepare_application() {
@@ -16,6 +19,7 @@ void prepare_application() {
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   vtkObject::GlobalWarningDisplayOff();
+  load_resources();
 }
 
 void name_application() {

@@ -1,7 +1,6 @@
 #include "record_panel.hpp"
 
 #include <QCheckBox>
-#include <QDir>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,6 +16,7 @@
 #include "motor_panel.hpp"
 #include "option_form.hpp"
 #include "output_file.hpp"
+#include "paths.hpp"
 #include "section.hpp"
 #include "seen_so_far.hpp"
 
@@ -43,8 +43,7 @@ RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_
   folder_ = new QLineEdit(this);
   folder_->setObjectName("scanner_folder");
   folder_->setToolTip(tr("Folder to make; a number is added where it has content"));
-  folder_->setText(
-      QSettings().value("scanner/folder", QDir::home().filePath("recording")).toString());
+  folder_->setText(QSettings().value("scanner/folder", "~/recording").toString());
   auto* browse = button(tr("…"), tr("Choose the folder"), this);
   row->addWidget(folder_, 1);
   row->addWidget(browse);
@@ -70,7 +69,7 @@ RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_
   seen_->setVisible(false);
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString path = QFileDialog::getExistingDirectory(this, tr("Folder of the recording"));
-    if (!path.isEmpty()) folder_->setText(path);
+    if (!path.isEmpty()) set_folder(path);
   });
   connect(record_, &QPushButton::clicked, this, &RecordPanel::clicked);
 }
@@ -89,11 +88,11 @@ void RecordPanel::build_options() {
   layout->addWidget(add("turns", describe(capture.limits),
                         {"seconds", "frames", "until-stopped", "overlap", "device-timeout"}, this));
   layout->addWidget(add("speed", options_->speed(), {}, this));
-  auto* motor = new Section(tr("Motor"), false, this);
+  auto* motor = new Section(tr("Motor"), false, this, Section::kNested);
   motor_ = new MotorPanel(motor);
   motor->body()->addWidget(motor_);
   layout->addWidget(motor);
-  auto* more = new Section(tr("More options"), false, this);
+  auto* more = new Section(tr("More options"), false, this, Section::kNested);
   more->body()->addWidget(add("limits", describe(capture.limits), {"turns"}, more));
   more->body()->addWidget(add("crop", describe(capture.crop), {}, more));
   more->body()->addWidget(add("recorder", describe(capture.recorder), {}, more));
@@ -102,7 +101,7 @@ void RecordPanel::build_options() {
   motor_->restore();
 }
 
-void RecordPanel::set_folder(const QString& folder) { folder_->setText(folder); }
+void RecordPanel::set_folder(const QString& folder) { folder_->setText(shown_path(folder)); }
 
 bool RecordPanel::reconstruct() const { return reconstruct_->isChecked(); }
 
@@ -113,10 +112,7 @@ std::optional<RecordingWish> RecordPanel::wish() {
   if (motor_->turning()) problem = tr("The motor is being tried; stop it first");
   error_->show_text(problem);
   if (!problem.isEmpty()) return std::nullopt;
-  const QString base = folder_->text().trimmed();
-  QString folder = base;
-  for (int i = 2; QDir(folder).exists() && !QDir(folder).isEmpty(); ++i)
-    folder = QString("%1-%2").arg(base).arg(i);
+  const QString folder = free_folder(typed_path(folder_->text()));
   if (const auto good = cli::check_output_folder(folder.toStdString()); !good) {
     error_->show_text(QString::fromStdString(good.error().text()));
     return std::nullopt;

@@ -235,10 +235,10 @@ Result<Comparison> compare(const ModelData& compared, const ModelData& reference
   TURNSCAN_ASSIGN(const auto thresholds, parse_thresholds(options.thresholds));
   out.scale_m = scale_m > 0.0 ? scale_m : thresholds.back();
   if (compared.kind == ModelKind::kMesh) {
-    TURNSCAN_ASSIGN(const Evaluation result,
-                    evaluate(compared.mesh, reference.mesh, options, {}, context));
-    out.text = QString::fromStdString(cli::evaluation_text(result));
+    TURNSCAN_ASSIGN(out.figures, evaluate(compared.mesh, reference.mesh, options, {}, context));
   }
+  const QString report =
+      out.figures ? QString::fromStdString(cli::evaluation_text(*out.figures)) : QString();
   context.begin_phase("distances", 0);
   const MeshDistance distance(reference.mesh);
   TURNSCAN_ASSIGN(const auto points, probe(compared, context));
@@ -249,8 +249,8 @@ Result<Comparison> compare(const ModelData& compared, const ModelData& reference
     const double at = std::min(double(d) / out.scale_m, 1.0) * double(kBins);
     out.histogram[std::min(kBins - 1, static_cast<std::size_t>(at))] += 1.0 / double(away.size());
   }
-  TURNSCAN_ASSIGN(out.colored, colored_by_distance(compared, reference, distance, out.scale_m,
-                                                   out.text, context));
+  TURNSCAN_ASSIGN(out.colored,
+                  colored_by_distance(compared, reference, distance, out.scale_m, report, context));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the Explorer has the library do. All of this runs on a worker's thread.
 
+#include <optional>
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 
@@ -27,10 +28,10 @@ Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& opti
                                   const RunContext& context);
 
 struct Comparison {
-  ModelDataPtr colored;           ///< the compared model, coloured by distance
-  std::vector<double> histogram;  ///< shares of the surface, from 0 to scale_m
-  double scale_m = 0.0;           ///< distance of the last colour
-  QString text;
+  ModelDataPtr colored;               ///< the compared model, coloured by distance
+  std::vector<double> histogram;      ///< shares of the surface, from 0 to scale_m
+  double scale_m = 0.0;               ///< distance of the last colour
+  std::optional<Evaluation> figures;  ///< of a mesh
 };
 
 /// Distances of a mesh or cloud to a reference mesh. scale_m 0: the largest threshold. The colours

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QTimer>
@@ -15,6 +16,7 @@
 #include "models.hpp"
 #include "motor_panel.hpp"
 #include "option_form.hpp"
+#include "paths.hpp"
 #include "record_panel.hpp"
 #include "scanner_parts.hpp"
 #include "scene_view.hpp"
@@ -56,6 +58,9 @@ ScannerMode::ScannerMode(const Services& services, QWidget* parent)
   view().set_empty_text(tr("No picture yet"),
                         tr("Choose a device on the right and press Play. The virtual sensors need "
                            "no hardware."));
+  view().set_empty_actions({{tr("Play now"), [this] {
+                               if (!feed_->running()) toggle_play();
+                             }}});
   poll_->setInterval(50);
   connect(poll_, &QTimer::timeout, this, &ScannerMode::poll);
 }
@@ -138,7 +143,10 @@ void ScannerMode::list_devices() {
                 {});
 }
 
-void ScannerMode::set_device(const QString& uri) { device_->setEditText(uri); }
+void ScannerMode::set_device(const QString& uri) {
+  device_->setEditText(uri);
+  device_->lineEdit()->setCursorPosition(0);
+}
 
 QString ScannerMode::chosen_uri() const {
   const int known = device_->findText(device_->currentText());
@@ -164,6 +172,7 @@ void ScannerMode::toggle_play() {
 
 void ScannerMode::poll() {
   const bool end = feed_->ended();
+  feed_->set_most_points(view().points_at_once());
   const LiveState state = feed_->take_state();
   show_state(state);
   if (averaging_) {
@@ -171,7 +180,7 @@ void ScannerMode::poll() {
   }
   if (!state.finished.empty()) {
     const QString folder = QString::fromStdString(state.finished);
-    Q_EMIT status(tr("Wrote %1").arg(folder));
+    Q_EMIT status(tr("Wrote %1").arg(shown_path(folder)));
     // What a fault has ended is for a person to look at first.
     Q_EMIT recording_made(folder, record_->reconstruct() && state.record_error.empty());
   }

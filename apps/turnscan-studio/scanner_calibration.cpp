@@ -18,6 +18,7 @@
 #include "live_feed.hpp"
 #include "live_picture.hpp"
 #include "option_form.hpp"
+#include "paths.hpp"
 #include "scanner.hpp"
 #include "scanner_parts.hpp"
 #include "scene_view.hpp"
@@ -50,7 +51,8 @@ QColor color_of_residual(double residual_m) {
 /// The averaged scan; the platter of a table in the colours of its distance to its plane.
 DrawablePtr averaged_picture(const AveragedScan& scan, const TurntableInfo* table) {
   const FramePoints points = points_of(scan);
-  PointCloud cloud = live_picture(points, std::nullopt, points.cloud.size());
+  LivePicture picture = live_picture(points, std::nullopt, points.cloud.size());
+  PointCloud& cloud = picture.cloud;
   if (table) {
     const double radius = table->radius_m.value_or(0.0) + kRimMargin_m;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -63,7 +65,7 @@ DrawablePtr averaged_picture(const AveragedScan& scan, const TurntableInfo* tabl
                          std::uint8_t(color.blue())};
     }
   }
-  return make_drawable(cloud);
+  return make_drawable(picture, 1.0 / scan.intrinsics.fx);
 }
 
 Legend legend_of_residuals() {
@@ -120,7 +122,7 @@ void ScannerMode::build_calibration() {
       quiet_label(tr("Put nothing on the table, take an averaged scan, then calibrate."), section);
   calibration_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   calibration_error_ = new MessageLabel(section);
-  auto* details = new Section(tr("Options"), false, section);
+  auto* details = new Section(tr("Options"), false, section, Section::kNested);
   average_form_ = new OptionForm(describe(options_->average), {}, details);
   detect_form_ = new OptionForm(describe(options_->detect), {}, details);
   details->body()->addWidget(average_form_);
@@ -311,10 +313,14 @@ void ScannerMode::save_calibration(const QString& path) {
     calibration_error_->show_text(tr("There is no calibration yet"));
     return;
   }
-  const auto written = write_calibration(path.toStdString(), *calibration_);
-  calibration_error_->show_text(written ? QString()
-                                        : QString::fromStdString(written.error().text()));
-  if (written) Q_EMIT status(tr("Wrote %1").arg(path));
+  calibration_error_->show_text({});
+  jobs().start(
+      tr("Save calibration"), this,
+      [this, path, saved = calibration_](const RunContext&) -> Result<Finish> {
+        TURNSCAN_TRY(write_calibration(path.toStdString(), *saved));
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      [this](const QString& text) { calibration_error_->show_text(text); });
 }
 
 }  // namespace turnscan::studio

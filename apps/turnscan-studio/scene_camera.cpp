@@ -34,6 +34,10 @@ void SceneView::reset_camera() {
   camera_moved();
 }
 
+void SceneView::fit_unless_moved() {
+  if (!parts_->touched) reset_camera();
+}
+
 void SceneView::Parts::aim(const Vec3d& center, double size_m, const Vec3d& from,
                            const QSize& pixels) {
   Vec3d position, focus;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMovingPoints = 200000;  // drawn at most while the camera moves
 constexpr double kFrameGoalMs = 45.0;
+constexpr double kPieceGoalMs = 25.0;  // nobody waits for a piece: the hand on the mouse goes first
 
 }  // namespace
 
@@ -28,7 +29,10 @@ void SceneView::draw_coarse() {
   Parts& p = *parts_;
   if (!isVisible() || !p.canvas->isValid()) return;
   p.warm_up();
-  p.show_first(p.moving);
+  show_first(p.moving);
+  for (auto& [id, item] : p.items)
+    if (item.drawable->spacing_m > 0.0)
+      p.size_points(item, devicePixelRatioF(), metres_per_pixel());
   set_clipping_range();
   for (auto& renderer : p.renderers) {
     renderer->PreserveColorBufferOff();
@@ -40,15 +44,18 @@ void SceneView::draw_coarse() {
   p.window->Render();
   const double ms = 1e-6 * double(clock.nsecsElapsed());
   p.complete = !p.moving && p.pending.empty();
-  if (p.moving) {
-    p.longest_ms = std::max(p.longest_ms, ms);
-    // A slow renderer gets fewer points the next time.
-    const double wanted = double(p.budget) * std::clamp(kFrameGoalMs / std::max(ms, 1.0), 0.5, 1.3);
-    p.budget = std::clamp<std::size_t>(std::size_t(wanted), 20000, kMovingPoints);
-  } else if (!p.pending.empty()) {
-    p.more.start(0);
-  }
+  if (p.moving) p.longest_ms = std::max(p.longest_ms, ms);
+  p.learn_from(ms);
+  if (!p.moving && !p.pending.empty()) p.more.start(0);
   update_overlay();
+}
+
+/// A slow renderer gets fewer points the next time, a quick one more, if it was given many.
+void SceneView::Parts::learn_from(double ms) {
+  const double share = kFrameGoalMs / std::max(ms, 1.0);
+  if (share > 1.0 && !moving && 4 * points_drawn < budget) return;
+  const double wanted = double(budget) * std::clamp(share, 0.5, 1.3);
+  budget = std::clamp<std::size_t>(std::size_t(wanted), 20000, kMovingPoints);
 }
 
 /// The first picture of each kind of thing compiles its shaders, which takes a software renderer
@@ -90,28 +97,32 @@ void SceneView::Parts::warm_up() {
   for (const auto& actor : actors) renderers[0]->RemoveActor(actor);
 }
 
-void SceneView::Parts::show_first(bool moving_now) {
+void SceneView::show_first(bool moving_now) {
+  Parts& p = *parts_;
   std::size_t all = 0;
-  for (auto& [id, item] : items)
+  for (auto& [id, item] : p.items)
     if (item.style.visible && item.drawable->kind == DrawableKind::kCloud)
       all += item.drawable->points;
-  const double share = all > budget ? double(budget) / double(all) : 1.0;
-  pending.clear();
-  points_drawn = 0;
-  for (auto& [id, item] : items) {
+  const double share = all > p.budget ? double(p.budget) / double(all) : 1.0;
+  p.pending.clear();
+  p.points_drawn = 0;
+  for (auto& [id, item] : p.items) {
     const bool cloud = item.drawable->kind == DrawableKind::kCloud;
-    const bool coarse = item.coarse && moving_now;
+    const bool coarse = item.style.visible && item.drawable->coarse && moving_now;
     const double allowed = share * double(item.drawable->points);
     double shown = 0.0;
     for (std::size_t i = 0; i < item.actors.size(); ++i) {
       const auto count = double(item.drawable->chunks[i]->GetNumberOfPoints());
       const bool first = !cloud || i == 0 || shown + count <= allowed;
       if (first) shown += count;
-      item.actors[i]->SetVisibility(item.style.visible && first && !coarse);
-      if (item.style.visible && !first) pending.push_back(item.actors[i]);
+      const bool now = item.style.visible && first && !coarse;
+      if (now) actor_of(item, i)->VisibilityOn();
+      if (!now && item.actors[i]) item.actors[i]->VisibilityOff();
+      if (item.style.visible && !first) p.pending.push_back({&item, i});
     }
-    if (item.coarse) item.coarse->SetVisibility(item.style.visible && coarse);
-    if (item.style.visible && cloud) points_drawn += std::size_t(shown);
+    if (coarse) actor_of(item, item.actors.size())->VisibilityOn();
+    if (!coarse && item.coarse) item.coarse->VisibilityOff();
+    if (item.style.visible && cloud) p.points_drawn += std::size_t(shown);
   }
 }
 
@@ -120,11 +131,15 @@ void SceneView::draw_rest() {
   Parts& p = *parts_;
   if (p.moving || p.pending.empty() || !isVisible()) return;
   for (auto& [id, item] : p.items) {
-    for (const auto& actor : item.actors) actor->VisibilityOff();
+    for (const auto& actor : item.actors)
+      if (actor) actor->VisibilityOff();
     if (item.coarse) item.coarse->VisibilityOff();
   }
   const std::size_t count = std::min(p.pending.size(), p.chunks_a_frame);
-  for (std::size_t i = 0; i < count; ++i) p.pending[p.pending.size() - 1 - i]->VisibilityOn();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [item, chunk] = p.pending[p.pending.size() - 1 - i];
+    actor_of(*item, chunk)->VisibilityOn();
+  }
   p.pending.resize(p.pending.size() - count);
   for (auto& renderer : p.renderers) {
     renderer->PreserveColorBufferOn();
@@ -135,8 +150,8 @@ void SceneView::draw_rest() {
   clock.start();
   p.window->Render();
   const double ms = 1e-6 * double(clock.nsecsElapsed());
-  if (ms < 0.5 * kFrameGoalMs) p.chunks_a_frame = std::min<std::size_t>(p.chunks_a_frame + 1, 16);
-  if (ms > kFrameGoalMs) p.chunks_a_frame = std::max<std::size_t>(p.chunks_a_frame / 2, 1);
+  if (ms < 0.5 * kPieceGoalMs) p.chunks_a_frame = std::min<std::size_t>(p.chunks_a_frame + 1, 16);
+  if (ms > kPieceGoalMs) p.chunks_a_frame = std::max<std::size_t>(p.chunks_a_frame / 2, 1);
   p.complete = p.pending.empty();
   if (!p.complete) p.more.start(0);
 }
@@ -147,6 +162,8 @@ bool SceneView::settled() const {
 }
 
 std::size_t SceneView::points_while_moving() const { return parts_->points_drawn; }
+
+std::size_t SceneView::points_at_once() const { return parts_->budget; }
 
 double SceneView::longest_frame_ms() const { return parts_->longest_ms; }
 

@@ -64,7 +64,7 @@ void SceneView::paint_axes(QPainter& painter) {
   parts_->camera->GetFocalPoint(focus.data());
   const Vec3d forward = (focus - position).normalized();
   const Vec3d right = forward.cross(parts_->up).normalized(), up = right.cross(forward);
-  const QPointF center(width() - 44.0, height() - 44.0);
+  const QPointF center(width() - 56.0, height() - 52.0);
   const std::array<QColor, 3> colors{QColor(0xcf4a42), QColor(0x4a9a55), QColor(0x3f72c4)};
   const std::array<QString, 3> names{"X", "Y", "Z"};
   for (int axis = 0; axis < 3; ++axis) {
@@ -128,6 +128,18 @@ void SceneView::paint_legend(QPainter& painter) {
     painter.drawText(QRectF(x + bar_width + 8, y, text_width + 8, row), Qt::AlignVCenter,
                      legend.entries[i].text);
   }
+}
+
+/// Below the text in the middle, while there is nothing else to see.
+void SceneView::place_actions() {
+  QWidget* actions = parts_->empty_actions;
+  if (!actions) return;
+  const bool empty = scene_box().empty();
+  actions->setVisible(empty);
+  if (!empty) return;
+  const QSize size = actions->sizeHint();
+  actions->setGeometry(QRect(QPoint((width() - size.width()) / 2, height() / 2 + 34), size));
+  actions->raise();
 }
 
 void SceneView::paint_texts(QPainter& painter) {

@@ -6,9 +6,12 @@
 #include <vtkProperty.h>
 #include <vtkRendererCollection.h>
 
+#include <QHBoxLayout>
+#include <QPushButton>
 #include <algorithm>
 
 #include "scene_view_parts.hpp"
+#include "section.hpp"
 
 namespace turnscan::studio {
 
@@ -85,20 +88,25 @@ void SceneView::replace(int id, DrawablePtr drawable) {
   Item& item = found->second;
   parts_->drop(item);
   item.drawable = std::move(drawable);
-  const auto actor_of = [&](vtkPolyData* geometry) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(geometry);
-    mapper->StaticOn();
-    if (parts_->clip_planes->GetNumberOfItems() > 0 && item.style.boxed)
-      mapper->SetClippingPlanes(parts_->clip_planes);
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    return actor;
-  };
-  for (const auto& chunk : item.drawable->chunks) item.actors.push_back(actor_of(chunk));
-  if (item.drawable->coarse) item.coarse = actor_of(item.drawable->coarse);
+  item.actors.resize(item.drawable->chunks.size());
   apply_style(item);
   request_render();
+}
+
+vtkActor* SceneView::actor_of(Item& item, std::size_t chunk) {
+  const bool coarse = chunk >= item.actors.size();
+  vtkSmartPointer<vtkActor>& actor = coarse ? item.coarse : item.actors[chunk];
+  if (actor) return actor;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(coarse ? item.drawable->coarse : item.drawable->chunks[chunk]);
+  mapper->StaticOn();
+  if (parts_->clip_planes->GetNumberOfItems() > 0 && item.style.boxed)
+    mapper->SetClippingPlanes(parts_->clip_planes);
+  actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  style_actor(item, actor);
+  parts_->size_points(item, devicePixelRatioF(), metres_per_pixel());
+  return actor;
 }
 
 void SceneView::set_style(int id, const ItemStyle& style) {
@@ -118,28 +126,44 @@ void SceneView::remove(int id) {
 }
 
 void SceneView::apply_style(Item& item) {
+  for (const auto& actor : item.actors)
+    if (actor) style_actor(item, actor);
+  if (item.coarse) style_actor(item, item.coarse);
+  parts_->size_points(item, devicePixelRatioF(), metres_per_pixel());
+  update_box(item);
+}
+
+void SceneView::style_actor(const Item& item, vtkActor* actor) {
   Parts& p = *parts_;
   const ItemStyle& style = item.style;
-  const Drawable& drawable = *item.drawable;
-  std::vector<vtkActor*> actors(item.actors.begin(), item.actors.end());
-  if (item.coarse) actors.push_back(item.coarse);
-  for (vtkActor* actor : actors) {
-    vtkProperty* property = actor->GetProperty();
-    property->SetColor(style.color.redF(), style.color.greenF(), style.color.blueF());
-    property->SetPointSize(float(p.point_size * style.point_scale * devicePixelRatioF()));
-    property->SetLineWidth(float(style.line_width * devicePixelRatioF()));
-    property->SetLighting(style.lit && drawable.kind == DrawableKind::kMesh);
-    property->SetInterpolationToPhong();
-    property->SetAmbient(0.12);
-    property->SetDiffuse(0.85);
-    property->SetSpecular(0.12);
-    property->SetSpecularPower(20.0);
-    actor->GetMapper()->SetScalarVisibility(style.own_colors && drawable.colored);
-    const int pane = p.split && style.pane == 1 ? 1 : 0;
-    p.renderers[1 - pane]->RemoveActor(actor);
-    if (!p.renderers[pane]->HasViewProp(actor)) p.renderers[pane]->AddActor(actor);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(style.color.redF(), style.color.greenF(), style.color.blueF());
+  property->SetLineWidth(float(style.line_width * devicePixelRatioF()));
+  property->SetLighting(style.lit && item.drawable->kind == DrawableKind::kMesh);
+  property->SetInterpolationToPhong();
+  property->SetAmbient(0.12);
+  property->SetDiffuse(0.85);
+  property->SetSpecular(0.12);
+  property->SetSpecularPower(20.0);
+  actor->GetMapper()->SetScalarVisibility(style.own_colors && item.drawable->colored);
+  const int pane = p.split && style.pane == 1 ? 1 : 0;
+  p.renderers[std::size_t(1 - pane)]->RemoveActor(actor);
+  if (!p.renderers[std::size_t(pane)]->HasViewProp(actor))
+    p.renderers[std::size_t(pane)]->AddActor(actor);
+}
+
+/// Points that are to touch are as large as they lie apart where the camera looks.
+void SceneView::Parts::size_points(Item& item, double ratio, double metres_per_pixel) {
+  constexpr double kOverlap = 1.25, kLargest = 48.0;
+  const double spacing = item.drawable->spacing_m;
+  double pixels = point_size * item.style.point_scale;
+  if (spacing > 0.0) {
+    const double apart = kOverlap * spacing / std::max(metres_per_pixel, 1e-12);
+    pixels = std::clamp(apart, 1.0, kLargest) * point_size / kPointSize;
   }
-  update_box(item);
+  for (const auto& actor : item.actors)
+    if (actor) actor->GetProperty()->SetPointSize(float(pixels * ratio));
+  if (item.coarse) item.coarse->GetProperty()->SetPointSize(float(pixels * ratio));
 }
 
 void SceneView::update_box(Item& item) {
@@ -215,6 +239,22 @@ void SceneView::set_empty_text(const QString& title, const QString& text) {
   update_overlay();
 }
 
+void SceneView::set_empty_actions(const std::vector<Action>& actions) {
+  delete parts_->empty_actions;
+  auto* row = new QWidget(this);
+  auto* layout = new QHBoxLayout(row);
+  layout->setSpacing(10);
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    auto* made =
+        i == 0 ? primary_button(actions[i].text, {}, row) : button(actions[i].text, {}, row);
+    if (i > 0) made->setObjectName("secondary");
+    connect(made, &QPushButton::clicked, this, actions[i].run);
+    layout->addWidget(made);
+  }
+  parts_->empty_actions = row;
+  place_actions();
+}
+
 void SceneView::set_hint(const QString& text) {
   parts_->hint = text;
   update_overlay();
@@ -248,7 +288,8 @@ void SceneView::set_clip(const Vec3d& normal, double offset) {
   }
   for (auto& [id, item] : p.items) {
     if (!item.style.boxed) continue;
-    for (const auto& actor : item.actors) actor->GetMapper()->SetClippingPlanes(p.clip_planes);
+    for (const auto& actor : item.actors)
+      if (actor) actor->GetMapper()->SetClippingPlanes(p.clip_planes);
     if (item.coarse) item.coarse->GetMapper()->SetClippingPlanes(p.clip_planes);
   }
   request_render();
@@ -271,7 +312,10 @@ void SceneView::request_render() {
   if (!parts_->render.isActive()) parts_->render.start(0);
 }
 
-void SceneView::update_overlay() { parts_->overlay->update(); }
+void SceneView::update_overlay() {
+  parts_->overlay->update();
+  place_actions();
+}
 
 void SceneView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
@@ -283,6 +327,7 @@ void SceneView::resizeEvent(QResizeEvent* event) {
   parts_->canvas->setGeometry(rect());
   parts_->overlay->setGeometry(rect());
   parts_->overlay->raise();
+  place_actions();
   // Until somebody moves the camera, everything stays in view.
   if (!parts_->touched) reset_camera();
   request_render();

@@ -9,10 +9,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "drawable.hpp"
 
 class QPainter;
+class vtkActor;
 
 namespace turnscan::studio {
 
@@ -76,6 +78,12 @@ class SceneView : public QWidget {
   void set_legend(const Legend& legend);
   /// Shown in the middle while nothing is drawn.
   void set_empty_text(const QString& title, const QString& text);
+  /// Buttons below that text; the first one is what most people want.
+  struct Action {
+    QString text;
+    std::function<void()> run;
+  };
+  void set_empty_actions(const std::vector<Action>& actions);
   /// One line at the top, e.g. what to click next; empty: none.
   void set_hint(const QString& text);
   void set_tool(ViewTool* tool);  ///< nullptr: the camera alone
@@ -86,6 +94,8 @@ class SceneView : public QWidget {
   void set_clip(const Vec3d& normal, double offset);
 
   void reset_camera();
+  /// The same, unless somebody has moved the camera.
+  void fit_unless_moved();
   void look(StandardView from);
   /// The camera moves to look at a point from a direction (0: as now), `size_m` filling the view.
   void fly_to(const Vec3d& center, double size_m, const Vec3d& from);
@@ -110,10 +120,9 @@ class SceneView : public QWidget {
   bool settled() const;
   /// Points that the last frame while moving drew, and the longest such frame.
   std::size_t points_while_moving() const;
+  /// As many points as this machine draws without a pause that shows.
+  std::size_t points_at_once() const;
   double longest_frame_ms() const;
-
- Q_SIGNALS:
-  void hovered(const QString& position);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -136,6 +145,9 @@ class SceneView : public QWidget {
   void camera_moved();
   void render_now();
   void draw_coarse();
+  void show_first(bool moving_now);
+  vtkActor* actor_of(Item& item, std::size_t chunk);
+  void style_actor(const Item& item, vtkActor* actor);
   void draw_rest();
   void apply_style(Item& item);
   void update_box(Item& item);
@@ -146,6 +158,7 @@ class SceneView : public QWidget {
   void paint_axes(QPainter& painter);
   void paint_legend(QPainter& painter);
   void paint_texts(QPainter& painter);
+  void place_actions();
 
   std::unique_ptr<Parts> parts_;
   ViewTool* tool_ = nullptr;

@@ -24,6 +24,7 @@ namespace turnscan::studio {
 
 inline constexpr int kRestAfterMs = 180;    ///< the camera, after it moved
 inline constexpr double kViewAngle = 30.0;  ///< degrees, vertical
+inline constexpr double kPointSize = 2.0;   ///< pixels, unless somebody changes it
 
 /// The OpenGL surface; the mouse belongs to the view.
 class VtkCanvas : public QVTKOpenGLNativeWidget {
@@ -42,6 +43,7 @@ class ViewOverlay;
 struct SceneView::Item {
   DrawablePtr drawable;
   ItemStyle style;
+  /// Of each chunk, made when it is first drawn: hundreds at once would be a pause that shows.
   std::vector<vtkSmartPointer<vtkActor>> actors;
   vtkSmartPointer<vtkActor> coarse, box;
 };
@@ -57,11 +59,12 @@ struct SceneView::Parts {
   int next_item = 1;
 
   const Theme* theme = nullptr;
-  double point_size = 2.0, speed = 1.0;
+  double point_size = kPointSize, speed = 1.0;
   bool boxes = false, split = false;
   std::array<QString, 2> pane_titles;
   Legend legend;
   QString empty_title, empty_text, hint;
+  QWidget* empty_actions = nullptr;
 
   Vec3d up = Vec3d::UnitY();
   Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a flight
@@ -73,7 +76,11 @@ struct SceneView::Parts {
   bool moving = false, complete = false, warm = false;
   std::size_t budget = 40000, chunks_a_frame = 1, points_drawn = 0;
   double longest_ms = 0.0;
-  std::vector<vtkSmartPointer<vtkActor>> pending;
+  struct Piece {
+    Item* item;
+    std::size_t chunk;
+  };
+  std::vector<Piece> pending;
 
   QPointF last_mouse;
   bool tool_active = false;
@@ -82,10 +89,12 @@ struct SceneView::Parts {
   void fly(double share);
   void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
   void warm_up();
-  void show_first(bool moving_now);
+  void learn_from(double ms);
+  void size_points(Item& item, double ratio, double metres_per_pixel);
   void drop(Item& item) {
     for (auto& renderer : renderers) {
-      for (const auto& actor : item.actors) renderer->RemoveActor(actor);
+      for (const auto& actor : item.actors)
+        if (actor) renderer->RemoveActor(actor);
       if (item.coarse) renderer->RemoveActor(item.coarse);
       if (item.box) renderer->RemoveActor(item.box);
     }

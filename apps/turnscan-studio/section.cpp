@@ -5,10 +5,11 @@
 #include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QVariant>
 
 namespace turnscan::studio {
 
-Section::Section(const QString& title, bool open, QWidget* parent)
+Section::Section(const QString& title, bool open, QWidget* parent, Level level)
     : QWidget(parent), header_(new QToolButton(this)), content_(new QWidget(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -19,14 +20,19 @@ Section::Section(const QString& title, bool open, QWidget* parent)
   header_->setCheckable(true);
   header_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   body_ = new QVBoxLayout(content_);
-  body_->setContentsMargins(6, 2, 2, 12);
+  body_->setContentsMargins(4, 2, 4, 12);
   body_->setSpacing(8);
-  auto* rule = new QFrame(this);
-  rule->setObjectName("rule");
-  rule->setFixedHeight(1);
   layout->addWidget(header_);
   layout->addWidget(content_);
-  layout->addWidget(rule);
+  if (level == kNested) {
+    header_->setProperty("nested", true);
+    body_->setContentsMargins(16, 0, 0, 8);
+  } else {
+    auto* rule = new QFrame(this);
+    rule->setObjectName("rule");
+    rule->setFixedHeight(1);
+    layout->addWidget(rule);
+  }
   connect(header_, &QToolButton::toggled, this, [this](bool on) {
     content_->setVisible(on);
     header_->setArrowType(on ? Qt::DownArrow : Qt::RightArrow);
@@ -83,7 +89,7 @@ QVBoxLayout* scrolled_body(QScrollArea* area) {
   auto* body = new QWidget(area);
   body->setObjectName("panel_body");
   auto* layout = new QVBoxLayout(body);
-  layout->setContentsMargins(12, 6, 12, 12);
+  layout->setContentsMargins(14, 6, 14, 12);
   layout->setSpacing(0);
   area->setWidget(body);
   area->setWidgetResizable(true);

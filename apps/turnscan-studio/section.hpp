@@ -15,7 +15,9 @@ namespace turnscan::studio {
 class Section : public QWidget {
   Q_OBJECT
  public:
-  Section(const QString& title, bool open, QWidget* parent = nullptr);
+  enum Level { kTop, kNested };  ///< a nested one is indented and has no rule below it
+
+  Section(const QString& title, bool open, QWidget* parent = nullptr, Level level = kTop);
   QVBoxLayout* body() const { return body_; }
   void set_open(bool open);
   bool is_open() const;

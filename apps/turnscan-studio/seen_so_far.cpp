@@ -60,6 +60,14 @@ double SeenSoFar::share_well() const {
 
 int SeenSoFar::sides() const { return std::popcount(sides_); }
 
+std::optional<Rgb> SeenSoFar::color_at(const Vec3f& p) const {
+  if (!p.allFinite() || double(p.cwiseAbs().maxCoeff()) >= cell_m_ * double(kCellLimit - 1))
+    return std::nullopt;
+  const auto found = cells_.find(key_of(p, cell_m_));
+  if (found == cells_.end() || found->second.frames < 2) return std::nullopt;
+  return color_of_sides(std::popcount(found->second.sides));
+}
+
 PointCloud SeenSoFar::cloud() const {
   PointCloud out;
   for (const auto& [key, cell] : cells_) {

@@ -2,6 +2,7 @@
 // What a recording has seen of the object so far.
 
 #include <cstdint>
+#include <optional>
 #include <turnscan/core/point_cloud.hpp>
 #include <unordered_map>
 
@@ -26,6 +27,10 @@ class SeenSoFar {
   double share_well() const;
   /// Sides of the turn from which there is a frame.
   int sides() const;
+  /// Colour of the place at p, table frame, by the sides that it was seen from; nullopt where none
+  /// or only one frame saw it.
+  std::optional<Rgb> color_at(const Vec3f& p) const;
+  double cell_m() const { return cell_m_; }
   /// A point per cell, coloured by sides: color_of_sides().
   PointCloud cloud() const;
 

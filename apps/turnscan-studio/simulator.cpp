@@ -1,7 +1,6 @@
 #include "simulator.hpp"
 
 #include <QComboBox>
-#include <QDir>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -18,6 +17,7 @@
 
 #include "jobs.hpp"
 #include "option_form.hpp"
+#include "paths.hpp"
 #include "scene_view.hpp"
 #include "section.hpp"
 #include "simulator_parts.hpp"
@@ -74,7 +74,7 @@ void SimulatorMode::build_object() {
   row->addWidget(open);
   section->body()->addLayout(row);
   auto* form = new OptionForm(describe(scene_->object_placement), {}, section);
-  auto* place = new Section(tr("How it stands"), false, section);
+  auto* place = new Section(tr("How it stands"), false, section, Section::kNested);
   place->body()->addWidget(form);
   section->body()->addWidget(place);
   forms_.emplace_back("object", form);
@@ -107,14 +107,14 @@ void SimulatorMode::build_options() {
   });
   for (SceneTable& table : describe(*scene_)) {
     if (table.name == "object" || table.name == "placement") continue;
-    auto* section = new Section(QString::fromStdString(table.title), false, all);
+    auto* section = new Section(QString::fromStdString(table.title), false, all, Section::kNested);
     auto* form = new OptionForm(std::move(table.options), {}, section);
     section->body()->addWidget(form);
     all->body()->addWidget(section);
     forms_.emplace_back(QString::fromStdString(table.name), form);
     connect(form, &OptionForm::changed, preview_, qOverload<>(&QTimer::start));
   }
-  auto* section = new Section(tr("Coverage"), false, all);
+  auto* section = new Section(tr("Coverage"), false, all, Section::kNested);
   auto* form = new OptionForm(describe(*coverage_), {}, section);
   section->body()->addWidget(form);
   all->body()->addWidget(section);
@@ -147,7 +147,7 @@ void SimulatorMode::build_run() {
   reconstruct_->setEnabled(false);
   connect(browse, &QPushButton::clicked, this, [this] {
     const QString path = QFileDialog::getExistingDirectory(this, tr("Folder of the recording"));
-    if (!path.isEmpty()) folder_->setText(path);
+    if (!path.isEmpty()) set_folder(path);
   });
   connect(run_, &QPushButton::clicked, this, &SimulatorMode::run);
   const auto send = [this](bool on) {
@@ -179,7 +179,7 @@ void SimulatorMode::show_object(const QString& object) {
   object_->setCurrentIndex(index);
 }
 
-void SimulatorMode::set_folder(const QString& folder) { folder_->setText(folder); }
+void SimulatorMode::set_folder(const QString& folder) { folder_->setText(shown_path(folder)); }
 
 bool SimulatorMode::ready() const {
   return object_item_ != 0 && !preview_->isActive() && !quick_->busy();
@@ -243,12 +243,9 @@ void SimulatorMode::run() {
   view().remove(coverage_item_);
   coverage_item_ = 0;
   view().set_legend({});
-  if (folder_->text().trimmed().isEmpty()) folder_->setText(QDir::home().filePath("simulation"));
-  QString folder = folder_->text().trimmed();
+  if (folder_->text().trimmed().isEmpty()) folder_->setText("~/simulation");
   // Nothing is overwritten: the next free name.
-  const QString base = folder;
-  for (int i = 2; QDir(folder).exists() && !QDir(folder).isEmpty(); ++i)
-    folder = QString("%1-%2").arg(base).arg(i);
+  const QString folder = free_folder(typed_path(folder_->text()));
   stream_ = std::make_shared<SampleStream>();
   poll_->start();
   run_->setEnabled(false);
@@ -318,8 +315,7 @@ Result<> SimulatorMode::read_text(const QString& text, SceneDescription& scene) 
 
 void SimulatorMode::restore() {
   const QSettings settings;
-  folder_->setText(
-      settings.value("simulator/folder", QDir::home().filePath("simulation")).toString());
+  folder_->setText(settings.value("simulator/folder", "~/simulation").toString());
   for (const auto& [name, form] : forms_)
     if (name == "coverage") form->restore("simulator/coverage");
   SceneDescription scene;
@@ -369,7 +365,7 @@ void SimulatorMode::save_scene(const QString& path) {
       tr("Save scene"), this,
       [this, path, text = scene_toml(scene())](const RunContext&) -> Result<Finish> {
         TURNSCAN_TRY(write_file_atomically(path.toStdString(), text));
-        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(path)); });
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
       },
       [this](const QString& text) { error_->show_text(text); });
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "option_form.hpp"
+#include "paths.hpp"
 #include "scene_view.hpp"
 #include "section.hpp"
 #include "simulator_parts.hpp"
@@ -80,7 +81,9 @@ void SimulatorMode::show_result(std::shared_ptr<SimulationResult> result) {
   result_ = std::move(result);
   send_->setEnabled(true);
   reconstruct_->setEnabled(true);
-  Q_EMIT status(tr("Wrote %1").arg(QString::fromStdString(result_->folder)));
+  Q_EMIT status(tr("Wrote %1").arg(shown_path(QString::fromStdString(result_->folder))));
+  if (result_->coverage_error && result_->coverage_error->code != ErrorCode::kCancelled)
+    error_->show_text(QString::fromStdString(result_->coverage_error->text()));
   if (!result_->colored[0]) return;
   coverage_box_->setVisible(true);
   fill_holes();

@@ -10,6 +10,7 @@
 #include <QStackedWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QVariant>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -127,6 +128,7 @@ void SimulatorMode::build_scanners() {
     if (!path.isEmpty()) add_scanner(path);
   });
   add->setMenu(menu);
+  add->setProperty("menu", true);
   add->setPopupMode(QToolButton::InstantPopup);
   auto* remove = button(tr("Remove"), tr("Remove the selected scanner"), section);
   row->addWidget(add);
@@ -158,6 +160,7 @@ void SimulatorMode::add_scanner(const QString& model) {
   draw_slot(slot);
   list_->setCurrentRow(list_->count() - 1);
   place_changed();
+  view().reset_camera();  // it may stand beside what was seen
 }
 
 bool SimulatorMode::add_slot(const ScannerEntry& entry) {

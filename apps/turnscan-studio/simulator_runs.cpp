@@ -145,7 +145,12 @@ Result<SimulationResult> simulate(const SceneDescription& scene, const std::stri
   if (placed) objects.push_back(*placed);
   TURNSCAN_TRY(record(scene, objects, passes, folder, watched, context));
   if (!placed) return result;
-  TURNSCAN_ASSIGN(result.map, cli::coverage_of(passes, objects, options, coverage, context));
+  auto map = cli::coverage_of(passes, objects, options, coverage, context);
+  if (!map) {
+    result.coverage_error = std::move(map).error();
+    return result;
+  }
+  result.map = std::move(*map);
   result.text = cli::coverage_text(result.map, coverage);
   context.begin_phase("prepare the view", 0);
   color_patches(coverage, result);

@@ -24,14 +24,16 @@ enum class CoverageColoring { kState, kDensity, kReason };
 
 struct SimulationResult {
   std::string folder;
-  CoverageMap map;
-  std::array<DrawablePtr, 3> colored;  ///< by CoverageColoring; world frame
+  CoverageMap map;                      ///< empty where coverage_error is set
+  std::optional<Error> coverage_error;  ///< why it is not known what was covered
+  std::array<DrawablePtr, 3> colored;   ///< by CoverageColoring; world frame
   Pose T_world_table = Pose::Identity();
   std::string text;
 };
 
 /// Records the scene into a folder, with its truth, as `turnscan simulate -o folder --coverage`
-/// does, byte for byte. The folder must not exist or be empty; after a failure nothing is left.
+/// does, byte for byte. The folder must not exist or be empty; after a failure nothing is left, but
+/// a recording that is whole stays: then coverage_error says what became of its coverage.
 Result<SimulationResult> simulate(const SceneDescription& scene, const std::string& folder,
                                   const CoverageMapOptions& coverage, const SampleSink& sink,
                                   const RunContext& context);

@@ -7,7 +7,6 @@
 #include <QVBoxLayout>
 #include <deque>
 #include <map>
-#include <turnscan/io/atomic_file.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 
 #include "command_line.hpp"
@@ -63,12 +62,11 @@ void StagePanel::build() {
   layout->setSpacing(0);
   mesh_ = primary_button(tr("Reconstruct"),
                          tr("Run every stage on the selected recording or cloud (Ctrl+R)"), this);
-  mesh_->setObjectName("primary");
-  mesh_->setProperty("role", "reconstruct");
+  mesh_->setShortcut(QKeySequence("Ctrl+R"));
   connect(mesh_, &QPushButton::clicked, this, [this] { Q_EMIT run("mesh"); });
   auto* top = new QVBoxLayout;
   top->setSpacing(8);
-  top->setContentsMargins(6, 4, 2, 8);
+  top->setContentsMargins(0, 2, 0, 6);
   top->addWidget(mesh_);
   auto* row = new QHBoxLayout;
   row->setSpacing(6);
@@ -87,10 +85,9 @@ void StagePanel::build() {
     show_error(read ? QString() : QString::fromStdString(read.error().text()));
   });
   connect(save, &QPushButton::clicked, this, [this, filter] {
-    QString path = QFileDialog::getSaveFileName(this, tr("Save preset"), "preset.toml", filter);
-    if (path.isEmpty()) return;
-    const auto written = save_preset(path.toStdString());
-    show_error(written ? QString() : QString::fromStdString(written.error().text()));
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save preset"), "preset.toml", filter);
+    if (!path.isEmpty()) Q_EMIT save_preset(path);
   });
   connect(reset, &QPushButton::clicked, this, [this] {
     for (const auto& [stage, form] : forms_) form->reset_to_defaults();
@@ -98,8 +95,8 @@ void StagePanel::build() {
   });
   for (StageOptions& stage : describe_stages(*options_)) {
     const auto title = titles().find(stage.stage);
-    auto* section =
-        new Section(title == titles().end() ? title_of(stage.stage) : title->second, false, this);
+    auto* section = new Section(title == titles().end() ? title_of(stage.stage) : title->second,
+                                false, this, Section::kNested);
     section->setObjectName("stage:" + QString::fromStdString(stage.stage));
     auto* form = new OptionForm(std::move(stage.table), {}, section);
     section->body()->addWidget(form);
@@ -151,7 +148,7 @@ void StagePanel::set_target(bool recording, bool cloud) {
   filter_->setEnabled(cloud);
 }
 
-Result<> StagePanel::save_preset(const std::string& path) const {
+std::string StagePanel::preset_text() const {
   std::string text;
   for (const auto& [stage, form] : forms_) {
     std::string lines;
@@ -160,8 +157,7 @@ Result<> StagePanel::save_preset(const std::string& path) const {
       lines += fmt::format("{} = \"{}\"\n", it.key().toStdString(), it.value().toStdString());
     if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", stage, lines);
   }
-  if (text.empty()) text = "# all options at their defaults\n";
-  return write_file_atomically(path, text);
+  return text.empty() ? "# all options at their defaults\n" : text;
 }
 
 Result<> StagePanel::load_preset(const std::string& path) {

@@ -33,7 +33,7 @@ class StagePanel : public QWidget {
   void set_target(bool recording, bool cloud);
 
   /// TOML as the command line's --config reads it.
-  Result<> save_preset(const std::string& path) const;
+  std::string preset_text() const;
   Result<> load_preset(const std::string& path);
   void store() const;  ///< keeps the options in the settings
 
@@ -41,6 +41,8 @@ class StagePanel : public QWidget {
   /// A stage of saveable_stages(), or "mesh".
   void run(const QString& stage);
   void filter();
+  /// preset_text() is to go there.
+  void save_preset(const QString& path);
 
  private:
   void build();

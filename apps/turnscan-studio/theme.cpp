@@ -21,6 +21,7 @@ QToolButton#mode:hover { background: %window; color: %text; }
 QToolButton#mode:checked { background: %accent; color: %accent_text; }
 QToolButton#section { border: none; padding: 7px 4px; font-weight: 600; color: %text;
   text-align: left; }
+QToolButton#section[nested="true"] { font-weight: 500; }
 QToolButton#section:hover { color: %accent; }
 QFrame#rule { background: %line; max-height: 1px; border: none; }
 QLabel#quiet { color: %quiet; }
@@ -34,15 +35,40 @@ QLineEdit:focus, QTableWidget:focus, QTreeWidget:focus {
   border: 1px solid %accent; }
 QLineEdit[invalid="true"] { border: 1px solid %error; }
 QPushButton, QToolButton#tool { background: %field; color: %text; border: 1px solid %line;
-  border-radius: 5px; padding: 5px 12px; min-height: 18px; }
-QToolButton#tool { padding: 5px 9px; }
+  border-radius: 5px; padding: 6px 12px; min-height: 18px; }
+QToolButton#tool { padding: 6px 9px; }
+QToolButton#tool[menu="true"] { padding-right: 24px; }
+QToolButton#tool::menu-indicator { image: url(:/studio/icons/arrow.png); width: 12px; height: 12px;
+  subcontrol-origin: border; subcontrol-position: right center; right: 7px; }
+QComboBox { background: %field; border: 1px solid %line; border-radius: 5px; padding: 3px 7px;
+  min-height: 20px; }
+QComboBox:hover, QComboBox:focus { border-color: %accent; }
+QComboBox:disabled { color: %faint; background: %panel; }
+QComboBox::drop-down { border: none; width: 24px; }
+QComboBox::down-arrow { image: url(:/studio/icons/arrow.png); width: 12px; height: 12px; }
+QComboBox QAbstractItemView { background: %field; border: 1px solid %line; padding: 3px;
+  selection-background-color: %accent; selection-color: %accent_text; outline: none; }
+QComboBox QAbstractItemView::item { min-height: 24px; padding: 0 6px; }
+QCheckBox { spacing: 7px; }
+QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %edge;
+  border-radius: 4px; background: %field; }
+QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent;
+  border-color: %accent; image: url(:/studio/icons/check.png); }
+QCheckBox::indicator:disabled { border-color: %line; background: %panel; }
+QListWidget, QTreeWidget { padding: 3px; outline: none; }
+QTableWidget::item { padding: 0 5px; }
+QListWidget::item, QTreeWidget::item { min-height: 24px; border-radius: 4px; }
+QListWidget::item { padding-left: 5px; }
+QListWidget::item:selected, QTreeWidget::item:selected { background: %accent;
+  color: %accent_text; }
 QPushButton:hover, QToolButton#tool:hover { border-color: %accent; }
 QPushButton:pressed, QPushButton:checked, QToolButton#tool:pressed, QToolButton#tool:checked {
   background: %accent; color: %accent_text; border-color: %accent; }
 QPushButton:disabled, QToolButton#tool:disabled { color: %faint; background: %panel; }
 QPushButton#primary { background: %accent; color: %accent_text; border-color: %accent;
-  font-weight: 600; padding: 7px 14px; }
+  font-weight: 600; padding: 6px 14px; }
 QPushButton#primary:disabled { background: %line; border-color: %line; color: %quiet; }
+QPushButton#secondary { padding: 6px 14px; }
 QPushButton#record { background: %error; color: white; border-color: %error; font-weight: 600;
   padding: 7px 14px; }
 QPushButton#record:disabled { background: %line; border-color: %line; color: %quiet; }
@@ -89,6 +115,7 @@ QString sheet_of(const Theme& t) {
   sheet.replace("%panel", t.panel.name());
   sheet.replace("%field", t.field.name());
   sheet.replace("%quiet", t.quiet_text.name());
+  sheet.replace("%edge", mixed(t.line, t.text, 0.35).name());
   sheet.replace("%faint", mixed(t.quiet_text, t.panel, 0.45).name());
   sheet.replace("%text", t.text.name());
   sheet.replace("%line", t.line.name());

@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QToolButton>
+#include <QVariant>
 #include <algorithm>
 #include <cmath>
 
@@ -106,13 +107,14 @@ QSlider* slider(const QString& tip, const QString& name, QWidget* parent) {
 
 ViewPanel::ViewPanel(ViewSettings& settings, SceneView& view, QWidget* parent) : QWidget(parent) {
   auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(18, 12, 14, 10);
+  grid->setContentsMargins(18, 12, 18, 10);
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(8);
   auto* reset = tool_button(tr("Reset camera"), tr("Show everything (Home)"), this);
   reset->setObjectName("tool");
   auto* views = tool_button(tr("Views"), tr("Look from one side (1 to 7)"), this);
   views->setMenu(view_menu(view, views));
+  views->setProperty("menu", true);
   views->setPopupMode(QToolButton::InstantPopup);
   auto* boxes = new QCheckBox(tr("Bounding boxes"), this);
   boxes->setToolTip(tr("Draw the box around each model (B)"));

@@ -23,6 +23,17 @@ namespace turnscan::studio {
 
 FirstStart::FirstStart() { QSettings().clear(); }
 
+ScansFolder::ScansFolder() {
+  QDir(path()).removeRecursively();
+  QDir::home().mkpath("scans");
+}
+
+ScansFolder::~ScansFolder() { QDir(path()).removeRecursively(); }
+
+QString ScansFolder::path() const { return QDir::home().filePath("scans"); }
+
+QString ScansFolder::filePath(const QString& name) const { return QDir(path()).filePath(name); }
+
 namespace {
 
 double thread_cpu_ms() {
@@ -121,6 +132,8 @@ void keep_picture(QWidget& window, const QString& name) {
   const QString folder = qEnvironmentVariable("TURNSCAN_SCREENSHOTS");
   if (folder.isEmpty()) return;
   run_for(60);
+  if (const auto* main = qobject_cast<MainWindow*>(&window))
+    (void)wait_for([&] { return main->mode().view().settled(); }, 3.0);
   window.grab().save(QDir(folder).filePath(name + ".png"));
 }
 

@@ -2,7 +2,6 @@
 // A person at the window: clicks, keys, waiting for what is shown.
 
 #include <QElapsedTimer>
-#include <QTemporaryDir>
 #include <QTimer>
 #include <QWidget>
 #include <functional>
@@ -18,6 +17,17 @@ class MainWindow;
 /// before the window.
 struct FirstStart {
   FirstStart();
+};
+
+/// The empty folder ~/scans of whoever runs the tests: a name that may stand in a picture.
+class ScansFolder {
+ public:
+  ScansFolder();
+  ~ScansFolder();
+  ScansFolder(const ScansFolder&) = delete;
+  ScansFolder& operator=(const ScansFolder&) = delete;
+  QString path() const;
+  QString filePath(const QString& name) const;
 };
 
 /// The longest time for which the event loop did not come round, on the clock, and in processor

@@ -41,12 +41,12 @@ class Explorer : public ::testing::Test, FirstStart {
   QString path(const QString& name) const { return folder.filePath(name); }
   QWidget* in_panel(const QString& name) { return named(window.explorer(), name); }
 
-  QTemporaryDir folder;
+  ScansFolder folder;
   MainWindow window;
 };
 
 /// A small recording of the letter A.
-QString record_letter(const QTemporaryDir& folder) {
+QString record_letter(const ScansFolder& folder) {
   const QString path = folder.filePath("letter");
   EXPECT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", path, "--frames", "24",
                               "--scanner", "kinect-v2"}),

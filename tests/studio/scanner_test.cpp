@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QCheckBox>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/calibration.hpp>
@@ -18,7 +22,9 @@
 #include "motor_panel.hpp"
 #include "record_panel.hpp"
 #include "scene_view.hpp"
+#include "section.hpp"
 #include "tests/capture/simulated_table.hpp"
+#include "tests/io/scarcity.hpp"
 
 namespace turnscan::studio {
 namespace {
@@ -39,7 +45,7 @@ class Scanner : public ::testing::Test, FirstStart {
     return found && found->isEnabled();
   }
 
-  QTemporaryDir folder;
+  ScansFolder folder;
   MainWindow window;
 };
 
@@ -56,7 +62,30 @@ TEST_F(Scanner, CalibratesRecordsAndShowsTheMesh) {
   keep_picture(window, "scanner-calibrated");
   EXPECT_NEAR(*mode().calibration()->table.radius_m, 0.150, 0.003);
   mode().save_calibration(folder.filePath("table.json"));
+  ASSERT_TRUE(wait_idle(window));
   EXPECT_FALSE(content(folder.filePath("table.json")).isEmpty());
+  {
+    const turnscan::testing::FullDisk full(10);
+    mode().save_calibration(folder.filePath("full.json"));
+    ASSERT_TRUE(wait_idle(window));
+  }
+  EXPECT_FALSE(QFile::exists(folder.filePath("full.json")));
+  mode().load_calibration(folder.filePath("table.json"));
+  EXPECT_NEAR(*mode().calibration()->table.radius_m, 0.150, 0.003);
+  // Only what stands on the table: a part of the points.
+  const auto points = [&] {
+    for (const QLabel* label : mode().findChildren<QLabel*>("quiet"))
+      if (label->text().contains(" frames a second"))
+        return label->text().section(", ", 1, 1).remove(QRegularExpression("[^0-9]")).toInt();
+    return 0;
+  };
+  ASSERT_TRUE(wait_for([&] { return points() > 60000; }));
+  QCheckBox* filter = nullptr;
+  for (QCheckBox* box : mode().findChildren<QCheckBox*>())
+    if (box->text() == "Filter points") filter = box;
+  ASSERT_TRUE(filter && filter->isEnabled());
+  filter->setChecked(true);
+  EXPECT_TRUE(wait_for([&] { return points() > 1000 && points() < 20000; }));
 }
 
 TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
@@ -81,6 +110,19 @@ TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   EXPECT_TRUE(mesh == other) << mesh.left(400).toStdString() << other.left(400).toStdString();
 }
 
+/// Whether the colours of what was seen stand in the picture, beside the legend. What was not seen
+/// is bluish.
+bool shows_sides(const QImage& image) {
+  int warm = 0, green = 0;
+  for (int y = image.height() / 4; y < image.height(); ++y)
+    for (int x = 0; x < image.width() * 3 / 4; ++x) {
+      const QRgb c = image.pixel(x, y);
+      warm += qRed(c) > qBlue(c) + 30 ? 1 : 0;
+      green += qGreen(c) > qBlue(c) + 20 && qGreen(c) > qRed(c) + 20 ? 1 : 0;
+    }
+  return std::min(warm, green) > 500;
+}
+
 TEST_F(Scanner, AMotorTurnsTheTableAndWhatIsSeenIsShown) {
   turnscan::testing::SimulatedTable table(true, turnscan::testing::BoardFault::kNone);
   mode().recording().motor().set_port(QString::fromStdString(table.port()));
@@ -99,11 +141,15 @@ TEST_F(Scanner, AMotorTurnsTheTableAndWhatIsSeenIsShown) {
   ASSERT_TRUE(wait_for([&] {
     for (const QLabel* label : mode().findChildren<QLabel*>("quiet"))
       seen = seen || label->text().startsWith("Seen so far: about");
-    if (seen && !pictured) keep_picture(window, "scanner-recording");
-    pictured = pictured || seen;
+    if (seen && !pictured && shows_sides(mode().view().screenshot())) {
+      pictured = true;
+      for (Section* section : mode().recording().findChildren<Section*>()) section->set_open(false);
+      keep_picture(window, "scanner-recording");
+    }
     return !window.explorer().store().models().empty();
   }));
   EXPECT_TRUE(seen);
+  EXPECT_TRUE(pictured);  // in the colours of the legend
   EXPECT_TRUE(table.stands_within(2.0));
   ASSERT_TRUE(wait_idle(window));
   const auto recording = Recording::open(folder.filePath("recording").toStdString());

@@ -34,7 +34,7 @@ class Simulator : public ::testing::Test, FirstStart {
   }
   SimulatorMode& mode() { return window.simulator(); }
 
-  QTemporaryDir folder;
+  ScansFolder folder;
   MainWindow window;
 };
 

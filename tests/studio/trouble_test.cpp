@@ -8,6 +8,7 @@
 #include <QFile>
 #include <QLabel>
 #include <QPushButton>
+#include <QStatusBar>
 #include <QTest>
 #include <cmath>
 #include <turnscan/io/cloud_io.hpp>
@@ -56,6 +57,25 @@ class Trouble : public ::testing::Test, FirstStart {
     return path("large.ply");
   }
 
+  /// Ball of triangles, the same.
+  QString large_ball() {
+    constexpr std::uint32_t kSide = 250;
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < kSide; ++i)
+      for (std::uint32_t j = 0; j < kSide; ++j) {
+        const double a = 6.283185 * i / kSide, y = std::cos(3.141593 * (j + 0.5) / kSide);
+        const double r = std::sqrt(1.0 - y * y);
+        mesh.vertices.emplace_back(float(0.1 * r * std::cos(a)), float(0.1 * y),
+                                   float(0.1 * r * std::sin(a)));
+        if (j + 1 == kSide) continue;
+        const std::uint32_t at = i * kSide + j, next = (i + 1) % kSide * kSide + j;
+        mesh.triangles.push_back({at, next, at + 1});
+        mesh.triangles.push_back({at + 1, next, next + 1});
+      }
+    EXPECT_TRUE(write_mesh(path("ball.ply").toStdString(), mesh));
+    return path("ball.ply");
+  }
+
   QString recording() {
     EXPECT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", path("letter"), "--frames",
                                 "24", "--scanner", "kinect-v2"}),
@@ -63,7 +83,7 @@ class Trouble : public ::testing::Test, FirstStart {
     return path("letter");
   }
 
-  QTemporaryDir folder;
+  ScansFolder folder;
 };
 
 bool shows_error(QWidget& in, const QString& part) {
@@ -79,52 +99,134 @@ struct Job {
   std::function<void(MainWindow&)> prepare, begin;
 };
 
-std::vector<Job> jobs_of(const QString& cloud, const QString& recording, const QString& out) {
-  const auto nothing = [](MainWindow&) {};
-  const auto load = [](const QString& file) {
-    return [file](MainWindow& window) {
-      window.open(file);
-      EXPECT_TRUE(wait_idle(window));
-    };
+using Step = std::function<void(MainWindow&)>;
+
+Step load(const std::vector<QString>& files) {
+  return [files](MainWindow& window) {
+    for (const QString& file : files) window.open(file);
+    EXPECT_TRUE(wait_idle(window));
   };
+}
+
+Step click_explorer(const QString& text) {
+  return [text](MainWindow& window) { EXPECT_TRUE(click(button_with(window.explorer(), text))); };
+}
+
+void click_when_ready(QWidget& in, const QString& text) {
+  EXPECT_TRUE(wait_for([&] {
+    const QPushButton* found = button_with(in, text);
+    return found && found->isEnabled();
+  }));
+  EXPECT_TRUE(click(button_with(in, text)));
+}
+
+/// A sensor that shows a desk.
+void play(MainWindow& window) {
+  window.show_mode("scanner");
+  window.scanner().set_device("virtual:empty?sensor=kinect-v2&room=desk&frames=60000");
+  EXPECT_TRUE(type(named(window.scanner(), "option:average-frames"), "12"));
+  click_when_ready(window.scanner(), "Play");
+}
+
+void average(MainWindow& window) {
+  click_when_ready(window.scanner(), "Averaged scan");
+  EXPECT_TRUE(wait_for([&] { return window.jobs().busy(); }));
+}
+
+Step play_and_average() {
+  return [](MainWindow& window) {
+    play(window);
+    average(window);
+    EXPECT_TRUE(wait_for([&] { return !window.jobs().busy(); }));
+  };
+}
+
+Step prepare_simulation(const QString& out) {
+  return [out](MainWindow& window) {
+    window.show_mode("simulator");
+    window.simulator().set_folder(out);
+    EXPECT_TRUE(wait_for([&] { return window.simulator().ready(); }));
+  };
+}
+
+void simulate(MainWindow& window) { EXPECT_TRUE(click(button_with(window.simulator(), "Scan"))); }
+
+/// Until the recording is whole and what it covered is counted.
+void simulate_until_coverage(MainWindow& window) {
+  bool counting = false;
+  const auto watch =
+      QObject::connect(&window.jobs(), &JobRunner::progress, &window,
+                       [&counting](const QString& phase) { counting |= phase == "coverage"; });
+  simulate(window);
+  EXPECT_TRUE(wait_for([&] { return counting || !window.jobs().busy(); }));
+  QObject::disconnect(watch);
+  EXPECT_TRUE(counting);
+}
+
+std::vector<Job> jobs_of(const QString& cloud, const QString& ball, const QString& recording,
+                         const QString& out) {
+  const auto nothing = [](MainWindow&) {};
   return {
       {"load", nothing, [cloud](MainWindow& window) { window.open(cloud); }},
-      {"filter", load(cloud),
+      {"filter", load({cloud}),
        [](MainWindow& window) { EXPECT_TRUE(click(named(window.explorer(), "run:outliers"))); }},
-      {"reconstruct", load(recording),
-       [](MainWindow& window) {
-         EXPECT_TRUE(click(button_with(window.explorer(), "Reconstruct")));
-       }},
-      {"simulate",
-       [out](MainWindow& window) {
-         window.show_mode("simulator");
-         window.simulator().set_folder(out);
-         EXPECT_TRUE(wait_for([&] { return window.simulator().ready(); }));
-       },
-       [](MainWindow& window) { EXPECT_TRUE(click(button_with(window.simulator(), "Scan"))); }}};
+      {"reconstruct", load({recording}), click_explorer("Reconstruct")},
+      {"compare", load({ball, ball}), click_explorer("Distances")},
+      {"save", load({ball}),
+       [out](MainWindow& window) { window.explorer().save_as(1, out + ".stl"); }},
+      {"average", play, average},
+      {"calibrate", play_and_average(),
+       [](MainWindow& window) { click_when_ready(window.scanner(), "Calibrate"); }},
+      {"simulate", prepare_simulation(out), simulate},
+      {"coverage", prepare_simulation(out), simulate_until_coverage}};
 }
 
 TEST_F(Trouble, CancellingAndClosingInTheMiddleOfEachJobLeaveNothingBehind) {
-  for (const Job& job : jobs_of(large_cloud(), recording(), path("scan"))) {
+  const QStringList before{"ball.ply", "large.ply", "letter"};
+  for (const Job& job : jobs_of(large_cloud(), large_ball(), recording(), path("scan"))) {
     SCOPED_TRACE(job.name);
     auto window = open_window();
     job.prepare(*window);
-    const std::size_t before = window->explorer().store().models().size();
+    const std::size_t models = window->explorer().store().models().size();
     job.begin(*window);
-    ASSERT_TRUE(window->jobs().busy()) << "selected " << window->explorer().list().selected();
     run_for(30);
     QTest::keyClick(window.get(), Qt::Key_Escape);
     ASSERT_TRUE(wait_for([&] { return !window->jobs().busy(); }));
     // It may have been quicker than the key; then its result is whole.
-    EXPECT_LE(window->explorer().store().models().size(), before + 1);
+    EXPECT_LE(window->explorer().store().models().size(), models + 1);
     EXPECT_FALSE(shows_error(*window, "cancel"));
-    EXPECT_TRUE(!QDir(path("scan")).exists() || window->simulator().result() != nullptr);
+    if (QDir(path("scan")).exists()) {
+      EXPECT_NE(window->simulator().result(), nullptr);
+      const auto made = Recording::open(path("scan").toStdString());
+      ASSERT_TRUE(made.has_value());
+      EXPECT_TRUE(made->complete());
+    }
     job.begin(*window);
     run_for(30);
     window->close();
     window.reset();
-    QDir(path("scan")).removeRecursively();
+    for (const char* made : {"scan", "scan-2"}) QDir(path(made)).removeRecursively();
+    QFile::remove(path("scan.stl"));
+    EXPECT_EQ(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot),
+              before);
   }
+}
+
+TEST_F(Trouble, StoppingARecordingIsNoLoss) {
+  auto window = open_window();
+  window->show_mode("scanner");
+  window->scanner().recording().set_folder(path("recording"));
+  window->scanner().set_device("virtual:letter-a?sensor=kinect-v2&realtime=1");
+  click_when_ready(window->scanner(), "Play");
+  click_when_ready(window->scanner(), "Record");
+  ASSERT_TRUE(wait_for([&] { return QDir(path("recording/depth")).count() > 8; }));
+  // The sensor is stopped, not the recording: both end well.
+  ASSERT_TRUE(click(button_with(window->scanner(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return button_with(window->scanner(), "Play") != nullptr; }));
+  const auto made = Recording::open(path("recording").toStdString());
+  ASSERT_TRUE(made.has_value());
+  EXPECT_TRUE(made->complete());
+  EXPECT_GE(made->frames().size(), 5u);
 }
 
 TEST_F(Trouble, ClosingTheWindowWhileItRecordsKeepsTheRecording) {
@@ -150,13 +252,24 @@ TEST_F(Trouble, AFullDiskInTheMiddleOfEachJobIsSaidAndHalfAFileIsNotLeft) {
   auto window = open_window();
   window->open(path("doll.ply"));
   ASSERT_TRUE(wait_idle(*window));
-  {
-    const turnscan::testing::FullDisk full(20000);
-    window->explorer().save_as(1, path("saved.stl"));
+  const auto on_a_full_disk = [&](rlim_t bytes, const std::function<void()>& write) {
+    const turnscan::testing::FullDisk full(bytes);
+    write();
     ASSERT_TRUE(wait_for([&] { return !window->jobs().busy(); }));
-  }
+  };
+  on_a_full_disk(20000, [&] { window->explorer().save_as(1, path("saved.stl")); });
   EXPECT_TRUE(shows_error(window->explorer(), "saved.stl"));
-  EXPECT_FALSE(QFile::exists(path("saved.stl")));
+  on_a_full_disk(10, [&] { window->explorer().save_preset(path("preset.toml")); });
+  EXPECT_TRUE(shows_error(window->explorer(), "preset.toml"));
+  on_a_full_disk(10, [&] { window->simulator().save_scene(path("scene.toml")); });
+  EXPECT_TRUE(shows_error(window->simulator(), "scene.toml"));
+  on_a_full_disk(1000, [&] { window->screenshot(path("view.png")); });
+  const auto texts = window->statusBar()->findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const QLabel* label) {
+    return label->text().contains("view.png") && !label->text().startsWith("Wrote");
+  }));
+  EXPECT_EQ(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot),
+            QStringList{"doll.ply"});
   window->show_mode("simulator");
   window->simulator().set_folder(path("scan"));
   ASSERT_TRUE(wait_for([&] { return window->simulator().ready(); }));
