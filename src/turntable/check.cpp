@@ -15,6 +15,7 @@ using namespace detail;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kPairs = 6;
+constexpr double kBeside = 3.0 / kDegrees;  ///< of frames that show the same view, but for noise
 constexpr double kAnglesWithin_deg = 1.5;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
 
@@ -52,7 +53,17 @@ std::vector<double> recorded_angles(const FrameSequence& sequence) {
 
 struct TurnPair {
   std::size_t first, second;
+  std::size_t beside = 0;  ///< frame next to the first that shows the same view; the first: none
 };
+
+std::size_t frame_beside(const FrameSequence& sequence, const std::vector<double>& angle,
+                         std::size_t first) {
+  for (std::size_t k = first + 1; k < angle.size(); ++k)
+    if (std::abs(angle[k] - angle[first]) < kBeside &&
+        sequence.frames()[k].pass == sequence.frames()[first].pass)
+      return k;
+  return first;
+}
 
 /// Frames one turn apart, spread over those that have a partner.
 std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vector<double>& angle) {
@@ -70,7 +81,7 @@ std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vecto
       const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
       if (frames[k].pass == frames[i].pass && off < least) best = k, least = off;
     }
-    if (best != i) all.push_back({i, best});
+    if (best != i) all.push_back({i, best, frame_beside(sequence, angle, i)});
   }
   if (all.size() <= kPairs) return all;
   std::vector<TurnPair> out;
@@ -170,8 +181,8 @@ class Checker {
                                  : std::string();
     say(!e.bad(),
         "Closure: one turn later the object lies {:.2f} mm{} from where it was ({} pairs "
-        "of frames).{}",
-        e.shift_m * 1e3, turn, e.pairs,
+        "of frames; noise alone shows {:.2f} mm).{}",
+        e.shift_m * 1e3, turn, e.pairs, e.noise_m * 1e3,
         e.bad() ? " Axis, centre or speed of the recording are wrong." : "");
     return {};
   }
@@ -333,7 +344,9 @@ class Checker {
 }  // namespace
 
 bool ClosureError::bad() const {
-  return shift_m > 0.0015 || (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegrees > 1.0);
+  const double squared = shift_m * shift_m - noise_m * noise_m;
+  return squared > 0.0015 * 0.0015 ||
+         (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegrees > 1.0);
 }
 
 Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
@@ -350,6 +363,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
   for (const TurnPair& pair : pairs) {
     positions.push_back(pair.first);
     positions.push_back(pair.second);
+    positions.push_back(pair.beside);
   }
   std::sort(positions.begin(), positions.end());
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
@@ -362,22 +376,26 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;
     return tl::unexpected<Error>(data.error());
   }
-  std::vector<double> turns, shifts;
+  std::vector<double> turns, shifts, noises;
   const auto frame_at = [&](std::size_t position) -> const MotionFrame& {
     const auto at = std::lower_bound(positions.begin(), positions.end(), position);
     return data->frames[std::size_t(at - positions.begin())];
   };
   for (const TurnPair& pair : pairs) {
     TURNSCAN_TRY(context.check());
-    const double turn = angle[pair.second] - angle[pair.first];
-    const auto closure =
-        compare(frame_at(pair.first), frame_at(pair.second), *table, turn, context);
+    const auto between = [&](std::size_t other) {
+      return compare(frame_at(pair.first), frame_at(other), *table,
+                     angle[other] - angle[pair.first], context);
+    };
+    const auto closure = between(pair.second);
     if (!closure) continue;
+    const auto noise = pair.beside != pair.first ? between(pair.beside) : std::nullopt;
+    noises.push_back(noise ? noise->shift_m : 0.0);
     if (std::isfinite(closure->turn_rad)) turns.push_back(closure->turn_rad);
     shifts.push_back(closure->shift_m);
   }
   if (shifts.size() < 2) return std::nullopt;
-  return ClosureError{median(turns, std::nan("")), median(shifts), shifts.size()};
+  return ClosureError{median(turns, std::nan("")), median(shifts), median(noises), shifts.size()};
 }
 
 Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,

@@ -11,8 +11,10 @@ struct ClosureError {
                           ///< not show it
   double shift_m = 0.0;   ///< median of sqrt(3) times the root mean square of how far the object's
                           ///< points lie off along their normals
+  double noise_m = 0.0;   ///< the same of frames less than 3 degrees apart, which noise alone sets
+                          ///< apart; 0 where there are none
   std::size_t pairs = 0;  ///< pairs of frames that were compared
-  bool bad() const;       ///< over 1.5 mm or 1 degree
+  bool bad() const;       ///< over 1.5 mm beyond the noise (squares), or 1 degree
 };
 
 /// Compares up to six pairs of frames whose angles, as recorded or from the recorded speed, differ

@@ -107,5 +107,14 @@ TEST(MeasureClosure, NeedsATurntableAndAWholeTurn) {
   EXPECT_EQ(measure_closure(sequence, {}).error().code, ErrorCode::kMissingData);
 }
 
+TEST(MeasureClosure, WhatNoiseAloneShowsCondemnsNoCalibration) {
+  ClosureError closure{.shift_m = 0.0027, .noise_m = 0.0024, .pairs = 2};
+  EXPECT_FALSE(closure.bad());
+  closure.noise_m = 0.0005;
+  EXPECT_TRUE(closure.bad());
+  closure = {.turn_rad = 0.02, .shift_m = 0.0, .noise_m = 0.0024, .pairs = 2};
+  EXPECT_TRUE(closure.bad());
+}
+
 }  // namespace
 }  // namespace turnscan
