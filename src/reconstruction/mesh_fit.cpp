@@ -21,6 +21,9 @@ constexpr float kFacing = 0.2f;     // rays that graze the surface say little ab
 constexpr float kWidest = 4.0f;
 /// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
 constexpr float kUsualSpread = 1.2f;
+/// A rim scatters, too, by what else is measured near it, but it is narrow: noisy places are wider
+/// than twice so many rings of neighbours.
+constexpr int kRimRings = 6;
 /// Fewer views do not tell how they scatter.
 constexpr std::size_t kTellSpread = 24;
 
@@ -180,6 +183,20 @@ class Fitter {
       const float spread = std::clamp(times, 1.0f, kWidest);
       spread_[v] = spread * spread;
     });
+    const auto least = [](float a, float b) { return std::min(a, b); };
+    const auto most = [](float a, float b) { return std::max(a, b); };
+    for (int ring = 0; ring < kRimRings; ++ring) spread_ = among_neighbours(spread_, least);
+    for (int ring = 0; ring < kRimRings; ++ring) spread_ = among_neighbours(spread_, most);
+  }
+
+  template <class Choose>
+  std::vector<float> among_neighbours(const std::vector<float>& values,
+                                      const Choose& choose) const {
+    std::vector<float> out = values;
+    parallel_for(values.size(), 4096, [&](std::size_t v) {
+      neighbours_.each(v, [&](std::uint32_t other) { out[v] = choose(out[v], values[other]); });
+    });
+    return out;
   }
 
   /// With every step-th view.
