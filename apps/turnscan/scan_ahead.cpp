@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <numeric>
 #include <optional>
 #include <thread>
+#include <turnscan/core/frame_excerpt.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/check.hpp>
@@ -22,20 +24,11 @@ constexpr double kDegrees = 57.29577951308232;
 constexpr double kClosureShare = 0.25;
 constexpr double kLeastLimit_m = 2e-4;
 
-/// The first frames of another sequence.
-class FirstFrames : public FrameSequence {
- public:
-  FirstFrames(const FrameSequence& sequence, std::size_t count)
-      : sequence_(sequence),
-        frames_(sequence.frames().begin(), sequence.frames().begin() + std::ptrdiff_t(count)) {}
-  const SequenceHeader& header() const override { return sequence_.header(); }
-  const std::vector<FrameInfo>& frames() const override { return frames_; }
-  Result<Frame> read(std::size_t position) const override { return sequence_.read(position); }
-
- private:
-  const FrameSequence& sequence_;
-  std::vector<FrameInfo> frames_;
-};
+FrameExcerpt first_frames(const FrameSequence& sequence, std::size_t count) {
+  std::vector<std::size_t> positions(count);
+  std::iota(positions.begin(), positions.end(), std::size_t{0});
+  return {sequence, std::move(positions)};
+}
 
 Result<> add_frames(ReconstructionStream& stream, const FrameSequence& sequence, std::size_t begin,
                     const RunContext& context) {
@@ -79,7 +72,7 @@ struct ScanAhead::Parts {
 
   Result<Begun> begin() const {
     TURNSCAN_ASSIGN(const Recording recording, open_first());
-    const FirstFrames frames(recording, first);
+    const FrameExcerpt frames = first_frames(recording, first);
     TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(frames, {}, {}, quiet));
     if (!found.undetermined.empty())
       return fail(ErrorCode::kMissingData, "they do not determine {}",

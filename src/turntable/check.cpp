@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numbers>
+#include <turnscan/core/frame_excerpt.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/geometry/registration.hpp>
 #include <turnscan/turntable/check.hpp>
@@ -18,25 +19,6 @@ constexpr std::size_t kPairs = 6;
 constexpr double kBeside = 3.0 / kDegrees;  ///< of frames that show the same view, but for noise
 constexpr double kAnglesWithin_deg = 1.5;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
-
-/// Some frames of another sequence.
-class Excerpt : public FrameSequence {
- public:
-  Excerpt(const FrameSequence& sequence, std::vector<std::size_t> positions)
-      : sequence_(sequence), positions_(std::move(positions)) {
-    for (const std::size_t i : positions_) frames_.push_back(sequence.frames()[i]);
-  }
-  const SequenceHeader& header() const override { return sequence_.header(); }
-  const std::vector<FrameInfo>& frames() const override { return frames_; }
-  Result<Frame> read(std::size_t position) const override {
-    return sequence_.read(positions_.at(position));
-  }
-
- private:
-  const FrameSequence& sequence_;
-  std::vector<std::size_t> positions_;
-  std::vector<FrameInfo> frames_;
-};
 
 /// What the recording says of a frame's angle; NaN: nothing.
 std::vector<double> recorded_angles(const FrameSequence& sequence) {
@@ -370,7 +352,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
   if (positions.size() < 3) return std::nullopt;
   MotionDataOptions loading;
   loading.hint = table;
-  const Excerpt excerpt(sequence, positions);
+  const FrameExcerpt excerpt(sequence, positions);
   const auto data = load_motion(excerpt, loading, context);
   if (!data) {
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;

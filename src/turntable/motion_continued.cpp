@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numbers>
+#include <turnscan/core/frame_excerpt.hpp>
 #include <turnscan/turntable/motion_continued.hpp>
 #include <turnscan/turntable/motion_solve.hpp>
 
@@ -13,25 +14,6 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kBeside = 0.35;            ///< rad: how far partners of later frames lie off
 constexpr std::size_t kMostLater = 240;     ///< of the later frames; others lie between them
 constexpr std::size_t kMostPartners = 100;  ///< on either side
-
-/// Some frames of another sequence.
-class Excerpt : public FrameSequence {
- public:
-  Excerpt(const FrameSequence& sequence, std::vector<std::size_t> positions)
-      : sequence_(sequence), positions_(std::move(positions)) {
-    for (const std::size_t i : positions_) frames_.push_back(sequence.frames()[i]);
-  }
-  const SequenceHeader& header() const override { return sequence_.header(); }
-  const std::vector<FrameInfo>& frames() const override { return frames_; }
-  Result<Frame> read(std::size_t position) const override {
-    return sequence_.read(positions_.at(position));
-  }
-
- private:
-  const FrameSequence& sequence_;
-  std::vector<std::size_t> positions_;
-  std::vector<FrameInfo> frames_;
-};
 
 /// At most `most` of them, evenly spread, with the first and the last.
 std::vector<std::size_t> thinned(const std::vector<std::size_t>& all, std::size_t most) {
@@ -130,7 +112,7 @@ class Continuer {
   /// Returns the noise of one depth value.
   Result<double> fit() {
     const std::vector<std::size_t> chosen = choose();
-    const Excerpt excerpt(sequence_, chosen);
+    const FrameExcerpt excerpt(sequence_, chosen);
     MotionDataOptions loading;
     loading.detect = detect_;
     loading.most_keys = chosen.size();
