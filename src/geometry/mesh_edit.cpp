@@ -4,6 +4,28 @@
 
 namespace turnscan::detail {
 
+namespace {
+
+/// Gives the vertices that triangles use numbers from 0, in their order; take(v) for each of them.
+template <class Triangles, class Take>
+void number_used(Triangles& triangles, std::size_t vertices, const Take& take) {
+  std::vector<std::uint32_t> place(vertices, 0);
+  for (const auto& t : triangles) {
+    for (const std::uint32_t v : t) place[v] = 1;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    if (place[v] == 0) continue;
+    take(v);
+    place[v] = count++;
+  }
+  for (auto& t : triangles) {
+    for (std::uint32_t& v : t) v = place[v];
+  }
+}
+
+}  // namespace
+
 std::uint32_t duplicate_vertex(TriangleMesh& mesh, std::uint32_t v) {
   const auto index = std::uint32_t(mesh.vertices.size());
   const Vec3f position = mesh.vertices[v];
@@ -48,24 +70,16 @@ void drop_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& drop) {
 }
 
 void compact_vertices(TriangleMesh& mesh) {
-  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    for (const std::uint32_t v : t) place[v] = 1;
-  }
   std::uint32_t count = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == 0) continue;
+  number_used(mesh.triangles, mesh.vertices.size(), [&](std::uint32_t v) {
     mesh.vertices[count] = mesh.vertices[v];
     if (!mesh.normals.empty()) mesh.normals[count] = mesh.normals[v];
     if (!mesh.colors.empty()) mesh.colors[count] = mesh.colors[v];
-    place[v] = count++;
-  }
+    ++count;
+  });
   mesh.vertices.resize(count);
   if (!mesh.normals.empty()) mesh.normals.resize(count);
   if (!mesh.colors.empty()) mesh.colors.resize(count);
-  for (auto& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = place[v];
-  }
 }
 
 TriangleMesh extract(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
@@ -80,19 +94,7 @@ TriangleMesh extract(const TriangleMesh& mesh, std::span<const std::uint32_t> tr
   };
   // A table of all vertices is quicker than sorting, but not for each of many crumbs.
   if (triangles.size() >= mesh.vertices.size() / 16) {
-    std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
-    for (const auto& t : part.triangles) {
-      for (const std::uint32_t v : t) place[v] = 1;
-    }
-    std::uint32_t count = 0;
-    for (std::uint32_t v = 0; v < place.size(); ++v) {
-      if (place[v] == 0) continue;
-      take(v);
-      place[v] = count++;
-    }
-    for (auto& t : part.triangles) {
-      for (std::uint32_t& v : t) v = place[v];
-    }
+    number_used(part.triangles, mesh.vertices.size(), take);
     return part;
   }
   std::vector<std::uint32_t> used;

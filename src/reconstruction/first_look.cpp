@@ -2,13 +2,12 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/geometry/knn.hpp>
 #include <turnscan/reconstruction/first_look.hpp>
+#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/scan_statistics.hpp>
 
 namespace turnscan {
 
 namespace {
-
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
 bool cropped(const SequenceHeader& header, const CropOptions& crop) {
   return crop.enabled && (header.turntable || crop.radius_m);

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <turnscan/reconstruction/finish.hpp>
+#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/point_stages.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 
 namespace turnscan {
 
 namespace {
-
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
 /// One run: the stages in their order share its members.
 class Run {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/point_stages.hpp>
 #include <turnscan/reconstruction/point_stream.hpp>
 #include <turnscan/reconstruction/scan_statistics.hpp>
@@ -13,8 +14,6 @@ namespace {
 constexpr std::size_t kLeastPoints = 100;
 /// Automatic voxels are no finer than this part of the cloud's longest side.
 constexpr double kFinest = 1.0 / 1000.0;
-
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
 /// The longest side that the cloud shows; of an object of which only one side was seen, also twice
 /// the distance from the axis.

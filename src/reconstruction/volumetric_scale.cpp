@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
 
 namespace {
-
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
 /// With so many views, or if more may come, the usual scales do.
 constexpr std::size_t kFewViews = 24;

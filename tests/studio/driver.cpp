@@ -1,5 +1,7 @@
 #include "driver.hpp"
 
+#include <gtest/gtest.h>
+
 #include <QApplication>
 #include <QDir>
 #include <QFile>
@@ -22,6 +24,13 @@
 namespace turnscan::studio {
 
 FirstStart::FirstStart() { QSettings().clear(); }
+
+void show_window(MainWindow& window, const QSize& size) {
+  window.resize(size);
+  window.show();
+  EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+  QApplication::setActiveWindow(&window);  // there is no window manager to do it
+}
 
 ScansFolder::ScansFolder() {
   QDir(path()).removeRecursively();

@@ -2,6 +2,7 @@
 // A person at the window: clicks, keys, waiting for what is shown.
 
 #include <QElapsedTimer>
+#include <QSize>
 #include <QTimer>
 #include <QWidget>
 #include <functional>
@@ -18,6 +19,9 @@ class MainWindow;
 struct FirstStart {
   FirstStart();
 };
+
+/// Shows the window at a size and waits until it is there; it is the one that keys go to.
+void show_window(MainWindow& window, const QSize& size);
 
 /// The empty folder ~/scans of whoever runs the tests: a name that may stand in a picture.
 class ScansFolder {

@@ -32,10 +32,7 @@ namespace {
 class Explorer : public ::testing::Test, FirstStart {
  protected:
   Explorer() {
-    window.resize(1440, 900);
-    window.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-    QApplication::setActiveWindow(&window);  // there is no window manager to do it
+    show_window(window, {1440, 900});
     window.show_mode("explorer");
   }
   QString path(const QString& name) const { return folder.filePath(name); }

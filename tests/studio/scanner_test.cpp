@@ -32,10 +32,7 @@ namespace {
 class Scanner : public ::testing::Test, FirstStart {
  protected:
   Scanner() {
-    window.resize(1440, 900);
-    window.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-    QApplication::setActiveWindow(&window);
+    show_window(window, {1440, 900});
     window.show_mode("scanner");
     mode().recording().set_folder(folder.filePath("recording"));
   }

@@ -23,10 +23,7 @@ namespace {
 class Simulator : public ::testing::Test, FirstStart {
  protected:
   Simulator() {
-    window.resize(1440, 900);
-    window.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-    QApplication::setActiveWindow(&window);
+    show_window(window, {1440, 900});
     window.show_mode("simulator");
     mode().set_object("builtin:letter-a");
     mode().set_folder(folder.filePath("scan"));

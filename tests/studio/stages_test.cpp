@@ -28,10 +28,7 @@ namespace {
 class Stages : public ::testing::Test, FirstStart {
  protected:
   Stages() {
-    window.resize(1100, 760);
-    window.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
-    QApplication::setActiveWindow(&window);
+    show_window(window, {1100, 760});
     window.show_mode("explorer");
   }
   ExplorerMode& mode() { return window.explorer(); }

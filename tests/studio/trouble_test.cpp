@@ -37,10 +37,7 @@ class Trouble : public ::testing::Test, FirstStart {
   /// A window that a test may close and destroy.
   std::unique_ptr<MainWindow> open_window() {
     auto window = std::make_unique<MainWindow>();
-    window->resize(1000, 700);
-    window->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window.get()));
-    QApplication::setActiveWindow(window.get());  // for its shortcuts; nobody manages windows here
+    show_window(*window, {1000, 700});
     return window;
   }
 

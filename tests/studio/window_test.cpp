@@ -32,10 +32,7 @@ namespace {
 class Window : public ::testing::Test, FirstStart {
  protected:
   Window() : window(std::make_unique<MainWindow>()) {
-    window->resize(1100, 760);
-    window->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window.get()));
-    QApplication::setActiveWindow(window.get());
+    show_window(*window, {1100, 760});
     EXPECT_TRUE(write_mesh(mesh_file().toStdString(), *builtin_object("letter-a")));
   }
   QString mesh_file() const { return folder.filePath("letter.ply"); }
