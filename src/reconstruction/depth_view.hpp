@@ -28,20 +28,10 @@ struct DepthView {
   /// front of which the pixel and its neighbours saw nothing, 0 where that is not known. Bit 16: on
   /// the edge of something, hence perhaps a mixture of both sides.
   std::vector<std::uint32_t> pixels;
+  std::uint16_t nearest = 0;  ///< of the raw depths; 0 where it is not known
   std::vector<Rgb> colors;    ///< per pixel, black where there is none; or empty
   std::uint32_t returns = 0;  ///< of the whole frame
   std::uint32_t kept = 0;     ///< of these, accepted
-
-  /// Smallest and largest of what the pixels of a tile hold, raw; tiles of 4 x 4 pixels.
-  struct Tile {
-    std::uint16_t nearest = 65535;  ///< measured; 65535 where nothing was
-    std::uint16_t farthest = 0;     ///< measured
-    std::uint16_t clear = 65535;    ///< least of the free depths; 0 where one is not known
-    std::uint16_t clear_most = 0;   ///< largest of them
-  };
-  static constexpr int kTile = 4;
-  int tiles_x = 0, tiles_y = 0;
-  std::vector<Tile> tiles;
 
   static constexpr std::uint32_t kEdge = 1u << 16;
   static std::uint32_t pack(std::uint32_t raw, bool edge, std::uint32_t clear) {

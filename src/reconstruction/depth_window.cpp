@@ -49,26 +49,6 @@ Image<std::uint16_t> clear_depths(const RawWindow& raw) {
   return out;
 }
 
-void make_tiles(DepthView& view) {
-  view.tiles_x = (view.width + DepthView::kTile - 1) / DepthView::kTile;
-  view.tiles_y = (view.height + DepthView::kTile - 1) / DepthView::kTile;
-  view.tiles.assign(std::size_t(view.tiles_x) * std::size_t(view.tiles_y), {});
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const std::uint32_t word = view.pixels[std::size_t(y) * std::size_t(view.width) + x];
-      DepthView::Tile& tile = view.tiles[std::size_t(y / DepthView::kTile) * view.tiles_x +
-                                         std::size_t(x / DepthView::kTile)];
-      const auto depth = std::uint16_t(word & 0xffffu), clear = std::uint16_t(word >> 17 << 1);
-      if (depth != 0) {
-        tile.nearest = std::min(tile.nearest, depth);
-        tile.farthest = std::max(tile.farthest, depth);
-      }
-      tile.clear = std::min(tile.clear, clear);
-      tile.clear_most = std::max(tile.clear_most, clear);
-    }
-  }
-}
-
 }  // namespace
 
 void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
@@ -77,15 +57,17 @@ void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
   view.height = raw.height + 2;
   const Image<std::uint16_t> clear = clear_depths(raw);
   view.pixels.assign(std::size_t(view.width) * std::size_t(view.height), 0);
+  std::uint16_t nearest = kFar;
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const std::uint16_t own = raw.at(x, y);
       const std::uint32_t depth = measured(own) ? own : 0u;
+      if (depth != 0) nearest = std::min(nearest, own);
       view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
           DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step), clear.at(x, y));
     }
   }
-  make_tiles(view);
+  view.nearest = nearest;
 }
 
 void set_pose(DepthView& view, const Pose& T_table_view) {

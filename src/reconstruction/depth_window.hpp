@@ -12,7 +12,7 @@ using RawWindow = Image<std::uint16_t>;
 
 inline bool measured(std::uint16_t raw) { return raw != kNoReturn && raw != kOutsideCrop; }
 
-/// Fills pixels and tiles from a window.
+/// Fills the pixels from a window.
 void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view);
 
 void set_pose(DepthView& view, const Pose& T_table_view);

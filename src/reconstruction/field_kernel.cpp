@@ -75,54 +75,6 @@ TURNSCAN_INLINE void look_up(const ViewKernel& f, const Perspective& perspective
 }  // namespace
 
 TURNSCAN_CLONES
-void add_view(const ViewKernel& f, const float origin[3], float cell, const FieldScale& scale,
-              BrickSums& sums) {
-  const Perspective perspective{f.parallel != 0 ? 0.0f : 1.0f, f.parallel != 0 ? 1.0f : 0.0f};
-  const float inverse_fall = 1.0f / std::max(scale.truncation - scale.behind, 1e-9f);
-  const float truncation = scale.truncation, less = 1.0f - scale.edge_weight;
-  const float unit = f.unit, bias = f.bias;
-  float local[9];
-  for (int c = 0; c < 9; ++c) local[c] = cell * f.rotation[c];
-  const float* r = f.rotation;
-  const float ox = r[0] * origin[0] + r[1] * origin[1] + r[2] * origin[2] + f.translation[0];
-  const float oy = r[3] * origin[0] + r[4] * origin[1] + r[5] * origin[2] + f.translation[1];
-  const float oz = r[6] * origin[0] + r[7] * origin[1] + r[8] * origin[2] + f.translation[2];
-  Row row;
-  float step_x[kRow], step_y[kRow];
-  for (std::size_t i = 0; i < kRow; ++i) {
-    step_x[i] = static_cast<float>(static_cast<int>(i & 7));
-    step_y[i] = static_cast<float>(static_cast<int>(i >> 3));
-  }
-  for (std::size_t k = 0; k < kBrickSide; ++k) {
-    const auto kk = static_cast<float>(static_cast<int>(k));
-    const float lx = ox + kk * local[2], ly = oy + kk * local[5], lz = oz + kk * local[8];
-    for (std::size_t i = 0; i < kRow; ++i) {
-      row.x[i] = lx + step_x[i] * local[0] + step_y[i] * local[1];
-      row.y[i] = ly + step_x[i] * local[3] + step_y[i] * local[4];
-      row.z[i] = lz + step_x[i] * local[6] + step_y[i] * local[7];
-    }
-    look_up(f, perspective, row);
-    float* distance = sums.distance + k * kRow;
-    float* weight = sums.weight + k * kRow;
-    float* clear = sums.clear + k * kRow;
-    for (std::size_t i = 0; i < kRow; ++i) {
-      const float aside = row.a[i] * row.a[i] + row.b[i] * row.b[i];
-      const float slant = std::sqrt(1.0f + perspective.on * aside);
-      const float d = (row.raw[i] * unit + bias - row.z[i]) * slant;
-      const float c = (row.past[i] * unit + bias - row.z[i]) * slant;
-      const float fade = std::max(0.0f, std::min((truncation + d) * inverse_fall, 1.0f));
-      const float seen = row.raw[i] > 0.0f ? fade : 0.0f;
-      const float near = d < truncation ? seen : 0.0f;
-      const float w = near * (1.0f - less * row.edge[i]);
-      const float known = row.past[i] > 0.0f ? 1.0f : 0.0f;
-      distance[i] += w * d;
-      weight[i] += w;
-      clear[i] += c > truncation ? known : 0.0f;
-    }
-  }
-}
-
-TURNSCAN_CLONES
 void add_view_to_vertices(const ViewKernel& f, const VertexColumns& in, std::size_t begin,
                           std::size_t end, const FitScale& scale, VertexSums& sums) {
   const Perspective perspective{f.parallel != 0 ? 0.0f : 1.0f, f.parallel != 0 ? 1.0f : 0.0f};

@@ -1,7 +1,6 @@
 #pragma once
-// The inner loops of the volumetric method: what one view says about the samples of a brick, and
-// about vertices of a mesh. Plain arrays, so that they can be compiled for several instruction
-// sets; the same bytes for all of them.
+// The inner loop of the volumetric method's fit: what one view says about vertices of a mesh. Plain
+// arrays, so that it can be compiled for several instruction sets; the same bytes for all of them.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,23 +20,6 @@ struct ViewKernel {
 
 inline constexpr std::size_t kBrickSide = 8;
 inline constexpr std::size_t kBrickCells = 512;
-
-/// Sums of a brick's samples, i fastest.
-struct BrickSums {
-  float distance[kBrickCells];  ///< weight times distance along the ray; positive in front
-  float weight[kBrickCells];    ///< of the measurements within the truncation
-  float clear[kBrickCells];     ///< how many views saw past the sample
-};
-
-struct FieldScale {
-  float truncation;   ///< metres along the ray
-  float behind;       ///< from here on, behind a surface, the weight falls to 0 at truncation
-  float edge_weight;  ///< of measurements beside an edge
-};
-
-/// Adds what a view says about the samples at origin + cell * (i, j, k), table frame.
-void add_view(const ViewKernel& view, const float origin[3], float cell, const FieldScale& scale,
-              BrickSums& sums);
 
 /// Vertices of a mesh, structure of arrays; all arrays, those of the sums included, are padded to a
 /// multiple of kVertexRow.

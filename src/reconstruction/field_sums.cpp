@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/field_sums.hpp>
@@ -11,6 +12,8 @@ namespace {
 using Index = Volume::Index;
 constexpr int kSide = Volume::kSide;
 constexpr std::size_t kCells = detail::kBrickCells;
+constexpr int kGroupSide = 4;  // bricks along a group
+constexpr unsigned kAllParts = 255;
 
 /// One clear view outweighs this many measured distances: passing through is certain, being behind
 /// a surface is not.
@@ -18,87 +21,25 @@ constexpr float kClearWeight = 0.5f;
 constexpr float kLeastWeight = 0.3f;  // below, a sample counts as not seen
 constexpr float kLeastShare = 0.02f;  // of the typical weight, likewise
 
-/// kSurface: it may have measured a surface there; kPartly: it may have seen past some of it.
-enum class Sight { kNothing, kClear, kPartly, kSurface };
-
-/// What a view can say about a ball, from its tiles.
-class BallTest {
- public:
-  BallTest(const DepthView& view, float radius_m, float truncation_m)
-      : view_(view), radius_(radius_m), truncation_(truncation_m) {}
-
-  Sight operator()(const Vec3f& center_table) const {
-    const Vec3f c = view_.rotation * center_table + view_.translation;
-    if (!view_.parallel && c.z() < 2.0f * radius_) return Sight::kNothing;
-    // Distortion of the lens across the ball is within the widened radius.
-    const Eigen::Vector2f middle = view_.project(c);
-    const float u = middle.x(), v = middle.y();
-    const float reach = 1.1f * radius_ / (view_.parallel ? 1.0f : c.z() - radius_);
-    const float du = reach * view_.fx + 1.0f, dv = reach * view_.fy + 1.0f;
-    if (!(u + du > 0.0f) || !(v + dv > 0.0f) || !(u - du < float(view_.width)) ||
-        !(v - dv < float(view_.height)))
-      return Sight::kNothing;
-    const int x0 = std::max(0, int(u - du) / DepthView::kTile);
-    const int y0 = std::max(0, int(v - dv) / DepthView::kTile);
-    const int x1 = std::min(view_.tiles_x - 1, int(u + du) / DepthView::kTile);
-    const int y1 = std::min(view_.tiles_y - 1, int(v + dv) / DepthView::kTile);
-    DepthView::Tile all;
-    for (int ty = y0; ty <= y1; ++ty) {
-      for (int tx = x0; tx <= x1; ++tx)
-        join(all, view_.tiles[std::size_t(ty * view_.tiles_x + tx)]);
-    }
-    return judge(all, c.z());
-  }
-
- private:
-  static void join(DepthView::Tile& all, const DepthView::Tile& t) {
-    all.nearest = std::min(all.nearest, t.nearest);
-    all.farthest = std::max(all.farthest, t.farthest);
-    all.clear = std::min(all.clear, t.clear);
-    all.clear_most = std::max(all.clear_most, t.clear_most);
-  }
-
-  Sight judge(const DepthView::Tile& t, float z) const {
-    const auto metres = [&](std::uint16_t raw) { return raw * view_.unit_m + view_.bias_m; };
-    const float front = z - radius_ - truncation_, back = z + radius_ + truncation_;
-    const bool surface = t.farthest > 0 && metres(t.nearest) < back && metres(t.farthest) > front;
-    if (surface) return Sight::kSurface;
-    if (t.clear > 0 && metres(t.clear) > back) return Sight::kClear;
-    if (t.clear_most > 0 && metres(t.clear_most) > front) return Sight::kPartly;
-    return Sight::kNothing;
-  }
-
-  const DepthView& view_;
-  float radius_, truncation_;
-};
-
 Index brick_in(const Index& first, std::size_t b) {
   return {first[0] + int(b & 3), first[1] + int(b >> 2 & 3), first[2] + int(b >> 4)};
 }
 
-bool measured_any(const detail::BrickSums& sums) {
-  return std::any_of(sums.weight, sums.weight + kCells, [](float w) { return w > 0.0f; });
-}
-
-detail::FieldScale field_scale(const VolumeScale& scale) {
-  return {float(scale.truncation_m), float(scale.behind_m), scale.edge_weight};
-}
-
-/// Radius of the ball around so many samples along each side.
-float ball_radius(int side, double cell_m) { return float(0.5 * std::sqrt(3.0) * side * cell_m); }
-
-Vec3f ball_center(const Vec3d& first, int side, double cell_m) {
-  return (first.array() + 0.5 * (side - 1) * cell_m).matrix().cast<float>();
+/// Where a brick's sample, the first coordinate fastest, lies in its sums.
+std::size_t place_in_parts(std::size_t sample) {
+  const std::size_t i = sample & 7, j = sample >> 3 & 7, k = sample >> 6;
+  return (i >> 2 | j >> 2 << 1 | k >> 2 << 2) << 6 | (i & 3) | (j & 3) << 2 | (k & 3) << 4;
 }
 
 /// Typical weight of a sample beside a surface: the median.
-float typical_weight(const std::vector<const detail::BrickSums*>& bricks, float cell) {
+float typical_weight(const std::vector<const bricks::BrickSums*>& all, float cell) {
   std::vector<float> weights;
-  for (const detail::BrickSums* sums : bricks) {
-    if (sums == nullptr) continue;
-    for (std::size_t i = 0; i < kCells; i += 7) {
-      const float w = sums->weight[i];
-      if (w > 0.0f && std::abs(sums->distance[i]) < w * cell) weights.push_back(w);
+  for (const bricks::BrickSums* sums : all) {
+    for (std::size_t sample = 0; sample < kCells; sample += 7) {
+      const std::size_t at = place_in_parts(sample), i = at % bricks::kPartCells;
+      const bricks::PartSums& part = sums->part[at / bricks::kPartCells];
+      const float w = part.weight[i];
+      if (w > 0.0f && std::abs(part.distance[i]) < w * cell) weights.push_back(w);
     }
   }
   if (weights.empty()) return 0.0f;
@@ -108,16 +49,18 @@ float typical_weight(const std::vector<const detail::BrickSums*>& bricks, float 
 }
 
 /// From sums to distances. Returns whether all samples are clear for sure.
-bool settle_brick(const detail::BrickSums& sums, float clear_all, float truncation, float least,
+bool settle_brick(const bricks::BrickSums& sums, float clear_all, float truncation, float least,
                   float* value, float* weight) {
   bool clear_throughout = true;
-  for (std::size_t i = 0; i < kCells; ++i) {
-    const float clear = kClearWeight * (sums.clear[i] + clear_all);
-    const float w = sums.weight[i] + clear;
+  for (std::size_t sample = 0; sample < kCells; ++sample) {
+    const std::size_t at = place_in_parts(sample), i = at % bricks::kPartCells;
+    const bricks::PartSums& part = sums.part[at / bricks::kPartCells];
+    const float clear = kClearWeight * (part.clear[i] + clear_all);
+    const float w = part.weight[i] + clear;
     const bool known = w >= least;
-    value[i] = known ? (sums.distance[i] + clear * truncation) / w : truncation;
-    weight[i] = known ? w : 0.0f;
-    clear_throughout &= known && value[i] > 0.7f * truncation;
+    value[sample] = known ? (part.distance[i] + clear * truncation) / w : truncation;
+    weight[sample] = known ? w : 0.0f;
+    clear_throughout &= known && value[sample] > 0.7f * truncation;
   }
   return clear_throughout;
 }
@@ -126,18 +69,23 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
+void RobustBox::add(const RobustBox& other) {
+  for (std::size_t a = 0; a < 3; ++a)
+    values_[a].insert(values_[a].end(), other.values_[a].begin(), other.values_[a].end());
+}
+
 Box RobustBox::box() {
   constexpr double kStray = 2e-4;
   Box box;
   if (values_[0].empty()) return box;
-  for (int a = 0; a < 3; ++a) {
-    auto& column = values_[std::size_t(a)];
+  parallel_for(3, 1, [&](std::size_t a) {
+    auto& column = values_[a];
     const auto cut = std::ptrdiff_t(kStray * double(column.size()));
     std::nth_element(column.begin(), column.begin() + cut, column.end());
-    box.min[a] = column[std::size_t(cut)];
+    box.min[int(a)] = column[std::size_t(cut)];
     std::nth_element(column.begin(), column.end() - 1 - cut, column.end());
-    box.max[a] = *(column.end() - 1 - cut);
-  }
+    box.max[int(a)] = *(column.end() - 1 - cut);
+  });
   return box;
 }
 
@@ -146,23 +94,35 @@ Vec3d FieldSums::sample_position(const Index& brick) const {
          Vec3d(double(brick[0]) * kSide, double(brick[1]) * kSide - 0.5, double(brick[2]) * kSide);
 }
 
-std::size_t FieldSums::super_index(const Index& s) const {
-  return std::size_t(s[0] - low_[0]) +
-         std::size_t(size_[0]) *
-             (std::size_t(s[1] - low_[1]) + std::size_t(size_[1]) * std::size_t(s[2] - low_[2]));
+std::array<float, 3> FieldSums::first_sample(const Index& brick) const {
+  const Vec3d p = sample_position(brick);
+  return {float(p.x()), float(p.y()), float(p.z())};
 }
 
-/// Makes the table of bricks large enough for what the views measured. On a turning platter it is
-/// round, so that it hardly grows.
-Result<> FieldSums::cover(std::span<const DepthView> batch, const EarlierViews& before) {
-  RobustBox points;
-  for (const DepthView& view : batch) {
-    for_each_point(view, [&](const Vec3f& p) {
-      if (!scale_.cylinder || scale_.cylinder->contains(p.cast<double>())) points.add(p);
+std::size_t FieldSums::group_index(const Index& g) const {
+  return std::size_t(g[0] - low_[0]) +
+         std::size_t(size_[0]) *
+             (std::size_t(g[1] - low_[1]) + std::size_t(size_[1]) * std::size_t(g[2] - low_[2]));
+}
+
+Volume::Index FieldSums::first_brick(std::size_t group) const {
+  const auto nx = std::size_t(size_[0]), ny = std::size_t(size_[1]);
+  return {kGroupSide * (low_[0] + int(group % nx)), kGroupSide * (low_[1] + int(group / nx % ny)),
+          kGroupSide * (low_[2] + int(group / nx / ny))};
+}
+
+/// Of what the views measured; on a turning platter it is round, so that it hardly grows.
+Box FieldSums::measured_box(std::span<const DepthView> batch) const {
+  std::vector<RobustBox> own(batch.size());
+  parallel_for(batch.size(), 1, [&](std::size_t v) {
+    for_each_point(batch[v], [&](const Vec3f& p) {
+      if (!scale_.cylinder || scale_.cylinder->contains(p.cast<double>())) own[v].add(p);
     });
-  }
+  });
+  RobustBox points;
+  for (const RobustBox& one : own) points.add(one);
   Box box = points.box();
-  if (box.empty()) return {};
+  if (box.empty()) return box;
   box.min.array() -= scale_.truncation_m + 2.0 * scale_.cell_m;
   box.max.array() += scale_.truncation_m + 2.0 * scale_.cell_m;
   if (scale_.cylinder) {
@@ -171,16 +131,23 @@ Result<> FieldSums::cover(std::span<const DepthView> batch, const EarlierViews& 
     box.min.x() = box.min.z() = -reach;
     box.max.x() = box.max.z() = reach;
   }
+  return box;
+}
+
+/// Makes the table of bricks large enough for what the views measured.
+Result<> FieldSums::cover(std::span<const DepthView> batch, const EarlierViews& before) {
+  const Box box = measured_box(batch);
+  if (box.empty()) return {};
   Index low{}, high{};
-  bool covered = !supers_.empty();
+  bool covered = !groups_.empty();
   double count = 1.0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double side = scale_.cell_m * kSide * kSuper;
+    const double side = scale_.cell_m * kSide * kGroupSide;
     if (!(std::abs(box.min[int(a)]) + std::abs(box.max[int(a)]) < 1e6 * side)) count = 1e30;
     const double first = sample_position({0, 0, 0})[int(a)];
     low[a] = int(std::clamp(std::floor((box.min[int(a)] - first) / side), -1e6, 1e6));
     high[a] = int(std::clamp(std::floor((box.max[int(a)] - first) / side), -1e6, 1e6)) + 1;
-    if (!supers_.empty()) {
+    if (!groups_.empty()) {
       covered &= low[a] >= low_[a] && high[a] <= low_[a] + size_[a];
       low[a] = std::min(low[a], low_[a]);
       high[a] = std::max(high[a], low_[a] + size_[a]);
@@ -188,153 +155,188 @@ Result<> FieldSums::cover(std::span<const DepthView> batch, const EarlierViews& 
     count *= high[a] - low[a];
   }
   if (covered) return {};
-  if (!(count * double(kBricksOfSuper) < 2e7))
+  if (!(count * double(bricks::kGroup) < 2e7))
     return fail(ErrorCode::kResourceLimit,
                 "volumetric: {:.0f} bricks of samples; choose a larger --voxel-size",
-                count * double(kBricksOfSuper));
-  const Index size{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  std::vector<Super> supers(static_cast<std::size_t>(count));
-  const auto at = [&](const Index& s) {
-    return std::size_t(s[0] - low[0]) +
-           std::size_t(size[0]) *
-               (std::size_t(s[1] - low[1]) + std::size_t(size[1]) * std::size_t(s[2] - low[2]));
-  };
-  std::vector<std::uint8_t> old(supers.size(), 0);
-  for (int k = 0; k < size_[2]; ++k) {
-    for (int j = 0; j < size_[1]; ++j) {
-      for (int i = 0; i < size_[0]; ++i) {
-        const Index s{low_[0] + i, low_[1] + j, low_[2] + k};
-        supers[at(s)] = std::move(supers_[super_index(s)]);
-        old[at(s)] = 1;
-      }
-    }
-  }
-  supers_ = std::move(supers);
-  low_ = low;
-  size_ = size;
-  parallel_for(supers_.size(), 4, [&](std::size_t n) {
-    if (!old[n]) look_back(supers_[n], first_brick(n), before);
-  });
+                count * double(bricks::kGroup));
+  grow(low, high, before);
   return {};
 }
 
-Volume::Index FieldSums::first_brick(std::size_t super) const {
-  const auto nx = std::size_t(size_[0]), ny = std::size_t(size_[1]);
-  return {kSuper * (low_[0] + int(super % nx)), kSuper * (low_[1] + int(super / nx % ny)),
-          kSuper * (low_[2] + int(super / nx / ny))};
+void FieldSums::grow(const Index& low, const Index& high, const EarlierViews& before) {
+  FieldSums larger(scale_);
+  larger.low_ = low;
+  larger.size_ = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  larger.groups_.resize(std::size_t(larger.size_[0]) * std::size_t(larger.size_[1]) *
+                        std::size_t(larger.size_[2]));
+  std::vector<std::size_t> added;
+  for (std::size_t n = 0; n < larger.groups_.size(); ++n) {
+    Index at = larger.first_brick(n);
+    bool old = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      at[a] = floor_div(at[a], kGroupSide);
+      old &= at[a] >= low_[a] && at[a] < low_[a] + size_[a];
+    }
+    if (old)
+      larger.groups_[n] = std::move(groups_[group_index(at)]);
+    else
+      added.push_back(n);
+  }
+  groups_ = std::move(larger.groups_);
+  low_ = larger.low_;
+  size_ = larger.size_;
+  look_back_at_groups(added, before);
 }
 
-/// What earlier views saw of bricks that are new.
-void FieldSums::look_back(Super& super, const Index& first, const EarlierViews& before) const {
-  const auto truncation = float(scale_.truncation_m);
-  const Vec3f center = ball_center(sample_position(first), kSide * kSuper, scale_.cell_m);
-  for (const DepthView& kept : before.views) {
-    const Sight sight =
-        BallTest(kept, ball_radius(kSide * kSuper, scale_.cell_m), truncation)(center);
-    if (sight == Sight::kClear) super.clear_all += before.weight;
-    if (sight != Sight::kPartly && sight != Sight::kSurface) continue;
-    const BallTest test(kept, ball_radius(kSide, scale_.cell_m), truncation);
-    for (std::size_t b = 0; b < kBricksOfSuper; ++b) {
-      const Vec3d low = sample_position(brick_in(first, b));
-      if (test(ball_center(low, kSide, scale_.cell_m)) == Sight::kClear)
-        super.clear[b] += before.weight;
+/// Of which bricks of new groups earlier views saw past the whole.
+void FieldSums::look_back_at_groups(std::span<const std::size_t> groups,
+                                    const EarlierViews& before) {
+  constexpr std::size_t kAtOnce = 16;
+  std::vector<BrickView> views;
+  for (std::size_t v = 0; v < before.views.size(); v += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, before.views.size() - v);
+    views.resize(count);
+    parallel_for(count, 1, [&](std::size_t i) {
+      views[i].place(before.views[v + i], scale_);
+      views[i].bound();
+    });
+    parallel_for(groups.size(), 4, [&](std::size_t n) {
+      Group& group = groups_[groups[n]];
+      const std::array<float, 3> first = first_sample(first_brick(groups[n]));
+      for (const BrickView& view : views) {
+        const Bits clear = bricks::kernel().look_at_group(*view, first.data()).clear;
+        for (std::size_t b = 0; b < bricks::kGroup; ++b)
+          group.clear[b] += before.weight * float(clear >> b & 1u);
+      }
+    });
+  }
+}
+
+/// What earlier views saw of bricks in which a surface is measured for the first time.
+void FieldSums::look_back_at_bricks(std::span<const Bits> made, const EarlierViews& before) {
+  std::vector<std::pair<std::size_t, std::size_t>> which;
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    for (Bits left = made[n]; left != 0; left &= left - 1)
+      which.emplace_back(n, std::size_t(std::countr_zero(left)));
+  }
+  if (which.empty() || before.views.empty()) return;
+  std::vector<BrickView> views(before.views.size());
+  parallel_for(views.size(), 16, [&](std::size_t v) { views[v].place(before.views[v], scale_); });
+  parallel_for(which.size(), 1, [&](std::size_t i) {
+    look_back(which[i].first, which[i].second, views, before.weight);
+  });
+}
+
+void FieldSums::look_back(std::size_t group, std::size_t brick, std::span<const BrickView> before,
+                          float weight) {
+  const Index first = first_brick(group);
+  const std::array<float, 3> group_first = first_sample(first);
+  const std::array<float, 3> own_first = first_sample(brick_in(first, brick));
+  bricks::BrickSums seen{};
+  for (const BrickView& view : before) {
+    const BrickView::Sight sight = view.look_at(group_first.data(), brick);
+    if (sight == BrickView::Sight::kPartly || sight == BrickView::Sight::kSurface)
+      bricks::kernel().add(*view, own_first.data(), kAllParts, seen);
+  }
+  bricks::BrickSums& sums = *groups_[group].sums[brick];
+  for (std::size_t part = 0; part < bricks::kParts; ++part) {
+    for (std::size_t i = 0; i < bricks::kPartCells; ++i)
+      sums.part[part].clear[i] += weight * seen.part[part].clear[i];
+  }
+}
+
+/// Sums for a brick once a view measures a surface in it, with what the views of the batch up to
+/// that one say; nullptr when none does. view: the number of the one after it.
+std::unique_ptr<bricks::BrickSums> FieldSums::first_sums(std::span<const bricks::Sights> sights,
+                                                         std::size_t brick, const float first[3],
+                                                         std::size_t& view) const {
+  const bricks::Kernel& kernel = bricks::kernel();
+  for (view = 0; view < sights.size(); ++view) {
+    if ((sights[view].surface >> brick & 1u) == 0) continue;
+    const bricks::PartSights parts = kernel.look_at_parts(*batch_[view], first);
+    if (parts.surface == 0) continue;
+    bricks::BrickSums sums{};
+    if (!kernel.add(*batch_[view], first, parts.surface | parts.partly, sums)) continue;
+    for (std::size_t v = 0; v < view; ++v) {
+      if (((sights[v].surface | sights[v].partly) >> brick & 1u) != 0)
+        kernel.add(*batch_[v], first, kAllParts, sums);
+    }
+    ++view;
+    return std::make_unique<bricks::BrickSums>(sums);
+  }
+  return nullptr;
+}
+
+/// Adds the batch to a group's bricks. Which of them it gave sums to.
+FieldSums::Bits FieldSums::add_to(Group& group, const Index& first) const {
+  const bricks::Kernel& kernel = bricks::kernel();
+  const std::array<float, 3> group_first = first_sample(first);
+  std::vector<bricks::Sights> sights(batch_.size());
+  Bits some = 0, made = 0;
+  for (std::size_t v = 0; v < batch_.size(); ++v) {
+    sights[v] = kernel.look_at_group(*batch_[v], group_first.data());
+    some |= sights[v].surface | sights[v].partly;
+    for (std::size_t b = 0; b < bricks::kGroup; ++b)
+      group.clear[b] += float(sights[v].clear >> b & 1u);
+  }
+  for (; some != 0; some &= some - 1) {
+    const auto b = std::size_t(std::countr_zero(some));
+    const std::array<float, 3> own = first_sample(brick_in(first, b));
+    std::size_t v = 0;
+    if (!group.sums[b]) {
+      group.sums[b] = first_sums(sights, b, own.data(), v);
+      if (!group.sums[b]) continue;
+      made |= Bits(1) << b;
+    }
+    for (; v < batch_.size(); ++v) {
+      if (((sights[v].surface | sights[v].partly) >> b & 1u) == 0) continue;
+      const bricks::PartSights parts = kernel.look_at_parts(*batch_[v], own.data());
+      kernel.add(*batch_[v], own.data(), parts.surface | parts.partly, *group.sums[b]);
     }
   }
-}
-
-/// What earlier views saw of a brick in which a surface is measured for the first time.
-void FieldSums::look_back(detail::BrickSums& sums, const Vec3d& low,
-                          const EarlierViews& before) const {
-  const Vec3f center = ball_center(low, kSide, scale_.cell_m);
-  const float origin[3] = {float(low.x()), float(low.y()), float(low.z())};
-  for (const DepthView& kept : before.views) {
-    const Sight sight =
-        BallTest(kept, ball_radius(kSide, scale_.cell_m), float(scale_.truncation_m))(center);
-    if (sight != Sight::kPartly && sight != Sight::kSurface) continue;
-    detail::BrickSums own{};
-    detail::add_view(kernel_of(kept), origin, float(scale_.cell_m), field_scale(scale_), own);
-    for (std::size_t i = 0; i < kCells; ++i) sums.clear[i] += before.weight * own.clear[i];
-  }
-}
-
-void FieldSums::add_to(Super& super, const Index& first, std::span<const DepthView> batch,
-                       std::span<const detail::ViewKernel> kernels, const EarlierViews& before) {
-  const auto truncation = float(scale_.truncation_m);
-  const float small = ball_radius(kSide, scale_.cell_m);
-  const Vec3f center = ball_center(sample_position(first), kSide * kSuper, scale_.cell_m);
-  std::vector<std::size_t> mixed;
-  for (std::size_t v = 0; v < batch.size(); ++v) {
-    const Sight sight =
-        BallTest(batch[v], ball_radius(kSide * kSuper, scale_.cell_m), truncation)(center);
-    if (sight == Sight::kClear) super.clear_all += 1.0f;
-    if (sight == Sight::kPartly || sight == Sight::kSurface) mixed.push_back(v);
-  }
-  if (mixed.empty()) return;
-  for (std::size_t b = 0; b < kBricksOfSuper; ++b) {
-    const Vec3d low = sample_position(brick_in(first, b));
-    const Vec3f middle = ball_center(low, kSide, scale_.cell_m);
-    const float origin[3] = {float(low.x()), float(low.y()), float(low.z())};
-    auto& sums = super.sums[b];
-    std::vector<std::size_t> partly;  // of this batch, before there were sums
-    for (const std::size_t v : mixed) {
-      const Sight sight = BallTest(batch[v], small, truncation)(middle);
-      if (sight == Sight::kClear) super.clear[b] += 1.0f;
-      if (sight == Sight::kPartly && !sums) partly.push_back(v);
-      if (sight != Sight::kSurface && (sight != Sight::kPartly || !sums)) continue;
-      if (sums) {
-        detail::add_view(kernels[v], origin, float(scale_.cell_m), field_scale(scale_), *sums);
-        continue;
-      }
-      detail::BrickSums own{};
-      detail::add_view(kernels[v], origin, float(scale_.cell_m), field_scale(scale_), own);
-      if (!measured_any(own)) {
-        partly.push_back(v);
-        continue;
-      }
-      sums = std::make_unique<detail::BrickSums>(own);
-      for (const std::size_t u : partly)
-        detail::add_view(kernels[u], origin, float(scale_.cell_m), field_scale(scale_), *sums);
-      look_back(*sums, low, before);
-    }
-  }
+  return made;
 }
 
 Result<> FieldSums::add(std::span<const DepthView> batch, const EarlierViews& before) {
   TURNSCAN_TRY(cover(batch, before));
-  std::vector<detail::ViewKernel> kernels;
-  for (const DepthView& view : batch) kernels.push_back(kernel_of(view));
-  std::atomic<std::size_t> bricks{0};
-  parallel_for(supers_.size(), 1, [&](std::size_t n) {
-    if (bricks * sizeof(detail::BrickSums) > 2 * scale_.max_bytes) return;  // ends in an error
-    add_to(supers_[n], first_brick(n), batch, kernels, before);
-    bricks += std::size_t(std::count_if(supers_[n].sums.begin(), supers_[n].sums.end(),
-                                        [](const auto& s) { return s != nullptr; }));
+  batch_.resize(batch.size());
+  parallel_for(batch.size(), 1, [&](std::size_t v) {
+    batch_[v].place(batch[v], scale_);
+    batch_[v].bound();
   });
-  bytes_ = bricks * sizeof(detail::BrickSums);
+  std::vector<Bits> made(groups_.size(), 0);
+  std::atomic<std::size_t> bytes{bytes_};
+  parallel_for(groups_.size(), 1, [&](std::size_t n) {
+    if (bytes > 2 * scale_.max_bytes) return;  // ends in an error
+    made[n] = add_to(groups_[n], first_brick(n));
+    bytes += std::size_t(std::popcount(made[n])) * sizeof(bricks::BrickSums);
+  });
+  bytes_ = bytes;
   if (bytes_ > scale_.max_bytes)
     return fail(ErrorCode::kResourceLimit,
                 "volumetric: the samples need more than {} MB; choose a larger --voxel-size",
                 scale_.max_bytes >> 20);
+  look_back_at_bricks(made, before);
   return {};
 }
 
-FieldSums::BrickView FieldSums::brick(const Index& at) const {
-  Index super{};
+FieldSums::BrickKnown FieldSums::brick(const Index& at) const {
+  Index group{};
   std::size_t in = 0;
   for (std::size_t a = 3; a-- > 0;) {
-    super[a] = floor_div(at[a], kSuper);
-    if (super[a] < low_[a] || super[a] >= low_[a] + size_[a]) return {};
-    in = kSuper * in + std::size_t(at[a] - kSuper * super[a]);
+    group[a] = floor_div(at[a], kGroupSide);
+    if (group[a] < low_[a] || group[a] >= low_[a] + size_[a]) return {};
+    in = kGroupSide * in + std::size_t(at[a] - kGroupSide * group[a]);
   }
-  const Super& s = supers_[super_index(super)];
-  return {s.sums[in].get(), s.clear[in] + s.clear_all};
+  const Group& s = groups_[group_index(group)];
+  return {s.sums[in].get(), s.clear[in]};
 }
 
 /// With less, a sample counts as not seen.
 float FieldSums::least_weight() const {
-  std::vector<const detail::BrickSums*> all;
-  for (const Super& super : supers_) {
-    for (const auto& sums : super.sums) {
+  std::vector<const bricks::BrickSums*> all;
+  for (const Group& group : groups_) {
+    for (const auto& sums : group.sums) {
       if (sums) all.push_back(sums.get());
     }
   }
@@ -363,7 +365,7 @@ Volume FieldSums::settle(const Box& box) const {
   for (std::size_t b = 0; b < count; ++b) {
     Index at = volume.brick_at(b);
     for (std::size_t a = 0; a < 3; ++a) at[a] += first[a];
-    const BrickView own = brick(at);
+    const BrickKnown own = brick(at);
     if (own.sums == nullptr) {
       volume.uniform[b] = kClearWeight * own.clear >= least ? 1.0f : 0.0f;
     } else if (settle_brick(*own.sums, own.clear, truncation, least, value.data(), weight.data())) {
@@ -379,10 +381,10 @@ Volume FieldSums::settle(const Box& box) const {
 
 Volume FieldSums::settle_coarsely(std::size_t most_bricks) const {
   Index low{1 << 30, 1 << 30, 1 << 30}, high{-(1 << 30), -(1 << 30), -(1 << 30)};
-  for (std::size_t n = 0; n < supers_.size(); ++n) {
+  for (std::size_t n = 0; n < groups_.size(); ++n) {
     const Index first = first_brick(n);
-    for (std::size_t b = 0; b < kBricksOfSuper; ++b) {
-      if (!supers_[n].sums[b]) continue;
+    for (std::size_t b = 0; b < bricks::kGroup; ++b) {
+      if (!groups_[n].sums[b]) continue;
       const Index at = brick_in(first, b);
       for (std::size_t a = 0; a < 3; ++a) {
         low[a] = std::min(low[a], at[a]);
@@ -435,7 +437,7 @@ void FieldSums::coarse_brick(Volume& volume, std::size_t b, const Index& at, int
   std::vector<float> fine(kCells), known(kCells);
   for (int n = 0; n < factor * factor * factor; ++n) {
     const Index offset{n % factor, n / factor % factor, n / factor / factor};
-    const BrickView own = brick({at[0] + offset[0], at[1] + offset[1], at[2] + offset[2]});
+    const BrickKnown own = brick({at[0] + offset[0], at[1] + offset[1], at[2] + offset[2]});
     clear = std::min(clear, own.clear);
     const bool seen_empty = own.sums == nullptr && kClearWeight * own.clear >= least;
     if (own.sums == nullptr && !seen_empty) continue;

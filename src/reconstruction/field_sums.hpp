@@ -4,7 +4,7 @@
 
 #include <memory>
 #include <span>
-#include <turnscan/reconstruction/volume.hpp>
+#include <turnscan/reconstruction/brick_view.hpp>
 
 namespace turnscan {
 
@@ -42,36 +42,44 @@ class FieldSums {
   Volume settle_coarsely(std::size_t most_bricks) const;
 
  private:
-  static constexpr int kSuper = 4;  ///< bricks along a super-brick
-  static constexpr std::size_t kBricksOfSuper = 64;
-  struct Super {
-    std::array<std::unique_ptr<detail::BrickSums>, kBricksOfSuper> sums;
-    std::array<float, kBricksOfSuper> clear{};  ///< views that saw past the whole brick
-    float clear_all = 0.0f;                     ///< past all of them
+  /// Bricks that views are asked about together.
+  struct Group {
+    std::array<std::unique_ptr<bricks::BrickSums>, bricks::kGroup> sums;
+    std::array<float, bricks::kGroup> clear{};  ///< views that saw past the whole brick
   };
+  /// One bit a brick of a group.
+  using Bits = std::uint64_t;
 
   /// What is known of one brick.
-  struct BrickView {
-    const detail::BrickSums* sums = nullptr;
+  struct BrickKnown {
+    const bricks::BrickSums* sums = nullptr;
     float clear = 0.0f;
   };
-  BrickView brick(const Volume::Index& at) const;
+  BrickKnown brick(const Volume::Index& at) const;
   float least_weight() const;
   Volume coarse(int factor, const Volume::Index& low, const Volume::Index& high) const;
   void coarse_brick(Volume& volume, std::size_t b, const Volume::Index& at, int factor,
                     float least) const;
   Vec3d sample_position(const Volume::Index& brick) const;
+  std::array<float, 3> first_sample(const Volume::Index& brick) const;
   Result<> cover(std::span<const DepthView> batch, const EarlierViews& before);
-  void look_back(Super& super, const Volume::Index& first, const EarlierViews& before) const;
-  void add_to(Super& super, const Volume::Index& first, std::span<const DepthView> batch,
-              std::span<const detail::ViewKernel> kernels, const EarlierViews& before);
-  void look_back(detail::BrickSums& sums, const Vec3d& low, const EarlierViews& before) const;
-  std::size_t super_index(const Volume::Index& super) const;
-  Volume::Index first_brick(std::size_t super) const;
+  Box measured_box(std::span<const DepthView> batch) const;
+  void grow(const Volume::Index& low, const Volume::Index& high, const EarlierViews& before);
+  void look_back_at_groups(std::span<const std::size_t> groups, const EarlierViews& before);
+  Bits add_to(Group& group, const Volume::Index& first) const;
+  std::unique_ptr<bricks::BrickSums> first_sums(std::span<const bricks::Sights> sights,
+                                                std::size_t brick, const float first[3],
+                                                std::size_t& view) const;
+  void look_back_at_bricks(std::span<const Bits> made, const EarlierViews& before);
+  void look_back(std::size_t group, std::size_t brick, std::span<const BrickView> before,
+                 float weight);
+  std::size_t group_index(const Volume::Index& group) const;
+  Volume::Index first_brick(std::size_t group) const;
 
   VolumeScale scale_;
-  Volume::Index low_{}, size_{};  ///< in super-bricks; the grid's brick 0 begins at the origin
-  std::vector<Super> supers_;
+  Volume::Index low_{}, size_{};  ///< in groups; the grid's brick 0 begins at the origin
+  std::vector<Group> groups_;
+  std::vector<BrickView> batch_;  ///< the views that are being added
   std::size_t bytes_ = 0;
 };
 
@@ -99,6 +107,7 @@ class RobustBox {
   void add(const Vec3f& p) {
     for (int a = 0; a < 3; ++a) values_[std::size_t(a)].push_back(p[a]);
   }
+  void add(const RobustBox& other);
   Box box();
 
  private:

@@ -14,8 +14,7 @@ constexpr double kNoiseSlack = 1.3;
 constexpr std::size_t kPreviewBricks = 4000;
 
 std::size_t bytes_of(const DepthView& view) {
-  return view.pixels.size() * sizeof(view.pixels[0]) + view.colors.size() * sizeof(Rgb) +
-         view.tiles.size() * sizeof(view.tiles[0]);
+  return view.pixels.size() * sizeof(view.pixels[0]) + view.colors.size() * sizeof(Rgb);
 }
 
 /// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there

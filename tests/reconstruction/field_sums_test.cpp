@@ -18,19 +18,13 @@ DepthView wall(double turn, double block) {
   view.fx = view.fy = 100.0f;
   view.cx = view.cy = 29.5f;
   view.width = view.height = 60;
-  view.tiles_x = view.tiles_y = 15;
   view.pixels.resize(3600);
-  view.tiles.resize(225);
+  view.nearest = 4500;
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) {
       const double at = (x - 29.5) / 100.0 * 0.45;
       const auto raw = std::uint16_t(std::abs(at - block) < 0.025 ? 4500 : 5000);
       view.pixels[std::size_t(60 * y + x)] = DepthView::pack(raw, false, raw);
-      DepthView::Tile& tile = view.tiles[std::size_t(15 * (y / 4) + x / 4)];
-      tile.nearest = std::min(tile.nearest, raw);
-      tile.farthest = std::max(tile.farthest, raw);
-      tile.clear = std::min(tile.clear, std::uint16_t(raw & ~1));
-      tile.clear_most = std::max(tile.clear_most, std::uint16_t(raw & ~1));
     }
   }
   return view;
