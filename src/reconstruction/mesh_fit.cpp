@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
-#include <turnscan/reconstruction/mesh_fit.hpp>
+#include <turnscan/reconstruction/mesh_fit_parts.hpp>
 #include <turnscan/reconstruction/volume.hpp>
 
 namespace turnscan {
@@ -14,9 +13,7 @@ constexpr std::size_t kBlock = 256;  // vertices that are looked up together
 /// Each step looks at twice as many views as the one before it, but not at fewer than these.
 constexpr std::size_t kFewestViews = 128;
 constexpr double kTukey = 4.685;  // standard deviations; 95 % efficient for normal noise
-constexpr int kUnfolds = 5;
-constexpr float kLeastTurn = 0.3f;  // cosine between a triangle's normals before and after a step
-constexpr float kFacing = 0.2f;     // rays that graze the surface say little about it
+constexpr float kFacing = 0.2f;   // rays that graze the surface say little about it
 /// Dark or slanted places are noisier than others, up to so many times as far as it matters.
 constexpr float kWidest = 4.0f;
 /// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
@@ -37,35 +34,6 @@ float times_the_noise(float share) {
   }
   return low;
 }
-
-/// Who is joined to whom, by an edge.
-struct Neighbours {
-  std::vector<std::uint32_t> begin, list;
-
-  explicit Neighbours(const TriangleMesh& mesh) : begin(mesh.vertices.size() + 1, 0) {
-    // Each edge of a closed mesh runs once in each direction.
-    for (const auto& t : mesh.triangles) {
-      for (const std::uint32_t v : t) ++begin[v + 1];
-    }
-    for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    list.resize(3 * mesh.triangles.size());
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (const auto& t : mesh.triangles) {
-      for (std::size_t c = 0; c < 3; ++c) list[next[t[c]]++] = t[(c + 1) % 3];
-    }
-  }
-  template <class T>
-  T mean(const std::vector<T>& values, std::size_t v, const T& zero) const {
-    T sum = zero;
-    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) sum += values[list[k]];
-    return begin[v + 1] > begin[v] ? T(sum / count(v)) : values[v];
-  }
-  float count(std::size_t v) const { return float(begin[v + 1] - begin[v]); }
-  template <class Visit>
-  void each(std::size_t v, const Visit& visit) const {
-    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) visit(list[k]);
-  }
-};
 
 /// Vertices that face alike and lie near each other stand together, so that a view that sees one
 /// of them sees most, and one that sees none can be left out.
@@ -131,9 +99,12 @@ class Fitter {
       TURNSCAN_TRY(measure_all(views_apart(rounds - 1 - iteration), context));
       forget_the_platter();
       if (scale_.iterations > 0) move();
-      if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0) fair();
+      if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0)
+        detail::fair(fit_.mesh, neighbours_, measured_.support, scale_);
     }
-    if (scale_.iterations > 0 && scale_.floor_height_m) straighten_walls();
+    if (scale_.iterations > 0 && scale_.floor_height_m)
+      detail::straighten_walls(fit_.mesh, neighbours_, measured_.support, scale_);
+    fit_.support = std::move(measured_.support);
     return std::move(fit_);
   }
 
@@ -177,7 +148,7 @@ class Fitter {
   void take_spread() {
     parallel_for(spread_.size(), 1024, [&](std::size_t v) {
       const float count = neighbours_.count(v);
-      const float all = fit_.support[v] + count * neighbours_.mean(fit_.support, v, 0.0f);
+      const float all = measured_.support[v] + count * neighbours_.mean(measured_.support, v, 0.0f);
       const float near = near_[v] + count * neighbours_.mean(near_, v, 0.0f);
       const float times = times_the_noise(all > 1e-3f ? near / all : 1.0f) / kUsualSpread;
       const float spread = std::clamp(times, 1.0f, kWidest);
@@ -185,18 +156,8 @@ class Fitter {
     });
     const auto least = [](float a, float b) { return std::min(a, b); };
     const auto most = [](float a, float b) { return std::max(a, b); };
-    for (int ring = 0; ring < kRimRings; ++ring) spread_ = among_neighbours(spread_, least);
-    for (int ring = 0; ring < kRimRings; ++ring) spread_ = among_neighbours(spread_, most);
-  }
-
-  template <class Choose>
-  std::vector<float> among_neighbours(const std::vector<float>& values,
-                                      const Choose& choose) const {
-    std::vector<float> out = values;
-    parallel_for(values.size(), 4096, [&](std::size_t v) {
-      neighbours_.each(v, [&](std::uint32_t other) { out[v] = choose(out[v], values[other]); });
-    });
-    return out;
+    spread_ = neighbours_.chosen(std::move(spread_), kRimRings, least);
+    spread_ = neighbours_.chosen(std::move(spread_), kRimRings, most);
   }
 
   /// With every step-th view.
@@ -210,10 +171,10 @@ class Fitter {
       context.advance();
     });
     TURNSCAN_TRY(context.check());
-    for (auto* sums : {&fit_.support, &offset_, &near_}) sums->resize(n);
+    for (auto* sums : {&measured_.support, &measured_.offset, &near_}) sums->resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      fit_.support[order_[i]] = weight[i];
-      offset_[order_[i]] = offset[i];
+      measured_.support[order_[i]] = weight[i];
+      measured_.offset[order_[i]] = offset[i];
       near_[order_[i]] = near[i];
     }
     return {};
@@ -281,210 +242,38 @@ class Fitter {
            u - reach * view.fx > float(view.width) || v - reach * view.fy > float(view.height);
   }
 
-  /// Median of the supports that there are.
-  float typical_support() const {
-    std::vector<float> some;
-    for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
-      if (fit_.support[v] > 0.01f) some.push_back(fit_.support[v]);
-    }
-    return float(median(some, 1.0));
-  }
-
-  /// How far each vertex lies below the mean of its neighbours, along its normal.
-  std::vector<float> bends() const {
-    const auto& p = fit_.mesh.vertices;
-    std::vector<float> out(p.size());
-    parallel_for(p.size(), 4096, [&](std::size_t v) {
-      out[v] = (neighbours_.mean(p, v, Vec3f(Vec3f::Zero())) - p[v]).dot(normals_[v]);
-    });
-    return out;
-  }
-
-  /// Bends averaged with those of the neighbours: a ridge bends along a line of vertices, while one
-  /// vertex that noise pulled out bends its neighbours the other way, and nothing is left.
-  std::vector<float> shared_bends(const std::vector<float>& bend) const {
-    std::vector<float> out(bend.size());
-    parallel_for(bend.size(), 4096, [&](std::size_t v) {
-      const float count = neighbours_.count(v);
-      out[v] = (bend[v] + count * neighbours_.mean(bend, v, 0.0f)) / (1.0f + count);
-    });
-    return out;
-  }
-
-  /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2,
-  /// by damped Jacobi. A bend that is too large to be noise is a feature, and m fades (Geman and
-  /// McClure).
-  std::vector<float> offsets() const {
-    const std::size_t n = fit_.mesh.vertices.size();
-    const float typical = typical_support();
-    const std::vector<float> bend = bends();
-    const std::vector<float> shared = shared_bends(bend);
-    const float feature = float(scale_.feature) * float(scale_.noise_m);
-    std::vector<float> own(n), stiff(n), diagonal(n), delta(n), rest(n);
-    parallel_for(n, 4096, [&](std::size_t v) {
-      own[v] = fit_.support[v] > 1e-3f ? offset_[v] / fit_.support[v] : 0.0f;
-      // Where less was measured than usual, only a larger bend is more than noise.
-      const bool standing = stands(v);
-      const float around =
-          0.5f * (fit_.support[v] + neighbours_.mean(fit_.support, v, 0.0f)) / typical;
-      const float share = standing ? 1.0f : std::clamp(around, 0.02f, 1.0f);
-      const float s = shared[v] * std::sqrt(share * typical) / feature;
-      stiff[v] = float(scale_.stiffness) * typical / ((1.0f + s * s) * (1.0f + s * s));
-    });
-    parallel_for(n, 4096, [&](std::size_t v) {
-      diagonal[v] = fit_.support[v] + stiff[v] + 1e-6f;
-      neighbours_.each(v, [&](std::uint32_t u) {
-        diagonal[v] += stiff[u] / (neighbours_.count(u) * neighbours_.count(u));
-      });
-    });
-    for (int round = 0; round < 40; ++round) {
-      parallel_for(n, 4096, [&](std::size_t v) {
-        rest[v] = stiff[v] * (bend[v] + neighbours_.mean(delta, v, 0.0f) - delta[v]);
-      });
-      parallel_for(n, 4096, [&](std::size_t v) {
-        float gradient = fit_.support[v] * (own[v] - delta[v]) + rest[v];
-        neighbours_.each(v, [&](std::uint32_t u) { gradient -= rest[u] / neighbours_.count(u); });
-        delta[v] += 0.35f * gradient / diagonal[v];
-      });
-    }
-    return delta;
-  }
-
-  bool stands(std::size_t v) const {
-    return scale_.floor_height_m && fit_.mesh.vertices[v].y() < float(*scale_.floor_height_m);
-  }
-
   /// What was measured in the lower half of the margin may be the platter.
   void forget_the_platter() {
     if (!scale_.floor_height_m) return;
     for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
       if (fit_.mesh.vertices[v].y() < 0.5f * float(*scale_.floor_height_m))
-        fit_.support[v] = offset_[v] = 0.0f;
+        measured_.support[v] = measured_.offset[v] = 0.0f;
     }
   }
 
   void move() {
-    const std::vector<float> delta = offsets();
+    const std::vector<float> delta =
+        detail::fitted_offsets(fit_.mesh, neighbours_, normals_, measured_, scale_);
     const float limit = float(scale_.limit_m);
     const auto& p = fit_.mesh.vertices;
     std::vector<Vec3f> step(p.size());
     parallel_for(p.size(), 4096, [&](std::size_t v) {
       step[v] = std::clamp(delta[v], -limit, limit) * normals_[v];
-      if (stands(v)) step[v].y() = 0.0f;
+      if (detail::stands(p[v], scale_)) step[v].y() = 0.0f;
     });
-    take_steps(step);
-  }
-
-  void take_steps(std::vector<Vec3f>& step) {
-    for (int round = 0; round < kUnfolds && shorten_folding(step, round + 1 == kUnfolds); ++round) {
-    }
-    parallel_for(step.size(), 4096, [&](std::size_t v) { fit_.mesh.vertices[v] += step[v]; });
-  }
-
-  /// Where little or nothing was measured the volume ends in rags, pixel by pixel. Those vertices
-  /// move to the middle of their neighbours, held by what was measured around them.
-  void fair() {
-    constexpr int kRounds = 80;
-    constexpr float kMeasured = 0.05f;  // share of the typical support from which on vertices stay
-    auto& p = fit_.mesh.vertices;
-    const float typical = typical_support(), reach = float(scale_.fair_m);
-    std::vector<float> hold(p.size(), 1.0f);
-    for (std::uint32_t v = 0; v < p.size(); ++v)
-      hold[v] = std::min(1.0f, fit_.support[v] / (kMeasured * typical));
-    std::vector<std::uint32_t> loose;
-    for (std::uint32_t v = 0; v < p.size(); ++v) {
-      if (hold[v] < 1.0f && !stands(v)) loose.push_back(v);
-    }
-    const std::vector<Vec3f> start = p;
-    std::vector<Vec3f> next(loose.size());
-    for (int round = 0; round < kRounds; ++round) {
-      parallel_for(loose.size(), 4096, [&](std::size_t k) {
-        const std::uint32_t v = loose[k];
-        const Vec3f mean = neighbours_.mean(p, v, Vec3f(Vec3f::Zero()));
-        const Vec3f to = p[v] + 0.5f * (1.0f - hold[v]) * (mean - p[v]) - start[v];
-        next[k] = start[v] + to * std::min(1.0f, reach / std::max(to.norm(), 1e-9f));
-      });
-      for (std::size_t k = 0; k < loose.size(); ++k) p[loose[k]] = next[k];
-    }
-  }
-
-  /// Below the floor nothing was measured: walls go on straight down from what was fitted above
-  /// them, even along the base's outline, and the base's vertices go with it.
-  void straighten_walls() {
-    constexpr int kRounds = 20;
-    constexpr float kMeasured = 0.1f;  // share of the typical support from which on vertices stay
-    const float typical = typical_support();
-    auto& p = fit_.mesh.vertices;
-    // On the base but not at its outline.
-    std::vector<std::uint8_t> inner(p.size(), 0);
-    std::vector<std::uint32_t> standing;
-    const auto lowest = [&](std::uint32_t v) { return std::abs(p[v].y()) < 1e-6f; };
-    for (std::uint32_t v = 0; v < p.size(); ++v) {
-      if (!stands(v)) continue;
-      standing.push_back(v);
-      bool all = lowest(v);
-      neighbours_.each(v, [&](std::uint32_t u) { all &= lowest(u); });
-      inner[v] = all ? 1 : 0;
-    }
-    std::vector<Vec3f> to = p, next(standing.size());
-    for (int round = 0; round < kRounds; ++round) {
-      parallel_for(standing.size(), 4096, [&](std::size_t k) {
-        const std::uint32_t v = standing[k];
-        Vec3f sum = Vec3f::Zero();
-        float count = 0.0f;
-        neighbours_.each(v, [&](std::uint32_t u) {
-          if (inner[u] && !inner[v]) return;
-          sum += to[u];
-          count += 1.0f;
-        });
-        const float loose = 0.5f * (1.0f - std::min(1.0f, fit_.support[v] / (kMeasured * typical)));
-        next[k] = count > 0.0f ? Vec3f(to[v] + loose * (sum / count - to[v])) : to[v];
-        next[k].y() = p[v].y();
-      });
-      for (std::size_t k = 0; k < standing.size(); ++k) to[standing[k]] = next[k];
-    }
-    std::vector<Vec3f> step(p.size(), Vec3f::Zero());
-    const auto limit = float(scale_.fair_m > 0.0 ? scale_.fair_m : scale_.limit_m);
-    for (const std::uint32_t v : standing) {
-      step[v] = to[v] - p[v];
-      step[v] *= std::min(1.0f, limit / std::max(step[v].norm(), 1e-9f));
-    }
-    take_steps(step);
-  }
-
-  /// Halves the steps, or takes them away, of triangles that would turn over. Whether there were
-  /// any.
-  bool shorten_folding(std::vector<Vec3f>& step, bool stop) const {
-    const auto& p = fit_.mesh.vertices;
-    const auto& triangles = fit_.mesh.triangles;
-    std::vector<int> folds(triangles.size());
-    parallel_for(triangles.size(), 4096, [&](std::size_t i) {
-      const auto& [a, b, c] = triangles[i];
-      const Vec3f before = (p[b] - p[a]).cross(p[c] - p[a]);
-      const Vec3f pa = p[a] + step[a];
-      const Vec3f after = (p[b] + step[b] - pa).cross(p[c] + step[c] - pa);
-      folds[i] = before.dot(after) < kLeastTurn * before.norm() * after.norm() ? 1 : 0;
-    });
-    std::vector<float> share(p.size(), 1.0f);
-    bool any = false;
-    for (std::size_t i = 0; i < folds.size(); ++i) {
-      if (folds[i] == 0) continue;
-      any = true;
-      for (const std::uint32_t v : triangles[i]) share[v] = stop ? 0.0f : 0.5f;
-    }
-    for (std::size_t v = 0; v < share.size(); ++v) step[v] *= share[v];
-    return any;
+    detail::take_steps(fit_.mesh, std::move(step));
   }
 
   std::span<const DepthView> views_;
   MeshFitScale scale_;
-  Neighbours neighbours_;
+  detail::MeshNeighbours neighbours_;
   std::vector<detail::ViewKernel> kernels_;
   MeshFit fit_;
   std::vector<std::uint32_t> order_;  // place in the columns: vertex
   std::vector<Vec3f> normals_;
-  std::vector<float> offset_, near_;  // as VertexSums, by vertex
-  std::vector<float> spread_;         // squared, as VertexColumns::spread
+  detail::VertexMeasurements measured_;
+  std::vector<float> near_;    // as VertexSums, by vertex
+  std::vector<float> spread_;  // squared, as VertexColumns::spread
   std::array<std::vector<float>, 7> columns_;
 };
 

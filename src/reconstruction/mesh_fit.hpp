@@ -15,6 +15,7 @@ struct MeshFitScale {
   double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
   double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
   double feature = 0.1;  ///< a bend, shared with neighbours, of so many deviations counts a quarter
+  double alike = 8.0;    ///< there vertices move as their neighbours do, as if so many measured it
   double fair_m = 0.0;   ///< what was not measured is smoothed; vertices move at most so far
   double limit_m = 0.002;  ///< a vertex moves at most so far in one iteration
   float edge_weight = 0.1f;
@@ -30,8 +31,9 @@ struct MeshFit {
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a
 /// bending term, which averages noise away where the surface is smooth, fades at edges, and decides
-/// where few measurements are. Triangles stay as
-/// they are. Fails with kCancelled. The same bytes for any number of threads.
+/// where few measurements are. Triangles stay as they are; no step towards the measurements turns
+/// one by more than 73 degrees (fairing what was not measured may). Fails with kCancelled. The same
+/// bytes for any number of threads.
 Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const DepthView> views,
                          const MeshFitScale& scale, const RunContext& context);
 

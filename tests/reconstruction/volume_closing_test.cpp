@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <turnscan/core/random.hpp>
 #include <turnscan/reconstruction/volume.hpp>
 
@@ -71,6 +72,50 @@ TEST(CloseVolume, FillsWhatAWalkFromBeyondDoesNotReach) {
     for (std::size_t s = 0; s < reached.size(); ++s)
       wrong += (volume.value[s] >= 0.0f) != reached[s] ? 1 : 0;
     EXPECT_EQ(wrong, 0u) << share;
+  }
+}
+
+/// Where the surface lies on the +x axis of a ball of 15 cells of which a cap towards +x, 35
+/// degrees wide, was never seen, nor what lies before it. Distances are known `inside` cells deep.
+double cap_height(double inside) {
+  constexpr int kAcross = 6, kHalf = 4 * kAcross;
+  Volume volume;
+  volume.cell_m = 1.0;
+  volume.truncation_m = 3.0;
+  volume.origin_m = Vec3d::Constant(-kHalf);
+  volume.bricks = {kAcross, kAcross, kAcross};
+  volume.slot.assign(kAcross * kAcross * kAcross, -1);
+  volume.uniform.assign(volume.slot.size(), 0.0f);
+  for (std::size_t b = 0; b < volume.slot.size(); ++b) volume.touch(b, 0.0f);
+  const auto at = [&](int i, int j, int k) {
+    const auto slot = std::size_t(volume.slot[volume.brick_index({i / 8, j / 8, k / 8})]);
+    return slot * 512 + std::size_t(i % 8 + 8 * (j % 8) + 64 * (k % 8));
+  };
+  for (int k = 0; k < 2 * kHalf; ++k) {
+    for (int j = 0; j < 2 * kHalf; ++j) {
+      for (int i = 0; i < 2 * kHalf; ++i) {
+        const Vec3d p = volume.position(i, j, k);
+        const double d = p.norm() - 15.0;
+        const bool cap = p.x() > std::cos(35.0 * std::numbers::pi / 180.0) * p.norm();
+        if (cap || d < -inside) continue;
+        volume.value[at(i, j, k)] = float(std::min(d, 3.0));
+        volume.weight[at(i, j, k)] = 1.0f;
+      }
+    }
+  }
+  VolumeScale scale;
+  scale.cell_m = 1.0, scale.truncation_m = 3.0;
+  close_volume(volume, scale, RunContext());
+  int i = kHalf;
+  while (i + 1 < 2 * kHalf && volume.value[at(i, kHalf, kHalf)] < 0.0f) ++i;
+  return volume.position(i, 0, 0).x() - 0.5;
+}
+
+TEST(CloseVolume, WhatWasNotSeenNeitherSinksInNorBulges) {
+  const double flat = 15.0 * std::cos(35.0 * std::numbers::pi / 180.0);
+  for (const double inside : {1.0, 2.0, 3.0}) {
+    EXPECT_GT(cap_height(inside), flat - 2.0) << inside;
+    EXPECT_LT(cap_height(inside), 16.5) << inside;
   }
 }
 
