@@ -1,7 +1,9 @@
 #include <turnscan/evaluation/evaluate.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/geometry/closest_point.hpp>
@@ -23,20 +25,68 @@ Vec3f triangle_normal(const TriangleMesh& mesh, std::uint32_t t) {
   return normal.normalized().cast<float>();
 }
 
+/// Tells points on the open edges of a mesh.
+class OpenEdges {
+ public:
+  explicit OpenEdges(const TriangleMesh& mesh)
+      : mesh_(mesh), open_(mesh.triangles.size(), 0), corner_(mesh.vertices.size(), 0) {
+    // Every edge from its lower to its higher vertex, with the triangle and the corner it starts
+    // at.
+    std::vector<std::array<std::uint32_t, 4>> edges;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const auto [low, high] = std::minmax(mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]);
+        edges.push_back({low, high, t, c});
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    const auto same = [&](std::size_t a, std::size_t b) {
+      return b < edges.size() && edges[a][0] == edges[b][0] && edges[a][1] == edges[b][1];
+    };
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if (same(e, e + 1) || (e > 0 && same(e, e - 1))) continue;
+      open_[edges[e][2]] |= std::uint8_t(1u << edges[e][3]);
+      corner_[edges[e][0]] = corner_[edges[e][1]] = 1;
+    }
+  }
+
+  bool contain(const Vec3d& point, std::uint32_t triangle) const {
+    constexpr double kSame = 1e-9;  // metres
+    const auto& t = mesh_.triangles[triangle];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3d a = mesh_.vertices[t[c]].cast<double>();
+      const Vec3d b = mesh_.vertices[t[(c + 1) % 3]].cast<double>();
+      if (corner_[t[c]] != 0 && (point - a).norm() < kSame) return true;
+      if ((open_[triangle] >> c & 1) == 0) continue;
+      if ((closest_point_on_triangle(point, a, b, b) - point).norm() < kSame) return true;
+    }
+    return false;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<std::uint8_t> open_;    // per triangle a bit for each edge
+  std::vector<std::uint8_t> corner_;  // per vertex
+};
+
 /// Where each sample's nearest point on the other surface is.
 struct Nearest {
   std::vector<double> distance;
-  std::vector<Vec3f> points, normals;  // on the other surface
+  std::vector<Vec3f> points, normals;   // on the other surface
+  std::vector<std::uint8_t> on_border;  // 1: on an open edge of it
 };
 
 Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>& samples,
-                           const char* phase, const RunContext& context) {
+                           const char* phase, Border border, const RunContext& context) {
   const MeshDistance distance(surface);
   const std::size_t n = samples.size();
   Nearest nearest;
   nearest.distance.resize(n);
   nearest.points.resize(n);
   nearest.normals.resize(n);
+  nearest.on_border.assign(n, 0);
+  const std::optional<OpenEdges> open =
+      border == Border::kLeaveOut ? std::optional<OpenEdges>(surface) : std::nullopt;
   context.begin_phase(phase, n);
   parallel_for((n + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
     if (context.cancelled()) return;
@@ -46,6 +96,7 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
       nearest.distance[i] = hit.distance;
       nearest.points[i] = hit.point.cast<float>();
       nearest.normals[i] = triangle_normal(surface, hit.triangle);
+      if (open && open->contain(hit.point, hit.triangle)) nearest.on_border[i] = 1;
     }
     context.advance(end - chunk * kChunk);
   });
@@ -123,16 +174,18 @@ Result<> compare(const TriangleMesh& mesh, const TriangleMesh& reference,
   TURNSCAN_ASSIGN(const SurfaceSamples on_reference,
                   sample_surface(reference, count, seed + 1, context));
   TURNSCAN_ASSIGN(const Nearest to_reference,
-                  nearest_on(reference, on_mesh.points, "accuracy", context));
+                  nearest_on(reference, on_mesh.points, "accuracy", options.border, context));
   TURNSCAN_ASSIGN(const Nearest to_mesh,
-                  nearest_on(mesh, on_reference.points, "completeness", context));
+                  nearest_on(mesh, on_reference.points, "completeness", Border::kCount, context));
   if (seen) context.begin_phase("seen", 0);
   TURNSCAN_ASSIGN(const auto reference_seen,
                   which_seen(seen, on_reference.points, on_reference.normals));
   TURNSCAN_TRY(context.check());
-  TURNSCAN_ASSIGN(const auto mesh_seen,
-                  which_seen(seen, to_reference.points, to_reference.normals));
+  TURNSCAN_ASSIGN(auto mesh_seen, which_seen(seen, to_reference.points, to_reference.normals));
   TURNSCAN_TRY(context.check());
+  for (std::size_t i = 0; i < mesh_seen.size(); ++i) {
+    if (to_reference.on_border[i] != 0) mesh_seen[i] = 0;
+  }
 
   const std::vector<double> accurate = select(to_reference.distance, mesh_seen, true);
   const std::vector<double> complete = select(to_mesh.distance, reference_seen, true);
@@ -167,6 +220,9 @@ OptionTable describe(EvaluateOptions& options) {
   table.number("samples", options.samples, {1, 100000000},
                "Points drawn from each of the two surfaces.");
   table.number("sample-seed", options.seed, {0, 2147483647}, "Seed of the points drawn.");
+  table.choice("border", options.border, {"count", "leave-out"},
+               "What of the mesh is nearest to an open edge of the reference, as what closes its "
+               "holes. leave-out: it is judged apart, as what was not seen.");
   table.choice("align", options.align, {"none", "icp"},
                "icp: move the mesh rigidly onto the reference before they are compared.");
   table.append(describe(options.icp));

@@ -16,15 +16,19 @@
 namespace turnscan {
 
 enum class Align { kNone, kIcp };
+/// What of the mesh is nearest to an open edge of the reference, as what closes its holes.
+enum class Border { kCount, kLeaveOut };
 
 struct EvaluateOptions {
   std::string thresholds = "0.5mm,1mm,2mm";  ///< for precision, recall and F
   int samples = 200000;                      ///< drawn from each of the two surfaces
   int seed = 1;
-  Align align = Align::kNone;  ///< kIcp: first move the mesh rigidly onto the reference
-  IcpOptions icp{};            ///< of that
+  Align align = Align::kNone;      ///< kIcp: first move the mesh rigidly onto the reference
+  IcpOptions icp{};                ///< of that
+  Border border = Border::kCount;  ///< kLeaveOut: judged as what was not seen
 };
-/// Fields thresholds, samples, sample-seed, align (none, icp), and those of IcpOptions.
+/// Fields thresholds, samples, sample-seed, border (count, leave-out), align (none, icp), and those
+/// of IcpOptions.
 OptionTable describe(EvaluateOptions& options);
 
 /// Lengths separated by commas, as "0.5mm,1mm", in metres, ascending. kInvalidOption unless there
@@ -53,7 +57,8 @@ struct ThresholdScore {
 };
 
 struct Evaluation {
-  /// Mesh to reference over the part of the mesh whose nearest reference point was seen.
+  /// Mesh to reference over the part of the mesh whose nearest reference point was seen (and, with
+  /// Border::kLeaveOut, is not on an open edge).
   ErrorStatistics accuracy;
   /// Seen part of the reference to mesh.
   ErrorStatistics completeness;

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <turnscan/core/triangle_mesh.hpp>
-#include <turnscan/geometry/knn.hpp>
 #include <turnscan/reconstruction/components.hpp>
+#include <turnscan/reconstruction/floating.hpp>
 
 namespace turnscan {
 
@@ -79,76 +77,34 @@ bool is_crumb(const Piece& piece, const std::vector<Piece>& pieces,
   return double(piece.points) < options.min_share * double(pieces.front().points);
 }
 
-/// The centres of a piece's voxels.
-struct Place {
-  std::uint32_t root = 0;
-  std::vector<Vec3f> centers;
-  Box box;
-  bool stands = false;
-};
-
-std::vector<Place> places_of(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
-                             DisjointSets& sets) {
-  std::vector<Place> places;
+/// Joins what floats, but for crumbs, to what holds it. Returns their number.
+std::size_t join_floating(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
+                          DisjointSets& sets) {
+  constexpr double kFarthestOfSize = 0.5;  // beyond, no surface would bridge it
+  std::vector<PlacedPiece> places;
+  std::vector<std::uint32_t> roots;
   std::vector<std::int32_t> of_root(grid.voxels().size(), -1);
   const std::vector<Piece> pieces = find_pieces(grid, sets);
   for (const Piece& piece : pieces) {
     if (is_crumb(piece, pieces, options)) continue;
     of_root[piece.root] = static_cast<std::int32_t>(places.size());
-    places.push_back({piece.root, {}, {}, false});
+    places.emplace_back();
+    roots.push_back(piece.root);
   }
   for (std::uint32_t i = 0; i < of_root.size(); ++i) {
     const std::int32_t p = of_root[sets.root(i)];
     if (p < 0) continue;
     const Vec3d center = grid.center(grid.voxels()[i]);
-    Place& place = places[std::size_t(p)];
-    place.centers.push_back(center.cast<float>());
-    place.box.add(center);
+    PlacedPiece& place = places[std::size_t(p)];
+    place.points.push_back(center.cast<float>());
     place.stands = place.stands || center.y() < floor_m;
   }
-  return places;
-}
-
-/// The nearest pair between what floats and what stands.
-struct Bridge {
-  double squared = std::numeric_limits<double>::infinity();
-  std::uint32_t root = 0;  ///< of the piece that stands
-};
-
-void shorten(const Place& from, const KdTree& to, std::uint32_t root, Bridge& bridge) {
-  for (const Vec3f& p : from.centers) {
-    std::uint32_t index = 0;
-    float squared = 0.0f;
-    if (to.knn(p, 1, &index, &squared) == 1 && double(squared) < bridge.squared)
-      bridge = {squared, root};
-  }
-}
-
-/// The shortest bridge first, so that a chain of pieces holds together. Returns their number.
-std::size_t join_floating(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
-                          DisjointSets& sets) {
-  std::vector<Place> floating, standing;
-  for (Place& place : places_of(grid, options, floor_m, sets))
-    (place.stands ? standing : floating).push_back(std::move(place));
-  std::vector<Bridge> bridges(floating.size());
+  const std::vector<std::size_t> holder = find_holders(places, kFarthestOfSize);
   std::size_t joined = 0;
-  for (std::size_t s = 0; s < standing.size() && !floating.empty(); ++s) {
-    const KdTree tree(standing[s].centers);
-    for (std::size_t f = 0; f < floating.size(); ++f)
-      shorten(floating[f], tree, standing[s].root, bridges[f]);
-    if (s + 1 < standing.size()) continue;
-    // All that stands has been looked at: the nearest that floats stands from now on.
-    const auto best =
-        std::min_element(bridges.begin(), bridges.end(),
-                         [](const Bridge& a, const Bridge& b) { return a.squared < b.squared; });
-    const auto f = std::size_t(best - bridges.begin());
-    if (std::sqrt(best->squared) <= 0.5 * floating[f].box.size().maxCoeff()) {
-      sets.join(floating[f].root, best->root);
-      standing.push_back(std::move(floating[f]));
-      ++joined;
-    }
-    floating.erase(floating.begin() + std::ptrdiff_t(f));
-    bridges.erase(best);
+  for (std::size_t p = 0; p < holder.size(); ++p) {
+    if (holder[p] == p) continue;
+    sets.join(roots[p], roots[holder[p]]);
+    ++joined;
   }
   return joined;
 }

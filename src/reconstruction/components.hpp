@@ -28,9 +28,8 @@ struct Components {
 /// reach / 2 voxels, 26-neighbourhood). Ordered by number of points, ties by position.
 ///
 /// Where the height of a floor is known (voxels below floor_m stand on it), a piece that floats is
-/// joined to the nearest that stands, with what has been joined to it: nothing hangs in the air,
-/// what holds it was not seen. Not across more than half of its own size: then no surface would
-/// bridge it.
+/// joined to what holds it (find_holders), but not across more than half of its own size: then no
+/// surface would bridge it.
 Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
                                    int reach, std::optional<double> floor_m = std::nullopt);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <numeric>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
@@ -9,15 +10,13 @@
 #include <turnscan/geometry/mesh_measure.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
 #include <turnscan/geometry/simplify.hpp>
+#include <turnscan/reconstruction/floating.hpp>
 #include <turnscan/reconstruction/mesh_color.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
 
 namespace {
-
-/// A piece of so few vertices may be turned inside out where it is fitted to the frames.
-constexpr std::size_t kCrumb = 64;
 
 using Clock = std::chrono::steady_clock;
 
@@ -37,6 +36,11 @@ void for_each_point_inside(const VolumetricInput& input, std::size_t most_views,
     for_each_point_inside(input, input.views[v], take);
 }
 
+/// Such pieces are no objects: holes within others, which few frames leave and nobody sees or
+/// prints, and crumbs of a voxel or two, which are folded already or fold where they are fitted.
+bool encloses_nothing(const TriangleMesh& piece) { return signed_volume(piece) <= 0.0; }
+
+constexpr std::size_t kNotKept = std::numeric_limits<std::size_t>::max();
 constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
 
 class Run {
@@ -55,7 +59,13 @@ class Run {
   auto timed(const char* name, const Stage& stage) {
     const auto start = Clock::now();
     auto result = stage();
-    out_.seconds.emplace_back(name, std::chrono::duration<double>(Clock::now() - start).count());
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const auto same = std::find_if(out_.seconds.begin(), out_.seconds.end(),
+                                   [&](const auto& done) { return done.first == name; });
+    if (same == out_.seconds.end())
+      out_.seconds.emplace_back(name, seconds);
+    else
+      same->second += seconds;
     return result;
   }
 
@@ -66,21 +76,9 @@ class Run {
     TURNSCAN_ASSIGN(TriangleMesh mesh, surface(box));
     TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
     keep_pieces(std::move(pieces));
+    for (std::vector<TriangleMesh>& object : objects_) TURNSCAN_TRY(fit(object));
     if (out_.pieces.empty()) return no_surface();
-    for (VolumetricPiece& piece : out_.pieces) {
-      TURNSCAN_ASSIGN(piece.mesh,
-                      timed("even out", [&] { return even_out(piece.mesh, grid_, context_); }));
-      TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
-                        return fit_mesh(piece.mesh, input_.views, fit_scale(), context_);
-                      }));
-      piece.mesh = std::move(fitted.mesh);
-      piece.support = std::move(fitted.support);
-      TURNSCAN_TRY(finish(piece));
-    }
-    std::erase_if(out_.pieces, [](const VolumetricPiece& piece) {
-      return piece.mesh.vertices.size() < kCrumb && signed_volume(piece.mesh) <= 0.0;
-    });
-    if (out_.pieces.empty()) return no_surface();
+    for (VolumetricPiece& piece : out_.pieces) TURNSCAN_TRY(finish(piece));
     return std::move(out_);
   }
 
@@ -110,6 +108,27 @@ class Run {
       TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(2) << 30));
       return isosurface(grid, IsosurfaceOptions(), context_);
     });
+  }
+
+  /// Evens out and fits what stands and what hangs in the air beside it, and makes one piece of it.
+  Result<> fit(std::vector<TriangleMesh>& parts) {
+    VolumetricPiece piece;
+    std::vector<TriangleMesh> fitted_parts;
+    for (const TriangleMesh& part : parts) {
+      TURNSCAN_ASSIGN(const TriangleMesh even,
+                      timed("even out", [&] { return even_out(part, grid_, context_); }));
+      TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
+                        return fit_mesh(even, input_.views, fit_scale(), context_);
+                      }));
+      if (encloses_nothing(fitted.mesh)) continue;
+      piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
+      fitted_parts.push_back(std::move(fitted.mesh));
+    }
+    if (fitted_parts.empty()) return {};
+    piece.hanging = fitted_parts.size() - 1;
+    piece.mesh = fitted_parts.size() == 1 ? std::move(fitted_parts[0]) : join_meshes(fitted_parts);
+    out_.pieces.push_back(std::move(piece));
+    return {};
   }
 
   /// Fewer triangles if asked for; colour; what no frame measured; how many points there are.
@@ -145,19 +164,24 @@ class Run {
     return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
   }
 
-  /// Quadrics only estimate how far a surface strays: it is measured, and tried again with less.
+  /// Quadrics only estimate how far a surface strays: it is measured, and tried again with less,
+  /// then with what lies between what is too much and what is not.
   Result<TriangleMesh> within_error(const TriangleMesh& full, std::size_t triangles) const {
-    constexpr int kTries = 5;
+    constexpr int kTries = 6;
     const double bound = *options_.max_error_m;
-    double goal = bound;
+    TriangleMesh best = full;
+    double goal = bound, enough = 0.0, too_much = 0.0;
     for (int attempt = 0; attempt < kTries; ++attempt) {
       TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(full, {triangles, goal, false}));
       TURNSCAN_TRY(context_.check());
       const double farthest = stray(full, fewer);
-      if (farthest <= bound) return fewer;
-      goal *= 0.9 * bound / farthest;
+      (farthest <= bound ? enough : too_much) = goal;
+      if (farthest <= bound && fewer.triangles.size() < best.triangles.size())
+        best = std::move(fewer);
+      if (too_much == 0.0) break;
+      goal = enough > 0.0 ? 0.5 * (enough + too_much) : goal * 0.9 * bound / farthest;
     }
-    return full;
+    return best;
   }
 
   /// Distance of the vertex of one mesh that lies farthest from another mesh.
@@ -206,8 +230,7 @@ class Run {
     return invented;
   }
 
-  /// Pieces without a volume are holes within others (few frames leave such voids, and nobody sees
-  /// or prints them) or folded crumbs of a voxel.
+  /// Sorts out what is an object, what hangs beside one, and what is nothing.
   void keep_pieces(std::vector<TriangleMesh> pieces) {
     std::vector<double> areas;
     for (const TriangleMesh& piece : pieces) areas.push_back(surface_area(piece));
@@ -215,48 +238,40 @@ class Run {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-    std::vector<std::size_t> floating;
-    for (const std::size_t i : order) {
-      if (areas[i] < min_share_ * areas[order[0]] || signed_volume(pieces[i]) <= 0.0) continue;
-      if (!out_.pieces.empty() && floats(pieces[i])) {
-        floating.push_back(i);
-      } else if (input_.keep == 0 || out_.pieces.size() < std::size_t(input_.keep)) {
-        out_.pieces.push_back({});
-        out_.pieces.back().mesh = std::move(pieces[i]);
-      } else {
-        others_.push_back(bounds(pieces[i].vertices));
-      }
+    std::erase_if(order, [&](std::size_t i) {
+      return areas[i] < min_share_ * areas[order[0]] || encloses_nothing(pieces[i]);
+    });
+    const std::vector<std::size_t> holder = holders(pieces, order);
+    std::vector<std::size_t> object(order.size(), kNotKept);  // where what stands is kept
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (holder[i] != i || (input_.keep != 0 && objects_.size() >= std::size_t(input_.keep)))
+        continue;
+      object[i] = objects_.size();
+      objects_.emplace_back().push_back(std::move(pieces[order[i]]));
     }
-    for (const std::size_t i : floating) hang(pieces[i]);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (holder[i] == i || object[holder[i]] == kNotKept) continue;
+      objects_[object[holder[i]]].push_back(std::move(pieces[order[i]]));
+    }
   }
 
-  /// Nothing on a platter hangs in the air: such a piece is a part of what stands beside it, and
-  /// no frame showed what holds it.
+  /// The largest piece stands, whatever lies below it.
+  std::vector<std::size_t> holders(const std::vector<TriangleMesh>& pieces,
+                                   const std::vector<std::size_t>& order) const {
+    std::vector<PlacedPiece> places(order.size());
+    bool any = false;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      places[i].stands = i == 0 || !floats(pieces[order[i]]);
+      any |= !places[i].stands;
+    }
+    for (std::size_t i = 0; any && i < order.size(); ++i)
+      places[i].points = pieces[order[i]].vertices;
+    return find_holders(places, std::numeric_limits<double>::infinity());
+  }
+
   bool floats(const TriangleMesh& piece) const {
     return scale_.floor_m &&
            bounds(piece.vertices).min.y() > *scale_.floor_m + scale_.truncation_m + scale_.cell_m;
-  }
-
-  /// Adds a piece to the nearest one that stands, unless that was not kept.
-  void hang(const TriangleMesh& part) {
-    const Box own = bounds(part.vertices);
-    const auto away = [&](const Box& other) {
-      return (own.min - other.max).cwiseMax(other.min - own.max).cwiseMax(0.0).norm();
-    };
-    std::vector<double> distances;
-    for (const VolumetricPiece& piece : out_.pieces)
-      distances.push_back(away(bounds(piece.mesh.vertices)));
-    const auto nearest = std::min_element(distances.begin(), distances.end());
-    if (std::any_of(others_.begin(), others_.end(),
-                    [&](const Box& other) { return away(other) < *nearest; }))
-      return;
-    VolumetricPiece& piece = out_.pieces[std::size_t(nearest - distances.begin())];
-    const auto first = std::uint32_t(piece.mesh.vertices.size());
-    piece.mesh.vertices.insert(piece.mesh.vertices.end(), part.vertices.begin(),
-                               part.vertices.end());
-    for (const auto& [a, b, c] : part.triangles)
-      piece.mesh.triangles.push_back({first + a, first + b, first + c});
-    ++piece.hanging;
   }
 
   MeshFitScale fit_scale() const {
@@ -279,7 +294,7 @@ class Run {
   double min_share_;
   const RunContext& context_;
   EvenOutScale grid_;
-  std::vector<Box> others_;  ///< around what stands and is not kept
+  std::vector<std::vector<TriangleMesh>> objects_;  ///< what stands, and what hangs beside it
   VolumetricResult out_;
 };
 

@@ -107,6 +107,32 @@ TEST(Evaluate, AHalfSeenSphereIsJudgedByTheSeenHalf) {
   EXPECT_EQ(all.accuracy.count, e.accuracy.count + e.invented.count);
 }
 
+TEST(Evaluate, WhatClosesAHoleOfTheReferenceCanBeLeftOut) {
+  // A sphere without its cap, beside the whole one 0.1 mm larger.
+  TriangleMesh reference = sphere(0.05, 5);
+  std::erase_if(reference.triangles, [&](const auto& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return reference.vertices[v].y() > 0.035f; });
+  });
+  const TriangleMesh mesh = sphere(0.0501, 5);
+  EvaluateOptions options;
+  options.samples = 20000;
+  const auto counted = evaluate(mesh, reference, options, {}, RunContext());
+  options.border = Border::kLeaveOut;
+  const auto left_out = evaluate(mesh, reference, options, {}, RunContext());
+  ASSERT_TRUE(counted && left_out);
+  EXPECT_GT(counted->accuracy.max, 0.01);
+  EXPECT_EQ(counted->invented.count, 0u);
+  EXPECT_LT(left_out->accuracy.max, 0.0003);
+  // Its cap: 2 pi r h of 4 pi r^2.
+  EXPECT_NEAR(left_out->invented_area_m2 / left_out->mesh_area_m2, 0.15, 0.02);
+  EXPECT_EQ(left_out->completeness.max, counted->completeness.max);
+  // A closed reference has no border.
+  const auto closed = evaluate(mesh, sphere(0.05, 5), options, {}, RunContext());
+  ASSERT_TRUE(closed);
+  EXPECT_EQ(closed->invented.count, 0u);
+}
+
 TEST(Evaluate, AlignmentUndoesARigidMotion) {
   TriangleMesh reference = sphere(0.1, 5);
   for (Vec3f& v : reference.vertices) v *= 1.0f + 20.0f * v.x() * v.y() + 2.0f * v.z();

@@ -102,6 +102,44 @@ TEST(Volumetric, WhatHangsInTheAirBelongsToWhatStandsBelow) {
   EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("hangs in the air")));
 }
 
+/// Value of an automatic choice, metres.
+double chosen(const Reconstruction& result, const std::string& option) {
+  for (const Choice& choice : result.choices) {
+    if (choice.option == option)
+      return parse_quantity(choice.value, Quantity::kLength).value_or(0.0);
+  }
+  ADD_FAILURE() << option;
+  return 0.0;
+}
+
+TEST(Volumetric, IsMadeAgainWhenLaterFramesDisagreeMoreThanTheFirst) {
+  Rig rig{64, 0.0005};
+  rig.platter = false;
+  MemorySequence sequence = scan(ball, rig), first = sequence;
+  first.infos.resize(32);
+  // From the first look's frames on, frames lie up to 4 mm too near or too far.
+  for (std::size_t f = 32; f < sequence.data.size(); ++f) {
+    for (std::uint16_t& raw : sequence.data[f].depth.pixels) {
+      if (raw > 0) raw = std::uint16_t(raw + 20 * (int(f % 5) - 2));
+    }
+  }
+  const auto again = ::testing::Contains(HasSubstr("made again"));
+  const auto of_first = reconstruct(first, volumetric(), {}, RunContext());
+  ASSERT_TRUE(of_first) << of_first.error().text();
+  EXPECT_THAT(of_first->notes, ::testing::Not(again));
+  const auto of_all = reconstruct(sequence, volumetric(), {}, RunContext());
+  ASSERT_TRUE(of_all) << of_all.error().text();
+  EXPECT_THAT(of_all->notes, again);
+  EXPECT_GT(chosen(*of_all, "truncation"), 1.2 * chosen(*of_first, "truncation"));
+  ASSERT_FALSE(of_all->objects.empty());
+  EXPECT_TRUE(is_solid(of_all->objects[0].mesh));
+  ReconstructOptions given = volumetric();
+  given.volumetric.truncation_m = 0.004;  // then it does not depend on the noise
+  const auto once = reconstruct(sequence, given, {}, RunContext());
+  ASSERT_TRUE(once) << once.error().text();
+  EXPECT_THAT(once->notes, ::testing::Not(again));
+}
+
 TEST(Volumetric, IsSolidWhateverWasRecorded) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const auto random = [&](int k) { return uniform01(hash_key(seed, std::uint64_t(k), 5)); };
