@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <turnscan/core/cube_table.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/isosurface.hpp>
 
@@ -19,8 +21,9 @@ using Coords = std::array<int, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// Edges run from a sample towards +x, +y, +z, their sums, and the sum of all: 7 directions, coded
-/// as bits x = 1, y = 2, z = 4.
+/// as bits x = 1, y = 2, z = 4. Cubes have the first three alone.
 constexpr std::size_t kDirections = 7;
+constexpr int kAllDirections[kDirections] = {1, 2, 3, 4, 5, 6, 7}, kAlongAxes[3] = {1, 2, 4};
 constexpr std::size_t kMaskWords = BrickGrid::kBrickSamples * kDirections / 64;
 
 /// The six tetrahedra 0, a, a|b, 7 of a cube as corner codes, with the sign of their orientation.
@@ -65,8 +68,8 @@ struct Piece {
 
 class Marcher {
  public:
-  Marcher(const BrickGrid& grid, double snap, const RunContext& context)
-      : grid_(grid), snap_(snap), context_(context) {}
+  Marcher(const BrickGrid& grid, const IsosurfaceOptions& options, const RunContext& context)
+      : grid_(grid), options_(options), context_(context) {}
 
   Result<TriangleMesh> run() {
     find_pieces();
@@ -99,6 +102,11 @@ class Marcher {
   }
 
  private:
+  std::span<const int> directions() const {
+    if (options_.cells == MarchingCells::kCubes) return kAlongAxes;
+    return kAllDirections;
+  }
+
   std::size_t table_index(const Coords& b) const {
     const auto& n = grid_.bricks();
     return std::size_t(b[0] + 1) +
@@ -165,15 +173,16 @@ class Marcher {
   void cross_edges(Piece& piece) {
     Block block;
     if (!gather(piece.brick, block)) finite_ = false;
-    std::size_t bit = 0;
+    std::size_t sample = 0;
     for (int k = 0; k < kB; ++k) {
       for (int j = 0; j < kB; ++j) {
-        for (int i = 0; i < kB; ++i) {
+        for (int i = 0; i < kB; ++i, ++sample) {
           const std::size_t base = Block::at(i, j, k);
           const float from = block.values[base];
-          for (int direction = 1; direction <= int(kDirections); ++direction, ++bit) {
+          for (const int direction : directions()) {
             const float to = block.values[base + Block::corner(direction)];
             if ((from < 0.0f) == (to < 0.0f)) continue;
+            const std::size_t bit = sample * kDirections + std::size_t(direction) - 1;
             piece.crossed[bit / 64] |= std::uint64_t(1) << (bit % 64);
             piece.vertices.push_back(vertex_on_edge(piece.brick, {i, j, k}, direction, from, to));
           }
@@ -191,7 +200,8 @@ class Marcher {
                        float to) const {
     double t = 0.5;
     if (from != kBeyond && to != kBeyond) {
-      t = std::clamp(double(from) / (double(from) - double(to)), snap_, 1.0 - snap_);
+      t = std::clamp(double(from) / (double(from) - double(to)), options_.snap,
+                     1.0 - options_.snap);
     }
     const Vec3d step(direction & 1, direction >> 1 & 1, direction >> 2);
     const Vec3d base = grid_.position(brick[0] * kB + local[0], brick[1] * kB + local[1],
@@ -228,9 +238,24 @@ class Marcher {
             negative |= unsigned(block.values[base + Block::corner(code)] < 0.0f) << code;
           }
           if (negative == 0 || negative == 255) continue;
-          for (const Tetrahedron& t : kTetrahedra) emit(piece, {i, j, k}, t, negative);
+          if (options_.cells == MarchingCells::kCubes) {
+            emit_cube(piece, {i, j, k}, negative);
+          } else {
+            for (const Tetrahedron& t : kTetrahedra) emit(piece, {i, j, k}, t, negative);
+          }
         }
       }
+    }
+  }
+
+  void emit_cube(Piece& piece, const Coords& local, unsigned negative) const {
+    for (const CubeTriangle& t : cube_triangles(negative)) {
+      Triangle triangle;
+      for (std::size_t v = 0; v < 3; ++v) {
+        const CubeEdge edge = cube_edge(t[v]);
+        triangle[v] = vertex_between(piece.brick, local, edge.corner, edge.corner | 1 << edge.axis);
+      }
+      piece.triangles.push_back(triangle);
     }
   }
 
@@ -274,7 +299,7 @@ class Marcher {
   }
 
   const BrickGrid& grid_;
-  double snap_;
+  IsosurfaceOptions options_;
   const RunContext& context_;
   std::vector<std::int32_t> table_;  // brick (from -1) -> piece, or -1
   std::vector<Piece> pieces_;
@@ -285,8 +310,11 @@ class Marcher {
 
 OptionTable describe(IsosurfaceOptions& options) {
   OptionTable table;
-  table.number("iso-snap", options.snap, Quantity::kNone, {0.0, 0.49},
-               "Fraction of a grid edge that a vertex stays away from its ends.");
+  table
+      .number("iso-snap", options.snap, Quantity::kNone, {0.0, 0.49},
+              "Fraction of a grid edge that a vertex stays away from its ends.")
+      .choice("iso-cells", options.cells, {"tetrahedra", "cubes"},
+              "What a cube of the grid is marched as.");
   return table;
 }
 
@@ -294,7 +322,7 @@ Result<TriangleMesh> isosurface(const BrickGrid& grid, const IsosurfaceOptions& 
                                 const RunContext& context) {
   IsosurfaceOptions checked = options;
   TURNSCAN_TRY(describe(checked).check());
-  return Marcher(grid, options.snap, context).run();
+  return Marcher(grid, checked, context).run();
 }
 
 Result<TriangleMesh> isosurface(const DenseGrid& dense, const IsosurfaceOptions& options,

@@ -66,23 +66,31 @@ class BrickGrid {
   std::vector<float> uniform_, values_;
 };
 
+/// What a cube of the grid is marched as.
+enum class MarchingCells {
+  kTetrahedra,  ///< six each (Doi and Koide 1991): a linear function's zero set
+  kCubes        ///< whole (Lorensen and Cline 1987): a third of the triangles, vertices on edges of
+                ///< the grid only
+};
+
 struct IsosurfaceOptions {
   /// A vertex keeps at least this fraction of its grid edge's length from the edge's ends, so that
   /// triangles do not shrink to nothing. 0 <= snap < 0.5; the topology does not depend on it.
   double snap = 0.02;
+  MarchingCells cells = MarchingCells::kTetrahedra;
 };
 
 OptionTable describe(IsosurfaceOptions& options);
 
 /// The surface where the values go from negative (inside) to positive (outside; zero counts as
 /// positive, and so does everything beyond the grid: there the surface ends half a cell outside).
-/// Marching tetrahedra (Doi and Koide 1991): six tetrahedra a cube around one diagonal (Freudenthal
-/// 1942), the same in every cube, one shared vertex per edge that changes sign. A linear function
-/// on a simplicial complex that is zero at none of its vertices has a 2-manifold zero set: the
-/// result is closed, 2-manifold and outward by construction. Vertices lie where the values say,
-/// linearly. Fails with kFormat for values that are not finite, kResourceLimit above 2^30
-/// triangles, kInvalidOption, kCancelled. An empty mesh if nothing is negative. The same bytes for
-/// any number of threads.
+/// The result is closed, 2-manifold and outward by construction. Tetrahedra: six a cube around one
+/// diagonal (Freudenthal 1942), the same in every cube, one shared vertex per edge that changes
+/// sign; a linear function on a simplicial complex that is zero at none of its vertices has a
+/// 2-manifold zero set. Cubes: neighbours agree on the face that they share, and no triangle's edge
+/// is used by two of them (cube_table.hpp). Vertices lie where the values say, linearly. Fails with
+/// kFormat for values that are not finite, kResourceLimit above 2^30 triangles, kInvalidOption,
+/// kCancelled. An empty mesh if nothing is negative. The same bytes for any number of threads.
 Result<TriangleMesh> isosurface(const BrickGrid& grid, const IsosurfaceOptions& options,
                                 const RunContext& context);
 

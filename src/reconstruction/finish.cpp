@@ -15,18 +15,30 @@ namespace {
 constexpr double kSwollen = 1.25;
 
 /// 1 for vertices without a candidate within reach.
-std::vector<std::uint8_t> find_unsupported(const TriangleMesh& mesh, const KdTree& tree,
-                                           double reach_m) {
-  std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
+using Unsupported = std::vector<std::uint8_t>;
+
+/// Looks again at the vertices that are marked: those that have moved.
+void look_again(const TriangleMesh& mesh, const KdTree& tree, double reach_m, Unsupported& marked) {
   const float reach2 = static_cast<float>(reach_m * reach_m);
-  parallel_for(out.size(), 1024, [&](std::size_t i) {
+  parallel_for(marked.size(), 1024, [&](std::size_t i) {
+    if (!marked[i]) return;
     std::uint32_t index = 0;
     float squared = 0.0f;
     tree.knn(mesh.vertices[i], 1, &index, &squared);
-    out[i] = squared > reach2 ? 1 : 0;
+    marked[i] = squared > reach2 ? 1 : 0;
   });
+}
+
+Unsupported find_unsupported(const TriangleMesh& mesh, const KdTree& tree, double reach_m) {
+  Unsupported out(mesh.vertices.size(), 1);
+  look_again(mesh, tree, reach_m, out);
   return out;
 }
+
+struct Piece {
+  TriangleMesh mesh;
+  Unsupported unsupported;
+};
 
 double area_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   double area = 0.0;
@@ -37,27 +49,28 @@ double area_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& vertic
   return area;
 }
 
-Result<TriangleMesh> main_piece(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
-                                std::vector<std::string>& notes) {
+/// The piece with the most vertices near candidates.
+Result<Piece> main_piece(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
+                         std::vector<std::string>& notes) {
   TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
   if (pieces.empty()) return fail(ErrorCode::kLibrary, "the surface has no triangles");
-  std::size_t best = 0;
+  Piece best;
   std::ptrdiff_t most = -1;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto unsupported = find_unsupported(pieces[i], tree, reach_m);
+  for (TriangleMesh& piece : pieces) {
+    Unsupported unsupported = find_unsupported(piece, tree, reach_m);
     const std::ptrdiff_t near = std::count(unsupported.begin(), unsupported.end(), 0);
-    if (near > most) most = near, best = i;
+    if (near > most) most = near, best = {std::move(piece), std::move(unsupported)};
   }
   if (pieces.size() > 1)
     notes.push_back(
         fmt::format("removed {} loose piece{}", pieces.size() - 1, pieces.size() == 2 ? "" : "s"));
-  return std::move(pieces[best]);
+  return best;
 }
 
 /// Grows the mask over `rings` rings of neighbours.
-void grow(const TriangleMesh& mesh, std::vector<std::uint8_t>& mask, int rings) {
+void grow(const TriangleMesh& mesh, Unsupported& mask, int rings) {
   for (int r = 0; r < rings; ++r) {
-    std::vector<std::uint8_t> next = mask;
+    Unsupported next = mask;
     for (const auto& [a, b, c] : mesh.triangles) {
       if (mask[a] || mask[b] || mask[c]) next[a] = next[b] = next[c] = 1;
     }
@@ -109,39 +122,39 @@ std::vector<double> region_areas(const TriangleMesh& mesh, const std::vector<std
 }
 
 /// Replaces swollen invented regions by a tight, smooth continuation of their surroundings.
-Result<TriangleMesh> deflate(const TriangleMesh& mesh, std::vector<std::uint8_t> unsupported,
-                             std::vector<std::string>& notes, const RunContext& context) {
-  grow(mesh, unsupported, 1);
+Result<> deflate(Piece& piece, std::vector<std::string>& notes, const RunContext& context) {
+  Unsupported region = piece.unsupported;
+  grow(piece.mesh, region, 1);
   std::vector<std::int32_t> label;
-  const int regions = label_regions(mesh, unsupported, label);
-  if (regions == 0) return mesh;
+  const int regions = label_regions(piece.mesh, region, label);
+  if (regions == 0) return {};
   RelaxOptions tight;
   tight.tension = 0.7;
-  TURNSCAN_ASSIGN(const TriangleMesh relaxed, relax(mesh, unsupported, tight, context));
-  const auto before = region_areas(mesh, label, regions),
+  TURNSCAN_ASSIGN(const TriangleMesh relaxed, relax(piece.mesh, region, tight, context));
+  const auto before = region_areas(piece.mesh, label, regions),
              after = region_areas(relaxed, label, regions);
-  TriangleMesh out = mesh;
   int replaced = 0;
   std::vector<std::uint8_t> replace(std::size_t(regions), 0);
   for (std::size_t r = 0; r < replace.size(); ++r) {
     replace[r] = before[r] > kSwollen * after[r] ? 1 : 0;
     replaced += replace[r];
   }
-  for (std::size_t v = 0; v < out.vertices.size(); ++v) {
-    if (label[v] >= 0 && replace[std::size_t(label[v])]) out.vertices[v] = relaxed.vertices[v];
+  for (std::size_t v = 0; v < label.size(); ++v) {
+    if (label[v] < 0 || !replace[std::size_t(label[v])]) continue;
+    piece.mesh.vertices[v] = relaxed.vertices[v];
+    piece.unsupported[v] = 1;
   }
   if (replaced > 0)
     notes.push_back(fmt::format("tightened {} region{} that no sensor saw", replaced,
                                 replaced == 1 ? "" : "s"));
-  return out;
+  return {};
 }
 
-Result<FinishedMesh> checked(TriangleMesh mesh, const KdTree& tree, double reach_m,
-                             std::vector<std::string> notes) {
+FinishedMesh checked(Piece piece, std::vector<std::string> notes) {
   FinishedMesh out;
-  out.check = check_mesh(mesh);
-  out.invented_area_m2 = area_of(mesh, find_unsupported(mesh, tree, reach_m));
-  out.mesh = std::move(mesh);
+  out.check = check_mesh(piece.mesh);
+  out.invented_area_m2 = area_of(piece.mesh, piece.unsupported);
+  out.mesh = std::move(piece.mesh);
   out.notes = std::move(notes);
   return out;
 }
@@ -152,27 +165,20 @@ Result<FinishedMesh> finish_poisson(const TriangleMesh& raw, const PointCloud& c
                                     double reach_m, const RunContext& context) {
   const KdTree tree(candidates.points);
   std::vector<std::string> notes;
-  context.begin_phase("repair", 4);
-  TURNSCAN_ASSIGN(TriangleMesh mesh, remove_degenerate(raw));
-  TURNSCAN_ASSIGN(mesh, main_piece(mesh, tree, reach_m, notes));
+  context.begin_phase("repair", 3);
+  TURNSCAN_ASSIGN(Piece piece, main_piece(raw, tree, reach_m, notes));
   context.advance();
-  if (!check_mesh(mesh).watertight()) {
-    const MeshReport before = check_mesh(mesh);
-    TURNSCAN_ASSIGN(mesh, repair(mesh, FillHolesOptions(), context));
-    notes.push_back(fmt::format(
-        "closed {} open edges, parted {} edges and {} vertices that were "
-        "not 2-manifold",
-        before.boundary_edges, before.non_manifold_edges, before.non_manifold_vertices));
+  TURNSCAN_TRY(deflate(piece, notes, context));
+  context.advance();
+  look_again(piece.mesh, tree, reach_m, piece.unsupported);
+  FinishedMesh out = checked(std::move(piece), notes);
+  if (!out.check.watertight()) {
+    // What moved may have shrunk to nothing.
+    TURNSCAN_ASSIGN(const TriangleMesh repaired, repair(out.mesh, FillHolesOptions(), context));
+    TURNSCAN_ASSIGN(piece, main_piece(repaired, tree, reach_m, notes));
+    out = checked(std::move(piece), std::move(notes));
   }
   context.advance();
-  TURNSCAN_ASSIGN(mesh, deflate(mesh, find_unsupported(mesh, tree, reach_m), notes, context));
-  context.advance();
-  if (!check_mesh(mesh).watertight()) {
-    TURNSCAN_ASSIGN(mesh, repair(mesh, FillHolesOptions(), context));
-    TURNSCAN_ASSIGN(mesh, main_piece(mesh, tree, reach_m, notes));
-  }
-  context.advance();
-  TURNSCAN_ASSIGN(FinishedMesh out, checked(std::move(mesh), tree, reach_m, std::move(notes)));
   if (!out.check.watertight())
     return fail(ErrorCode::kLibrary, "the Poisson surface cannot be made watertight: {}",
                 out.check.text());
@@ -190,9 +196,9 @@ Result<FinishedMesh> finish_concave_hull(const TriangleMesh& raw, const PointClo
                   format_quantity(cell_m, Quantity::kLength))};
   WrapOptions options;
   options.cell_m = cell_m;
-  TURNSCAN_ASSIGN(TriangleMesh mesh, wrap(raw, options, context));
-  TURNSCAN_ASSIGN(mesh, main_piece(mesh, tree, reach_m, notes));
-  TURNSCAN_ASSIGN(FinishedMesh out, checked(std::move(mesh), tree, reach_m, std::move(notes)));
+  TURNSCAN_ASSIGN(const TriangleMesh mesh, wrap(raw, options, context));
+  TURNSCAN_ASSIGN(Piece piece, main_piece(mesh, tree, reach_m, notes));
+  FinishedMesh out = checked(std::move(piece), std::move(notes));
   if (!out.check.watertight())
     return fail(ErrorCode::kLibrary, "the concave hull cannot be made watertight: {}",
                 out.check.text());

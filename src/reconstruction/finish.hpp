@@ -16,9 +16,9 @@ struct FinishedMesh {
 };
 
 /// Makes a Poisson surface one closed, 2-manifold, outward piece: pieces other than the one with
-/// the most candidates near it go; holes at the border of Poisson's cube are filled; and where no
-/// candidate is within reach_m, what Poisson invented (blobs, sheets) is replaced by a smooth and
-/// tight continuation of its surroundings if it swells beyond them.
+/// the most vertices near candidates go; and where no candidate is within reach_m, what Poisson
+/// invented (blobs, sheets) is replaced by a smooth and tight continuation of its surroundings if
+/// it swells beyond them.
 /// Fails with kLibrary, saying what is wrong, when the result would not be watertight.
 Result<FinishedMesh> finish_poisson(const TriangleMesh& raw, const PointCloud& candidates,
                                     double reach_m, const RunContext& context);

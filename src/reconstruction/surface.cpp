@@ -1,8 +1,5 @@
-#include <pcl/PolygonMesh.h>
-#include <pcl/common/io.h>
 #include <pcl/point_types.h>
 #include <pcl/surface/concave_hull.h>
-#include <pcl/surface/poisson.h>
 
 #include <cstring>
 #include <turnscan/reconstruction/child_process.hpp>
@@ -80,45 +77,6 @@ OptionTable describe(SurfaceOptions& o) {
               "Concave hull's alpha; automatic: from the spacing of the candidates")
       .flag("repair", o.repair, "Make each mesh closed, 2-manifold and outward");
   return table;
-}
-
-Result<TriangleMesh> poisson_surface(const PointCloud& oriented, const SurfaceOptions& options,
-                                     const RunContext& context) {
-  if (oriented.normals.size() != oriented.size())
-    throw std::invalid_argument("poisson_surface: points need normals");
-  if (oriented.size() < 10)
-    return fail(ErrorCode::kTooFewPoints, "Poisson: {} points are too few", oriented.size());
-  // Single precision inside the library: work near the origin.
-  const Vec3f origin = bounds(oriented.points).center().cast<float>();
-  const auto work = [&]() -> Result<Bytes> {
-    auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
-    cloud->reserve(oriented.size());
-    for (std::size_t i = 0; i < oriented.size(); ++i) {
-      pcl::PointNormal p;
-      p.getVector3fMap() = oriented.points[i] - origin;
-      p.getNormalVector3fMap() = oriented.normals[i];
-      cloud->push_back(p);
-    }
-    pcl::Poisson<pcl::PointNormal> poisson;
-    poisson.setDepth(options.poisson_depth);
-    poisson.setMinDepth(std::min(5, options.poisson_depth));
-    poisson.setSolverDivide(std::min(8, options.poisson_depth));
-    poisson.setIsoDivide(std::min(8, options.poisson_depth));
-    poisson.setSamplesPerNode(static_cast<float>(options.samples_per_node));
-    poisson.setScale(static_cast<float>(options.poisson_scale));
-    poisson.setPointWeight(static_cast<float>(options.point_weight));
-    poisson.setManifold(true);
-    poisson.setOutputPolygons(false);
-    poisson.setThreads(1);  // with more its bytes change from run to run
-    poisson.setInputCloud(cloud);
-    pcl::PointCloud<pcl::PointNormal> vertices;
-    std::vector<pcl::Vertices> polygons;
-    poisson.reconstruct(vertices, polygons);
-    pcl::PointCloud<pcl::PointXYZ> positions;
-    pcl::copyPointCloud(vertices, positions);
-    return pack(from_polygons(positions, polygons, origin));
-  };
-  return run(work, "Poisson", context);
 }
 
 Result<TriangleMesh> concave_hull(const PointCloud& points, double alpha_m,

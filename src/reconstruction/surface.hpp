@@ -1,6 +1,6 @@
 #pragma once
-// From oriented candidate points to a mesh: Poisson (Kazhdan et al. 2006/2013, PCL) or concave hull
-// (alpha shape, PCL). Both run in a child process, so that they can be cancelled at any moment.
+// From oriented candidate points to a mesh: screened Poisson, or concave hull (alpha shape, PCL),
+// which runs in a child process so that it can be cancelled at any moment.
 
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/core/point_cloud.hpp>
@@ -22,8 +22,12 @@ struct SurfaceOptions {
 };
 OptionTable describe(SurfaceOptions& options);
 
-/// Poisson surface as the library gives it: single-threaded, hence the same bytes on every run.
-/// Needs points with normals. Fails with kTooFewPoints (fewer than 10), kLibrary, kCancelled.
+/// Screened Poisson surface (Kazhdan, Bolitho and Hoppe 2006; Kazhdan and Hoppe 2013): the indicator
+/// whose gradient follows the normals, 1/2 on the faces of the cube around the points, marched on
+/// cells of poisson_depth or coarser ones where the points are not dense enough for it. Closed,
+/// 2-manifold and outward. The same bytes for any number of threads. Needs points with normals.
+/// Fails with kTooFewPoints (fewer than 10, or all at one place), kLibrary (no surface),
+/// kResourceLimit, kCancelled.
 Result<TriangleMesh> poisson_surface(const PointCloud& oriented, const SurfaceOptions& options,
                                      const RunContext& context);
 

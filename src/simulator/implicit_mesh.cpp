@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/cube_table.hpp>
+#include <turnscan/core/cube_table.hpp>
 #include <turnscan/simulator/implicit_mesh.hpp>
 
 namespace turnscan {

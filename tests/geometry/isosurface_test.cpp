@@ -66,6 +66,36 @@ TEST(Isosurface, IsWatertightWhateverTheValues) {
   }
 }
 
+TEST(Isosurface, CubesGiveTheSameBallWithAThirdOfTheTriangles) {
+  const auto fine = isosurface(ball(61), {}, RunContext());
+  const auto mesh = isosurface(ball(61), {0.02, MarchingCells::kCubes}, RunContext());
+  ASSERT_TRUE(fine && mesh);
+  const MeshReport report = check_mesh(*mesh);
+  EXPECT_TRUE(report.watertight()) << report.text();
+  EXPECT_EQ(report.euler, 2);
+  EXPECT_NEAR(report.volume_m3, 4.0 / 3.0 * std::numbers::pi, 0.01);
+  for (const Vec3f& v : mesh->vertices) ASSERT_NEAR(v.norm(), 1.0f, 2e-3f);
+  EXPECT_LT(mesh->triangles.size(), 0.4 * double(fine->triangles.size()));
+}
+
+TEST(Isosurface, CubesAreWatertightWhateverTheValues) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const std::array<int, 3> size = {1 + int(seed % 19), 1 + int(seed % 7), 1 + int(seed % 23)};
+    std::uint64_t i = 0;
+    const auto mesh = isosurface(
+        sampled(size, 0.1, Vec3d(1, 2, 3),
+                [&](const Vec3d&) { return ++i % 3 == 0 ? 0.0 : random_value(seed, i); }),
+        {0.02, MarchingCells::kCubes}, RunContext());
+    ASSERT_TRUE(mesh);
+    if (mesh->empty()) continue;
+    const MeshReport report = check_mesh(*mesh);
+    EXPECT_EQ(report.boundary_edges, 0) << seed;
+    EXPECT_EQ(report.non_manifold_edges, 0) << seed;
+    EXPECT_EQ(report.non_manifold_vertices, 0) << seed;
+    EXPECT_GT(report.volume_m3, 0.0) << seed;
+  }
+}
+
 TEST(Isosurface, ClosesAtTheBorderOfTheGridHalfACellOutside) {
   for (const int n : {1, 7, 8, 9, 17}) {
     const auto mesh =

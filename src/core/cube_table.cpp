@@ -1,4 +1,4 @@
-#include <turnscan/simulator/cube_table.hpp>
+#include <turnscan/core/cube_table.hpp>
 #include <vector>
 
 namespace turnscan {

@@ -1,5 +1,5 @@
 #pragma once
-// How a surface crosses a cube whose corners are inside or outside (private to the simulator).
+// How a surface crosses a cube whose corners are inside or outside.
 // Corner c lies at (c & 1, c >> 1 & 1, c >> 2).
 
 #include <array>
