@@ -1,7 +1,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
-#include <turnscan/core/cube_table.hpp>
 #include <turnscan/simulator/implicit_mesh.hpp>
 
 #include "tests/simulator/shapes.hpp"
