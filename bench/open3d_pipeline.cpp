@@ -2,8 +2,9 @@
 // scripts/bench runs it beside turnscan.
 //   open3d_pipeline points|tsdf|voxel-blocks|poisson RECORDING OUT.ply [--OPTION VALUE]...
 // points: each frame cropped and filtered, merged, voxel_down_sample, normals, Poisson.
-// tsdf: ScalableTSDFVolume, voxel-blocks: t::geometry::VoxelBlockGrid, both with the known poses.
-// poisson: all points merged as they are, with normals from each frame, into Poisson.
+// tsdf: ScalableTSDFVolume, voxel-blocks: t::geometry::VoxelBlockGrid, both with the known poses
+// and without the crumbs that stray pixels leave. poisson: all points merged as they are, with
+// normals from each frame, into Poisson.
 
 #include <open3d/camera/PinholeCameraIntrinsic.h>
 #include <open3d/geometry/Image.h>
@@ -17,6 +18,7 @@
 #include <open3d/utility/Logging.h>
 #include <bench/plain_pipeline.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -153,6 +155,21 @@ double truncation(const Options& options) {
   return options.truncation_m > 0.0 ? options.truncation_m : 4.0 * options.voxel_size_m;
 }
 
+/// Without the crumbs that stray pixels leave in the air: pieces of less than 2 % of the triangles
+/// of the largest, as for turnscan's own methods.
+open3d::geometry::TriangleMesh without_crumbs(open3d::geometry::TriangleMesh mesh) {
+  constexpr double kLeastShare = 0.02;
+  const auto [cluster, counts, areas] = mesh.ClusterConnectedTriangles();
+  if (counts.empty()) return mesh;
+  const auto most = double(*std::max_element(counts.begin(), counts.end()));
+  std::vector<bool> crumb(cluster.size());
+  for (std::size_t t = 0; t < crumb.size(); ++t)
+    crumb[t] = double(counts[std::size_t(cluster[t])]) < kLeastShare * most;
+  mesh.RemoveTrianglesByMask(crumb);
+  mesh.RemoveUnreferencedVertices();
+  return mesh;
+}
+
 Result<TriangleMesh> tsdf(const Scan& scan, const Options& options, Tally& tally) {
   open3d::pipelines::integration::ScalableTSDFVolume volume(
       options.voxel_size_m, truncation(options),
@@ -170,7 +187,7 @@ Result<TriangleMesh> tsdf(const Scan& scan, const Options& options, Tally& tally
   }
   const auto mesh = volume.ExtractTriangleMesh();
   tally.watch.lap("surface");
-  return from_open3d(*mesh);
+  return from_open3d(without_crumbs(*mesh));
 }
 
 Tensor row_major(const Eigen::MatrixXd& m) {
@@ -200,7 +217,7 @@ Result<TriangleMesh> voxel_blocks(const Scan& scan, const Options& options, Tall
   }
   const auto mesh = grid.ExtractTriangleMesh(static_cast<float>(options.least_weight)).ToLegacy();
   tally.watch.lap("surface");
-  return from_open3d(mesh);
+  return from_open3d(without_crumbs(mesh));
 }
 
 Result<TriangleMesh> reconstruct_with(const std::string& method, const Scan& scan,
