@@ -8,7 +8,10 @@
 #include <turnscan/reconstruction/merge.hpp>
 #include <turnscan/reconstruction/normals.hpp>
 #include <turnscan/reconstruction/point_sums.hpp>
+#include <turnscan/reconstruction/poisson_bricks.hpp>
+#include <turnscan/reconstruction/poisson_kernel.hpp>
 #include <turnscan/reconstruction/refine.hpp>
+#include <turnscan/reconstruction/surface.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
 #include <turnscan/simulator/scene_file.hpp>
 #include <turnscan/turntable/crop.hpp>
@@ -178,6 +181,28 @@ void refine(benchmark::State& state) {
   report(state, candidates.cloud.size(), 28 * m.size());
 }
 
+/// One product with the stiffness matrix, most of a step of the solver.
+void poisson_stiffness(benchmark::State& state) {
+  poisson::Block block;
+  for (std::size_t i = 0; i < block.size(); ++i) block[i] = float(i % 7);
+  std::array<float, poisson::kCells> out;
+  for (auto _ : state) {
+    poisson::stiffness(block.data(), out.data());
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  report(state, poisson::kCells, sizeof block + sizeof out);
+}
+
+void poisson_surface_of_candidates(benchmark::State& state) {
+  const Measurements m = measured();
+  Candidates candidates = find_candidates(m, m.grid, RunContext()).value();
+  if (!estimate_normals(candidates, 2.5 * kVoxel, RunContext())) return;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(poisson_surface(candidates.cloud, SurfaceOptions(), RunContext()));
+  report(state, candidates.cloud.size(), 24 * candidates.cloud.size());
+}
+
 BENCHMARK(png_decode)->MeasureProcessCPUTime();
 BENCHMARK(png_encode)->MeasureProcessCPUTime();
 BENCHMARK(depth_to_points)->MeasureProcessCPUTime();
@@ -190,6 +215,8 @@ BENCHMARK(count_sub_voxels)->MeasureProcessCPUTime()->Unit(benchmark::kMilliseco
 BENCHMARK(collect)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(normals)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(refine)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(poisson_stiffness)->MeasureProcessCPUTime();
+BENCHMARK(poisson_surface_of_candidates)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

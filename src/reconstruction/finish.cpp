@@ -168,16 +168,14 @@ Result<FinishedMesh> finish_poisson(const TriangleMesh& raw, const PointCloud& c
   context.begin_phase("repair", 3);
   TURNSCAN_ASSIGN(Piece piece, main_piece(raw, tree, reach_m, notes));
   context.advance();
-  TURNSCAN_TRY(deflate(piece, notes, context));
+  Piece tight = piece;
+  std::vector<std::string> tight_notes = notes;
+  TURNSCAN_TRY(deflate(tight, tight_notes, context));
   context.advance();
-  look_again(piece.mesh, tree, reach_m, piece.unsupported);
-  FinishedMesh out = checked(std::move(piece), notes);
-  if (!out.check.watertight()) {
-    // What moved may have shrunk to nothing.
-    TURNSCAN_ASSIGN(const TriangleMesh repaired, repair(out.mesh, FillHolesOptions(), context));
-    TURNSCAN_ASSIGN(piece, main_piece(repaired, tree, reach_m, notes));
-    out = checked(std::move(piece), std::move(notes));
-  }
+  look_again(tight.mesh, tree, reach_m, tight.unsupported);
+  FinishedMesh out = checked(std::move(tight), std::move(tight_notes));
+  // A sheet that was seen from one side only has nothing between it and its continuation.
+  if (!out.check.watertight()) out = checked(std::move(piece), std::move(notes));
   context.advance();
   if (!out.check.watertight())
     return fail(ErrorCode::kLibrary, "the Poisson surface cannot be made watertight: {}",

@@ -31,7 +31,8 @@ Result<TriangleMesh> poisson_surface(const PointCloud& oriented, const SurfaceOp
   }
   const int marched = std::min(depth, samples.deepest() + 1);
   TURNSCAN_ASSIGN(TriangleMesh mesh, indicator_surface(levels, cube, marched, iso, context));
-  if (mesh.empty()) return fail(ErrorCode::kLibrary, "Poisson: the result has no triangles");
+  if (mesh.empty())
+    return fail(ErrorCode::kLibrary, "Poisson: the points enclose nothing; check their normals");
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/mesh_check.hpp>
+#include <turnscan/reconstruction/finish.hpp>
 #include <turnscan/reconstruction/poisson_kernel.hpp>
 #include <turnscan/reconstruction/poisson_surface.hpp>
 #include <turnscan/reconstruction/surface.hpp>
@@ -472,23 +473,61 @@ TEST(Poisson, RefusesPointsAtOnePlace) {
   EXPECT_EQ(mesh.error().code, ErrorCode::kTooFewPoints);
 }
 
-TEST(Poisson, FlatPointsAndPointsWithoutAnInsideAreNoCrash) {
-  PointCloud plate;
+/// A plate of points that face up.
+PointCloud plate() {
+  PointCloud cloud;
   for (int i = 0; i < 60; ++i) {
     for (int j = 0; j < 60; ++j) {
-      plate.points.emplace_back(0.001f * float(i), 0.0f, 0.001f * float(j));
-      plate.normals.emplace_back(0.0f, 1.0f, 0.0f);
+      cloud.points.emplace_back(0.001f * float(i), 0.0f, 0.001f * float(j));
+      cloud.normals.emplace_back(0.0f, 1.0f, 0.0f);
     }
   }
-  const auto mesh = poisson_surface(plate, depth_of(7), RunContext());
-  if (mesh) {
-    EXPECT_TRUE(check_mesh(*mesh).watertight());
-  }
+  return cloud;
+}
+
+TEST(Poisson, APlateSeenFromOneSideBecomesAClosedPieceAndStaysOne) {
+  const auto mesh = poisson_surface(plate(), depth_of(6), RunContext());
+  ASSERT_TRUE(mesh) << mesh.error().text();
+  // Tightened its unseen side would lie on the seen one.
+  const auto finished = finish_poisson(*mesh, plate(), 0.003, RunContext());
+  ASSERT_TRUE(finished) << finished.error().text();
+  EXPECT_TRUE(finished->check.watertight());
+}
+
+TEST(Poisson, NormalsThatEncloseNothingAreAnError) {
   PointCloud inside_out = sphere(3000, 0.05);
-  for (Vec3f& n : inside_out.normals) n = -n;
-  const auto shell = poisson_surface(inside_out, depth_of(6), RunContext());
-  if (shell) {
-    EXPECT_EQ(check_mesh(*shell).boundary_edges, 0);
+  for (Vec3f& n : inside_out.normals) n = Vec3f::Zero();
+  SurfaceOptions options = depth_of(6);
+  options.point_weight = 0.0;
+  const auto mesh = poisson_surface(inside_out, options, RunContext());
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().code, ErrorCode::kLibrary);
+}
+
+TEST(Poisson, IsClosedAndTwoManifoldWhateverThePoints) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto u = [&](std::uint64_t i, std::uint64_t which) {
+      return uniform01(hash_key(seed, i, which));
+    };
+    PointCloud cloud;
+    const std::uint64_t n = 10 + std::uint64_t(600 * u(0, 9));
+    for (std::uint64_t i = 0; i < n; ++i) {
+      Vec3f p(float(u(i, 0)), float(u(i, 1)), float(u(i, 2)));
+      if (seed % 4 == 1) p = p.normalized();
+      if (seed % 4 == 2) p.y() = 0.0f;
+      if (seed % 4 == 3 && i % 2 == 0) p = Vec3f::Constant(0.3f);
+      cloud.points.push_back(p);
+      cloud.normals.push_back(
+          Vec3f(float(u(i, 3)) - 0.4f, float(u(i, 4)) - 0.4f, float(u(i, 5)) - 0.4f).normalized());
+    }
+    SurfaceOptions options = depth_of(2 + int(seed % 5));
+    options.point_weight = double(seed % 3) * 10.0;
+    const auto mesh = poisson_surface(cloud, options, RunContext());
+    if (!mesh) continue;
+    const MeshReport report = check_mesh(*mesh);
+    EXPECT_EQ(report.boundary_edges, 0) << seed;
+    EXPECT_EQ(report.non_manifold_edges, 0) << seed;
+    EXPECT_EQ(report.non_manifold_vertices, 0) << seed;
   }
 }
 
