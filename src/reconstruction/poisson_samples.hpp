@@ -26,15 +26,25 @@ struct Spot {
 /// Calls body(cell, weight) for the 27 cells whose B-splines reach a spot.
 template <class Body>
 void for_each_cell(const Spot& spot, const Neighbours& bricks, const Body& body) {
-  for (int c = 0; c < 27; ++c) {
-    const int i = c % 3, j = c / 3 % 3, k = c / 9;
-    const int x = spot.cell[0] + i - 1, y = spot.cell[1] + j - 1, z = spot.cell[2] + k - 1;
-    const std::int32_t slot =
-        bricks[std::size_t(((x >> 3) + 1) + 3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1))];
-    if (slot < 0) continue;
-    body(std::size_t(slot) * kCells + in_brick(x, y, z), spot.weight[0][std::size_t(i)] *
-                                                             spot.weight[1][std::size_t(j)] *
-                                                             spot.weight[2][std::size_t(k)]);
+  std::size_t slot[3][3], cell[3][3];  // along each axis: share of the place among the neighbours
+  for (std::size_t a = 0; a < 3; ++a) {
+    constexpr std::size_t kSlots[3] = {1, 3, 9}, kSteps[3] = {1, 8, 64};
+    for (int n = 0; n < 3; ++n) {
+      const int at = spot.cell[a] + n - 1;
+      slot[a][n] = std::size_t((at >> 3) + 1) * kSlots[a];
+      cell[a][n] = std::size_t(at & 7) * kSteps[a];
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const float row = spot.weight[1][j] * spot.weight[2][k];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t brick = bricks[slot[0][i] + slot[1][j] + slot[2][k]];
+        if (brick < 0) continue;
+        body(std::size_t(brick) * kCells + (cell[0][i] + cell[1][j] + cell[2][k]),
+             spot.weight[0][i] * row);
+      }
+    }
   }
 }
 
