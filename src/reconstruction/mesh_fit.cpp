@@ -2,18 +2,14 @@
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh_repair.hpp>
-#include <turnscan/reconstruction/mesh_fit_parts.hpp>
-#include <turnscan/reconstruction/volume.hpp>
+#include <turnscan/reconstruction/mesh_look.hpp>
 
 namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;  // vertices that are looked up together
 /// Each step looks at twice as many views as the one before it, but not at fewer than these.
 constexpr std::size_t kFewestViews = 128;
-constexpr double kTukey = 4.685;  // standard deviations; 95 % efficient for normal noise
-constexpr float kFacing = 0.2f;   // rays that graze the surface say little about it
 /// Dark or slanted places are noisier than others, up to so many times as far as it matters.
 constexpr float kWidest = 4.0f;
 /// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
@@ -35,67 +31,27 @@ float times_the_noise(float share) {
   return low;
 }
 
-/// Vertices that face alike and lie near each other stand together, so that a view that sees one
-/// of them sees most, and one that sees none can be left out.
-std::vector<std::uint32_t> order_by_facing(const std::vector<Vec3f>& positions,
-                                           const std::vector<Vec3f>& normals) {
-  Box box = bounds(positions);
-  const double side = std::max(box.size().maxCoeff(), 1e-9);
-  // Of each axis 10 bits of position, interleaved; before them one of 24 directions: the cube's
-  // face that the normal goes through, and the quarter of it.
-  const auto spread = [](std::uint64_t v) {
-    std::uint64_t out = 0;
-    for (int bit = 0; bit < 10; ++bit) out |= (v >> bit & 1) << (3 * bit);
-    return out;
-  };
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> key(positions.size());
-  parallel_for(positions.size(), 4096, [&](std::size_t v) {
-    int axis = 0;
-    normals[v].cwiseAbs().maxCoeff(&axis);
-    std::uint64_t code = std::uint64_t(axis);
-    for (int a = 0; a < 3; ++a) code = 2 * code + (normals[v][a] < 0.0f ? 1 : 0);
-    code <<= 30;
-    for (int a = 0; a < 3; ++a) {
-      const double at = (double(positions[v][a]) - box.min[a]) / side * 1023.0;
-      code |= spread(std::uint64_t(std::clamp(at, 0.0, 1023.0))) << a;
-    }
-    key[v] = {code, std::uint32_t(v)};
-  });
-  std::sort(key.begin(), key.end());
-  std::vector<std::uint32_t> order(key.size());
-  for (std::size_t i = 0; i < key.size(); ++i) order[i] = key[i].second;
-  return order;
-}
-
-/// A ball around the vertices of a block, and a cone around their normals.
-struct Patch {
-  Vec3f center = Vec3f::Zero(), axis = Vec3f::Zero();
-  float radius = 0.0f, opening = 0.0f;  // metres, radians
-};
-
 class Fitter {
  public:
   Fitter(const TriangleMesh& mesh, std::span<const DepthView> views, const MeshFitScale& scale)
-      : views_(views), scale_(scale), neighbours_(mesh) {
+      : views_(views), scale_(scale), neighbours_(mesh), look_(mesh) {
     fit_.mesh = mesh;
-    order_ = order_by_facing(mesh.vertices, vertex_normals(mesh));
-    for (const DepthView& view : views) kernels_.push_back(kernel_of(view));
   }
 
   Result<MeshFit> run(const RunContext& context) {
     const std::size_t n = fit_.mesh.vertices.size();
     const bool tells = scale_.iterations > 0 && views_.size() >= kTellSpread;
     const int rounds = std::max(1, scale_.iterations), looks = tells ? 1 : 0;
-    context.begin_phase("fit", (n + kBlock - 1) / kBlock * std::size_t(rounds + looks));
+    context.begin_phase("fit", look_.blocks() * std::size_t(rounds + looks));
     spread_.assign(n, 1.0f);
     if (looks > 0) {
       std::fill(spread_.begin(), spread_.end(), kWidest * kWidest);
-      take_columns(0);
+      take_places(0);
       TURNSCAN_TRY(measure_all(views_apart(rounds - 1), context));
       take_spread();
     }
     for (int iteration = 0; iteration < rounds; ++iteration) {
-      take_columns(iteration);
+      take_places(iteration);
       TURNSCAN_TRY(measure_all(views_apart(rounds - 1 - iteration), context));
       forget_the_platter();
       if (scale_.iterations > 0) move();
@@ -109,10 +65,6 @@ class Fitter {
   }
 
  private:
-  static std::size_t pad(std::size_t n) {
-    return (n + detail::kVertexRow - 1) / detail::kVertexRow * detail::kVertexRow;
-  }
-
   /// With so many steps to go.
   std::size_t views_apart(int to_go) const {
     std::size_t step = 1;
@@ -120,8 +72,8 @@ class Fitter {
     return step;
   }
 
-  /// Positions and smoothed normals as the kernel reads them.
-  void take_columns(int iteration) {
+  /// Positions and smoothed normals.
+  void take_places(int iteration) {
     const std::size_t n = fit_.mesh.vertices.size();
     normals_ = vertex_normals(fit_.mesh);
     for (int round = 0; round < (iteration == 0 ? 3 : 2); ++round) {
@@ -132,16 +84,7 @@ class Fitter {
       });
       normals_.swap(next);
     }
-    const std::size_t padded = pad(n);
-    for (auto& column : columns_) column.assign(padded, 1.0f);
-    parallel_for(n, 4096, [&](std::size_t i) {
-      const std::uint32_t v = order_[i];
-      for (int a = 0; a < 3; ++a) {
-        columns_[std::size_t(a)][i] = fit_.mesh.vertices[v][a];
-        columns_[std::size_t(a + 3)][i] = normals_[v][a];
-      }
-      columns_[6][i] = spread_[v];
-    });
+    look_.place(fit_.mesh.vertices, normals_, spread_);
   }
 
   /// How much more measurements scatter than the noise says, from those of the neighbours, too.
@@ -162,84 +105,10 @@ class Fitter {
 
   /// With every step-th view.
   Result<> measure_all(std::size_t step, const RunContext& context) {
-    const std::size_t n = fit_.mesh.vertices.size();
-    std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
-    parallel_for((n + kBlock - 1) / kBlock, 1, [&](std::size_t b) {
-      if (context.cancelled()) return;
-      measure(b * kBlock, std::min(n, (b + 1) * kBlock), step,
-              {weight.data(), offset.data(), near.data()});
-      context.advance();
-    });
-    TURNSCAN_TRY(context.check());
-    for (auto* sums : {&measured_.support, &measured_.offset, &near_}) sums->resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      measured_.support[order_[i]] = weight[i];
-      measured_.offset[order_[i]] = offset[i];
-      near_[order_[i]] = near[i];
-    }
+    TURNSCAN_ASSIGN(detail::MeshLook::Found found, look_.look(views_, step, scale_, context));
+    measured_ = std::move(found.measured);
+    near_ = std::move(found.near);
     return {};
-  }
-
-  /// Of the vertices that stand at [begin, end).
-  Patch patch(std::size_t begin, std::size_t end) const {
-    Patch out;
-    Box box;
-    for (std::size_t i = begin; i < end; ++i) {
-      box.add(fit_.mesh.vertices[order_[i]].cast<double>());
-      out.axis += normals_[order_[i]];
-    }
-    out.center = box.center().cast<float>();
-    out.radius = float(0.5 * box.size().norm());
-    out.axis.normalize();
-    float least = 1.0f;
-    for (std::size_t i = begin; i < end; ++i)
-      least = std::min(least, out.axis.dot(normals_[order_[i]]));
-    out.opening = std::acos(std::clamp(least, -1.0f, 1.0f));
-    return out;
-  }
-
-  void measure(std::size_t begin, std::size_t end, std::size_t step, detail::VertexSums sums) {
-    const Patch around = patch(begin, end);
-    const detail::VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
-                                        columns_[3].data(), columns_[4].data(), columns_[5].data(),
-                                        columns_[6].data()};
-    const detail::FitScale scale{float(1.0 / (scale_.reach_m * scale_.reach_m)),
-                                 float(scale_.noise_m),
-                                 float(scale_.floor_m),
-                                 float(kTukey),
-                                 kFacing,
-                                 scale_.edge_weight};
-    for (std::size_t v = 0; v < views_.size(); v += step) {
-      if (turned_away(views_[v], around) || outside_window(views_[v], around)) continue;
-      detail::add_view_to_vertices(kernels_[v], columns, begin, pad(end), scale, sums);
-    }
-  }
-
-  /// Whether no vertex of the patch faces the view.
-  static bool turned_away(const DepthView& view, const Patch& patch) {
-    constexpr float kHalfPi = 1.5707963f, kSlack = 0.01f;
-    const Vec3f axis = view.rotation * patch.axis;
-    const Vec3f c = view.rotation * patch.center + view.translation;
-    const float distance = c.norm();
-    // Directions to the sensor differ across the patch.
-    float wide = patch.opening + kSlack;
-    if (!view.parallel) {
-      if (distance <= 2.0f * patch.radius) return false;
-      wide += std::asin(patch.radius / distance);
-    }
-    const float facing = view.parallel ? -axis.z() : -axis.dot(c) / distance;
-    return std::acos(std::clamp(facing, -1.0f, 1.0f)) - wide > std::acos(kFacing) && wide < kHalfPi;
-  }
-
-  static bool outside_window(const DepthView& view, const Patch& patch) {
-    const Vec3f c = view.rotation * patch.center + view.translation;
-    const float radius = patch.radius;
-    if (view.parallel || view.distorted) return false;
-    if (c.z() <= radius) return true;
-    const float reach = 1.1f * radius / (c.z() - radius);
-    const float u = c.x() / c.z() * view.fx + view.cx, v = c.y() / c.z() * view.fy + view.cy;
-    return u + reach * view.fx < 0.0f || v + reach * view.fy < 0.0f ||
-           u - reach * view.fx > float(view.width) || v - reach * view.fy > float(view.height);
   }
 
   /// What was measured in the lower half of the margin may be the platter.
@@ -267,14 +136,12 @@ class Fitter {
   std::span<const DepthView> views_;
   MeshFitScale scale_;
   detail::MeshNeighbours neighbours_;
-  std::vector<detail::ViewKernel> kernels_;
+  detail::MeshLook look_;
   MeshFit fit_;
-  std::vector<std::uint32_t> order_;  // place in the columns: vertex
   std::vector<Vec3f> normals_;
   detail::VertexMeasurements measured_;
   std::vector<float> near_;    // as VertexSums, by vertex
   std::vector<float> spread_;  // squared, as VertexColumns::spread
-  std::array<std::vector<float>, 7> columns_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <turnscan/geometry/simplify.hpp>
 #include <turnscan/reconstruction/floating.hpp>
 #include <turnscan/reconstruction/mesh_color.hpp>
+#include <turnscan/reconstruction/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/volumetric.hpp>
 
 namespace turnscan {
@@ -120,6 +121,11 @@ class Run {
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
+      if (options_.sharpen && input_.filter_share > 0.0)
+        TURNSCAN_TRY(timed("sharpen", [&] {
+          return sharpen_mesh(fitted.mesh, input_.views, input_.filter_share, fit_scale(),
+                              context_);
+        }));
       if (encloses_nothing(fitted.mesh)) continue;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
       fitted_parts.push_back(std::move(fitted.mesh));

@@ -16,11 +16,12 @@ struct VolumetricInput {
   /// Distance between samples over spacing_m. A camera's many frames fall between each other's
   /// pixels; a few range scans do not.
   double cells_of_spacing = 0.5;
-  bool profiles = false;             ///< of a line scanner: views are parts of one long scan
-  bool colored = false;              ///< the mesh gets the views' colours
-  std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
-  std::optional<int> grid;           ///< or: samples along the longest side
-  int keep = 0;                      ///< largest pieces that are kept; 0: all
+  double filter_share = 0.0;     ///< of a pixel's neighbours in its depth, see sensor_filter.hpp
+  bool profiles = false;         ///< of a line scanner: views are parts of one long scan
+  bool colored = false;          ///< the mesh gets the views' colours
+  std::optional<double> cell_m;  ///< distance between samples; nullopt: from the spacing
+  std::optional<int> grid;       ///< or: samples along the longest side
+  int keep = 0;                  ///< largest pieces that are kept; 0: all
   std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
 };
 

@@ -57,6 +57,9 @@ OptionTable describe(VolumetricOptions& o) {
               "Volumetric: measurements farther from a vertex, across its normal, do not count in "
               "the fit; automatic: from the spacing")
       .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
+      .flag("sharpen", o.sharpen,
+            "Volumetric: where noise shows that the sensor averages over neighbouring pixels, take "
+            "back what that did to edges and thin parts")
       .number("triangles", o.triangles, {4, 1000000000},
               "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
               "of what the volume gives")

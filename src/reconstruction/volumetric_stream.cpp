@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <turnscan/reconstruction/scan_statistics.hpp>
+#include <turnscan/reconstruction/sensor_filter.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/volumetric_stream.hpp>
 
@@ -65,6 +66,9 @@ Result<std::unique_ptr<VolumetricStream>> VolumetricStream::create(
   if (std::all_of(sensors.begin(), sensors.end(),
                   [](const SensorInfo& s) { return s.kind == SensorKind::kPointScanner; }))
     input.cells_of_spacing = 0.9;
+  stream->are_images_ = std::all_of(sensors.begin(), sensors.end(), [](const SensorInfo& s) {
+    return s.kind == SensorKind::kDepthCamera;
+  });
   input.profiles = look.profiles;
   input.cylinder = look.cylinder;
   input.cell_m = options.voxels.size_m;
@@ -93,6 +97,7 @@ Result<> VolumetricStream::add(DepthView view, std::uint32_t sensor) {
 
 Result<> VolumetricStream::begin() {
   input_.views = std::move(pending_);
+  if (are_images_) input_.filter_share = share_of_neighbours(input_.views, sensor_noise_m_);
   input_.noise_m = std::max(sensor_noise_m_, thickness(input_, sensor_noise_m_));
   scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
   pending_ = std::move(input_.views);
@@ -175,6 +180,11 @@ Result<> VolumetricStream::finish(const StageSink& sink, const RunContext& conte
     TURNSCAN_TRY(accumulate(true));
   }
   TURNSCAN_TRY(context.check());
+  if (options_.volumetric.sharpen && input_.filter_share > 0.0)
+    out.notes.push_back(fmt::format(
+        "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
+        "edges are sharpened",
+        200.0 * input_.filter_share));
   input_.views = kept_.take();
   {
     const StageTimer timer(out, "noise");

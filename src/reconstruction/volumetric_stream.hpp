@@ -74,6 +74,7 @@ class VolumetricStream {
   ViewScale view_scale_;
   VolumetricInput input_;  ///< its views only at the end
   double sensor_noise_m_ = 0.0;
+  bool are_images_ = false;  ///< depth images, all of them
   bool begun_ = false;
   std::vector<DepthView> pending_;
   std::vector<std::uint32_t> pending_sensor_;
