@@ -8,6 +8,7 @@
 #include <chrono>
 #include <fstream>
 #include <numbers>
+#include <turnscan/core/median.hpp>
 #include <turnscan/simulator/builtin_objects.hpp>
 #include <turnscan/turntable/motion.hpp>
 
@@ -32,6 +33,14 @@ void write_angles(const char* path, const testing::Rig& rig, const Calibration& 
                        (found.angles_rad[i] - truth) * kDegrees,
                        found.angle_sigma_rad[i] * kDegrees);
   }
+}
+
+/// A constant error of all angles but the first turns the finished object, and changes nothing
+/// else.
+double mean_beside(const std::vector<double>& errors, double constant) {
+  double sum = 0.0;
+  for (const double e : errors) sum += std::abs(e - constant);
+  return sum / double(errors.size());
 }
 
 /// Speed grows evenly over start_s; then a ripple, once and five times a turn.
@@ -81,22 +90,24 @@ int main(int argc, char** argv) {
   }
   const TurntableInfo truth = rig.truth();
   const Vec3d off = found->table.center_m - truth.center_m;
-  double angles = 0.0, worst = 0.0;
-  for (std::size_t i = 0; i < found->angles_rad.size(); ++i) {
-    const double e = std::abs(found->angles_rad[i] - rig.true_angle(i)) * kDegrees;
-    angles += e / double(frames);
-    worst = std::max(worst, e);
-  }
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < found->angles_rad.size(); ++i)
+    errors.push_back((found->angles_rad[i] - rig.true_angle(i)) * kDegrees);
+  const double angles = mean_beside(errors, 0.0);
+  double worst = 0.0;
+  for (const double e : errors) worst = std::max(worst, std::abs(e));
   fmt::print(
       "axis {:.4f} deg (+- {:.4f}), centre {:.3f} mm across (+- {:.3f}), {:+.3f} along\n",
       std::atan2(truth.axis.cross(found->table.axis).norm(), truth.axis.dot(found->table.axis)) *
           kDegrees,
       found->axis_sigma_rad * kDegrees, (off - off.dot(truth.axis) * truth.axis).norm() * 1e3,
       found->center_sigma_m * 1e3, off.dot(truth.axis) * 1e3);
-  fmt::print("speed {:+.5f} % (+- {:.5f}), angles: mean {:.4f} deg, worst {:.4f}; start {:.3f} s\n",
+  fmt::print("speed {:+.5f} % (+- {:.5f}); start {:.3f} s\n",
              100.0 * (*found->table.speed_rad_s / speed - 1.0),
-             100.0 * found->speed_sigma_rad_s / std::abs(speed), angles, worst,
-             found->start_s.value_or(-1.0));
+             100.0 * found->speed_sigma_rad_s / std::abs(speed), found->start_s.value_or(-1.0));
+  fmt::print(
+      "angles: mean error {:.4f} deg, worst {:.4f}; {:.4f} but for the median error, {:+.4f}\n",
+      angles, worst, mean_beside(errors, median(errors)), median(errors));
   if (argc > 9) write_angles(argv[9], rig, *found);
   double squares = 0.0;
   for (std::size_t i = 1; i < found->angles_rad.size(); ++i)

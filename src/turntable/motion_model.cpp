@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/motion_law.hpp>
@@ -23,6 +24,8 @@ constexpr double kMostHeight_m = 0.003;                 // in one step
 constexpr double kStationary = 2e-5;                    // radians
 constexpr std::size_t kLeastSeen = 1000;
 constexpr std::size_t kBlocks = 64;  // of frames, whose errors are compared
+/// How evenly tables turn: AngleLaw::wander, from a good motor to one that is pushed by hand.
+constexpr std::array kWanders{2e-4, 5e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1.2e-2, 2e-2, 4e-2};
 
 /// A frame's distance from a place.
 struct Seen {
@@ -235,19 +238,59 @@ class Bundle {
     });
   }
 
-  Result<> solve() {
+  struct System {
+    Eigen::MatrixXd matrix;  ///< lower half
+    Eigen::VectorXd right;
+  };
+
+  /// What was seen, and what a law and the platter say.
+  System with_law(const AngleLaw& law) const {
+    System out{matrix_, right_};
     const AddLawRow add = [&](std::span<const LawTerm> terms, double error, double worth) {
       for (const auto& [i, a] : terms) {
-        right_[i] -= unit_ * worth * a * error;
+        out.right[i] -= unit_ * worth * a * error;
         for (const auto& [k, b] : terms)
-          if (i >= k) matrix_(i, k) += unit_ * worth * a * b;
+          if (i >= k) out.matrix(i, k) += unit_ * worth * a * b;
       }
     };
-    add_law(data_, knots_, angle_, law_, add);
-    add_axis_prior(data_, state_.axis, state_.center, unit_, matrix_.bottomRightCorner<4, 4>(),
-                   right_.tail<4>());
-    factors_.compute(matrix_);
-    step_ = factors_.solve(right_);
+    add_law(data_, knots_, angle_, law, add);
+    add_axis_prior(data_, state_.axis, state_.center, unit_, out.matrix.bottomRightCorner<4, 4>(),
+                   out.right.tail<4>());
+    return out;
+  }
+
+  /// -2 times the logarithm of the evidence for a law, up to a constant: what the data and the law
+  /// lose by the best step, and how narrow the law and the data make the angles.
+  double misfit_of(const AngleLaw& law) const {
+    const System system = with_law(law);
+    const Eigen::LDLT<Eigen::MatrixXd> factors(system.matrix);
+    const Eigen::VectorXd step = factors.solve(system.right);
+    std::vector<double> angle = angle_;
+    for (std::size_t k = 0; k < angle.size(); ++k) angle[k] += step[Index(k)];
+    const Eigen::VectorXd pulled = matrix_.selfadjointView<Eigen::Lower>() * step;
+    const double lost = step.dot(pulled) - 2.0 * right_.dot(step);
+    const AddLawRow none = [](std::span<const LawTerm>, double, double) {};
+    return lost / unit_ + add_law(data_, knots_, angle, law, none) +
+           (factors.vectorD().array() / unit_).log().sum();
+  }
+
+  /// The model tells laws apart that pairs of views, with the leads of their own, do not.
+  void choose_wander() {
+    if (!law_.timed) return;
+    double least = std::numeric_limits<double>::infinity();
+    AngleLaw law = law_;
+    for (const double wander : kWanders) {
+      law.wander = wander;
+      const double misfit = misfit_of(law);
+      if (misfit < least) law_.wander = wander, least = misfit;
+    }
+  }
+
+  Result<> solve() {
+    choose_wander();
+    const System system = with_law(law_);
+    factors_.compute(system.matrix);
+    step_ = factors_.solve(system.right);
     if (factors_.info() != Eigen::Success || !step_.allFinite())
       return fail(ErrorCode::kLibrary, "motion: the system of equations cannot be solved");
     return {};
@@ -286,7 +329,7 @@ class Bundle {
   }
 
   const MotionData& data_;
-  const AngleLaw& law_;
+  AngleLaw law_;
   const ModelOptions& options_;
   MotionSolution out_;
   MotionState state_;

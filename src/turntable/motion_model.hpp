@@ -19,7 +19,9 @@ struct ModelOptions {
 /// nothing sideways. Heights, axis, centre and angles are minimised together; the heights are
 /// eliminated first (Schur complement; as in bundle adjustment, Triggs et al. 2000), which leaves
 /// a dense system of the knots' angles and the axis. Pairs of views from different sides, each of
-/// which seems to be turned a little too far or too little, no longer add up over the turn.
+/// which seems to be turned a little too far or too little, no longer add up over the turn. How
+/// evenly a table turns whose frames have times is the law of largest evidence (MacKay 1992,
+/// "Bayesian interpolation"); `law.wander` is not used.
 /// Returns the start unchanged when hardly anything of the model is seen. Fails with kLibrary when
 /// the system cannot be solved, kCancelled.
 Result<MotionSolution> solve_model(const MotionData& data, const MotionSolution& start,
