@@ -4,7 +4,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/geometry/registration.hpp>
 #include <turnscan/turntable/check.hpp>
-#include <turnscan/turntable/motion_solve.hpp>
+#include <turnscan/turntable/motor_events.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
@@ -133,7 +133,7 @@ class Checker {
     look_at_direction(*found);
     look_at_speed(*found);
     look_at_angles(*found);
-    look_at_stops(*found);
+    TURNSCAN_TRY(look_at_motor(*found));
     return std::move(findings_);
   }
 
@@ -282,38 +282,105 @@ class Checker {
     return median(speeds);
   }
 
-  /// Stretches in which the table hardly turned, or jumped, after it had started. Recorded angles
-  /// may have followed it.
-  void look_at_stops(const Calibration& found) {
-    if (!told(found, "angles")) return;
-    const auto speed = usual_speed(found);
-    if (!speed || !(std::abs(*speed) > 0.0)) return;
-    const auto& frames = sequence_.frames();
-    const double usual = *speed;
-    const bool followed = has_angles_ && angles_good_;
-    const double span = frames.back().time_s - frames.front().time_s;
-    // A window holds two steps from frame to frame at least.
-    const double step = span / double(frames.size() - 1);
-    const double window = std::max({0.8, span / 60.0, 2.2 * step});
-    const double from = found.start_s.value_or(frames.front().time_s) + 2.0;
-    if (!(span > 0.0)) return;
-    std::size_t a = 0;
-    for (std::size_t b = 0; b < frames.size(); ++b) {
-      while (frames[b].time_s - frames[a].time_s > window) ++a;
-      const double dt = frames[b].time_s - frames[a].time_s;
-      if (frames[a].time_s < from || dt < 0.8 * window) continue;
-      if (frames[b].time_s > frames.back().time_s - 0.5) break;
-      const double share = (found.angles_rad[b] - found.angles_rad[a]) / dt / usual;
-      if (share > 0.5 && share < 1.7) continue;
-      const std::string what = share <= -0.5  ? "jumped back"
-                               : share <= 0.5 ? "slowed down or stopped"
-                                              : "jumped ahead";
-      say(followed, "Motor: about {:.1f} s the table {}; {}.", frames[a].time_s, what,
-          followed ? "the recorded angles follow it"
-                   : "frames from there on have other angles than a constant speed gives");
-      return;
+  /// Slips and stops. Recorded angles may have followed them.
+  Result<> look_at_motor(const Calibration& found) {
+    if (!told(found, "angles")) {
+      say(true, "Motor: the object looks the same from all sides, so that nothing can be said.");
+      return {};
     }
-    say(true, "Motor: the table kept turning without a slip or a stop.");
+    const auto speed = usual_speed(found);
+    if (!speed || !(std::abs(*speed) > 0.0)) return {};
+    MotionDataOptions loading;
+    loading.detect = options_.detect;
+    loading.most_keys = std::size_t(options_.motion.key_frames);
+    loading.hint = found.table;
+    TURNSCAN_ASSIGN(const MotionData data, load_motion(sequence_, loading, context_));
+    MotionState state;
+    state.axis = found.table.axis;
+    state.center = found.table.center_m;
+    const double first = sequence_.frames().front().time_s;
+    // A table that starts slowly has no event there.
+    const double start = found.start_s.value_or(first);
+    const double steady = start > first + 0.1 ? start + 2.0 : first;
+    const auto watch = [&](const std::vector<double>& expected, double from) {
+      return watch_motor(data, state, expected, *speed, from, sequence_.frames().back().time_s,
+                         context_);
+    };
+    TURNSCAN_ASSIGN(const MotorWatch evenly, watch({}, steady));
+    if (!has_angles_) {
+      say_events(evenly, "frames from there on have other angles than a constant speed gives");
+      return {};
+    }
+    const auto expected = expected_angles(data, found);
+    TURNSCAN_ASSIGN(const MotorWatch recorded, watch(expected, first));
+    if (recorded.events.empty() && turns_evenly(data)) say_followed(evenly);
+    say_events(recorded, "the recorded angles do not follow it");
+    return {};
+  }
+
+  /// As recorded, in the direction in which the object is seen to turn.
+  std::vector<double> expected_angles(const MotionData& data, const Calibration& found) const {
+    const auto& frames = sequence_.frames();
+    const double recorded = *frames.back().angle_rad - *frames.front().angle_rad;
+    const double sign = recorded * found.angles_rad.back() < 0.0 ? -1.0 : 1.0;
+    std::vector<double> out;
+    for (const MotionFrame& frame : data.frames) out.push_back(sign * *frame.nominal_rad);
+    return out;
+  }
+
+  /// Whether the recorded angles are those of a table that turns on while frames are taken: then
+  /// most steps are alike, and a stop among them is one.
+  static bool turns_evenly(const MotionData& data) {
+    std::vector<double> speeds;
+    for (std::size_t i = 1; i < data.frames.size(); ++i)
+      speeds.push_back((*data.frames[i].nominal_rad - *data.frames[i - 1].nominal_rad) /
+                       (data.frames[i].time_s - data.frames[i - 1].time_s));
+    const double usual = median(speeds);
+    const auto alike = std::count_if(speeds.begin(), speeds.end(), [&](double v) {
+      return std::abs(v - usual) < 0.2 * std::abs(usual);
+    });
+    return 2 * std::size_t(alike) > speeds.size();
+  }
+
+  static std::string text_of(const MotorEvent& event, double speed_rad_s) {
+    const double size = event.size_rad * (speed_rad_s < 0.0 ? -1.0 : 1.0) * kDegrees;
+    if (event.lasts_s > 0.0)
+      return fmt::format("about {:.1f} s the table slowed down or stopped, for about {:.1f} s",
+                         event.time_s, event.lasts_s);
+    return fmt::format("about {:.1f} s the table slipped {} by about {:.0f} deg", event.time_s,
+                       size > 0.0 ? "ahead" : "back", std::abs(size));
+  }
+
+  /// At the end of a recording a table may come to rest.
+  bool is_rest(const MotorEvent& event) const {
+    return event.lasts_s > 0.0 &&
+           event.time_s + event.lasts_s > sequence_.frames().back().time_s - 1.5;
+  }
+
+  void say_followed(const MotorWatch& watch) {
+    for (const MotorEvent& event : watch.events)
+      if (!is_rest(event))
+        say(true, "Motor: {}; the recorded angles follow it.", text_of(event, watch.speed_rad_s));
+  }
+
+  void say_events(const MotorWatch& watch, const char* consequence) {
+    bool any = false;
+    for (const MotorEvent& event : watch.events) {
+      if (!has_angles_ && is_rest(event)) continue;
+      say(false, "Motor: {}; {}.", text_of(event, watch.speed_rad_s), consequence);
+      any = true;
+    }
+    if (any) return;
+    if (watch.told > 0.5) {
+      say(true, "Motor: {}.",
+          has_angles_ ? "no slip and no stop that the recorded angles do not have"
+                      : "the table kept turning without a slip or a stop");
+    } else {
+      say(true,
+          "Motor: the object shows its turn in {:.0f} % of the recording only; no slip and no stop "
+          "was seen there.",
+          100.0 * watch.told);
+    }
   }
 
   const FrameSequence& sequence_;
