@@ -69,7 +69,8 @@ SequenceHeader LiveFeed::Session::header_with_table() {
   header.source = source_.info().uri;
   if (const auto known = calibration()) {
     header.turntable = known->table;
-    if (known->depth) header.sensors[0].depth_bias_m = known->depth->bias_m;
+    // A calibration of another mode of the sensor corrects nothing.
+    (void)correct_sensors(*known, header.sensors);
     // Of several sensors only the first one's place is in a calibration.
     header.sensors[0].T_table_sensor.reset();
   }

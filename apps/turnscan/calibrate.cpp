@@ -26,7 +26,7 @@ class Corrected : public FrameSequence {
  public:
   static Result<Corrected> of(const FrameSequence& sequence, const Calibration& correction) {
     Corrected out(sequence);
-    TURNSCAN_TRY(correct_sensor(correction, out.header_.sensors[0]));
+    TURNSCAN_TRY(correct_sensors(correction, out.header_.sensors));
     return out;
   }
   const SequenceHeader& header() const override { return header_; }
@@ -72,14 +72,15 @@ class CalibrateCommand : public Command {
     line.flag("--from-motion", from_motion_,
               "Find axis, speed and angles from the motion of what stands on the platter");
     line.flag("--depth-bias", depth_bias_,
-              "First find the constant offset of the sensor's depth, from --platter-radius or "
+              "First find the constant offset of each sensor's depth, from --platter-radius or "
               "--gauge-ball");
     line.option("--depth-also", "RECORDING", depth_also_,
                 "With --depth-bias: the same platter or ball at another distance, which tells the "
                 "scale of the sensor's depth, too");
-    line.option("--iai-kinect2", "FOLDER", iai_folder_,
-                "First take cameras and depth offset from a Kinect v2 calibration in the layout of "
-                "iai_kinect2");
+    line.repeatable(
+        "--iai-kinect2", "FOLDER", iai_folders_,
+        "First take cameras and depth offset from a Kinect v2 calibration in the layout "
+        "of iai_kinect2; given again: of the next sensor of the recording");
     line.flag("--check", check_,
               "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
               "is wrong; nothing is calibrated");
@@ -162,8 +163,7 @@ class CalibrateCommand : public Command {
     TURNSCAN_ASSIGN(const Calibration correction, sensor_correction(sequence, session));
     TURNSCAN_ASSIGN(const Corrected corrected, Corrected::of(sequence, correction));
     TURNSCAN_ASSIGN(Calibration found, calibrate(corrected, session));
-    found.depth = correction.depth;
-    found.camera = correction.camera;
+    keep_corrections(correction, found);
     // What is shown is what the file gives back.
     TURNSCAN_ASSIGN(Calibration calibration, parse_calibration(calibration_json(found)));
     TURNSCAN_TRY(session.context().check());
@@ -193,32 +193,71 @@ class CalibrateCommand : public Command {
                 wrong, findings.size());
   }
 
-  /// Camera and depth of the sensor; the rest of it says nothing.
+  /// Cameras and depth of the sensors; the rest of it says nothing.
   Result<Calibration> sensor_correction(const FrameSequence& recording, Session& session) const {
+    const std::size_t sensors = recording.header().sensors.size();
+    if (iai_folders_.size() > sensors)
+      return fail(ErrorCode::kInvalidOption,
+                  "--iai-kinect2 is given {} times, but the recording has {} sensor{}",
+                  iai_folders_.size(), sensors, sensors == 1 ? "" : "s");
     Calibration out;
-    if (!iai_folder_.empty()) {
-      TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(iai_folder_));
-      out.depth = kinect.depth;
-      out.camera = kinect.camera;
+    out.others.resize(std::max<std::size_t>(sensors, 1) - 1);
+    for (std::size_t k = 0; k < iai_folders_.size(); ++k) {
+      TURNSCAN_ASSIGN(const Kinect2Calibration kinect, read_iai_kinect2(iai_folders_[k]));
+      depth_of(out, k) = kinect.depth;
+      (k == 0 ? out.camera : out.others[k - 1].camera) = kinect.camera;
     }
     if (!depth_bias_) return out;
     TURNSCAN_ASSIGN(const Corrected calibrated, Corrected::of(recording, out));
-    TURNSCAN_ASSIGN(out.depth, depth_from_gauge(calibrated, out, session));
+    const Calibration cameras = out;
+    for (std::size_t k = 0; k < sensors; ++k) {
+      auto depth = depth_from_gauge(calibrated, cameras, std::uint32_t(k), session);
+      if (!depth && sensors > 1 && depth.error().code != ErrorCode::kCancelled)
+        depth.error().message = fmt::format("sensor {}: {}", k, depth.error().message);
+      TURNSCAN_ASSIGN(depth_of(out, k), std::move(depth));
+    }
     return out;
   }
 
+  static std::optional<DepthCorrection>& depth_of(Calibration& calibration, std::size_t sensor) {
+    return sensor == 0 ? calibration.depth : calibration.others[sensor - 1].depth;
+  }
+
+  /// A way to calibrate that says nothing of the other sensors leaves no place for theirs.
+  static void keep_corrections(const Calibration& correction, Calibration& found) {
+    found.depth = correction.depth;
+    found.camera = correction.camera;
+    for (std::size_t k = 0; k < correction.others.size(); ++k) {
+      const SensorPlace& other = correction.others[k];
+      if (k < found.others.size()) {
+        found.others[k].depth = other.depth;
+        found.others[k].camera = other.camera;
+      } else if (other.depth || other.camera) {
+        found.notes.push_back(fmt::format(
+            "sensor {}: its depth and camera are not kept, since only --from-motion tells where "
+            "it stands",
+            k + 1));
+      }
+    }
+  }
+
   Result<DepthCorrection> depth_from_gauge(const FrameSequence& recording,
-                                           const Calibration& camera, Session& session) const {
-    TURNSCAN_ASSIGN(const DepthGauge here, gauge(recording, session));
+                                           const Calibration& cameras, std::uint32_t sensor,
+                                           Session& session) const {
+    TURNSCAN_ASSIGN(const DepthGauge here, gauge(recording, sensor, session));
     if (!depth_also_.empty()) {
       TURNSCAN_ASSIGN(const Recording opened, Recording::open(depth_also_));
-      TURNSCAN_ASSIGN(const Corrected also, Corrected::of(opened, camera));
-      if (also.header().sensors.front().depth_unit_m !=
-          recording.header().sensors.front().depth_unit_m)
+      TURNSCAN_ASSIGN(const Corrected also, Corrected::of(opened, cameras));
+      if (also.header().sensors.size() != recording.header().sensors.size())
+        return fail(ErrorCode::kInvalidOption,
+                    "--depth-also: the recordings have different numbers of sensors; record both "
+                    "with the same ones");
+      if (also.header().sensors[sensor].depth_unit_m !=
+          recording.header().sensors[sensor].depth_unit_m)
         return fail(ErrorCode::kInvalidOption,
                     "--depth-also: the recordings have depth in different units; record both with "
                     "the same sensor");
-      TURNSCAN_ASSIGN(const DepthGauge there, gauge(also, session));
+      TURNSCAN_ASSIGN(const DepthGauge there, gauge(also, sensor, session));
       return fit_depth(std::array{here, there});
     }
     DepthCorrection out;
@@ -233,9 +272,10 @@ class CalibrateCommand : public Command {
   }
 
   /// By the ball where one is stated: its size is known better than a platter's.
-  Result<DepthGauge> gauge(const FrameSequence& recording, Session& session) const {
-    const double recorded_m = recording.header().sensors.front().depth_bias_m;
-    TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session));
+  Result<DepthGauge> gauge(const FrameSequence& recording, std::uint32_t sensor,
+                           Session& session) const {
+    const double recorded_m = recording.header().sensors[sensor].depth_bias_m;
+    TURNSCAN_ASSIGN(const AveragedScan scan, average(recording, session, sensor));
     if (!ball_options_.diameter_m)
       return gauge_depth(scan, *detect_options_.radius_m, recorded_m, detect_options_,
                          session.context());
@@ -279,8 +319,10 @@ class CalibrateCommand : public Command {
     return still;
   }
 
-  Result<AveragedScan> average(const FrameSequence& recording, Session& session) const {
-    return average_frames(recording, spread_positions(recording, 0, std::size_t(average_.frames)),
+  Result<AveragedScan> average(const FrameSequence& recording, Session& session,
+                               std::uint32_t sensor = 0) const {
+    return average_frames(recording,
+                          spread_positions(recording, sensor, std::size_t(average_.frames)),
                           average_, session.context());
   }
 
@@ -305,7 +347,8 @@ class CalibrateCommand : public Command {
     return calibration;
   }
 
-  std::string recording_, device_, points_, json_, save_, iai_folder_, depth_also_;
+  std::string recording_, device_, points_, json_, save_, depth_also_;
+  std::vector<std::string> iai_folders_;
   DeviceOptions device_options_;
   bool detect_ = false, from_motion_ = false, check_ = false, depth_bias_ = false;
   AverageOptions average_;

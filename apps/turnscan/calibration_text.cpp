@@ -25,6 +25,19 @@ std::string spread(double sigma, double scale, const char* unit) {
   return std::isfinite(sigma) ? fmt::format(" +- {:.3f} {}", sigma * scale, unit) : "";
 }
 
+std::string corrections_text(const std::string& whose, const std::optional<DepthCorrection>& depth,
+                             const std::optional<CameraCorrection>& camera) {
+  std::string text;
+  if (depth)
+    text += fmt::format("{}Depth: {:+.2f} mm, times {:.5f} ({})\n", whose, depth->bias_m * 1e3,
+                        depth->scale, depth->found);
+  if (camera)
+    text += fmt::format("{}Camera: fx {:.2f}, fy {:.2f}, cx {:.2f}, cy {:.2f} ({})\n", whose,
+                        camera->intrinsics.fx, camera->intrinsics.fy, camera->intrinsics.cx,
+                        camera->intrinsics.cy, camera->found);
+  return text;
+}
+
 }  // namespace
 
 std::string calibration_text(const Calibration& c) {
@@ -59,20 +72,15 @@ std::string calibration_text(const Calibration& c) {
   text += "\n";
   if (!c.undetermined.empty())
     text += fmt::format("Not determined by the data: {}\n", fmt::join(c.undetermined, ", "));
-  if (c.depth)
-    text += fmt::format("Depth: {:+.2f} mm, times {:.5f} ({})\n", c.depth->bias_m * 1e3,
-                        c.depth->scale, c.depth->found);
+  text += corrections_text("", c.depth, c.camera);
   for (std::size_t i = 0; i < c.others.size(); ++i) {
     const SensorPlace& place = c.others[i];
     text += fmt::format("Sensor {}: at {} mm in the table's frame{}{} ({})\n", i + 1,
                         vector_text(place.T_table_sensor.translation(), 1e3, 1),
                         spread(place.shift_sigma_m, 1e3, "mm"),
                         spread(place.heading_sigma_rad, kDegrees, "deg of heading"), place.found);
+    text += corrections_text(fmt::format("Sensor {}: ", i + 1), place.depth, place.camera);
   }
-  if (c.camera)
-    text += fmt::format("Camera: fx {:.2f}, fy {:.2f}, cx {:.2f}, cy {:.2f} ({})\n",
-                        c.camera->intrinsics.fx, c.camera->intrinsics.fy, c.camera->intrinsics.cx,
-                        c.camera->intrinsics.cy, c.camera->found);
   for (const std::string& note : c.notes) text += fmt::format("Note: {}\n", note);
   return text;
 }

@@ -56,7 +56,7 @@ Result<std::unique_ptr<FrameSource>> CaptureSetup::open(Session& session) {
                   header.sensors.size() == 1 ? std::string("is one")
                                              : fmt::format("are {}", header.sensors.size()));
     header.turntable = calibration.table;
-    if (auto fits = correct_sensor(calibration, header.sensors[0]); !fits)
+    if (auto fits = correct_sensors(calibration, header.sensors); !fits)
       return fail_at(turntable_file, fits.error().code, "{}", fits.error().message);
     header.sensors[0].T_table_sensor.reset();
     for (std::size_t i = 0; i < calibration.others.size(); ++i)

@@ -265,7 +265,7 @@ class ScanCommand : public Command {
     notes_.push_back(check.text);
     if (check.moved) return false;
     set_table((*kept)->table);
-    TURNSCAN_TRY(correct_sensor(**kept, setup_.header.sensors[0]));
+    TURNSCAN_TRY(correct_sensors(**kept, setup_.header.sensors));
     notes_.push_back("the turntable's place is the one that was kept of this device");
     table_known_ = true;
     return true;

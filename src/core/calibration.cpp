@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <turnscan/core/calibration.hpp>
 
 namespace turnscan {
@@ -30,7 +32,6 @@ bool same_size(const CameraIntrinsics& a, const CameraIntrinsics& b) {
 Result<> correct_header(const Calibration& calibration, SequenceHeader& header) {
   if (header.sensors.empty()) return {};
   header.sensors[0].T_table_sensor.reset();
-  TURNSCAN_TRY(correct_sensor(calibration, header.sensors[0]));
   if (calibration.others.size() >= header.sensors.size())
     return fail(ErrorCode::kInvalidOption,
                 "the calibration is of {} sensors, but the recording has {}; calibrate this "
@@ -38,18 +39,10 @@ Result<> correct_header(const Calibration& calibration, SequenceHeader& header) 
                 calibration.others.size() + 1, header.sensors.size());
   for (std::size_t i = 0; i < calibration.others.size(); ++i)
     header.sensors[i + 1].T_table_sensor = calibration.others[i].T_table_sensor;
-  return {};
+  return correct_sensors(calibration, header.sensors);
 }
 
-}  // namespace
-
-Result<> correct_sensor(const Calibration& calibration, SensorInfo& sensor) {
-  if (calibration.depth) {
-    sensor.depth_unit_m *= calibration.depth->scale;
-    sensor.depth_bias_m = calibration.depth->bias_m;
-  }
-  if (!calibration.camera) return {};
-  const CameraCorrection& camera = *calibration.camera;
+Result<> correct_camera(const CameraCorrection& camera, SensorInfo& sensor) {
   if (!same_size(camera.intrinsics, sensor.intrinsics))
     return fail(ErrorCode::kInvalidOption,
                 "the calibrated camera has {} x {} pixels, but the depth images {} x {}; it is of "
@@ -62,6 +55,32 @@ Result<> correct_sensor(const Calibration& calibration, SensorInfo& sensor) {
     sensor.color_intrinsics = camera.color_intrinsics;
     sensor.T_color_sensor = camera.T_color_sensor;
   }
+  return {};
+}
+
+Result<> correct_one(const std::optional<DepthCorrection>& depth,
+                     const std::optional<CameraCorrection>& camera, SensorInfo& sensor) {
+  if (camera) TURNSCAN_TRY(correct_camera(*camera, sensor));
+  if (!depth) return {};
+  sensor.depth_unit_m *= depth->scale;
+  sensor.depth_bias_m = depth->bias_m;
+  return {};
+}
+
+}  // namespace
+
+Result<> correct_sensors(const Calibration& calibration, std::vector<SensorInfo>& sensors) {
+  std::vector<SensorInfo> corrected = sensors;
+  for (std::size_t k = 0; k < corrected.size(); ++k) {
+    if (k > calibration.others.size()) break;
+    const auto& depth = k == 0 ? calibration.depth : calibration.others[k - 1].depth;
+    const auto& camera = k == 0 ? calibration.camera : calibration.others[k - 1].camera;
+    auto done = correct_one(depth, camera, corrected[k]);
+    if (!done && sensors.size() > 1)
+      done.error().message = fmt::format("sensor {}: {}", k, done.error().message);
+    TURNSCAN_TRY(done);
+  }
+  sensors = std::move(corrected);
   return {};
 }
 

@@ -41,6 +41,8 @@ struct SensorPlace {
   double heading_sigma_rad = std::numeric_limits<double>::quiet_NaN();  ///< about the axis
   double shift_sigma_m = std::numeric_limits<double>::quiet_NaN();      ///< in any direction
   std::string found;                                                    ///< how
+  std::optional<DepthCorrection> depth;
+  std::optional<CameraCorrection> camera;
 };
 
 /// The turntable in the frame of sensor 0. A standard deviation that is not known is NaN. The
@@ -73,16 +75,17 @@ struct Calibration {
   std::vector<SensorPlace> others;         ///< sensors 1, 2, ...; empty: nothing is known of them
 };
 
-/// Depth and camera of sensor 0 as the calibration has them; colour where the recording has colour
-/// of that size that is not registered. Fails with kInvalidOption when the images have another
-/// size than the calibrated camera.
-Result<> correct_sensor(const Calibration& calibration, SensorInfo& sensor);
+/// Depth and camera of each sensor as the calibration has them; colour where the recording has
+/// colour of that size that is not registered. Sensors of which the calibration says nothing stay
+/// as they are. Fails with kInvalidOption, and changes nothing, when the images of one have another
+/// size than its calibrated camera.
+Result<> correct_sensors(const Calibration& calibration, std::vector<SensorInfo>& sensors);
 
 /// The sequence as it looks with the calibration: its turntable, its angles in place of those of
 /// the frames, its camera and depth, the places of its other sensors. Frames with poses of their
 /// own lose them, except with a calibration without angles and speed. `sequence` must outlive the
 /// result. Fails with kInvalidOption when the number of angles is not that of the frames, when it
-/// knows more sensors than the sequence has, and as correct_sensor() does.
+/// knows more sensors than the sequence has, and as correct_sensors() does.
 Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& sequence,
                                                         const Calibration& calibration);
 

@@ -116,12 +116,28 @@ Result<CameraCorrection> parse_camera(const JsonObject& object) {
   return camera;
 }
 
+/// Those that are there.
+Result<> parse_corrections(const JsonObject& object, std::optional<DepthCorrection>& depth,
+                           std::optional<CameraCorrection>& camera) {
+  if (object.has("depth")) {
+    TURNSCAN_ASSIGN(const JsonObject part, object.object("depth"));
+    TURNSCAN_ASSIGN(depth, parse_depth(part));
+  }
+  if (object.has("camera")) {
+    TURNSCAN_ASSIGN(const JsonObject part, object.object("camera"));
+    TURNSCAN_ASSIGN(camera, parse_camera(part));
+  }
+  return {};
+}
+
 OrderedJson place_json(const SensorPlace& place) {
   OrderedJson out;
   out["T_table_sensor"] = json_of(place.T_table_sensor);
   out["heading_sigma_deg"] = known_degrees(place.heading_sigma_rad);
   out["shift_sigma_m"] = known(place.shift_sigma_m);
   put_text(out, "found", place.found);
+  if (place.depth) out["depth"] = depth_json(*place.depth);
+  if (place.camera) out["camera"] = camera_json(*place.camera);
   return out;
 }
 
@@ -136,6 +152,7 @@ Result<std::vector<SensorPlace>> parse_places(const JsonObject& root) {
     place.heading_sigma_rad = radians_of(heading_deg);
     TURNSCAN_ASSIGN(place.shift_sigma_m, known_number(object, "shift_sigma_m"));
     TURNSCAN_ASSIGN(place.found, object.text_or("found", ""));
+    TURNSCAN_TRY(parse_corrections(object, place.depth, place.camera));
     out.push_back(std::move(place));
   }
   return out;
@@ -239,14 +256,7 @@ Result<Calibration> parse_whole(const JsonObject& root) {
   TURNSCAN_TRY(parse_figures(root, c));
   TURNSCAN_TRY(parse_reasons(root, c));
   TURNSCAN_TRY(parse_angles(root, c));
-  if (root.has("depth")) {
-    TURNSCAN_ASSIGN(const JsonObject depth, root.object("depth"));
-    TURNSCAN_ASSIGN(c.depth, parse_depth(depth));
-  }
-  if (root.has("camera")) {
-    TURNSCAN_ASSIGN(const JsonObject camera, root.object("camera"));
-    TURNSCAN_ASSIGN(c.camera, parse_camera(camera));
-  }
+  TURNSCAN_TRY(parse_corrections(root, c.depth, c.camera));
   TURNSCAN_ASSIGN(c.others, parse_places(root));
   return c;
 }

@@ -44,6 +44,13 @@ Calibration some_calibration(std::uint64_t seed) {
     place.heading_sigma_rad = i == 0 ? 1e-3 * random(20) : std::nan("");
     place.shift_sigma_m = 1e-4;
     place.found = "the object";
+    if (i == 0) {
+      place.depth = DepthCorrection{0.01 * random(21), 0.99, 2e-4, 1e-3, "ball"};
+    } else {
+      place.camera.emplace();
+      place.camera->intrinsics = testing::small_header().sensors[0].intrinsics;
+      place.camera->intrinsics.fx += random(22);
+    }
     c.others.push_back(place);
   }
   c.depth = DepthCorrection{-0.02 * random(11), 1.01, 1e-4, std::nan(""), "gauge"};
@@ -158,7 +165,47 @@ TEST(WithCalibration, PlacesTheOtherSensors) {
   EXPECT_EQ((*seen)->header().sensors[1].T_table_sensor->translation(), Vec3d(1, 2, 3));
 }
 
-TEST(CorrectSensor, TakesColourOnlyForImagesOfItsSizeThatAreNotRegistered) {
+TEST(CorrectSensors, EachSensorGetsItsOwnDepthAndCamera) {
+  SequenceHeader header = testing::small_header();
+  header.sensors.push_back(header.sensors[0]);
+  header.sensors.push_back(header.sensors[0]);
+  const testing::MemorySequence sequence(header, {testing::depth_frame(0)});
+  Calibration c;
+  c.table.center_m = Vec3d(0, 0, 1);
+  c.others.resize(1);
+  c.depth = DepthCorrection{.bias_m = 0.01};
+  c.others[0].depth = DepthCorrection{.bias_m = -0.02, .scale = 1.5};
+  c.others[0].camera.emplace();
+  c.others[0].camera->intrinsics = header.sensors[1].intrinsics;
+  c.others[0].camera->intrinsics.fx = 99.0;
+  const auto seen = with_calibration(sequence, c);
+  ASSERT_TRUE(seen) << seen.error().text();
+  const auto& sensors = (*seen)->header().sensors;
+  EXPECT_EQ(sensors[0].depth_bias_m, 0.01);
+  EXPECT_EQ(sensors[0].intrinsics.fx, header.sensors[0].intrinsics.fx);
+  EXPECT_EQ(sensors[1].depth_bias_m, -0.02);
+  EXPECT_EQ(sensors[1].depth_unit_m, 1.5 * header.sensors[1].depth_unit_m);
+  EXPECT_EQ(sensors[1].intrinsics.fx, 99.0);
+  EXPECT_EQ(sensors[2].depth_bias_m, header.sensors[2].depth_bias_m);
+}
+
+TEST(CorrectSensors, ACameraOfAnotherSizeIsRefusedByItsSensorAndChangesNone) {
+  std::vector<SensorInfo> sensors(2, testing::small_header().sensors[0]);
+  const double bias_m = sensors[0].depth_bias_m;
+  Calibration c;
+  c.depth = DepthCorrection{.bias_m = bias_m + 0.01};
+  c.others.resize(1);
+  c.others[0].camera.emplace();
+  c.others[0].camera->intrinsics = sensors[1].intrinsics;
+  c.others[0].camera->intrinsics.width += 1;
+  const auto done = correct_sensors(c, sensors);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kInvalidOption);
+  EXPECT_EQ(done.error().message.find("sensor 1: "), 0u) << done.error().message;
+  EXPECT_EQ(sensors[0].depth_bias_m, bias_m);
+}
+
+TEST(CorrectSensors, TakesColourOnlyForImagesOfItsSizeThatAreNotRegistered) {
   Calibration c;
   c.camera.emplace();
   SensorInfo registered = testing::small_header().sensors[0];
@@ -170,7 +217,11 @@ TEST(CorrectSensor, TakesColourOnlyForImagesOfItsSizeThatAreNotRegistered) {
   own.color_intrinsics = registered.intrinsics;
   other.color_intrinsics = registered.intrinsics;
   other.color_intrinsics->width += 1;
-  for (SensorInfo* sensor : {&registered, &own, &other}) ASSERT_TRUE(correct_sensor(c, *sensor));
+  for (SensorInfo* sensor : {&registered, &own, &other}) {
+    std::vector<SensorInfo> one{*sensor};
+    ASSERT_TRUE(correct_sensors(c, one));
+    *sensor = one[0];
+  }
   EXPECT_FALSE(registered.color_intrinsics);
   EXPECT_EQ(own.color_intrinsics->fx, 77.0);
   EXPECT_NE(other.color_intrinsics->fx, 77.0);
