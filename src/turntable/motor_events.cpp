@@ -131,7 +131,7 @@ class Watcher {
 
   bool is_event(const Stretch& s) const {
     const double wide = std::max(kLeast, 0.5 * std::abs(expected(s.first, s.last)));
-    if (std::abs(off(s)) < wide || !tells(s)) return false;
+    if (std::abs(off(s)) < wide) return false;
     return cost(s, 0.0) - s.least > std::max(0.04, 0.3 * s.least);
   }
 
@@ -149,19 +149,20 @@ class Watcher {
   /// A stop takes away what would have been turned, no more; each moment counts twice.
   MotorEvent event_of(std::size_t begin, std::size_t end) const {
     const std::size_t low = begin > 0 ? begin - 1 : 0, high = std::min(end + 1, stretches_.size());
-    double sum = 0.0, largest = 0.0;
+    double sum = 0.0, jump = 0.0, least = 2.0;
     bool stop = true;
     for (std::size_t k = low; k < high; ++k) {
       const Stretch& s = stretches_[k];
-      if (std::abs(off(s)) > std::abs(largest) && k >= begin && k < end) largest = off(s);
-      if (k >= begin && k < end) {
+      const bool inside = k >= begin && k < end;
+      if (inside) {
+        if (s.least < least) jump = off(s), least = s.least;
         const double share = off(s) / (speed_ * (time(s.last) - time(s.first)));
         stop = stop && share < 0.0 && share > -1.35;
       }
-      if (tells(s)) sum += 0.5 * off(s);
+      if (inside || tells(s)) sum += 0.5 * off(s);
     }
     MotorEvent event;
-    event.size_rad = stop ? sum : largest;
+    event.size_rad = stop ? sum : jump;
     event.lasts_s = stop ? std::abs(sum / speed_) : 0.0;
     event.time_s = moment(stretches_[low].first, stretches_[high - 1].last, event);
     return event;

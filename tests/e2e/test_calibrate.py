@@ -134,7 +134,10 @@ class Calibrate(harness.TestCase):
         halt = ["--halt-at", "5s", "--halt", "1.5s"]
         for name, fault, says in (
                 ("halt", halt, "WRONG  Motor: about [456].* s the table slowed down or stopped"),
-                ("slip", ["--slip-at", "6s", "--slip", "25deg"], "WRONG  Closure")):
+                ("slip", ["--slip-at", "6s", "--slip", "25deg"],
+                 "WRONG  Motor: about [56].* s the table slipped ahead by about 2[3-7] deg"),
+                ("far", ["--slip-at", "6s", "--slip", "45deg"],
+                 "WRONG  Motor: about [56].* s the table slipped ahead by about (4[0-9]|50) deg")):
             self.ok(*scene, *fault, "--no-angles", "-o", name)
             result = self.refused(FAILED, "calibrate", name, "--check")
             self.assertRegex(result.stdout, says)
@@ -147,7 +150,9 @@ class Calibrate(harness.TestCase):
         for i, row in enumerate(rows[1:]):
             row[column] = str(432.0 / 90 * i)
         (self.dir / "encoded" / "frames.csv").write_text("".join(",".join(r) + "\n" for r in rows))
-        self.assertIn("WRONG  Closure", self.refused(FAILED, "calibrate", "encoded", "--check").stdout)
+        self.assertRegex(self.refused(FAILED, "calibrate", "encoded", "--check").stdout,
+                         "WRONG  Motor: about [456].* the table slowed down or stopped.*"
+                         "the recorded angles do not follow it")
 
     def test_two_sensors_at_different_azimuths_are_brought_to_one_heading(self):
         sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
@@ -162,6 +167,23 @@ class Calibrate(harness.TestCase):
         for row, true_row in zip(other["T_table_sensor"], truth):
             for value, true_value in zip(row, true_row):
                 self.assertAlmostEqual(value, true_value, delta=0.008)
+
+    def test_each_of_two_sensors_gets_its_own_offset_of_depth(self):
+        sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
+        self.ok("simulate", "builtin:doll", "--height", "180mm", "--frames", "40", "--turns", "1.1",
+                "--scanner", sensor.format("35deg", "0deg"), "--scanner",
+                sensor.format("40deg", "60deg"), "-o", "off")
+        file = self.dir / "off" / "recording.json"
+        recording = json.loads(file.read_text())
+        recording["sensors"][1]["depth_bias_m"] = 0.02
+        file.write_text(json.dumps(recording))
+        found = self.calibrate("off", "--from-motion", "--depth-bias", "--platter-radius", "150mm",
+                               "--save", "off.json")
+        for depth in (found["depth"], found["other_sensors"][0]["depth"]):
+            self.assertAlmostEqual(depth["bias_m"], 0.0, delta=0.005)
+        self.ok("reconstruct", "off", "-o", "off.ply", "--turntable", "off.json", *harness.FAST)
+        self.refused(USAGE, "calibrate", "off", "--iai-kinect2", "k", "--iai-kinect2", "k",
+                     "--iai-kinect2", "k", says="2 sensors")
 
     @unittest.skipUnless((DATA / "d435_bear").is_dir(), "the data are not there")
     def test_a_real_bear_from_eight_depth_images_alone(self):

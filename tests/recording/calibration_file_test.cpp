@@ -173,8 +173,9 @@ TEST(CorrectSensors, EachSensorGetsItsOwnDepthAndCamera) {
   Calibration c;
   c.table.center_m = Vec3d(0, 0, 1);
   c.others.resize(1);
-  c.depth = DepthCorrection{.bias_m = 0.01};
-  c.others[0].depth = DepthCorrection{.bias_m = -0.02, .scale = 1.5};
+  c.depth.emplace().bias_m = 0.01;
+  c.others[0].depth.emplace().bias_m = -0.02;
+  c.others[0].depth->scale = 1.5;
   c.others[0].camera.emplace();
   c.others[0].camera->intrinsics = header.sensors[1].intrinsics;
   c.others[0].camera->intrinsics.fx = 99.0;
@@ -193,7 +194,7 @@ TEST(CorrectSensors, ACameraOfAnotherSizeIsRefusedByItsSensorAndChangesNone) {
   std::vector<SensorInfo> sensors(2, testing::small_header().sensors[0]);
   const double bias_m = sensors[0].depth_bias_m;
   Calibration c;
-  c.depth = DepthCorrection{.bias_m = bias_m + 0.01};
+  c.depth.emplace().bias_m = bias_m + 0.01;
   c.others.resize(1);
   c.others[0].camera.emplace();
   c.others[0].camera->intrinsics = sensors[1].intrinsics;
