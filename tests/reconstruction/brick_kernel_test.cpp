@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/reconstruction/brick_view.hpp>
@@ -74,6 +75,12 @@ std::vector<First> groups() {
 First brick_of(const First& group, std::size_t b) {
   return {{group.at[0] + 0.016f * float(b & 3), group.at[1] + 0.016f * float(b >> 2 & 3),
            group.at[2] + 0.016f * float(b >> 4)}};
+}
+
+template <class T>
+bool same_bytes(const T& a, const T& b) {
+  const auto* x = reinterpret_cast<const std::byte*>(&a);
+  return std::equal(x, x + sizeof a, reinterpret_cast<const std::byte*>(&b));
 }
 
 BrickSums all_of(const BrickView& view, const First& first) {
@@ -154,7 +161,7 @@ TEST(BrickKernel, LeavesOutOnlyPartsAboutWhichAViewSaysNothing) {
         BrickSums some{};
         kernel().add(*placed, first.at, sights.surface | sights.partly, some);
         const BrickSums all = all_of(placed, first);
-        ASSERT_EQ(std::memcmp(&some, &all, sizeof all), 0);
+        ASSERT_TRUE(same_bytes(some, all));
         BrickSums surfaces{};
         const bool measured = kernel().add(*placed, first.at, sights.surface, surfaces);
         ASSERT_EQ(measured, count(all).weight > 0);
@@ -241,7 +248,7 @@ TEST(BrickKernel, GivesTheSameBytesForEveryInstructionSet) {
       for (const First& group : groups()) {
         const Sights x = portable->look_at_group(*placed, group.at);
         const Sights y = wide->look_at_group(*placed, group.at);
-        ASSERT_EQ(std::memcmp(&x, &y, sizeof x), 0);
+        ASSERT_TRUE(same_bytes(x, y));
         BrickSums one{}, other{};
         for (std::size_t n = 0; n < kGroup; n += 9) {
           const First first = brick_of(group, n);
@@ -252,7 +259,7 @@ TEST(BrickKernel, GivesTheSameBytesForEveryInstructionSet) {
           ASSERT_EQ(portable->add(*placed, first.at, 255, one),
                     wide->add(*placed, first.at, 255, other));
         }
-        ASSERT_EQ(std::memcmp(&one, &other, sizeof one), 0);
+        ASSERT_TRUE(same_bytes(one, other));
       }
     }
   }
