@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <turnscan/core/parallel.hpp>
 #include <turnscan/core/cube_table.hpp>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/implicit_mesh.hpp>
 
 namespace turnscan {
