@@ -142,9 +142,9 @@ TEST(MeshFit, WallsStandStraightOnThePlatter) {
 /// Smallest cosine between a triangle's normals in the two meshes.
 float least_turn(const TriangleMesh& before, const TriangleMesh& after) {
   float least = 1.0f;
-  for (const auto& [a, b, c] : before.triangles) {
+  for (const auto& t : before.triangles) {
     const auto normal = [&](const std::vector<Vec3f>& p) {
-      return Vec3f((p[b] - p[a]).cross(p[c] - p[a]).normalized());
+      return Vec3f((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized());
     };
     least = std::min(least, normal(before.vertices).dot(normal(after.vertices)));
   }
