@@ -31,7 +31,7 @@ class Corners {
     levels_[finest].bricks.window(
         levels_[finest].indicator, {b[0] * step - 1, b[1] * step - 1, b[2] * step - 1}, out.wide,
         [&](int i, int j, int k) { return indicator(levels_, finest, i, j, k); }, out.value.data());
-    for (float& v : out.value) v += less_;
+    for (int n = 0; n < out.wide * out.wide * out.wide; ++n) out.value[std::size_t(n)] += less_;
     return out;
   }
 
