@@ -8,9 +8,10 @@
 #include <chrono>
 #include <fstream>
 #include <numbers>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
-#include <turnscan/turntable/motion.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 
 #include "tests/support/memory_sequence.hpp"
 #include "tests/support/rig.hpp"
@@ -18,7 +19,6 @@
 namespace {
 
 using namespace turnscan;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double argument(int argc, char** argv, int index, double fallback) {
   return argc > index ? std::stod(argv[index]) : fallback;
@@ -29,9 +29,9 @@ void write_angles(const char* path, const testing::Rig& rig, const Calibration& 
   out << "time_s,angle_deg,error_deg,sigma_deg\n";
   for (std::size_t i = 0; i < found.angles_rad.size(); ++i) {
     const double truth = rig.true_angle(i);
-    out << fmt::format("{:.4f},{:.4f},{:.5f},{:.5f}\n", rig.frames()[i].time_s, truth * kDegrees,
-                       (found.angles_rad[i] - truth) * kDegrees,
-                       found.angle_sigma_rad[i] * kDegrees);
+    out << fmt::format("{:.4f},{:.4f},{:.5f},{:.5f}\n", rig.frames()[i].time_s,
+                       truth * kDegreesPerRadian, (found.angles_rad[i] - truth) * kDegreesPerRadian,
+                       found.angle_sigma_rad[i] * kDegreesPerRadian);
   }
 }
 
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("{} frames, {:.2f} s; elevation {:.1f} deg, {:.2f} m\n", frames, seconds,
-             o.elevation_rad * kDegrees, o.distance_m);
+             o.elevation_rad * kDegreesPerRadian, o.distance_m);
   if (!found) {
     fmt::print("refused: {}\n", found.error().text());
     return 1;
@@ -92,16 +92,17 @@ int main(int argc, char** argv) {
   const Vec3d off = found->table.center_m - truth.center_m;
   std::vector<double> errors;
   for (std::size_t i = 0; i < found->angles_rad.size(); ++i)
-    errors.push_back((found->angles_rad[i] - rig.true_angle(i)) * kDegrees);
+    errors.push_back((found->angles_rad[i] - rig.true_angle(i)) * kDegreesPerRadian);
   const double angles = mean_beside(errors, 0.0);
   double worst = 0.0;
   for (const double e : errors) worst = std::max(worst, std::abs(e));
   fmt::print(
       "axis {:.4f} deg (+- {:.4f}), centre {:.3f} mm across (+- {:.3f}), {:+.3f} along\n",
       std::atan2(truth.axis.cross(found->table.axis).norm(), truth.axis.dot(found->table.axis)) *
-          kDegrees,
-      found->axis_sigma_rad * kDegrees, (off - off.dot(truth.axis) * truth.axis).norm() * 1e3,
-      found->center_sigma_m * 1e3, off.dot(truth.axis) * 1e3);
+          kDegreesPerRadian,
+      found->axis_sigma_rad * kDegreesPerRadian,
+      (off - off.dot(truth.axis) * truth.axis).norm() * 1e3, found->center_sigma_m * 1e3,
+      off.dot(truth.axis) * 1e3);
   fmt::print("speed {:+.5f} % (+- {:.5f}); start {:.3f} s\n",
              100.0 * (*found->table.speed_rad_s / speed - 1.0),
              100.0 * found->speed_sigma_rad_s / std::abs(speed), found->start_s.value_or(-1.0));

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numbers>
-#include <turnscan/turntable/detect.hpp>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/turntable/detection/detect.hpp>
 
 #include "tests/support/rig.hpp"
 
 namespace {
 
 using namespace turnscan;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct Outcome {
   double axis_deg = 0.0, center_mm = 0.0, elevation_deg = 0.0;
@@ -24,7 +23,7 @@ Outcome try_rig(std::uint64_t seed, int frames) {
   options.frames = frames;
   const testing::Rig rig(options);
   Outcome out;
-  out.elevation_deg = options.elevation_rad * kDegrees;
+  out.elevation_deg = options.elevation_rad * kDegreesPerRadian;
   AverageOptions average;
   average.frames = frames;
   const auto scan = average_frames(rig, spread_positions(rig, 0, std::size_t(frames)), average, {});
@@ -40,14 +39,14 @@ Outcome try_rig(std::uint64_t seed, int frames) {
   }
   const TurntableInfo truth = rig.truth();
   out.found = true;
-  out.axis_deg = std::acos(std::min(1.0, truth.axis.dot(platter->axis))) * kDegrees;
+  out.axis_deg = std::acos(std::min(1.0, truth.axis.dot(platter->axis))) * kDegreesPerRadian;
   out.center_mm = (truth.center_m - platter->center_m).norm() * 1e3;
   const Vec3d back = (truth.center_m - truth.center_m.dot(truth.axis) * truth.axis).normalized();
   fmt::print("back {:.2f} mm ", back.dot(platter->center_m - truth.center_m) * 1e3);
   fmt::print(
       "axis {:.3f} (+-{:.3f}) deg, centre {:.2f} (+-{:.2f}) mm, radius {:+.2f} mm, rim {:.2f}, "
       "confidence {:.2f}, {:.2f} s\n",
-      out.axis_deg, platter->axis_sigma_rad * kDegrees, out.center_mm,
+      out.axis_deg, platter->axis_sigma_rad * kDegreesPerRadian, out.center_mm,
       platter->center_sigma_m * 1e3, (platter->radius_m - options.radius_m) * 1e3,
       platter->rim_share, platter->confidence, seconds);
   return out;

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <turnscan/geometry/knn.hpp>
+#include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/turntable/crop.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace {

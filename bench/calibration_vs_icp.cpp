@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <numbers>
-#include <turnscan/simulator/builtin_objects.hpp>
-#include <turnscan/turntable/free_motion.hpp>
-#include <turnscan/turntable/motion.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+#include <turnscan/turntable/motion/free_motion.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 

@@ -4,22 +4,23 @@
 
 #include <benchmark/benchmark.h>
 
-#include <turnscan/io/image_io.hpp>
-#include <turnscan/reconstruction/merge.hpp>
-#include <turnscan/reconstruction/normals.hpp>
-#include <turnscan/reconstruction/point_sums.hpp>
-#include <turnscan/reconstruction/poisson_bricks.hpp>
-#include <turnscan/reconstruction/poisson_kernel.hpp>
-#include <turnscan/reconstruction/refine.hpp>
-#include <turnscan/reconstruction/surface.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/reconstruction/points/normals.hpp>
+#include <turnscan/reconstruction/points/refine.hpp>
+#include <turnscan/reconstruction/poisson/poisson.hpp>
+#include <turnscan/reconstruction/poisson/poisson_bricks.hpp>
+#include <turnscan/reconstruction/poisson/poisson_kernel.hpp>
+#include <turnscan/reconstruction/voxels/merge.hpp>
+#include <turnscan/reconstruction/voxels/point_sums.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/scene_file.hpp>
-#include <turnscan/turntable/crop.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace {
 
 using namespace turnscan;
+using namespace turnscan::points;
 
 constexpr std::uint32_t kFrames = 64;
 constexpr double kVoxel = 0.0016, kNoise = 0.0013;
@@ -113,14 +114,14 @@ void crop_points(benchmark::State& state) {
 
 void filter_grid(benchmark::State& state) {
   const Data& d = data();
-  for (auto _ : state) benchmark::DoNotOptimize(statistical_outlier_mask(d.cropped, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(outliers::statistical_outlier_mask(d.cropped, {}));
   report(state, d.cropped.cloud.size(), 17 * d.cropped.cloud.size());
 }
 
 void filter_tree(benchmark::State& state) {
   const Data& d = data();
   const std::span<const Vec3f> points(d.cropped.cloud.points);
-  for (auto _ : state) benchmark::DoNotOptimize(statistical_outlier_mask(points, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(outliers::statistical_outlier_mask(points, {}));
   report(state, points.size(), 13 * points.size());
 }
 
@@ -149,10 +150,10 @@ void count(benchmark::State& state, CandidateMethod method) {
 void count_voxels(benchmark::State& state) { count(state, CandidateMethod::kCentroid); }
 void count_sub_voxels(benchmark::State& state) { count(state, CandidateMethod::kSubVoxel); }
 
-Measurements measured() {
+MeasuredCells measured() {
   PointSums sums(kVoxel, {});
   const bool added = sums.add(data().seen()).has_value();
-  return added ? sums.collect(1, RunContext()).value() : Measurements();
+  return added ? sums.collect(1, RunContext()).value() : MeasuredCells();
 }
 
 void collect(benchmark::State& state) {
@@ -164,7 +165,7 @@ void collect(benchmark::State& state) {
 }
 
 void normals(benchmark::State& state) {
-  const Measurements m = measured();
+  const MeasuredCells m = measured();
   Candidates candidates = find_candidates(m, m.grid, RunContext()).value();
   for (auto _ : state)
     benchmark::DoNotOptimize(estimate_normals(candidates, 2.5 * kVoxel, RunContext()));
@@ -172,7 +173,7 @@ void normals(benchmark::State& state) {
 }
 
 void refine(benchmark::State& state) {
-  const Measurements m = measured();
+  const MeasuredCells m = measured();
   Candidates candidates = find_candidates(m, m.grid, RunContext()).value();
   if (!estimate_normals(candidates, 2.5 * kVoxel, RunContext())) return;
   for (auto _ : state)
@@ -195,11 +196,12 @@ void poisson_stiffness(benchmark::State& state) {
 }
 
 void poisson_surface_of_candidates(benchmark::State& state) {
-  const Measurements m = measured();
+  const MeasuredCells m = measured();
   Candidates candidates = find_candidates(m, m.grid, RunContext()).value();
   if (!estimate_normals(candidates, 2.5 * kVoxel, RunContext())) return;
   for (auto _ : state)
-    benchmark::DoNotOptimize(poisson_surface(candidates.cloud, SurfaceOptions(), RunContext()));
+    benchmark::DoNotOptimize(
+        poisson::poisson_surface(candidates.cloud, SurfaceOptions(), RunContext()));
   report(state, candidates.cloud.size(), 24 * candidates.cloud.size());
 }
 

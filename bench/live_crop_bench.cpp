@@ -4,10 +4,10 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/scene_file.hpp>
-#include <turnscan/turntable/crop_kernel.hpp>
-#include <turnscan/turntable/live_crop.hpp>
+#include <turnscan/turntable/crop/crop_kernel.hpp>
+#include <turnscan/turntable/crop/live_crop.hpp>
 
 namespace {
 
@@ -65,8 +65,7 @@ void plainly(benchmark::State& state) {
 }
 
 void select(benchmark::State& state) {
-  const auto* kernel =
-      crop_kernel::kernel_for(static_cast<crop_kernel::InstructionSet>(state.range(0)));
+  const auto* kernel = crop_kernel::CropKernels::find(static_cast<InstructionSet>(state.range(0)));
   if (kernel == nullptr) return state.SkipWithError("this machine lacks the instructions");
   const std::size_t n = 512 * 424;
   const std::vector<std::uint16_t> raw(n, 9000), first(n, 8000), count(n, 500);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <turnscan/simulator/builtin_objects.hpp>
-#include <turnscan/simulator/kinect_v2.hpp>
-#include <turnscan/simulator/noise.hpp>
-#include <turnscan/simulator/rig.hpp>
-#include <turnscan/simulator/scanner_file.hpp>
+#include <turnscan/simulator/noise/kinect_v2.hpp>
+#include <turnscan/simulator/noise/noise.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/simulator/scene/rig.hpp>
 
 namespace {
 
@@ -65,8 +65,8 @@ void bench_scanner(const std::string& preset, const Scene& scene) {
   }
 }
 
-void bench_kernel(const char* name, noise::InstructionSet set) {
-  const noise::Kernel* kernel = noise::kernel_for(set);
+void bench_kernel(const char* name, InstructionSet set) {
+  const noise::NoiseKernel* kernel = noise::NoiseKernels::find(set);
   if (kernel == nullptr) return;
   constexpr int kCalls = 20;
   const kinect_v2::Layout layout{256, 160};
@@ -116,8 +116,8 @@ int main() {
   const auto scene = Scene::create({&*doll, 1}, 0.15);
   if (!scene) return 1;
   for (const std::string& preset : scanner_presets()) bench_scanner(preset, *scene);
-  bench_kernel("portable", noise::InstructionSet::kPortable);
-  bench_kernel("AVX2", noise::InstructionSet::kAvx2);
-  bench_kernel("AVX-512", noise::InstructionSet::kAvx512);
+  bench_kernel("portable", InstructionSet::kPortable);
+  bench_kernel("AVX2", InstructionSet::kAvx2);
+  bench_kernel("AVX-512", InstructionSet::kAvx512);
   return 0;
 }

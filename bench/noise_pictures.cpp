@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <turnscan/io/image_io.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
-#include <turnscan/simulator/noise.hpp>
-#include <turnscan/simulator/rig.hpp>
-#include <turnscan/simulator/scanner_file.hpp>
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/simulator/noise/noise.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/simulator/scene/rig.hpp>
 
 namespace {
 

@@ -3,12 +3,12 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
-#include <tests/reconstruction/depth_frames.hpp>
-#include <tests/reconstruction/pcl_outliers.hpp>
+#include <tests/reconstruction/outliers/depth_frames.hpp>
+#include <tests/reconstruction/outliers/pcl_outliers.hpp>
 
 #include <map>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/reconstruction/outliers.hpp>
+#include <turnscan/reconstruction/outliers/outliers.hpp>
 
 namespace {
 
@@ -38,13 +38,15 @@ void per_point(benchmark::State& state, std::size_t points) {
 void pcl(benchmark::State& state, const FramePoints& frame) {
   turnscan::testing::PclOutlierFilter filter(frame.cloud.points, 10, 1.0);
   for (auto _ : state) benchmark::DoNotOptimize(filter.run());
-  if (filter.mask() != statistical_outlier_mask(frame, OutlierOptions()).value())
+  if (filter.mask() !=
+      turnscan::outliers::statistical_outlier_mask(frame, OutlierOptions()).value())
     state.SkipWithError("kept sets differ");
   per_point(state, frame.cloud.size());
 }
 
 void one_frame(benchmark::State& state, const FramePoints& frame) {
-  for (auto _ : state) benchmark::DoNotOptimize(statistical_outlier_mask(frame, OutlierOptions()));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(turnscan::outliers::statistical_outlier_mask(frame, OutlierOptions()));
   per_point(state, frame.cloud.size());
 }
 
@@ -52,7 +54,8 @@ void many_frames(benchmark::State& state, const FramePoints& frame) {
   const std::vector<FramePoints> copies(kFramesAtOnce, frame);
   for (auto _ : state) {
     turnscan::parallel_for(copies.size(), 1, [&](std::size_t i) {
-      benchmark::DoNotOptimize(statistical_outlier_mask(copies[i], OutlierOptions()));
+      benchmark::DoNotOptimize(
+          turnscan::outliers::statistical_outlier_mask(copies[i], OutlierOptions()));
     });
   }
   per_point(state, frame.cloud.size() * copies.size());
@@ -60,7 +63,8 @@ void many_frames(benchmark::State& state, const FramePoints& frame) {
 
 void unordered(benchmark::State& state, const FramePoints& frame) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(statistical_outlier_mask(frame.cloud.points, OutlierOptions()));
+    benchmark::DoNotOptimize(
+        turnscan::outliers::statistical_outlier_mask(frame.cloud.points, OutlierOptions()));
   per_point(state, frame.cloud.size());
 }
 

@@ -8,10 +8,10 @@
 #include <chrono>
 #include <cstdio>
 #include <turnscan/core/option_table.hpp>
-#include <turnscan/io/atomic_file.hpp>
-#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/turntable/crop.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace turnscan::plain {

@@ -14,13 +14,15 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/samples.hpp>
+#include <turnscan/simulator/sampling/samples.hpp>
 #include <vector>
 
 namespace {
 
 using turnscan::Body;
+using turnscan::kTurn;
 using turnscan::Pose;
 using turnscan::SampleGrid;
 using turnscan::SampleTracer;
@@ -29,7 +31,6 @@ using turnscan::TriangleMesh;
 using turnscan::Vec3d;
 using turnscan::Vec3f;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kLanes = 16;
 
 /// A torus with bumps, 0.4 m across, standing upright on y = 0.

@@ -21,7 +21,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/rotation.hpp>

@@ -1,10 +1,5 @@
 # Compile settings of our own code.
 
-# Headers lie beside their sources and are included as <turnscan/FLOOR/NAME.hpp>, before and after
-# installation: in the build tree a link named turnscan stands for src/.
-file(MAKE_DIRECTORY "${CMAKE_BINARY_DIR}/include")
-file(CREATE_LINK "${CMAKE_SOURCE_DIR}/src" "${CMAKE_BINARY_DIR}/include/turnscan" SYMBOLIC)
-
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 if(NOT CMAKE_BUILD_TYPE)

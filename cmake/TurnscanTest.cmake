@@ -6,7 +6,7 @@ add_custom_target(unit_tests)
 
 # Headers of every test, parsed once. A program, not a library, because it shares its flags with
 # programs.
-add_executable(turnscan_test_precompiled "${CMAKE_SOURCE_DIR}/cmake/empty.cpp")
+add_executable(turnscan_test_precompiled "${PROJECT_SOURCE_DIR}/cmake/empty.cpp")
 target_link_libraries(turnscan_test_precompiled PRIVATE Eigen3::Eigen fmt::fmt tl::expected
                       GTest::gmock turnscan_settings turnscan_warnings)
 turnscan_precompile(turnscan_test_precompiled ${TURNSCAN_COMMON_HEADERS} <gtest/gtest.h>
@@ -21,11 +21,12 @@ function(turnscan_test name)
   target_link_libraries(${target} PRIVATE ${TEST_USES} turnscan_test_main turnscan_test_data
                                           GTest::gmock
                                           turnscan_settings turnscan_warnings)
-  target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}")
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   # GCC 12 sees overlong copies in "string + literal" (GCC bug 105329), and forgets that headers are
   # the system's when they are precompiled.
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
   target_precompile_headers(${target} REUSE_FROM turnscan_test_precompiled)
+  turnscan_unity(${target})
   add_dependencies(unit_tests ${target})
   gtest_discover_tests(${target} TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS unit
                        DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST)

@@ -1,7 +1,7 @@
 #pragma once
 // What the plug-ins share: errors, texts and parameters across the C interface.
 
-#include <turnscan/capture/plugin.h>
+#include <turnscan/capture/source/plugin.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -8,28 +8,30 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <turnscan/core/process/helper_program.hpp>
 #include <turnscan/core/units.hpp>
-#include <turnscan/io/atomic_file.hpp>
-#include <turnscan/io/file_name.hpp>
-#include <turnscan/io/mesh_formats.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/file_name.hpp>
+#include <turnscan/io/mesh/mesh_formats.hpp>
 
 #include "assimp_mesh.hpp"
-#include "limits.hpp"
 
 namespace {
 
 using namespace turnscan;
 
-Result<detail::MeshesWithUnit> read(const std::filesystem::path& path) {
-  const std::string extension = detail::lower_extension(path);
+constexpr std::uint64_t kGiB = std::uint64_t(1) << 30;
+
+Result<mesh_io::MeshesWithUnit> read(const std::filesystem::path& path) {
+  const std::string extension = file::lower_extension(path);
   if (extension == "3mf" || extension == "glb") {
     TURNSCAN_ASSIGN(const std::string bytes, read_file(path));
-    if (extension == "3mf") return detail::decode_3mf(bytes);
-    TURNSCAN_ASSIGN(auto meshes, detail::decode_glb(bytes));
-    return detail::MeshesWithUnit{std::move(meshes), 1.0};
+    if (extension == "3mf") return mesh_io::decode_3mf(bytes);
+    TURNSCAN_ASSIGN(auto meshes, mesh_io::decode_glb(bytes));
+    return mesh_io::MeshesWithUnit{std::move(meshes), 1.0};
   }
   TURNSCAN_ASSIGN(auto meshes, read_with_assimp(path));
-  return detail::MeshesWithUnit{std::move(meshes.meshes), meshes.metres_per_unit};
+  return mesh_io::MeshesWithUnit{std::move(meshes.meshes), meshes.metres_per_unit};
 }
 
 Result<> convert(int argc, char** argv) {
@@ -44,7 +46,7 @@ Result<> convert(int argc, char** argv) {
     for (Vec3f& p : mesh.vertices) p = (p.cast<double>() * unit).cast<float>();
   return write_file_atomically("/dev/stdout", [&](FileSink& sink) -> Result<> {
     for (const TriangleMesh& mesh : read_meshes.meshes)
-      if (!mesh.empty()) TURNSCAN_TRY(detail::write_ply_mesh(sink, std::span(&mesh, 1)));
+      if (!mesh.empty()) TURNSCAN_TRY(mesh_io::write_ply_mesh(sink, std::span(&mesh, 1)));
     return {};
   });
 }
@@ -72,6 +74,7 @@ int run(int argc, char** argv) {
 // Ends at once: what the libraries would still do at the exit, after a file that may have been made
 // to harm them, can only spoil what has been written. Standard error is not buffered.
 int main(int argc, char** argv) {
-  limit_this_process();
+  process::limit_this_process(
+      {.memory_bytes = 2 * kGiB, .file_bytes = 2 * kGiB, .cpu_seconds = 60});
   ::_exit(run(argc, argv));
 }

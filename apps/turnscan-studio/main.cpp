@@ -2,8 +2,8 @@
 #include <QCommandLineParser>
 #include <turnscan/core/version.hpp>
 
-#include "main_window.hpp"
-#include "program.hpp"
+#include "app/program.hpp"
+#include "window/main_window.hpp"
 
 int main(int argc, char** argv) {
   using namespace turnscan::studio;

@@ -1,5 +1,5 @@
-#include "commands.hpp"
-#include "program.hpp"
+#include "cli/commands.hpp"
+#include "cli/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace turnscan::cli;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <turnscan/capture/memory_frames.hpp>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <vector>
 

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <numbers>
-#include <turnscan/capture/plugins.hpp>
-#include <turnscan/geometry/closest_point.hpp>
+#include <turnscan/capture/source/plugins.hpp>
+#include <turnscan/geometry/search/closest_point.hpp>
 
 #include "tests/capture/doll_mesh.hpp"
 #include "tests/capture/fakenect_dump.hpp"
 #include "tests/capture/taking.hpp"
-#include "tests/io/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {

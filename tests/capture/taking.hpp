@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <turnscan/capture/frame_source.hpp>
+#include <turnscan/capture/source/frame_source.hpp>
 #include <vector>
 
 namespace turnscan::testing {

@@ -1,46 +1,40 @@
 #!/usr/bin/env python3
-"""Checks of the source tree that no compiler makes. Usage: check_tree.py ROOT
+"""Checks of the source tree that no compiler makes. Usage: check_tree.py [ROOT]
 
-Each rule is a function that takes a Tree and yields (path, line number, what is wrong). The file
-check_tree_test.py shows each of them going red on a bad sample.
+Each rule is a function that takes a Tree and yields (path, line number, what is wrong). The files
+check_tree_test.py and house_test.py show each of them going red on a bad sample.
 """
 
 import os
 import posixpath
 import re
-import subprocess
 import sys
 
-# Which floors a floor may include (docs/architecture.md).
-FLOORS = {
-    "core": set(),
-    "geometry": {"core"},
-    "io": {"core"},
-    "recording": {"core", "io"},
-    "turntable": {"core", "geometry"},
-    "reconstruction": {"core", "geometry", "turntable"},
-    "simulator": {"core"},
-    "capture": {"core", "io", "recording", "turntable", "simulator"},
-    "evaluation": {"core", "geometry"},
-}
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import drawing  # noqa: E402  (needs the path above)
+import house  # noqa: E402
+from tree import Tree  # noqa: E402
 
 # Header pattern, folders that may include it, whether an installed header may too.
 LIBRARIES = [
-    ("PCL", r"pcl/", ("src/geometry/", "src/reconstruction/", "tests/", "bench/"), False),
-    ("Embree", r"embree\d?/", ("src/simulator/", "bench/"), False),
+    ("PCL", r"pcl/", ("src/turnscan/geometry/",
+                      "apps/turnscan-concave-hull/", "tests/", "bench/"), False),
+    ("Embree", r"embree\d?/", ("src/turnscan/simulator/", "bench/"), False),
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/|QVTK", ("apps/turnscan-studio/", "tests/studio/"), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
-    ("nanoflann", r"nanoflann", ("src/geometry/", "tests/", "bench/"), False),
-    ("meshoptimizer", r"meshoptimizer", ("src/geometry/",), False),
-    ("TBB (loops go through core/parallel.hpp)", r"(oneapi/)?tbb/", ("src/core/",), True),
-    ("a file library", r"png\.h|jpeglib\.h|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
-     ("src/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
-    ("spdlog (libraries do not log)", r"spdlog/", ("apps/",), False),
-    ("CLI11", r"CLI/", ("apps/",), False),
-    ("toml++", r"toml\+\+/|toml\.hpp", ("apps/", "src/simulator/"), False),
+    ("nanoflann", r"nanoflann", ("src/turnscan/geometry/", "tests/", "bench/"), False),
+    ("meshoptimizer", r"meshoptimizer", ("src/turnscan/geometry/",), False),
+    ("TBB (loops go through core/parallel.hpp)", r"(oneapi/)?tbb/", ("src/turnscan/core/",), True),
+    ("a file library", r"png\.h|jpeglib\.h|turbojpeg|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
+     ("src/turnscan/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
+    ("spdlog (libraries do not log, and programs need no more than a line)", r"spdlog/", (), False),
+    ("CLI11", r"CLI/", ("apps/turnscan/",), False),
+    ("toml++", r"toml\+\+/|toml\.hpp",
+     ("apps/", "src/turnscan/simulator/", "src/turnscan/workflow/"), False),
     ("nlohmann-json in a public header", r"nlohmann/", ("src/", "apps/", "tests/", "bench/"), False),
     ("a driver's library (devices are plug-ins)",
-     r"OpenNI\.h|libfreenect|librealsense|k4a/", ("plugins/", "tests/capture/openni2/", "tests/capture/freenect/"), False),
+     r"OpenNI\.h|libfreenect|librealsense|k4a/",
+     ("plugins/", "tests/capture/openni2/", "tests/capture/freenect/"), False),
     ("GoogleTest", r"gtest/|gmock/|rapidcheck", ("tests/",), False),
 ]
 
@@ -51,86 +45,12 @@ LOCALE_CALLS = re.compile(r"\b(stod|stof|stold|atof|strtod|strtof|sscanf|fscanf|
 HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.edu", "doi.org", "arxiv.org",
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de",
-         "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org"}
+         "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com"}
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.
 MACHINE_PATH = re.compile(r"(?:^|[\s\"'`(=:,])((?:/(?:work|home|root|mnt|farm|tmp|Users)/\w"
                           r"|[.]library/)[^\s\"'`)]*)")
-
-CODE = (".cpp", ".hpp", ".h", ".c")
-TEXT = CODE + (".py", ".md", ".txt", ".cmake", ".in", ".json", ".toml", ".yml", ".csv", ".sh", "")
-INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-
-
-class Tree:
-    """The files that belong to the project, as paths from its root with forward slashes."""
-
-    def __init__(self, root, paths=None):
-        self.root = root
-        self.paths = sorted(paths if paths is not None else listed_by_git(root) or walked(root))
-        self._lines = {}
-
-    def lines(self, path):
-        if path not in self._lines:
-            with open(os.path.join(self.root, path), encoding="utf-8", errors="replace") as file:
-                self._lines[path] = file.read().splitlines()
-        return self._lines[path]
-
-    def code(self, *folders):
-        return [p for p in self.paths if p.endswith(CODE) and p.startswith(folders)]
-
-    def text(self):
-        return [p for p in self.paths if os.path.splitext(p)[1] in TEXT]
-
-    def cmake(self):
-        return [p for p in self.paths if p.endswith(("CMakeLists.txt", ".cmake"))]
-
-    def includes(self, path):
-        for number, line in enumerate(self.lines(path), 1):
-            if match := INCLUDE.match(line):
-                yield number, match.group(1), match.group(2)
-
-    def installed_headers(self):
-        """Headers that a CMakeLists.txt of src/ lists after HEADERS."""
-        found = set()
-        for path in self.cmake():
-            if path.startswith("src/"):
-                text = "\n".join(self.lines(path))
-                for block in re.findall(r"\bHEADERS\s+([^A-Z)]*)", text):
-                    found |= {posixpath.join(posixpath.dirname(path), h) for h in block.split()}
-        return found
-
-
-def listed_by_git(root):
-    command = ["git", "-C", root, "ls-files", "--cached", "--others", "--exclude-standard"]
-    try:
-        out = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    except (OSError, subprocess.CalledProcessError):
-        return None
-    return [p for p in out.splitlines() if os.path.isfile(os.path.join(root, p))]
-
-
-def walked(root):
-    for folder, folders, files in os.walk(root):
-        folders[:] = [f for f in folders if f not in (".git", "build")]
-        for name in files:
-            yield os.path.relpath(os.path.join(folder, name), root).replace(os.sep, "/")
-
-
-def upward_includes(tree):
-    for path in tree.code("src/"):
-        floor = path.split("/")[1]
-        if floor not in FLOORS:
-            yield path, 1, f"src/{floor} is not a floor"
-            continue
-        for number, quote, name in tree.includes(path):
-            if quote == '"':
-                yield path, number, f'"{name}": write <turnscan/{floor}/...>'
-            elif name.startswith("turnscan/"):
-                target = name.split("/")[1]
-                if target != floor and target not in FLOORS[floor]:
-                    yield path, number, f"{floor} may not include {name}"
 
 
 def libraries_out_of_place(tree):
@@ -141,7 +61,8 @@ def libraries_out_of_place(tree):
                 if not re.match(pattern, name):
                     continue
                 if not path.startswith(folders):
-                    yield path, number, f"<{name}>: {library} belongs to {', '.join(folders)}"
+                    place = f"belongs to {', '.join(folders)}" if folders else "is not used"
+                    yield path, number, f"<{name}>: {library} {place}"
                 elif path in public and not in_public:
                     yield path, number, f"<{name}>: {library} in an installed header"
 
@@ -168,6 +89,14 @@ def machine_flags(tree):
                 yield path, number, "flags that change with the machine, or change results"
 
 
+def paths_of_the_top_level(tree):
+    """turnscan can be a part of another project, whose folders CMAKE_SOURCE_DIR names."""
+    for path in tree.cmake():
+        for number, line in enumerate(tree.lines(path), 1):
+            if match := re.search(r"CMAKE_(SOURCE|BINARY)_DIR", line.split("#")[0]):
+                yield path, number, f"{match.group(0)}: write PROJECT_{match.group(1)}_DIR"
+
+
 def unlisted_files(tree):
     """Every source is named in the nearest CMakeLists.txt above it."""
     lists = {posixpath.dirname(p): p for p in tree.paths if p.endswith("CMakeLists.txt")}
@@ -178,8 +107,7 @@ def unlisted_files(tree):
         while folder and folder not in lists:
             folder = posixpath.dirname(folder)
         name = path[len(folder) + 1:] if folder else path
-        text = "\n".join(line.split("#")[0] for line in tree.lines(lists[folder])) \
-            if folder in lists else ""
+        text = tree.cmake_text(lists[folder]) if folder in lists else ""
         if not re.search(r"(?<![\w/.-])" + re.escape(name) + r"(?![\w/.-])", text):
             yield path, 1, f"not listed in {lists.get(folder, 'any CMakeLists.txt')}"
 
@@ -194,19 +122,58 @@ def machine_paths_and_hosts(tree):
                     yield path, number, f"host {host} is not among those that files may name"
 
 
+def anchors(tree, path):
+    """The names by which headings of a document are linked to."""
+    found, code = set(), False
+    for line in tree.lines(path):
+        code = code != line.startswith("```")
+        if not code and (heading := re.match(r"#+\s+(.*)", line)):
+            found.add(re.sub(r"[^\w\- ]", "", heading.group(1).lower()).replace(" ", "-"))
+    return found
+
+
 def broken_links(tree):
-    known = set(tree.paths)
     for path in tree.paths:
         if not path.endswith(".md"):
             continue
         for number, line in enumerate(tree.lines(path), 1):
             for link in LINK.findall(line):
-                target = link.split("#")[0]
-                if not target or re.match(r"[a-z]+:", target):
+                target, _, anchor = link.partition("#")
+                if re.match(r"[a-z]+:", target):
                     continue
-                full = posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
-                if full not in known and not any(p.startswith(full + "/") for p in known):
+                full = posixpath.normpath(posixpath.join(posixpath.dirname(path), target)) \
+                    if target else path
+                if full not in tree.known and not any(p.startswith(full + "/") for p in tree.known):
                     yield path, number, f"link to {target}, which is not there"
+                elif anchor and full.endswith(".md") and anchor not in anchors(tree, full):
+                    yield path, number, f"link to #{anchor}, which {full} has not"
+
+
+# A path of the project in a document: `src/turnscan/core/frame.hpp`, `tests/checks`, `core/frame.hpp`.
+NAMED_PATH = re.compile(r"`((?:[\w.-]+/)+[\w.-]+?)/?`")
+OWN_FOLDERS = ("src/", "apps/", "plugins/", "tests/", "bench/", "cmake/", "scripts/", "data/", "docs/")
+
+
+def documents_name_what_is_there(tree):
+    """A path that a document names in backquotes is there: from the root, or from a floor's folder."""
+    folders = {folder for path in tree.paths for folder in parents(path)}
+    there = tree.known | folders | {posixpath.splitext(path)[0] for path in tree.paths}
+    floors = tuple(floor + "/" for floor in house.FLOORS)
+    for path in tree.paths:
+        if not path.endswith(".md") or path == "CHANGELOG.md":
+            continue
+        for number, line in enumerate(tree.lines(path), 1):
+            for name in NAMED_PATH.findall(line):
+                of_floor = name.startswith(floors) and name.endswith((".hpp", ".cpp", ".h"))
+                full = "src/turnscan/" + name if of_floor else name
+                placeholder = re.search(r"\b(FLOOR|ROOM|NAME)", full)
+                if full.startswith(OWN_FOLDERS) and full not in there and not placeholder:
+                    yield path, number, f"{name} is not there"
+
+
+def parents(path):
+    while path := posixpath.dirname(path):
+        yield path
 
 
 def oversized_files(tree):
@@ -216,8 +183,10 @@ def oversized_files(tree):
             yield path, 1, f"{size} bytes; the repository holds no file of more than 1 MB"
 
 
-RULES = [upward_includes, libraries_out_of_place, numbers_by_locale, globbed_sources,
-         machine_flags, unlisted_files, machine_paths_and_hosts, broken_links, oversized_files]
+RULES = house.RULES + [drawing.stale_drawing, drawing.rooms_without_a_word] + [
+    libraries_out_of_place, numbers_by_locale, globbed_sources, machine_flags,
+    paths_of_the_top_level, unlisted_files, machine_paths_and_hosts, broken_links,
+    documents_name_what_is_there, oversized_files]
 
 
 def main():

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 #include <turnscan/core/triangle_mesh.hpp>
-#include <turnscan/io/cloud_io.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
 #include <vector>
 
 namespace turnscan::fuzz {

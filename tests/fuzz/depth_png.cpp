@@ -1,4 +1,4 @@
-#include <turnscan/io/image_io.hpp>
+#include <turnscan/io/image/image_io.hpp>
 
 #include "tests/fuzz/checks.hpp"
 

@@ -1,6 +1,6 @@
 // The input is a CSV file of points on the rim, or of pixels of a small averaged scan.
 
-#include "apps/turnscan/pick_file.hpp"
+#include <turnscan/workflow/calibration/pick_file.hpp>
 
 #include "tests/fuzz/scratch_folder.hpp"
 
@@ -25,8 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const AveragedScan scan = small_scan();
   folder.put("picks.csv", fuzz::text_of(data, size));
   const std::string path = (folder / "picks.csv").string();
-  const auto pixels = cli::picks_pixels(path);
-  const auto picks = cli::read_picks(path, &scan);
+  const auto pixels = workflow::picks_pixels(path);
+  const auto picks = workflow::read_picks(path, &scan);
   fuzz::require(pixels || !picks, "points only where the columns are known");
   if (picks)
     for (const Vec3d& p : *picks) fuzz::require(p.allFinite(), "finite points");

@@ -1,4 +1,4 @@
-#include <turnscan/io/cloud_io.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
 
 #include "tests/fuzz/checks.hpp"
 

@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.put("a.ply", fuzz::text_of(data, size));
   // What can be read must not be taken for truncated.
   const bool readable = bool(read_cloud(folder / "a.ply"));
-  const std::string defect = defect_of_file(folder / "a.ply");
+  const std::string defect = turnscan::recording_format::defect_of_file(folder / "a.ply");
   fuzz::require(!readable || defect.empty() || !fuzz::text_of(data, size).starts_with("ply"),
                 "a readable file is whole");
   return 0;

@@ -6,6 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace turnscan;
+  using namespace turnscan::recording_format;
   const auto read = parse_recording_json(fuzz::text_of(data, size));
   if (!read) return 0;
   fuzz::require(bool(check_header(read->header)), "a header that can be written");

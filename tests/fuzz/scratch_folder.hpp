@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/frame.hpp>
-#include <turnscan/io/cloud_io.hpp>
-#include <turnscan/io/image_io.hpp>
-#include <turnscan/io/importers.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/import/importers.hpp>
 #include <vector>
 
 #include "tests/fuzz/checks.hpp"

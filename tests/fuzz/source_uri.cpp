@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 #include <string_view>
-#include <turnscan/capture/source_uri.hpp>
+#include <turnscan/capture/source/source_uri.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace turnscan;

@@ -1,9 +1,9 @@
-#include <turnscan/io/mesh_formats.hpp>
+#include <turnscan/io/mesh/mesh_formats.hpp>
 
 #include "tests/fuzz/checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = turnscan::detail::decode_stl(turnscan::fuzz::text_of(data, size));
+  const auto read = turnscan::mesh_io::decode_stl(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(*read);
   return 0;
 }

@@ -1,4 +1,4 @@
-#include <turnscan/io/mesh_formats.hpp>
+#include <turnscan/io/mesh/mesh_formats.hpp>
 
 #include "tests/fuzz/checks.hpp"
 
@@ -8,7 +8,7 @@ extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libzip.so"; }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = turnscan::detail::decode_3mf(turnscan::fuzz::text_of(data, size));
+  const auto read = turnscan::mesh_io::decode_3mf(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(read->meshes);
   return 0;
 }

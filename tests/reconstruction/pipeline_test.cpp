@@ -8,9 +8,10 @@
 #include <thread>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
-#include <turnscan/geometry/mesh_check.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/reconstruction/method.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/reconstruction/unused_options.hpp>
+#include <turnscan/reconstruction/report.hpp>
 
 namespace turnscan {
 namespace {
@@ -247,6 +248,27 @@ TEST(ReconstructOptions, ThatTheMethodDoesNotUseAreNamed) {
   options.outliers.neighbours = 20;
   EXPECT_EQ(unused_options(options),
             (std::vector<std::string>{"outlier-k", "poisson-depth", "alpha"}));
+}
+
+TEST(ReconstructOptions, AreEachUsedByAMethodAndNamedByNoneThatHasThemNot) {
+  ReconstructOptions options;
+  std::set<std::string> stages, names, used;
+  for (const StageOptions& stage : describe_stages(options)) {
+    stages.insert(stage.stage);
+    for (const OptionField& field : stage.table.fields()) names.insert(field.name);
+  }
+  for (const MethodEntry& method : methods()) {
+    for (const std::string& stage : method.option_stages) EXPECT_TRUE(stages.count(stage)) << stage;
+    for (const std::string& name : method.options) EXPECT_TRUE(names.count(name)) << name;
+    for (const StageOptions& stage : describe_stages(options)) {
+      const auto& whole = method.option_stages;
+      const bool all = std::find(whole.begin(), whole.end(), stage.stage) != whole.end();
+      for (const OptionField& field : stage.table.fields())
+        if (all) used.insert(field.name);
+    }
+    used.insert(method.options.begin(), method.options.end());
+  }
+  EXPECT_EQ(used, names);
 }
 
 TEST(ReconstructOptions, HaveUniqueNamesThatReadBackTheirOwnValues) {

@@ -7,7 +7,8 @@
 #include <thread>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
-#include <turnscan/geometry/mesh_check.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
@@ -16,7 +17,7 @@ namespace {
 
 using turnscan::testing::MemorySequence;
 
-constexpr double kRadius = 0.03;
+constexpr double kBallRadius = 0.03;
 const Vec3d kCenter(0.004, 0.034, -0.003);
 
 /// Depth images, 80 x 60, of a ball on a foot that turns before a camera.
@@ -48,7 +49,7 @@ MemorySequence ball(std::uint32_t frames, std::uint32_t from = 0) {
       const Vec3d d = view.linear() * sensor.intrinsics.ray(i % 80, i / 80);
       const Vec3d m = view.translation() - kCenter;
       const double a = d.squaredNorm(), b = m.dot(d);
-      const double q = b * b - a * (m.squaredNorm() - kRadius * kRadius);
+      const double q = b * b - a * (m.squaredNorm() - kBallRadius * kBallRadius);
       double t = f >= from && q > 0.0 ? (-b - std::sqrt(q)) / a : 0.0;
       const double floor = -view.translation().y() / d.y();
       const Vec3d hit = view.translation() + floor * d;
@@ -86,7 +87,7 @@ void expect_same(const Result<Reconstruction>& a, const Result<Reconstruction>& 
   ASSERT_TRUE(b) << b.error().text();
   ASSERT_EQ(a->objects.size(), b->objects.size());
   EXPECT_EQ(a->frames, b->frames);
-  EXPECT_EQ(a->cropped, b->cropped);
+  EXPECT_EQ(a->inside_crop, b->inside_crop);
   for (std::size_t i = 0; i < a->objects.size(); ++i) {
     EXPECT_EQ(a->objects[i].mesh.vertices, b->objects[i].mesh.vertices);
     EXPECT_EQ(a->objects[i].mesh.triangles, b->objects[i].mesh.triangles);
@@ -140,7 +141,8 @@ TEST(ReconstructionStream, AGridLiesAlongWhatTheFirstFramesShow) {
   double size = 0.0;
   const char* text = choice->value.c_str();
   ASSERT_EQ(std::from_chars(text, text + choice->value.size(), size).ec, std::errc());
-  EXPECT_NEAR(size, 2e3 * (kRadius + 0.005) / 40, 0.15) << choice->value << " " << choice->reason;
+  EXPECT_NEAR(size, 2e3 * (kBallRadius + 0.005) / 40, 0.15)
+      << choice->value << " " << choice->reason;
 }
 
 TEST(ReconstructionStream, WaitsUntilSomethingStandsOnThePlatter) {
@@ -156,7 +158,7 @@ TEST(ReconstructionStream, GoesOnWithoutAFrameThatDoesNotFit) {
       ReconstructionStream::create(sequence.header(), with(SurfaceMethod::kVolumetric)).value();
   for (std::size_t i = 0; i < sequence.data.size(); ++i) {
     ASSERT_TRUE(stream.add({sequence.data[i]}));
-    if (i != 5 && i != 38) continue;  // before and after the first look
+    if (i != 5 && i != 38) continue;  // before and after the scale is known
     Frame wrong = sequence.data[i];
     wrong.depth = DepthImage(8, 8);
     EXPECT_EQ(stream.add({wrong}).error().code, ErrorCode::kFormat);
@@ -208,8 +210,8 @@ TEST(ReconstructionStream, ShowsTheGrowingSurfaceWhileFramesAreAdded) {
   watcher.join();
   ASSERT_TRUE(last);
   const Box box = bounds(last->vertices);
-  EXPECT_NEAR(box.max.y(), kCenter.y() + kRadius, 0.004);
-  EXPECT_NEAR(box.size().x(), 2 * kRadius, 0.008);
+  EXPECT_NEAR(box.max.y(), kCenter.y() + kBallRadius, 0.004);
+  EXPECT_NEAR(box.size().x(), 2 * kBallRadius, 0.008);
   // Asking changes nothing.
   expect_same(stream.finish({}, RunContext()),
               reconstruct(sequence, with(SurfaceMethod::kVolumetric), {}, RunContext()));
@@ -259,7 +261,7 @@ MemorySequence profiles(std::uint32_t count) {
   SensorInfo sensor;
   sensor.kind = SensorKind::kPointScanner;
   sensor.T_table_sensor = Pose::Identity();
-  sensor.viewpoint = {Vec3d(0, kRadius, -0.5), false};
+  sensor.viewpoint = {Vec3d(0, kBallRadius, -0.5), false};
   sequence.header_value.sensors = {sensor};
   TurntableInfo table;
   table.radius_m = 0.1;
@@ -270,8 +272,8 @@ MemorySequence profiles(std::uint32_t count) {
     frame.info.angle_rad = 2.0 * std::numbers::pi * f / count;
     for (int i = 1; i < 120; ++i) {
       const double a = std::numbers::pi * i / 120.0;
-      frame.points.points.emplace_back(0.0f, float(kRadius * (1.0 - std::cos(a))),
-                                       float(-kRadius * std::sin(a)));
+      frame.points.points.emplace_back(0.0f, float(kBallRadius * (1.0 - std::cos(a))),
+                                       float(-kBallRadius * std::sin(a)));
     }
     sequence.add(std::move(frame));
   }
@@ -285,7 +287,7 @@ TEST(ReconstructionStream, ProfilesOfALineScannerBecomeOneObjectByEitherMethod) 
     ASSERT_TRUE(result) << result.error().message;
     ASSERT_EQ(result->objects.size(), 1u);
     EXPECT_TRUE(result->objects[0].check.watertight());
-    EXPECT_NEAR(bounds(result->objects[0].mesh.vertices).size().x(), 2 * kRadius, 0.004);
+    EXPECT_NEAR(bounds(result->objects[0].mesh.vertices).size().x(), 2 * kBallRadius, 0.004);
   }
   expect_same(streamed(sequence, with(SurfaceMethod::kVolumetric), 1),
               streamed(sequence, with(SurfaceMethod::kVolumetric), 64));

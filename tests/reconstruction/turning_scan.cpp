@@ -117,14 +117,15 @@ MemorySequence line_scan(const Trace& things) {
   return sequence;
 }
 
-std::vector<DepthView> views_of(const MemorySequence& sequence) {
+std::vector<views::DepthView> views_of(const MemorySequence& sequence) {
   const SensorInfo& sensor = sequence.header().sensors[0];
   const RayTable rays(sensor.intrinsics);
-  std::vector<DepthView> views;
+  std::vector<views::DepthView> views;
   for (std::size_t f = 0; f < sequence.frames().size(); ++f) {
     const Pose pose = rotation_about_y(-*sequence.frames()[f].angle_rad) * *sensor.T_table_sensor;
-    auto view = make_view(*sequence.read(f), sensor, rays, pose, {},
-                          [&](const Vec3f& p) { return (pose * p.cast<double>()).y() > 0.005; });
+    auto view = views::make_view(*sequence.read(f), sensor, rays, pose, {}, [&](const Vec3f& p) {
+      return (pose * p.cast<double>()).y() > 0.005;
+    });
     EXPECT_TRUE(view) << view.error().text();
     if (view) views.push_back(std::move(*view));
   }

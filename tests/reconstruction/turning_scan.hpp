@@ -7,8 +7,8 @@
 #include <functional>
 #include <tests/support/memory_sequence.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
-#include <turnscan/reconstruction/depth_view.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/views/depth_view.hpp>
 
 namespace turnscan::testing {
 
@@ -38,7 +38,7 @@ MemorySequence scan(const Trace& things, const Rig& rig);
 MemorySequence line_scan(const Trace& things);
 
 /// What a sequence of scan() saw above the platter.
-std::vector<DepthView> views_of(const MemorySequence& sequence);
+std::vector<views::DepthView> views_of(const MemorySequence& sequence);
 
 inline const Vec3d kCenter(0.01, 0.05, -0.005);
 inline constexpr double kRadius = 0.03;

@@ -126,7 +126,7 @@ TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
     frames.push_back(testing::depth_frame(i));
     frames.back().info.T_table_sensor = Pose::Identity();
   }
-  const testing::MemorySequence sequence(header, frames);
+  const testing::CountingFrames sequence(header, frames);
   Calibration c = some_calibration(2);
   c.camera->intrinsics.width = header.sensors[0].intrinsics.width;
   c.camera->intrinsics.height = header.sensors[0].intrinsics.height;
@@ -155,7 +155,7 @@ TEST(WithCalibration, ReplacesTurntableAnglesAndDepthAndLeavesTheFramesAlone) {
 TEST(WithCalibration, PlacesTheOtherSensors) {
   SequenceHeader header = testing::small_header();
   header.sensors.push_back(header.sensors[0]);
-  const testing::MemorySequence sequence(header, {testing::depth_frame(0)});
+  const testing::CountingFrames sequence(header, {testing::depth_frame(0)});
   Calibration c;
   c.table.center_m = Vec3d(0, 0, 1);
   c.others.resize(1);
@@ -169,7 +169,7 @@ TEST(CorrectSensors, EachSensorGetsItsOwnDepthAndCamera) {
   SequenceHeader header = testing::small_header();
   header.sensors.push_back(header.sensors[0]);
   header.sensors.push_back(header.sensors[0]);
-  const testing::MemorySequence sequence(header, {testing::depth_frame(0)});
+  const testing::CountingFrames sequence(header, {testing::depth_frame(0)});
   Calibration c;
   c.table.center_m = Vec3d(0, 0, 1);
   c.others.resize(1);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <turnscan/recording/frames_csv.hpp>
 
-namespace turnscan {
+namespace turnscan::recording_format {
 namespace {
 
 using ::testing::ElementsAre;
@@ -191,4 +191,4 @@ TEST(FramesCsv, WhatIsWrittenIsReadBack) {
 }
 
 }  // namespace
-}  // namespace turnscan
+}  // namespace turnscan::recording_format

@@ -5,7 +5,7 @@
 
 #include "tests/recording/sequences.hpp"
 
-namespace turnscan {
+namespace turnscan::recording_format {
 namespace {
 
 using ::testing::HasSubstr;
@@ -40,7 +40,7 @@ std::string changed(std::string text, const std::string& from, const std::string
   return text.replace(at, from.size(), to);
 }
 
-Error refusal(const std::string& text) {
+Error json_refusal(const std::string& text) {
   const auto result = parse_recording_json(text);
   EXPECT_FALSE(result);
   return result ? Error{} : result.error();
@@ -81,8 +81,8 @@ TEST(RecordingJson, WhatIsWrittenIsReadBack) {
 }
 
 TEST(RecordingJson, NewerSchemaIsRefusedAndSaysWhatToDo) {
-  const Error error = refusal(changed(recording_json(full_description()), "\"schema_version\": 1",
-                                      "\"schema_version\": 2"));
+  const Error error = json_refusal(changed(recording_json(full_description()),
+                                           "\"schema_version\": 1", "\"schema_version\": 2"));
   EXPECT_EQ(error.code, ErrorCode::kUnsupported);
   EXPECT_THAT(error.message, HasSubstr("version 2"));
   EXPECT_THAT(error.message, HasSubstr("update turnscan"));
@@ -96,36 +96,38 @@ TEST(RecordingJson, UnknownFieldsAreIgnored) {
 
 TEST(RecordingJson, WrongFieldIsNamedWithItsPlace) {
   const std::string good = recording_json(full_description());
-  EXPECT_THAT(refusal(changed(good, "\"fx\": 9.5", "\"fx\": \"wide\"")).message,
+  EXPECT_THAT(json_refusal(changed(good, "\"fx\": 9.5", "\"fx\": \"wide\"")).message,
               HasSubstr("sensors[0].intrinsics.fx is not a number"));
-  EXPECT_THAT(refusal(changed(good, "\"fx\": 9.5", "\"gx\": 9.5")).message,
+  EXPECT_THAT(json_refusal(changed(good, "\"fx\": 9.5", "\"gx\": 9.5")).message,
               HasSubstr("sensors[0].intrinsics.fx is missing"));
-  EXPECT_THAT(refusal(changed(good, "\"axis\": [0.0,-1.0,0.0]", "\"axis\": [0.0,-1.0]")).message,
-              HasSubstr("turntable.axis has 2 numbers"));
-  EXPECT_THAT(refusal(changed(good, "point-scanner", "oracle")).message, HasSubstr("oracle"));
+  EXPECT_THAT(
+      json_refusal(changed(good, "\"axis\": [0.0,-1.0,0.0]", "\"axis\": [0.0,-1.0]")).message,
+      HasSubstr("turntable.axis has 2 numbers"));
+  EXPECT_THAT(json_refusal(changed(good, "point-scanner", "oracle")).message, HasSubstr("oracle"));
 }
 
 TEST(RecordingJson, UnusableValuesAreRefused) {
   const std::string good = recording_json(full_description());
   for (const std::string bad : {"0.0", "-0.001", "2.0", "1e999", "null"}) {
     const std::string text = changed(good, "\"depth_unit_m\": 0.001", "\"depth_unit_m\": " + bad);
-    EXPECT_EQ(refusal(text).code, ErrorCode::kFormat) << bad;
+    EXPECT_EQ(json_refusal(text).code, ErrorCode::kFormat) << bad;
   }
-  EXPECT_EQ(refusal(changed(good, "\"axis\": [0.0,-1.0,0.0]", "\"axis\": [0,0,0]")).code,
+  EXPECT_EQ(json_refusal(changed(good, "\"axis\": [0.0,-1.0,0.0]", "\"axis\": [0,0,0]")).code,
             ErrorCode::kFormat);
-  EXPECT_EQ(refusal(changed(good, "\"radius_m\": 0.15", "\"radius_m\": -1")).code,
+  EXPECT_EQ(json_refusal(changed(good, "\"radius_m\": 0.15", "\"radius_m\": -1")).code,
             ErrorCode::kFormat);
 }
 
 TEST(RecordingJson, WhatIsNoRecordingIsRefused) {
   for (const std::string text : {"", "{", "[]", "7", "{}", "{\"format\": \"other\"}",
                                  "{\"format\": \"turnscan recording\"}"})
-    EXPECT_EQ(refusal(text).code, ErrorCode::kFormat) << text;
+    EXPECT_EQ(json_refusal(text).code, ErrorCode::kFormat) << text;
 }
 
 TEST(RecordingJson, DepthNestedBeyondReasonIsRefusedWithoutACrash) {
-  EXPECT_EQ(refusal(std::string(1000000, '[')).code, ErrorCode::kFormat);
-  EXPECT_EQ(refusal(std::string(500000, '[') + std::string(500000, ']')).code, ErrorCode::kFormat);
+  EXPECT_EQ(json_refusal(std::string(1000000, '[')).code, ErrorCode::kFormat);
+  EXPECT_EQ(json_refusal(std::string(500000, '[') + std::string(500000, ']')).code,
+            ErrorCode::kFormat);
 }
 
 TEST(RecordingJson, TextThatIsNotUtf8IsWrittenAsReplacementCharacters) {
@@ -135,4 +137,4 @@ TEST(RecordingJson, TextThatIsNotUtf8IsWrittenAsReplacementCharacters) {
 }
 
 }  // namespace
-}  // namespace turnscan
+}  // namespace turnscan::recording_format

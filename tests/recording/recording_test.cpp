@@ -3,8 +3,8 @@
 
 #include <turnscan/recording/recording.hpp>
 
-#include "tests/io/temp_folder.hpp"
 #include "tests/recording/sequences.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {

@@ -10,8 +10,8 @@
 #include <turnscan/recording/recording.hpp>
 
 #include "tests/io/scarcity.hpp"
-#include "tests/io/temp_folder.hpp"
 #include "tests/recording/sequences.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {
@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::color_image;
 using testing::content_of;
+using testing::CountingFrames;
 using testing::depth_frame;
 using ::testing::HasSubstr;
-using testing::MemorySequence;
 using testing::scan_frame;
 using testing::small_header;
 using testing::TempFolder;
@@ -35,14 +35,14 @@ std::map<std::string, std::string> all_files(const fs::path& folder) {
   return files;
 }
 
-MemorySequence many_frames(std::uint32_t count) {
+CountingFrames many_frames(std::uint32_t count) {
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < count; ++i) {
     frames.push_back(depth_frame(i));
     if (i % 3 == 0) frames.back().color = color_image(i);
     if (i % 10 == 9) frames.back().info.status = FrameStatus::kDropped;
   }
-  return MemorySequence(small_header(), std::move(frames));
+  return CountingFrames(small_header(), std::move(frames));
 }
 
 TEST(RecordingWriter, MakesParentFolders) {
@@ -221,7 +221,7 @@ TEST(RecordingWriter, KilledAtAnyMomentLeavesEveryWholeFrameReadable) {
 
 TEST(WriteRecording, GivesTheSameBytesForAnyNumberOfThreads) {
   const TempFolder temp;
-  const MemorySequence sequence = many_frames(200);
+  const CountingFrames sequence = many_frames(200);
   for (const int threads : {1, 2, 7}) {
     set_thread_count(threads);
     const auto done = write_recording(temp / std::to_string(threads), sequence, RunContext());
@@ -246,7 +246,7 @@ TEST(WriteRecording, ReadingAndWritingARecordingAgainGivesTheSameBytes) {
 TEST(WriteRecording, CancelledLeavesNothingBehind) {
   const TempFolder temp;
   const RunContext context;
-  MemorySequence sequence = many_frames(300);
+  CountingFrames sequence = many_frames(300);
   sequence.on_read = [&](std::size_t position) {
     if (position == 150) context.cancel();
   };
@@ -261,7 +261,7 @@ TEST(WriteRecording, CancelledBeforeTheStartReadsNothing) {
   const TempFolder temp;
   const RunContext context;
   context.cancel();
-  const MemorySequence sequence = many_frames(3);
+  const CountingFrames sequence = many_frames(3);
   EXPECT_EQ(write_recording(temp / "r", sequence, context).error().code, ErrorCode::kCancelled);
   EXPECT_EQ(sequence.reads, 0);
   EXPECT_EQ(temp.count(), 0u);
@@ -270,7 +270,7 @@ TEST(WriteRecording, CancelledBeforeTheStartReadsNothing) {
 TEST(WriteRecording, FrameThatCannotBeReadLeavesNothingBehind) {
   const TempFolder temp;
   fs::create_directory(temp / "r");
-  MemorySequence sequence = many_frames(100);
+  CountingFrames sequence = many_frames(100);
   sequence.broken = 70;
   const auto done = write_recording(temp / "r", sequence, RunContext());
   ASSERT_FALSE(done);
@@ -289,7 +289,7 @@ TEST(WriteRecording, NeverTouchesAFolderWithContent) {
 
 TEST(WriteRecording, TwoFramesWithOneIndexAreRefused) {
   const TempFolder temp;
-  const MemorySequence sequence(small_header(), {depth_frame(3), depth_frame(3)});
+  const CountingFrames sequence(small_header(), {depth_frame(3), depth_frame(3)});
   EXPECT_THAT(write_recording(temp / "r", sequence, RunContext()).error().message,
               HasSubstr("index 3"));
   EXPECT_EQ(temp.count(), 0u);

@@ -4,8 +4,8 @@
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/repair.hpp>
 
-#include "tests/io/temp_folder.hpp"
 #include "tests/recording/sequences.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {

@@ -2,8 +2,9 @@
 // Small sequences in memory.
 
 #include <atomic>
+#include <functional>
 #include <numbers>
-#include <turnscan/core/frame.hpp>
+#include <turnscan/core/sequence_views.hpp>
 #include <vector>
 
 namespace turnscan::testing {
@@ -67,30 +68,21 @@ inline Frame scan_frame(std::uint32_t index) {
   return frame;
 }
 
-/// Frames in memory. Counts the reads; reading position `broken` fails.
-class MemorySequence : public FrameSequence {
+/// Counts the reads; reading position `broken` fails.
+class CountingFrames : public MemoryFrames {
  public:
-  MemorySequence(SequenceHeader header, std::vector<Frame> frames)
-      : header_(std::move(header)), data_(std::move(frames)) {
-    for (const Frame& frame : data_) infos_.push_back(frame.info);
-  }
-  const SequenceHeader& header() const override { return header_; }
-  const std::vector<FrameInfo>& frames() const override { return infos_; }
+  CountingFrames(SequenceHeader header, std::vector<Frame> frames)
+      : MemoryFrames(std::move(header), std::move(frames)) {}
   Result<Frame> read(std::size_t position) const override {
     ++reads;
     if (on_read) on_read(position);
     if (position == broken) return fail(ErrorCode::kFormat, "frame {} is broken", position);
-    return data_[position];
+    return MemoryFrames::read(position);
   }
 
   std::size_t broken = ~std::size_t(0);
   std::function<void(std::size_t)> on_read;
   mutable std::atomic<int> reads{0};
-
- private:
-  SequenceHeader header_;
-  std::vector<Frame> data_;
-  std::vector<FrameInfo> infos_;
 };
 
 }  // namespace turnscan::testing

@@ -5,18 +5,18 @@
 #include <numbers>
 #include <turnscan/recording/summary.hpp>
 
-#include "tests/io/temp_folder.hpp"
 #include "tests/recording/sequences.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {
 
 using testing::color_image;
+using testing::CountingFrames;
 using testing::depth_frame;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::MemorySequence;
 using testing::scan_frame;
 using testing::scanner_header;
 using testing::small_header;
@@ -42,7 +42,7 @@ TEST(Summary, CountsFramesAndSpans) {
   data[40].info.status = FrameStatus::kDropped;
   data[39].info.pass = 1;
   for (Frame& frame : data) frame.color = color_image(0);
-  const SequenceSummary s = summary_of(MemorySequence(header, data));
+  const SequenceSummary s = summary_of(CountingFrames(header, data));
   EXPECT_EQ(s.frames, 41u);
   EXPECT_EQ(s.dropped, 1u);
   EXPECT_EQ(s.passes, 2u);
@@ -66,26 +66,26 @@ TEST(Summary, TimesWithoutSpeedAreMissingSomething) {
   header.turntable = table();
   std::vector<Frame> data = frames(3);
   for (Frame& frame : data) frame.info.angle_rad.reset();
-  EXPECT_THAT(summary_of(MemorySequence(header, data)).missing,
+  EXPECT_THAT(summary_of(CountingFrames(header, data)).missing,
               ElementsAre(HasSubstr("3 of 3 frames have times, but the turntable's speed")));
   header.turntable->speed_rad_s = 0.5;
-  const SequenceSummary s = summary_of(MemorySequence(header, data));
+  const SequenceSummary s = summary_of(CountingFrames(header, data));
   EXPECT_THAT(s.missing, IsEmpty());
   EXPECT_NEAR(*s.turns, 0.5 * 2 / 30.0 / (2 * std::numbers::pi), 1e-12);
 }
 
 TEST(Summary, AnglesWithoutTableAreMissingSomething) {
   SequenceHeader header = small_header();
-  EXPECT_THAT(summary_of(MemorySequence(header, frames(3))).missing,
+  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).missing,
               ElementsAre(HasSubstr("axis and centre")));
   header.sensors[0].T_table_sensor = Pose::Identity();
-  EXPECT_THAT(summary_of(MemorySequence(header, frames(3))).missing, IsEmpty());
+  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).missing, IsEmpty());
 }
 
 TEST(Summary, PosesNeedNoTable) {
   std::vector<Frame> data{scan_frame(0), scan_frame(1)};
   for (Frame& frame : data) frame.info.T_table_sensor = Pose::Identity();
-  const SequenceSummary s = summary_of(MemorySequence(scanner_header(), data));
+  const SequenceSummary s = summary_of(CountingFrames(scanner_header(), data));
   EXPECT_THAT(s.missing, IsEmpty());
   EXPECT_EQ(s.sensors[0].points_per_frame, 3u);
   EXPECT_NEAR(s.sensors[0].valid_share, 0.75, 1e-12);
@@ -93,23 +93,23 @@ TEST(Summary, PosesNeedNoTable) {
 
 TEST(Summary, FramesWithoutAnythingAreMissingSomething) {
   const SequenceSummary s =
-      summary_of(MemorySequence(scanner_header(), {scan_frame(0), scan_frame(1)}));
+      summary_of(CountingFrames(scanner_header(), {scan_frame(0), scan_frame(1)}));
   EXPECT_THAT(s.missing,
               ElementsAre(HasSubstr("2 of 2 frames have neither"), HasSubstr("axis and centre")));
-  EXPECT_THAT(summary_of(MemorySequence(small_header(), {})).missing,
+  EXPECT_THAT(summary_of(CountingFrames(small_header(), {})).missing,
               ElementsAre(HasSubstr("no frame")));
 }
 
 TEST(Summary, LinesOfTheSourceAfterTheFirstAreNotes) {
   SequenceHeader header = small_header();
   header.source = "somewhere\nassumed this\nassumed that";
-  const SequenceSummary s = summary_of(MemorySequence(header, frames(1)));
+  const SequenceSummary s = summary_of(CountingFrames(header, frames(1)));
   EXPECT_EQ(s.source, "somewhere");
   EXPECT_THAT(s.notes, ElementsAre("assumed this", "assumed that"));
 }
 
 TEST(Summary, FrameThatCannotBeReadIsANote) {
-  MemorySequence sequence(small_header(), frames(3));
+  CountingFrames sequence(small_header(), frames(3));
   sequence.broken = 1;
   const SequenceSummary s = summary_of(sequence);
   EXPECT_THAT(s.notes, ElementsAre(HasSubstr("frame 1 is broken")));
@@ -119,14 +119,14 @@ TEST(Summary, FrameThatCannotBeReadIsANote) {
 TEST(Summary, CancelIsReported) {
   const RunContext context;
   context.cancel();
-  const auto summary = summarize(MemorySequence(small_header(), frames(3)), context);
+  const auto summary = summarize(CountingFrames(small_header(), frames(3)), context);
   ASSERT_FALSE(summary);
   EXPECT_EQ(summary.error().code, ErrorCode::kCancelled);
 }
 
 TEST(Summary, NotesOfARecordingAreTold) {
   const testing::TempFolder temp;
-  ASSERT_TRUE(write_recording(temp / "r", MemorySequence(small_header(), frames(3)), RunContext()));
+  ASSERT_TRUE(write_recording(temp / "r", CountingFrames(small_header(), frames(3)), RunContext()));
   std::filesystem::remove(temp / "r/depth/000001.png");
   const auto recording = Recording::open(temp / "r");
   ASSERT_TRUE(recording);
@@ -140,7 +140,7 @@ TEST(Summary, TextAndJsonSayTheSame) {
   SequenceHeader header = small_header();
   header.turntable = table();
   header.source = "somewhere\nassumed this";
-  const SequenceSummary s = summary_of(MemorySequence(header, frames(4)));
+  const SequenceSummary s = summary_of(CountingFrames(header, frames(4)));
   const std::string text = summary_text(s);
   EXPECT_THAT(text, HasSubstr("frames:      4, 0 dropped, 1 pass\n"));
   EXPECT_THAT(text, HasSubstr("placed by:   angle, time\n"));

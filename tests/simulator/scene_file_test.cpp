@@ -1,14 +1,13 @@
+#include <turnscan/core/angles.hpp>
 #include <turnscan/simulator/scene_file.hpp>
 
-#include "tests/io/temp_folder.hpp"
 #include "tests/simulator/shapes.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {
 
 using testing::TempFolder;
-
-constexpr double kDegree = test::kPi / 180.0;
 
 SceneDescription scene_of(const TempFolder& folder, const std::string& text) {
   SceneDescription scene;
@@ -69,15 +68,15 @@ angles = false
   EXPECT_EQ(scene.object, (folder / "figure.obj").string());
   EXPECT_EQ(scene.unit, "mm");
   EXPECT_EQ(scene.object_placement.height_m, 0.25);
-  EXPECT_NEAR(scene.object_placement.tip_rad, 90 * kDegree, 1e-12);
+  EXPECT_NEAR(scene.object_placement.tip_rad, 90 * kRadiansPerDegree, 1e-12);
   EXPECT_EQ(scene.placement.distance_m, 0.8);
   ASSERT_EQ(scene.scanners.size(), 2u);
   EXPECT_EQ(scene.scanners[0].model, "kinect-v2");
   EXPECT_EQ(scene.scanners[1].model, (folder / "own/line.toml").string());
   EXPECT_EQ(scene.motion.frames, 100);
-  EXPECT_NEAR(*scene.motion.speed_rad_s, -10 * kDegree, 1e-12);
+  EXPECT_NEAR(*scene.motion.speed_rad_s, -10 * kRadiansPerDegree, 1e-12);
   EXPECT_EQ(scene.platter.radius_m, 0.2);
-  EXPECT_NEAR(scene.table.tilt_rad, kDegree, 1e-12);
+  EXPECT_NEAR(scene.table.tilt_rad, kRadiansPerDegree, 1e-12);
   EXPECT_EQ(scene.room.kind, RoomKind::kWall);
   EXPECT_EQ(scene.measure.noise, "model");
   EXPECT_EQ(scene.measure.seed, 7);
@@ -96,6 +95,16 @@ TEST(SceneFile, ReadsWhatItWrites) {
   EXPECT_EQ(scene_toml(scene_of(folder, text)), text);
   EXPECT_NE(text.find("ripple = \"0.01\""), std::string::npos);
   EXPECT_NE(text.find("file = \"builtin:doll\""), std::string::npos);
+}
+
+TEST(SceneFile, ReadsATextAsItReadsAFile) {
+  SceneDescription scene;
+  ASSERT_TRUE(parse_scene("[object]\nfile = 'own.obj'\n", "/scenes/one.toml", scene));
+  EXPECT_EQ(scene.object, "/scenes/own.obj");
+  const auto refused = parse_scene("\n[objects]\n", "/scenes/one.toml", scene);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text().find("one.toml:2: 'objects'"), std::string::npos);
+  EXPECT_FALSE(parse_scene("[object\n", "/scenes/one.toml", scene));
 }
 
 TEST(SceneFile, WritesPathsThatHoldAnywhere) {
@@ -144,7 +153,7 @@ TEST(ScanOptions, GivesEachScannerTheCommonPlaceAndItsOwn) {
   const auto options = scan_options(scene);
   ASSERT_TRUE(options) << options.error().text();
   EXPECT_EQ(options->scanners[0].placement.roll_rad, 0.1);
-  EXPECT_NEAR(options->scanners[1].placement.roll_rad, 90 * kDegree, 1e-12);
+  EXPECT_NEAR(options->scanners[1].placement.roll_rad, 90 * kRadiansPerDegree, 1e-12);
   EXPECT_EQ(options->scanners[1].placement.distance_m, 0.7);
   EXPECT_EQ(options->scanners[1].model.kind, ScannerKind::kLine);
   scene.scanners.clear();
@@ -162,7 +171,7 @@ TEST(PassEntry, ChangesHowTheObjectLiesAndKeepsTheRest) {
   ASSERT_TRUE(placements) << placements.error().text();
   ASSERT_EQ(placements->size(), 3u);
   EXPECT_EQ((*placements)[0].tip_rad, 0.0);
-  EXPECT_NEAR((*placements)[1].tip_rad, 90 * kDegree, 1e-12);
+  EXPECT_NEAR((*placements)[1].tip_rad, 90 * kRadiansPerDegree, 1e-12);
   EXPECT_EQ((*placements)[1].yaw_rad, 0.3);
   EXPECT_EQ((*placements)[2].yaw_rad, 0.0);
   EXPECT_EQ((*placements)[2].height_m, 0.2);

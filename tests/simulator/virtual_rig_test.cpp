@@ -1,7 +1,8 @@
 // What a virtual scan does beyond one camera before one object: several scanners, line scanners,
 // the room, a turntable that is not where it was meant to be.
 
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
 #include "tests/simulator/scans.hpp"
 #include "tests/simulator/shapes.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 using test::scan_of;
 
-constexpr double kDegree = test::kPi / 180.0;
 constexpr double kUnit = 1e-4;
 const Vec3d kLow(0.01, 0.0, -0.05), kHigh(0.06, 0.1, 0.03);
 
@@ -30,7 +30,7 @@ VirtualScanner line_scanner() {
   p.name = "line";
   p.kind = ScannerKind::kLine;
   p.rows = 300;
-  p.fov_y_rad = 20.0 * kDegree;
+  p.fov_y_rad = 20.0 * kRadiansPerDegree;
   p.near_m = 0.2;
   p.far_m = 1.5;
   VirtualScanner scanner{*scanner_model(p), {}};
@@ -86,28 +86,28 @@ Pose recorded_pose(const VirtualScan& scan, std::size_t i) {
 TEST(VirtualRig, PutsThePointsOnTheTruthWhateverTheRig) {
   VirtualScanOptions o = clean();
   o.scanners.push_back(o.scanners[0]);
-  o.scanners[0].placement.azimuth_rad = 40.0 * kDegree;
-  o.scanners[0].placement.roll_rad = 10.0 * kDegree;
-  o.scanners[1].placement.azimuth_rad = 200.0 * kDegree;
+  o.scanners[0].placement.azimuth_rad = 40.0 * kRadiansPerDegree;
+  o.scanners[0].placement.roll_rad = 10.0 * kRadiansPerDegree;
+  o.scanners[1].placement.azimuth_rad = 200.0 * kRadiansPerDegree;
   o.scanners[1].placement.travel_m = 0.2;
   o.scanners.push_back(line_scanner());
-  o.table = {0.02, 0.01, -0.015, 3.0 * kDegree, 1.0};
+  o.table = {0.02, 0.01, -0.015, 3.0 * kRadiansPerDegree, 1.0};
   o.motion.frames = 12;
   o.motion.turns = -1.3;
   o.motion.ripple = 0.05;
   o.motion.start_ramp_s = 0.1;
-  o.motion.wobble_rad = 0.5 * kDegree;
+  o.motion.wobble_rad = 0.5 * kRadiansPerDegree;
   o.motion.dropped = 0.2;
   expect_points_on_truth(scan_of({box()}, o));
 }
 
 TEST(VirtualRig, RecordsThePosesThatAreTrue) {
   VirtualScanOptions o = clean();
-  o.scanners[0].placement.azimuth_rad = -70.0 * kDegree;
+  o.scanners[0].placement.azimuth_rad = -70.0 * kRadiansPerDegree;
   o.scanners.push_back(line_scanner());
   o.scanners[1].placement.travel_m = 0.1;
   o.scanners[1].placement.travel_along = TravelAlong::kAcross;
-  o.table = {0.0, 0.01, 0.02, 2.0 * kDegree, 0.3};
+  o.table = {0.0, 0.01, 0.02, 2.0 * kRadiansPerDegree, 0.3};
   const VirtualScan scan = scan_of({box()}, o);
   for (std::size_t i = 0; i < scan.frames().size(); ++i)
     EXPECT_TRUE(recorded_pose(scan, i).isApprox(scan.T_table_sensor(i), 1e-12)) << i;
@@ -115,8 +115,8 @@ TEST(VirtualRig, RecordsThePosesThatAreTrue) {
 
 TEST(VirtualRig, HasATableFrameThatAxisAndCentreGive) {
   VirtualScanOptions o = clean();
-  o.scanners[0].placement.azimuth_rad = 100.0 * kDegree;
-  o.table = {0.03, 0.01, 0.02, 4.0 * kDegree, 2.0};
+  o.scanners[0].placement.azimuth_rad = 100.0 * kRadiansPerDegree;
+  o.table = {0.03, 0.01, 0.02, 4.0 * kRadiansPerDegree, 2.0};
   const VirtualScan scan = scan_of({box()}, o);
   const TurntableInfo& table = *scan.header().turntable;
   const Vec3d y = table.axis, x = y.cross(table.center_m).normalized(), z = x.cross(y);
@@ -129,7 +129,7 @@ TEST(VirtualRig, HasATableFrameThatAxisAndCentreGive) {
 
 TEST(VirtualRig, TurnsTheTruthWithTheTableFrame) {
   VirtualScanOptions o = clean();
-  o.scanners[0].placement.azimuth_rad = 90.0 * kDegree;
+  o.scanners[0].placement.azimuth_rad = 90.0 * kRadiansPerDegree;
   const VirtualScan scan = scan_of({box()}, o);
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_NEAR((scan.objects()[0].vertices[i].cast<double>() -
@@ -185,7 +185,7 @@ TEST(VirtualRig, GivesTheSectionThatALineScannerLightsUp) {
 TEST(VirtualRig, TurnsTheLineWhenTheScannerIsRolled) {
   VirtualScanOptions o = clean();
   o.scanners = {line_scanner()};
-  o.scanners[0].placement.roll_rad = 90.0 * kDegree;
+  o.scanners[0].placement.roll_rad = 90.0 * kRadiansPerDegree;
   const VirtualScan scan = scan_of({box()}, o);
   const std::vector<Vec3d> points = points_of(scan, 0);
   ASSERT_GT(points.size(), 50u);
@@ -276,13 +276,13 @@ TEST(VirtualRig, ShowsThePlattersSide) {
 
 TEST(VirtualRig, LeavesOutOrBendsTheCalibrationOnRequest) {
   VirtualScanOptions o = clean();
-  o.table = {0.02, 0.01, 0.0, 3.0 * kDegree, 0.5};
+  o.table = {0.02, 0.01, 0.0, 3.0 * kRadiansPerDegree, 0.5};
   const VirtualScan truth = scan_of({box()}, o);
   o.record.calibration = RecordedCalibration::kNominal;
   const VirtualScan nominal = scan_of({box()}, o);
   EXPECT_TRUE(nominal.turntable().axis.isApprox(truth.turntable().axis));
   const double lean = std::acos(nominal.header().turntable->axis.dot(truth.turntable().axis));
-  EXPECT_NEAR(lean, 3.0 * kDegree, 1e-9);
+  EXPECT_NEAR(lean, 3.0 * kRadiansPerDegree, 1e-9);
   EXPECT_EQ(nominal.read(3)->depth.pixels, truth.read(3)->depth.pixels);
   o.record.calibration = RecordedCalibration::kNone;
   o.record.angles = false;

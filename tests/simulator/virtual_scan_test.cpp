@@ -1,6 +1,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
 #include "tests/simulator/scans.hpp"
@@ -12,11 +12,11 @@ namespace {
 using test::kPi;
 using test::scan_of;
 
-constexpr double kUnit = 1e-4;
+constexpr double kDepthUnit = 1e-4;
 // Half a step of the depth image, and what float32 rays lose.
-constexpr double kRounding = 0.5 * kUnit + 1e-6;
+constexpr double kRounding = 0.5 * kDepthUnit + 1e-6;
 
-VirtualScanOptions clean() {
+VirtualScanOptions noiseless() {
   VirtualScanOptions o = test::plain_scan();
   o.measure.noise = "none";
   o.measure.mixed_pixels = 0.0;
@@ -43,7 +43,7 @@ void for_each_pixel(const VirtualScan& scan, std::size_t position, const Body& b
   for (int y = 0; y < depth.height; ++y) {
     for (int x = 0; x < depth.width; ++x) {
       const Vec3d direction = T.linear() * camera_of(scan).ray(x, y);
-      body(x, y, Vec3d(T.translation()), direction, depth.at(x, y) * kUnit);
+      body(x, y, Vec3d(T.translation()), direction, depth.at(x, y) * kDepthUnit);
     }
   }
 }
@@ -57,7 +57,7 @@ double nearest_root(double a, double b, double c, double& margin) {
 }
 
 TEST(VirtualScan, TellsTheTruthOfEverySampleThatItRecords) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.measure.noise = "gaussian:2mm";
   o.platter.visible = true;
   const double radius = 0.06;
@@ -77,7 +77,7 @@ TEST(VirtualScan, TellsTheTruthOfEverySampleThatItRecords) {
           continue;
         }
         const std::size_t i = exact.index(x, y);
-        ASSERT_NEAR(depth.at(x, y) * kUnit, truth->measured.z[i], kRounding);
+        ASSERT_NEAR(depth.at(x, y) * kDepthUnit, truth->measured.z[i], kRounding);
         ASSERT_EQ(depth.at(x, y) != kNoReturn, truth->measured.miss[i] == Miss::kNone);
         if (!exact.hit(i)) continue;
         const SampleHit& hit = truth->hits[i];
@@ -99,7 +99,7 @@ TEST(VirtualScan, TellsTheTruthOfEverySampleThatItRecords) {
 }
 
 TEST(VirtualScan, SeesThePlatterAsThePlaneItIs) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.platter.visible = true;
   const VirtualScan scan = scan_of({}, o);
   std::size_t seen = 0;
@@ -119,7 +119,7 @@ TEST(VirtualScan, SeesThePlatterAsThePlaneItIs) {
 
 TEST(VirtualScan, SeesASphereWhereAlgebraSays) {
   const Vec3d centre(0.02, 0.09, 0.01);
-  const VirtualScan scan = scan_of({test::sphere_mesh(centre, 0.06, 500)}, clean());
+  const VirtualScan scan = scan_of({test::sphere_mesh(centre, 0.06, 500)}, noiseless());
   std::size_t seen = 0;
   for_each_pixel(scan, 5, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
     const Vec3d o = eye - centre;
@@ -137,7 +137,7 @@ TEST(VirtualScan, SeesASphereWhereAlgebraSays) {
 }
 
 TEST(VirtualScan, SeesTheCylinderWhereAlgebraSays) {
-  const VirtualScan scan = scan_of({*builtin_object("cylinder")}, clean());
+  const VirtualScan scan = scan_of({*builtin_object("cylinder")}, noiseless());
   std::size_t walls = 0, top = 0;
   for_each_pixel(scan, 2, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
     if (depth == 0.0) return;
@@ -157,7 +157,7 @@ TEST(VirtualScan, SeesTheCylinderWhereAlgebraSays) {
 }
 
 void expect_box_seen(const Vec3d& low, const Vec3d& high) {
-  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, clean());
+  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, noiseless());
   for (std::size_t i = 0; i < scan.frames().size(); ++i) {
     for_each_pixel(scan, i, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
       // Where the ray enters and leaves the three slabs (Kay and Kajiya 1986).
@@ -181,7 +181,7 @@ TEST(VirtualScan, SeesWhatReachesBeyondTheCamera) {
 }
 
 TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.platter.visible = true;
   o.scanners[0].placement.distance_m = 0.3;
   o.scanners[0].placement.aim_height_m = 0.0;
@@ -200,13 +200,13 @@ TEST(VirtualScan, FollowsTheDistortionOfItsLens) {
 
 TEST(VirtualScan, TurnsTheObjectCounterClockwiseSeenFromAbove) {
   // A post on the +X side comes to -Z, before the camera, after a quarter of a turn.
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.motion.frames = 4;
   const VirtualScan scan = scan_of({test::box_mesh({0.09, 0, -0.01}, {0.11, 0.18, 0.01})}, o);
   const auto nearest = [&](std::size_t position) {
     double z = 10.0;
     for (const auto raw : depth_of(scan, position).pixels)
-      if (raw != kNoReturn) z = std::min(z, raw * kUnit);
+      if (raw != kNoReturn) z = std::min(z, raw * kDepthUnit);
     return z;
   };
   EXPECT_NEAR(nearest(1), 0.9 - 0.11 * std::cos(o.scanners[0].placement.elevation_rad), 0.03);
@@ -219,7 +219,7 @@ TEST(VirtualScan, TurnsTheObjectCounterClockwiseSeenFromAbove) {
 
 TEST(VirtualScan, PutsThePointsOfAllFramesOnTheObjectAtAngleZero) {
   const Vec3d low(0.02, 0.0, -0.05), high(0.06, 0.1, 0.03);
-  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, clean());
+  const VirtualScan scan = scan_of({test::box_mesh(low, high)}, noiseless());
   for (std::size_t i = 0; i < scan.frames().size(); ++i) {
     for_each_pixel(scan, i, [&](int, int, const Vec3d& eye, const Vec3d& way, double depth) {
       if (depth == 0.0) return;
@@ -231,7 +231,7 @@ TEST(VirtualScan, PutsThePointsOfAllFramesOnTheObjectAtAngleZero) {
 }
 
 TEST(VirtualScan, SaysWhereItsTurntableIs) {
-  const VirtualScan scan = scan_of({}, clean());
+  const VirtualScan scan = scan_of({}, noiseless());
   const SensorInfo& sensor = scan.header().sensors.at(0);
   const TurntableInfo& table = *scan.header().turntable;
   // Thesis eq. 3.10 read as rows: the table's axes in the sensor's frame.
@@ -243,11 +243,11 @@ TEST(VirtualScan, SaysWhereItsTurntableIs) {
   EXPECT_NEAR(T.linear().determinant(), 1.0, 1e-12);
   EXPECT_NEAR((T.translation() - Vec3d(0, 0.09, 0)).norm(), 0.9, 1e-12);
   EXPECT_DOUBLE_EQ(*table.radius_m, 0.15);
-  EXPECT_DOUBLE_EQ(sensor.depth_unit_m, kUnit);
+  EXPECT_DOUBLE_EQ(sensor.depth_unit_m, kDepthUnit);
 }
 
 TEST(VirtualScan, SpreadsFramesOverTheTurns) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.motion.frames = 920;
   o.motion.turns = 2.0;
   const VirtualScan scan = scan_of({}, o);
@@ -260,7 +260,7 @@ TEST(VirtualScan, SpreadsFramesOverTheTurns) {
 }
 
 TEST(VirtualScan, TakesTheAngleFromSpeedAndFrameRateWhenTheyAreGiven) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.motion.frames = 920;
   ASSERT_TRUE(describe(o.motion).set("speed", "10.4478deg/s"));
   const VirtualScan scan = scan_of({}, o);
@@ -285,7 +285,7 @@ TEST(VirtualScan, GivesTheSameBytesInAnyOrderOnAnyThread) {
 }
 
 TEST(VirtualScan, ChangesItsNoiseWithTheSeed) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.platter.visible = true;
   o.measure.noise = "gaussian:1mm";
   const DepthImage one = depth_of(scan_of({}, o), 0);
@@ -295,7 +295,7 @@ TEST(VirtualScan, ChangesItsNoiseWithTheSeed) {
 
 /// Noise of each pixel of the platter in units of sigma, frame by frame.
 std::vector<std::vector<double>> residuals(double sigma, int frames) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.platter.visible = true;
   o.motion.frames = frames;
   const VirtualScan truth = scan_of({}, o);
@@ -306,7 +306,7 @@ std::vector<std::vector<double>> residuals(double sigma, int frames) {
     const DepthImage a = depth_of(truth, i), b = depth_of(noisy, i);
     for (std::size_t k = 0; k < a.pixels.size(); ++k)
       if (a.pixels[k] != kNoReturn)
-        out[i].push_back((double(b.pixels[k]) - double(a.pixels[k])) * kUnit / sigma);
+        out[i].push_back((double(b.pixels[k]) - double(a.pixels[k])) * kDepthUnit / sigma);
   }
   return out;
 }
@@ -326,7 +326,7 @@ TEST(GaussianNoise, HasItsMeanAndSigmaAndTails) {
   ASSERT_GT(n, 90000u);
   const double mean = sum / double(n);
   // Both images are rounded: two uniform errors of one step.
-  const double rounding = 2.0 / 12.0 * (kUnit / sigma) * (kUnit / sigma);
+  const double rounding = 2.0 / 12.0 * (kDepthUnit / sigma) * (kDepthUnit / sigma);
   EXPECT_LT(std::abs(mean), test::mean_bound(1.0, n));
   EXPECT_NEAR(squares / double(n), 1.0 + rounding, test::mean_bound(std::sqrt(2.0), n));
   // P(|x| > 2) = 0.0455; the steps of the image blur the limit by a thirtieth of sigma.
@@ -352,7 +352,7 @@ double step_behind(const DepthImage& depth, int x, int y) {
   for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
     const int raw = depth.at(x + dx, y + dy);
     if (raw == kNoReturn) return std::numeric_limits<double>::infinity();
-    step = std::max(step, (raw - int(depth.at(x, y))) * kUnit);
+    step = std::max(step, (raw - int(depth.at(x, y))) * kDepthUnit);
   }
   return step;
 }
@@ -365,7 +365,7 @@ struct MixedCount {
 
 /// Two objects behind each other, so that there are silhouettes before both kinds of background.
 MixedCount count_mixed(double share, int frames) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.motion.frames = frames;
   const std::vector<TriangleMesh> meshes{test::box_mesh({-0.02, 0, -0.08}, {0.02, 0.1, -0.06}),
                                          test::box_mesh({-0.1, 0, 0}, {0.1, 0.2, 0.02})};
@@ -382,15 +382,15 @@ MixedCount count_mixed(double share, int frames) {
           continue;
         }
         const double step = step_behind(a, x, y);
-        if (std::abs(step - kSilhouetteStep_m) < 2.0 * kUnit) continue;
-        const double moved = (int(b.at(x, y)) - int(a.at(x, y))) * kUnit;
+        if (std::abs(step - kSilhouetteStep_m) < 2.0 * kDepthUnit) continue;
+        const double moved = (int(b.at(x, y)) - int(a.at(x, y))) * kDepthUnit;
         const double reach = std::min(o.measure.mixed_reach_m, step);
         if (step < kSilhouetteStep_m) {
           count.elsewhere += moved != 0.0 ? 1 : 0;
           continue;
         }
         ++count.silhouette;
-        count.beyond_reach += moved < 0.0 || moved > reach + 2.0 * kUnit ? 1 : 0;
+        count.beyond_reach += moved < 0.0 || moved > reach + 2.0 * kDepthUnit ? 1 : 0;
         if (moved == 0.0) continue;
         ++count.mixed;
         count.part_sum += moved / reach;
@@ -423,7 +423,7 @@ TEST(MixedPixels, LieUniformlyBetweenTheEdgeAndTheReach) {
 }
 
 TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.platter.visible = true;
   o.scanners[0].placement.aim_height_m = 0.0;
   o.scanners[0].placement.elevation_rad =
@@ -443,7 +443,7 @@ TEST(MixedPixels, LeaveTheSlantOfThePlatterAlone) {
 }
 
 TEST(VirtualScan, ColoursThePixelsThatSeeSomething) {
-  VirtualScanOptions o = clean();
+  VirtualScanOptions o = noiseless();
   o.record.color = true;
   TriangleMesh box = test::box_mesh({-0.05, 0, -0.05}, {0.05, 0.1, 0.05});
   box.colors.assign(8, Rgb{200, 0, 0});
@@ -457,17 +457,17 @@ TEST(VirtualScan, ColoursThePixelsThatSeeSomething) {
 }
 
 TEST(VirtualScan, IsEmptyWhenThereIsNothingToSee) {
-  const VirtualScan scan = scan_of({TriangleMesh()}, clean());
+  const VirtualScan scan = scan_of({TriangleMesh()}, noiseless());
   for (const auto raw : depth_of(scan, 0).pixels) ASSERT_EQ(raw, kNoReturn);
 }
 
 TEST(VirtualScan, WorksFromInsideAnObject) {
-  const VirtualScan scan = scan_of({test::sphere_mesh(Vec3d::Zero(), 2.0, 60)}, clean());
+  const VirtualScan scan = scan_of({test::sphere_mesh(Vec3d::Zero(), 2.0, 60)}, noiseless());
   for (const auto raw : depth_of(scan, 0).pixels) ASSERT_NE(raw, kNoReturn);
 }
 
 TEST(VirtualScan, FailsForAFrameThatIsNotThere) {
-  const VirtualScan scan = scan_of({}, clean());
+  const VirtualScan scan = scan_of({}, noiseless());
   EXPECT_EQ(scan.read(8).error().code, ErrorCode::kNotFound);
 }
 

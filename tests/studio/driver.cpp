@@ -15,11 +15,11 @@
 #include <cstdio>
 #include <ctime>
 
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "mode.hpp"
-#include "scene_view.hpp"
-#include "section.hpp"
+#include "app/jobs.hpp"
+#include "app/mode.hpp"
+#include "view/scene_view.hpp"
+#include "widgets/section.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 

@@ -1,4 +1,4 @@
-#include "explorer.hpp"
+#include "explorer/explorer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,17 +14,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
-#include <turnscan/io/cloud_io.hpp>
-#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer_tools.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "model_list.hpp"
-#include "scene_view.hpp"
+#include "explorer/model_list.hpp"
+#include "explorer/tool_panel.hpp"
+#include "view/scene_view.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {
@@ -99,6 +99,16 @@ PointCloud ball_of(std::size_t n) {
   return cloud;
 }
 
+void turn_by_dragging(QWidget* canvas, const QPoint& from) {
+  QTest::mousePress(canvas, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 40; ++i) {
+    QMouseEvent move(QEvent::MouseMove, from + QPoint(4 * i, i), Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(canvas, &move);
+    run_for(15);
+  }
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(160, 40));
+}
+
 TEST_F(Explorer, TurnsAndFiltersALargeCloudWithoutFreezing) {
   // As many as the suite can wait for, and more than are drawn while the view turns.
   const char* wanted = std::getenv("TURNSCAN_STUDIO_POINTS");
@@ -124,13 +134,7 @@ TEST_F(Explorer, TurnsAndFiltersALargeCloudWithoutFreezing) {
   ASSERT_NE(canvas, nullptr);
   const QPoint from = canvas->rect().center();
   watch.reset();
-  QTest::mousePress(canvas, Qt::LeftButton, {}, from);
-  for (int i = 1; i <= 40; ++i) {
-    QMouseEvent move(QEvent::MouseMove, from + QPoint(4 * i, i), Qt::NoButton, Qt::LeftButton, {});
-    QApplication::sendEvent(canvas, &move);
-    run_for(15);
-  }
-  QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(160, 40));
+  turn_by_dragging(canvas, from);
   note("moving");
   EXPECT_LE(view.points_while_moving(), 200000u);
   ASSERT_TRUE(wait_for([&] { return view.settled(); }, 300));
@@ -145,73 +149,98 @@ TEST_F(Explorer, TurnsAndFiltersALargeCloudWithoutFreezing) {
   keep_picture(window, "explorer-cloud");
 }
 
-TEST_F(Explorer, MeasuresCutsLassosComparesAndUndoesEverything) {
-  TriangleMesh mesh = *builtin_object("cylinder");
-  ASSERT_TRUE(write_mesh(path("cylinder.ply").toStdString(), mesh));
-  for (Vec3f& p : mesh.vertices) p.x() *= 1.01f;
-  ASSERT_TRUE(write_mesh(path("wide.ply").toStdString(), mesh));
-  window.open(path("cylinder.ply"));
-  window.open(path("wide.ply"));
-  ASSERT_TRUE(wait_idle(window));
-  ModelStore& store = window.explorer().store();
-  ASSERT_EQ(store.models().size(), 2u);
-  SceneView& view = window.mode().view();
-  view.look(StandardView::kFront);
-  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
-
-  // The cylinder is 160 mm high: two points on its front, 100 mm apart.
-  ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
-  for (const double height : {0.030, 0.130}) {
-    const auto at = view.project(Vec3d(0.0, height, 0.040));
-    ASSERT_TRUE(at.has_value());
-    QTest::mouseClick(view.childAt(at->toPoint()), Qt::LeftButton, {}, at->toPoint());
+/// Two cylinders, the second a little wider along x, seen from the front.
+class TwoCylinders : public Explorer {
+ protected:
+  TwoCylinders() : store(window.explorer().store()), view(window.mode().view()) {
+    TriangleMesh mesh = *builtin_object("cylinder");
+    EXPECT_TRUE(write_mesh(path("cylinder.ply").toStdString(), mesh));
+    for (Vec3f& p : mesh.vertices) p.x() *= 1.01f;
+    EXPECT_TRUE(write_mesh(path("wide.ply").toStdString(), mesh));
+    window.open(path("cylinder.ply"));
+    window.open(path("wide.ply"));
+    EXPECT_TRUE(wait_idle(window));
+    EXPECT_EQ(store.models().size(), 2u);
+    view.look(StandardView::kFront);
+    EXPECT_TRUE(wait_for([&] { return view.settled(); }));
   }
-  ASSERT_TRUE(window.explorer().tools().measured_m().has_value());
-  EXPECT_NEAR(*window.explorer().tools().measured_m(), 0.100, 0.0015);
-  keep_picture(window, "explorer-measure");
-  ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
 
-  ASSERT_TRUE(click(button_with(window.explorer(), "Distances")));
-  ASSERT_TRUE(wait_idle(window));
-  ASSERT_EQ(store.models().size(), 3u);
-  keep_picture(window, "explorer-distances");
-  ASSERT_EQ(run_command_line({"evaluate", path("wide.ply"), "--reference", path("cylinder.ply"),
-                              "--error-map", path("cli.ply")}),
-            0);
-  window.explorer().save_as(3, path("studio.ply"));
-  ASSERT_TRUE(wait_idle(window));
-  EXPECT_TRUE(content(path("studio.ply")) == content(path("cli.ply")));
-
-  ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
-  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
-  keep_picture(window, "explorer-side-by-side");
-  ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
-
-  window.explorer().list().select(1);
-  ASSERT_TRUE(click(button_with(window.explorer(), "Cut")));
-  ASSERT_TRUE(click(in_panel("plane_cut")));
-  ASSERT_TRUE(wait_idle(window));
-  ASSERT_EQ(store.models().size(), 4u);
-  EXPECT_NEAR(bounds(store.models().back().data->mesh.vertices).min.y(), 0.080, 1e-4);
-
-  ASSERT_TRUE(click(button_with(window.explorer(), "Lasso")));
-  const std::size_t before = store.models().back().data->mesh.triangles.size();
-  const auto corner = view.project(Vec3d(-0.06, 0.18, 0.0)),
-             end = view.project(Vec3d(0.06, 0.15, 0.0));
-  ASSERT_TRUE(corner && end);
-  QWidget* canvas = view.childAt(view.rect().center());
-  const QPoint outline[] = {corner->toPoint(), QPoint(int(end->x()), int(corner->y())),
-                            end->toPoint(), QPoint(int(corner->x()), int(end->y()))};
-  QTest::mousePress(canvas, Qt::LeftButton, {}, outline[0]);
-  for (const QPoint& at : outline) {
-    QMouseEvent move(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, {});
-    QApplication::sendEvent(canvas, &move);
+  /// The cylinder is 160 mm high: two points on its front, 100 mm apart.
+  void measure() {
+    ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
+    for (const double height : {0.030, 0.130}) {
+      const auto at = view.project(Vec3d(0.0, height, 0.040));
+      ASSERT_TRUE(at.has_value());
+      QTest::mouseClick(view.childAt(at->toPoint()), Qt::LeftButton, {}, at->toPoint());
+    }
+    ASSERT_TRUE(window.explorer().tools().measured_m().has_value());
+    EXPECT_NEAR(*window.explorer().tools().measured_m(), 0.100, 0.0015);
+    keep_picture(window, "explorer-measure");
+    ASSERT_TRUE(click(button_with(window.explorer(), "Measure")));
   }
-  QTest::mouseRelease(canvas, Qt::LeftButton, {}, outline[3]);
-  ASSERT_TRUE(wait_idle(window));
-  EXPECT_LT(store.models().back().data->mesh.triangles.size(), before);
-  keep_picture(window, "explorer-lasso");
 
+  /// To the bytes of the command line.
+  void compare_distances() {
+    ASSERT_TRUE(click(button_with(window.explorer(), "Distances")));
+    ASSERT_TRUE(wait_idle(window));
+    ASSERT_EQ(store.models().size(), 3u);
+    keep_picture(window, "explorer-distances");
+    ASSERT_EQ(run_command_line({"evaluate", path("wide.ply"), "--reference", path("cylinder.ply"),
+                                "--error-map", path("cli.ply")}),
+              0);
+    window.explorer().save_as(3, path("studio.ply"));
+    ASSERT_TRUE(wait_idle(window));
+    EXPECT_TRUE(content(path("studio.ply")) == content(path("cli.ply")));
+  }
+
+  void compare_side_by_side() {
+    ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
+    ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+    keep_picture(window, "explorer-side-by-side");
+    ASSERT_TRUE(click(button_with(window.explorer(), "Side by side")));
+  }
+
+  /// The first one at half its height.
+  void cut_in_half() {
+    window.explorer().list().select(1);
+    ASSERT_TRUE(click(button_with(window.explorer(), "Cut")));
+    ASSERT_TRUE(click(in_panel("plane_cut")));
+    ASSERT_TRUE(wait_idle(window));
+    ASSERT_EQ(store.models().size(), 4u);
+    EXPECT_NEAR(bounds(store.models().back().data->mesh.vertices).min.y(), 0.080, 1e-4);
+  }
+
+  /// Around the top.
+  void lasso() {
+    ASSERT_TRUE(click(button_with(window.explorer(), "Lasso")));
+    const std::size_t before = store.models().back().data->mesh.triangles.size();
+    const auto corner = view.project(Vec3d(-0.06, 0.18, 0.0)),
+               end = view.project(Vec3d(0.06, 0.15, 0.0));
+    ASSERT_TRUE(corner && end);
+    QWidget* canvas = view.childAt(view.rect().center());
+    const QPoint outline[] = {corner->toPoint(), QPoint(int(end->x()), int(corner->y())),
+                              end->toPoint(), QPoint(int(corner->x()), int(end->y()))};
+    QTest::mousePress(canvas, Qt::LeftButton, {}, outline[0]);
+    for (const QPoint& at : outline) {
+      QMouseEvent move(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton, {});
+      QApplication::sendEvent(canvas, &move);
+    }
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, outline[3]);
+    ASSERT_TRUE(wait_idle(window));
+    EXPECT_LT(store.models().back().data->mesh.triangles.size(), before);
+    keep_picture(window, "explorer-lasso");
+  }
+
+  ModelStore& store;
+  SceneView& view;
+};
+
+TEST_F(TwoCylinders, AreMeasuredComparedCutLassoedAndAllIsUndone) {
+  ASSERT_NO_FATAL_FAILURE(measure());
+  ASSERT_NO_FATAL_FAILURE(compare_distances());
+  ASSERT_NO_FATAL_FAILURE(compare_side_by_side());
+  ASSERT_NO_FATAL_FAILURE(cut_in_half());
+  ASSERT_NO_FATAL_FAILURE(lasso());
   for (int i = 0; i < 40 && store.can_undo(); ++i)
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(store.models().empty());

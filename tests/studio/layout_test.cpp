@@ -9,20 +9,20 @@
 #include <QScrollArea>
 #include <QTest>
 #include <cmath>
-#include <turnscan/io/mesh_io.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "model_list.hpp"
-#include "scanner.hpp"
-#include "scene_view.hpp"
-#include "section.hpp"
-#include "simulator.hpp"
-#include "theme.hpp"
-#include "view_settings.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/model_list.hpp"
+#include "scanner/scanner.hpp"
+#include "simulator/simulator.hpp"
+#include "view/scene_view.hpp"
+#include "view/view_settings.hpp"
+#include "widgets/section.hpp"
+#include "widgets/theme.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {

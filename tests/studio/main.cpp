@@ -4,7 +4,7 @@
 #include <QDir>
 #include <QTemporaryDir>
 
-#include "program.hpp"
+#include "app/program.hpp"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

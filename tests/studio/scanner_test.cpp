@@ -1,4 +1,4 @@
-#include "scanner.hpp"
+#include "scanner/scanner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,19 +12,19 @@
 #include <QTest>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/recording/recording.hpp>
 
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "main_window.hpp"
-#include "motor_panel.hpp"
-#include "record_panel.hpp"
-#include "scene_view.hpp"
-#include "section.hpp"
+#include "explorer/explorer.hpp"
+#include "scanner/motor_panel.hpp"
+#include "scanner/record_panel.hpp"
 #include "tests/capture/simulated_table.hpp"
 #include "tests/io/scarcity.hpp"
+#include "view/scene_view.hpp"
+#include "widgets/section.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {
@@ -169,7 +169,7 @@ TEST_F(Scanner, TheCircleFollowsTheClicksOnTheRim) {
   const Vec3d u = table.axis.unitOrthogonal(), v = table.axis.cross(u);
   SceneView& view = mode().view();
   for (int i = 0; i < 5; ++i) {
-    const double turn = 2.0 * std::numbers::pi * (i + 0.5) / 5;
+    const double turn = kTurn * (i + 0.5) / 5;
     const auto at = view.project(table.center_m + 0.97 * *table.radius_m *
                                                       (std::cos(turn) * u + std::sin(turn) * v));
     ASSERT_TRUE(at.has_value());

@@ -1,4 +1,4 @@
-#include "simulator.hpp"
+#include "simulator/simulator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <QTest>
 #include <turnscan/simulator/scene_file.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "scene_view.hpp"
+#include "explorer/explorer.hpp"
+#include "view/scene_view.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {

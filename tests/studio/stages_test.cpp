@@ -10,17 +10,17 @@
 #include <QPushButton>
 #include <QTest>
 #include <QTreeWidget>
-#include <turnscan/io/mesh_io.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "model_list.hpp"
-#include "scene_view.hpp"
-#include "stage_panel.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/model_list.hpp"
+#include "explorer/stage_panel.hpp"
 #include "tests/support/shared_data.hpp"
+#include "view/scene_view.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {

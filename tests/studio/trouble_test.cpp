@@ -11,21 +11,21 @@
 #include <QStatusBar>
 #include <QTest>
 #include <cmath>
-#include <turnscan/io/cloud_io.hpp>
-#include <turnscan/io/mesh_io.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "model_list.hpp"
-#include "record_panel.hpp"
-#include "scanner.hpp"
-#include "scene_view.hpp"
-#include "simulator.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/model_list.hpp"
+#include "scanner/record_panel.hpp"
+#include "scanner/scanner.hpp"
+#include "simulator/simulator.hpp"
 #include "tests/io/scarcity.hpp"
+#include "view/scene_view.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {
@@ -90,7 +90,7 @@ bool shows_error(QWidget& in, const QString& part) {
   });
 }
 
-/// Long jobs, each as what begins it in a window, and a widget that tells it has begun.
+/// A long job: what gets a window ready for it, and what starts it there.
 struct Job {
   const char* name;
   std::function<void(MainWindow&)> prepare, begin;

@@ -14,17 +14,17 @@
 #include <QTest>
 #include <QUrl>
 #include <QWheelEvent>
-#include <turnscan/io/mesh_io.hpp>
-#include <turnscan/simulator/builtin_objects.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include "app/jobs.hpp"
 #include "driver.hpp"
-#include "explorer.hpp"
-#include "jobs.hpp"
-#include "main_window.hpp"
-#include "models.hpp"
-#include "scene_view.hpp"
-#include "simulator.hpp"
-#include "view_settings.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/models.hpp"
+#include "simulator/simulator.hpp"
+#include "view/scene_view.hpp"
+#include "view/view_settings.hpp"
+#include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/scene.hpp>
+#include <turnscan/simulator/scene/scene.hpp>
 
 #include "tests/support/rig.hpp"
 

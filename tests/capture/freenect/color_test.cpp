@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
-#include <turnscan/capture/plugins.hpp>
+#include <turnscan/capture/source/plugins.hpp>
 
 #include "tests/capture/freenect/pattern.hpp"
 #include "tests/capture/taking.hpp"

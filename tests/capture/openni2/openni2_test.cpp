@@ -13,13 +13,13 @@
 #include <cmath>
 #include <numbers>
 #include <thread>
-#include <turnscan/capture/plugins.hpp>
-#include <turnscan/capture/source_uri.hpp>
+#include <turnscan/capture/source/plugins.hpp>
+#include <turnscan/capture/source/source_uri.hpp>
 
 #include "tests/capture/doll_mesh.hpp"
 #include "tests/capture/openni2/film.hpp"
 #include "tests/capture/taking.hpp"
-#include "tests/io/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {

@@ -1,7 +1,7 @@
 // A driver of a sensor that does not exist, for the tests: its frames count, their values follow
 // from their number, and its address says what goes wrong.
 
-#include <turnscan/capture/plugin.h>
+#include <turnscan/capture/source/plugin.h>
 
 #include <cstdio>
 #include <cstring>

@@ -1,0 +1,114 @@
+#include "app/jobs.hpp"
+
+#include <QPointer>
+#include <chrono>
+
+namespace turnscan::studio {
+
+struct JobRunner::Job {
+  QString title;
+  QPointer<QObject> owner;  // read on the thread of the window only
+  Work work;
+  OnError on_error;
+  RunContext context;
+};
+
+JobRunner::JobRunner(QObject* parent) : QObject(parent), thread_([this] { run(); }) {}
+
+JobRunner::~JobRunner() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  cancel();
+  wake_.notify_all();
+  thread_.join();
+}
+
+void JobRunner::start(const QString& title, QObject* owner, Work work, OnError on_error) {
+  ++open_jobs_;
+  auto job = std::make_shared<Job>();
+  job->title = title;
+  job->owner = owner;
+  job->work = std::move(work);
+  job->on_error = std::move(on_error);
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(job));
+  }
+  wake_.notify_all();
+}
+
+void JobRunner::cancel() {
+  const std::lock_guard lock(mutex_);
+  if (running_) running_->context.cancel();
+  for (const auto& job : waiting_) job->context.cancel();
+}
+
+void JobRunner::run() {
+  for (;;) {
+    std::shared_ptr<Job> job;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
+      if (waiting_.empty()) return;
+      job = waiting_.front();
+      waiting_.pop_front();
+      running_ = job;
+    }
+    run_job(job);
+    const std::lock_guard lock(mutex_);
+    running_.reset();
+  }
+}
+
+void JobRunner::run_job(const std::shared_ptr<Job>& job) {
+  watch(job->context);
+  QMetaObject::invokeMethod(
+      this, [this, job] { Q_EMIT started(job->title); }, Qt::QueuedConnection);
+  Result<Finish> result = fail(ErrorCode::kCancelled, "cancelled");
+  if (!job->context.cancelled()) {
+    try {
+      result = job->work(job->context);
+    } catch (const std::exception& failure) {
+      // Memory may run out, and a file may ask for what nobody foresaw; the window lives on.
+      result = fail(ErrorCode::kLibrary, "{}", failure.what());
+    }
+  }
+  // The work may hold much memory, which must not be released on the thread of the window.
+  job->work = nullptr;
+  auto shared = std::make_shared<Result<Finish>>(std::move(result));
+  QMetaObject::invokeMethod(
+      this, [this, job, shared] { end(job, std::move(*shared)); }, Qt::QueuedConnection);
+}
+
+void JobRunner::watch(RunContext& context) {
+  using Clock = std::chrono::steady_clock;
+  struct Phase {
+    int number = 0;
+    Clock::time_point begin = Clock::now();
+  };
+  context.set_listener([this, phase = Phase()](const Progress& now) mutable {
+    if (now.phase_number != phase.number) phase = {now.phase_number, Clock::now()};
+    const double seconds = std::chrono::duration<double>(Clock::now() - phase.begin).count();
+    const double left =
+        now.fraction > 0.02 && seconds > 0.5 ? seconds * (1.0 / now.fraction - 1.0) : -1.0;
+    const QString name = QString::fromStdString(now.phase);
+    QMetaObject::invokeMethod(
+        this,
+        [this, name, fraction = now.fraction, left] { Q_EMIT progress(name, fraction, left); },
+        Qt::QueuedConnection);
+  });
+}
+
+void JobRunner::end(const std::shared_ptr<Job>& job, Result<Finish> result) {
+  --open_jobs_;
+  if (job->owner) {
+    if (result && *result) (*result)();
+    if (!result && result.error().code != ErrorCode::kCancelled && job->on_error)
+      job->on_error(QString::fromStdString(result.error().text()));
+  }
+  Q_EMIT finished(job->title, result.has_value());
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,32 @@
+#include "app/program.hpp"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkObject.h>
+
+#include <QCoreApplication>
+#include <QSurfaceFormat>
+#include <clocale>
+
+/// Of a static library, resources are only there when somebody asks for them, in no namespace.
+static void load_resources() { Q_INIT_RESOURCE(studio); }
+
+namespace turnscan::studio {
+
+void prepare_application() {
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
+  format.setSamples(0);
+  QSurfaceFormat::setDefaultFormat(format);
+  QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+  vtkObject::GlobalWarningDisplayOff();
+  load_resources();
+}
+
+void name_application() {
+  QCoreApplication::setOrganizationName("turnscan");
+  QCoreApplication::setApplicationName("studio");
+  // Numbers are written and read the same way everywhere.
+  std::setlocale(LC_NUMERIC, "C");
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,169 @@
+#include "explorer/explorer.hpp"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
+#include <QVBoxLayout>
+
+#include "explorer/compare_panel.hpp"
+#include "explorer/edits.hpp"
+#include "explorer/loading.hpp"
+#include "explorer/model_list.hpp"
+#include "explorer/stage_panel.hpp"
+#include "explorer/tool_panel.hpp"
+#include "view/scene_view.hpp"
+#include "widgets/section.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+Section* section_with(QWidget* content, const QString& title, bool open, QWidget* parent) {
+  auto* section = new Section(title, open, parent);
+  section->body()->addWidget(content);
+  return section;
+}
+
+}  // namespace
+
+ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
+    : Mode(services, parent),
+      store_(new ModelStore(this)),
+      list_(new ModelList(*store_, this)),
+      stages_(new StagePanel(this)),
+      compare_(new ComparePanel(*store_, this)),
+      tools_(new ToolPanel(view(), this)) {
+  auto* models = section_with(list_, tr("Models"), true, this);
+  auto* stages = section_with(stages_, tr("Processing"), true, this);
+  auto* tools = section_with(tools_, tr("Tools"), true, this);
+  auto* comparison = section_with(compare_, tr("Compare"), false, this);
+  for (Section* each : {models, tools, stages, comparison}) panel()->addWidget(each);
+  panel()->addStretch();
+  view().set_empty_text(tr("Nothing loaded yet"),
+                        tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
+  view().set_empty_actions({{tr("Open…"), [this] { open_dialog(); }},
+                            {tr("Scan an object"), [this] { Q_EMIT mode_wanted("scanner"); }},
+                            {tr("Simulate a scan"), [this] { Q_EMIT mode_wanted("simulator"); }}});
+  connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
+  connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
+  connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
+  connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
+  connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
+  connect(stages_, &StagePanel::run, this, &ExplorerMode::run_stage);
+  connect(stages_, &StagePanel::save_preset, this, &ExplorerMode::save_preset);
+  connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
+  connect(compare_, &ComparePanel::changed, this, &ExplorerMode::sync);
+  connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
+  connect(tools_, &ToolPanel::cut_wanted, this, &ExplorerMode::cut_selected);
+  connect(tools_, &ToolPanel::lassoed, this, &ExplorerMode::remove_lassoed);
+  on_selection(0);
+}
+
+ExplorerMode::~ExplorerMode() = default;
+
+void ExplorerMode::shut_down() { stages_->store(); }
+
+bool ExplorerMode::open_file(const QString& path) {
+  load(path, {});
+  return true;
+}
+
+void ExplorerMode::open_dialog() {
+  QSettings settings;
+  const QStringList files = QFileDialog::getOpenFileNames(
+      this, tr("Open meshes, clouds or recordings"), settings.value("files/folder").toString(),
+      tr("Meshes, clouds and recordings (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx "
+         "recording.json);;All files (*)"));
+  for (const QString& file : files) {
+    settings.setValue("files/folder", QFileInfo(file).absolutePath());
+    load(file, {});
+  }
+}
+
+void ExplorerMode::save() {
+  const Model* model = store_->find(list_->selected());
+  if (!model) return;
+  QSettings settings;
+  const bool mesh = model->data->kind == ModelKind::kMesh;
+  const QString folder = settings.value("files/folder").toString();
+  const QString name = QString("%1/%2.%3").arg(folder.isEmpty() ? "." : folder, model->name, "ply");
+  const QString path = QFileDialog::getSaveFileName(
+      this, tr("Save %1").arg(model->name), name,
+      mesh ? tr("PLY (*.ply);;STL, millimetres (*.stl);;3MF, millimetres (*.3mf);;OBJ (*.obj);;"
+                "GLB (*.glb)")
+           : tr("PLY (*.ply)"));
+  if (path.isEmpty()) return;
+  settings.setValue("files/folder", QFileInfo(path).absolutePath());
+  save_as(model->id, path);
+}
+
+void ExplorerMode::remove_selected() { store_->remove(list_->selected()); }
+
+void ExplorerMode::sync() {
+  for (auto it = shown_.begin(); it != shown_.end();) {
+    if (store_->find(it->first)) {
+      ++it;
+    } else {
+      view().remove(it->second.item);
+      it = shown_.erase(it);
+    }
+  }
+  const Model* left = store_->find(compare_->reference());
+  const Model* right = store_->find(compare_->compared());
+  view().set_split(compare_->way() == ComparePanel::kSideBySide && left && right,
+                   left ? left->name : QString(), right ? right->name : QString());
+  for (const Model& model : store_->models()) {
+    const ItemStyle style = style_of(model);
+    Shown& shown = shown_[model.id];
+    if (shown.item == 0) {
+      shown.item = view().add(model.data->drawable, style);
+    } else {
+      if (shown.data != model.data) view().replace(shown.item, model.data->drawable);
+      view().set_style(shown.item, style);
+    }
+    shown.data = model.data;
+  }
+  const Model* colored = store_->find(legend_model_);
+  view().set_legend(colored && style_of(*colored).visible ? legend_ : Legend());
+}
+
+ItemStyle ExplorerMode::style_of(const Model& model) const {
+  ItemStyle style;
+  style.visible = model.visible;
+  style.color = model.color;
+  style.own_colors = model.own_colors;
+  if (compare_->way() == ComparePanel::kOff) return style;
+  const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
+  style.visible = left || right;
+  style.pane = right && !left ? 1 : 0;
+  return style;
+}
+
+void ExplorerMode::cut_selected(const Vec3d& normal, double offset) {
+  edit_selected(tr("cut"), false, [normal, offset](const ModelData& from) {
+    const QString source = tr("cut of %1").arg(from.source);
+    return from.kind == ModelKind::kMesh
+               ? mesh_model(cut(from.mesh, normal, offset), source)
+               : cloud_model(cut(from.cloud, normal, offset), source, {}, from.viewpoints);
+  });
+}
+
+void ExplorerMode::remove_lassoed(const Outline& outline, const Eigen::Matrix4d& to_pixels) {
+  edit_selected(tr("lasso"), true, [outline, to_pixels](const ModelData& from) {
+    return from.kind == ModelKind::kMesh
+               ? mesh_model(without_lassoed(from.mesh, outline, to_pixels), from.source)
+               : cloud_model(without_lassoed(from.cloud, outline, to_pixels), from.source, {},
+                             from.viewpoints);
+  });
+}
+
+void ExplorerMode::on_selection(int id) {
+  const Model* model = store_->find(id);
+  const bool recording = model && model->data->kind == ModelKind::kRecording;
+  const bool cloud = model && model->data->kind == ModelKind::kCloud;
+  stages_->set_target(recording, cloud);
+  tools_->set_box(model && !recording ? box_of(*model->data->drawable) : Box());
+  if (model) Q_EMIT status(QString("%1: %2").arg(model->name, count_text(*model->data)));
+}
+
+}  // namespace turnscan::studio

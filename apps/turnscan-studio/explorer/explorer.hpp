@@ -1,0 +1,78 @@
+#pragma once
+// Model Explorer: load, process, compare, edit, save.
+
+#include <map>
+#include <memory>
+
+#include "app/mode.hpp"
+#include "explorer/edits.hpp"
+#include "explorer/models.hpp"
+#include "view/scene_view.hpp"
+
+namespace turnscan::studio {
+
+class ComparePanel;
+class ModelList;
+class StagePanel;
+class ToolPanel;
+
+class ExplorerMode : public Mode {
+  Q_OBJECT
+ public:
+  explicit ExplorerMode(const Services& services, QWidget* parent = nullptr);
+  ~ExplorerMode() override;
+
+  bool open_file(const QString& path) override;
+  void undo() override { store_->undo(); }
+  void redo() override { store_->redo(); }
+  QString undo_text() const override { return store_->undo_text(); }
+  QString redo_text() const override { return store_->redo_text(); }
+  void save() override;
+  void remove_selected() override;
+  void shut_down() override;
+
+  void open_dialog();
+  /// Loads a recording and, when it is there, runs all stages.
+  void take_recording(const QString& folder, bool reconstruct);
+  void run_stage(const QString& stage);
+  void save_as(int id, const QString& path);
+  void save_preset(const QString& path);
+
+  ModelStore& store() { return *store_; }
+  ModelList& list() { return *list_; }
+  StagePanel& stages() { return *stages_; }
+  ComparePanel& comparison() { return *compare_; }
+  ToolPanel& tools() { return *tools_; }
+
+ Q_SIGNALS:
+  void file_opened(const QString& path);
+
+ private:
+  void load(const QString& path, const std::function<void()>& then);
+  void run_filter();
+  void run_comparison();
+  void cut_selected(const Vec3d& normal, double offset);
+  void remove_lassoed(const Outline& outline, const Eigen::Matrix4d& to_pixels);
+  /// Changes the data of the selected model on a worker's thread. in_place: the model itself
+  /// changes, which undo takes back; else a new one is added.
+  void edit_selected(const QString& what, bool in_place,
+                     const std::function<ModelDataPtr(const ModelData&)>& edit);
+  ItemStyle style_of(const Model& model) const;
+  void sync();
+  void on_selection(int id);
+
+  ModelStore* store_;
+  ModelList* list_;
+  StagePanel* stages_;
+  ComparePanel* compare_;
+  ToolPanel* tools_;
+  struct Shown {
+    int item = 0;
+    ModelDataPtr data;
+  };
+  int legend_model_ = 0;  ///< the legend is shown while this model is
+  Legend legend_;
+  std::map<int, Shown> shown_;  ///< by model
+};
+
+}  // namespace turnscan::studio

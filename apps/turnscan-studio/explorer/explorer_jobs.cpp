@@ -1,0 +1,180 @@
+// What the Explorer starts on the worker's thread: loading, stages, comparison, edits, saving.
+
+#include <QFileInfo>
+#include <turnscan/evaluation/colormap.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+
+#include "app/jobs.hpp"
+#include "app/paths.hpp"
+#include "explorer/compare_panel.hpp"
+#include "explorer/comparison.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/loading.hpp"
+#include "explorer/model_list.hpp"
+#include "explorer/stage_panel.hpp"
+#include "explorer/stage_runs.hpp"
+#include "view/scene_view.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+Legend distance_legend(const QString& reference, const Comparison& made) {
+  constexpr int kSteps = 4;
+  Legend legend;
+  legend.title = QObject::tr("Distance to %1").arg(reference);
+  legend.continuous = true;
+  legend.histogram = made.histogram;
+  for (int i = 0; i <= kSteps; ++i) {
+    legend.entries.push_back({to_color(viridis(double(i) / kSteps)),
+                              QString("%1 mm%2")
+                                  .arg(1e3 * made.scale_m * i / kSteps, 0, 'g', 3)
+                                  .arg(i == kSteps ? QObject::tr(" and more") : QString())});
+  }
+  return legend;
+}
+
+}  // namespace
+
+void ExplorerMode::load(const QString& path, const std::function<void()>& then) {
+  stages_->show_error({});
+  jobs().start(
+      tr("Open %1").arg(QFileInfo(path).fileName()), this,
+      [this, path, then](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(NamedModels models, load_models(path.toStdString(), context));
+        return Finish([this, path, then, models = std::move(models)] {
+          const auto ids = store_->add_all(models, tr("open %1").arg(QFileInfo(path).fileName()));
+          list_->select(ids.back());
+          Q_EMIT file_opened(path);
+          if (then) then();
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
+  load(folder, [this, reconstruct] {
+    if (reconstruct) run_stage(QString::fromStdString(kMeshStage));
+  });
+}
+
+void ExplorerMode::run_stage(const QString& stage) {
+  const Model* selected = store_->find(list_->selected());
+  const QString problem = stages_->first_error();
+  stages_->show_error(problem);
+  if (!selected || !problem.isEmpty()) return;
+  jobs().start(
+      tr("Reconstruct"), this,
+      [this, model = *selected, stage = stage.toStdString(),
+       options = stages_->options()](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(StageRun run, run_stage_of(model, stage, options, context));
+        return Finish([this, id = model.id, run = std::move(run)] {
+          const auto ids = store_->add_all(run.models, tr("reconstruct"));
+          // What it was made from lies in the same place; it would hide the result.
+          store_->set_visible(id, false);
+          list_->select(ids.front());
+          stages_->show_used(run.choices);
+          view().fit_unless_moved();  // of a recording it has shown the table, too
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::run_filter() {
+  const Model* selected = store_->find(list_->selected());
+  const QString problem = stages_->first_error();
+  stages_->show_error(problem);
+  if (!selected || !problem.isEmpty()) return;
+  jobs().start(
+      tr("Filter"), this,
+      [this, model = *selected,
+       options = stages_->options().outliers](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(ModelDataPtr kept, filter_cloud(model, options, context));
+        return Finish([this, model, kept] {
+          const int id = store_->add(tr("%1 filtered").arg(model.name), kept);
+          store_->set_visible(model.id, false);
+          list_->select(id);
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::run_comparison() {
+  const Model* reference = store_->find(compare_->reference());
+  const Model* compared = store_->find(compare_->compared());
+  compare_->show_error(compare_->first_error());
+  if (!reference || !compared || !compare_->first_error().isEmpty()) return;
+  jobs().start(
+      tr("Compare"), this,
+      [this, a = *compared, b = *reference,
+       options = compare_->options()](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(Comparison made, compare(*a.data, *b.data, options, 0.0, context));
+        return Finish([this, a, b, made = std::move(made)] {
+          const int id = store_->add(tr("%1 to %2").arg(a.name, b.name), made.colored);
+          store_->set_visible(a.id, false);
+          store_->set_visible(b.id, false);
+          list_->select(id);
+          compare_->show_figures(made.figures);
+          legend_model_ = id;
+          legend_ = distance_legend(b.name, made);
+          sync();
+        });
+      },
+      [this](const QString& text) { compare_->show_error(text); });
+}
+
+void ExplorerMode::edit_selected(const QString& what, bool in_place,
+                                 const std::function<ModelDataPtr(const ModelData&)>& edit) {
+  const Model* selected = store_->find(list_->selected());
+  if (!selected || selected->data->kind == ModelKind::kRecording) return;
+  jobs().start(
+      what, this,
+      [this, what, in_place, edit, model = *selected](const RunContext& context) -> Result<Finish> {
+        context.begin_phase(what.toStdString(), 0);
+        const ModelDataPtr made = edit(*model.data);
+        const bool empty =
+            made->kind == ModelKind::kMesh ? made->mesh.empty() : made->cloud.empty();
+        if (empty)
+          return fail(ErrorCode::kTooFewPoints,
+                      "{}: nothing would be left of '{}'; delete it "
+                      "instead",
+                      what.toStdString(), model.name.toStdString());
+        return Finish([this, what, in_place, model, made] {
+          if (in_place) {
+            store_->set_data(model.id, made, what);
+            return;
+          }
+          const int id = store_->add(QString("%1 %2").arg(model.name, what), made);
+          store_->set_visible(model.id, false);
+          list_->select(id);
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::save_as(int id, const QString& path) {
+  const Model* model = store_->find(id);
+  if (!model) return;
+  stages_->show_error({});
+  jobs().start(
+      tr("Save %1").arg(QFileInfo(path).fileName()), this,
+      [this, saved = model->data, path](const RunContext& context) -> Result<Finish> {
+        context.begin_phase("write", 0);
+        TURNSCAN_TRY(save_model(*saved, path.toStdString()));
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::save_preset(const QString& path) {
+  stages_->show_error({});
+  jobs().start(
+      tr("Save preset"), this,
+      [this, path, text = stages_->preset_text()](const RunContext&) -> Result<Finish> {
+        TURNSCAN_TRY(write_file_atomically(path.toStdString(), text));
+        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,29 @@
+#pragma once
+// Files as models. Nothing here touches a widget.
+
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <utility>
+#include <vector>
+
+#include "explorer/models.hpp"
+
+namespace turnscan::studio {
+
+using NamedModels = std::vector<std::pair<QString, ModelDataPtr>>;
+
+/// A mesh (each object a model), a cloud, or a recording's folder or recording.json, told apart as
+/// `turnscan info` does. Fails as the readers do.
+Result<NamedModels> load_models(const std::string& path, const RunContext& context);
+
+ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report = {},
+                        std::vector<float> confidence = {});
+ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString& report = {},
+                         std::vector<Viewpoint> viewpoints = {});
+Result<ModelDataPtr> recording_model(const std::string& folder, const RunContext& context);
+
+/// Meshes in every format of write_mesh; clouds as PLY. Fails as the writers do.
+Result<> save_model(const ModelData& data, const std::string& path);
+
+}  // namespace turnscan::studio

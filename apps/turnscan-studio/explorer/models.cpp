@@ -1,0 +1,143 @@
+#include "explorer/models.hpp"
+
+#include <algorithm>
+#include <turnscan/recording/recording.hpp>
+
+#include "widgets/text.hpp"
+#include "widgets/theme.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+constexpr std::size_t kModelUndoSteps = 100;
+
+}  // namespace
+
+QString count_text(const ModelData& data) {
+  switch (data.kind) {
+    case ModelKind::kMesh:
+      return QObject::tr("%1 triangles").arg(grouped(data.mesh.triangles.size()));
+    case ModelKind::kCloud:
+      return QObject::tr("%1 points").arg(grouped(data.cloud.size()));
+    case ModelKind::kRecording:
+      break;
+  }
+  return QObject::tr("%1 frames")
+      .arg(grouped(data.recording ? data.recording->frames().size() : 0));
+}
+
+const Model* ModelStore::find(int id) const {
+  const auto at =
+      std::find_if(models_.begin(), models_.end(), [&](const Model& m) { return m.id == id; });
+  return at == models_.end() ? nullptr : &*at;
+}
+
+Model* ModelStore::mutable_find(int id) { return const_cast<Model*>(find(id)); }
+
+QString ModelStore::free_name(const QString& wanted) const {
+  const auto taken = [&](const QString& name) {
+    return std::any_of(models_.begin(), models_.end(),
+                       [&](const Model& m) { return m.name == name; });
+  };
+  QString name = wanted;
+  for (int i = 2; taken(name); ++i) name = QString("%1 (%2)").arg(wanted).arg(i);
+  return name;
+}
+
+void ModelStore::step(const QString& what) {
+  undo_.push_back({what, models_});
+  if (undo_.size() > kModelUndoSteps) undo_.erase(undo_.begin());
+  redo_.clear();
+}
+
+int ModelStore::add(const QString& name, ModelDataPtr data) {
+  return add_all({{name, std::move(data)}}, tr("add %1").arg(name)).front();
+}
+
+std::vector<int> ModelStore::add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
+                                     const QString& what) {
+  step(what);
+  std::vector<int> ids;
+  for (const auto& [name, data] : made) {
+    Model model;
+    model.id = next_id_++;
+    model.name = free_name(name);
+    model.data = data;
+    model.color = model_color(next_color_++);
+    ids.push_back(model.id);
+    models_.push_back(std::move(model));
+  }
+  Q_EMIT changed();
+  return ids;
+}
+
+void ModelStore::rename(int id, const QString& name) {
+  const Model* model = find(id);
+  const QString wanted = name.trimmed();
+  if (!model || wanted.isEmpty() || model->name == wanted) return;
+  step(tr("rename"));
+  mutable_find(id)->name = free_name(wanted);
+  Q_EMIT changed();
+}
+
+void ModelStore::set_visible(int id, bool visible) {
+  const Model* model = find(id);
+  if (!model || model->visible == visible) return;
+  step(visible ? tr("show") : tr("hide"));
+  mutable_find(id)->visible = visible;
+  Q_EMIT changed();
+}
+
+void ModelStore::set_color(int id, const QColor& color, bool own_colors) {
+  if (!find(id)) return;
+  step(tr("colour"));
+  Model* model = mutable_find(id);
+  model->color = color;
+  model->own_colors = own_colors;
+  Q_EMIT changed();
+}
+
+void ModelStore::set_data(int id, ModelDataPtr data, const QString& what) {
+  if (!find(id)) return;
+  step(what);
+  mutable_find(id)->data = std::move(data);
+  Q_EMIT changed();
+}
+
+void ModelStore::duplicate(int id) {
+  const Model* model = find(id);
+  if (!model) return;
+  Model copy = *model;
+  step(tr("duplicate"));
+  copy.id = next_id_++;
+  copy.name = free_name(copy.name);
+  copy.color = model_color(next_color_++);
+  models_.push_back(std::move(copy));
+  Q_EMIT changed();
+}
+
+void ModelStore::remove(int id) {
+  if (!find(id)) return;
+  step(tr("delete"));
+  std::erase_if(models_, [&](const Model& m) { return m.id == id; });
+  Q_EMIT changed();
+}
+
+void ModelStore::undo() {
+  if (undo_.empty()) return;
+  redo_.push_back({undo_.back().what, models_});
+  models_ = std::move(undo_.back().models);
+  undo_.pop_back();
+  Q_EMIT changed();
+}
+
+void ModelStore::redo() {
+  if (redo_.empty()) return;
+  undo_.push_back({redo_.back().what, models_});
+  models_ = std::move(redo_.back().models);
+  redo_.pop_back();
+  Q_EMIT changed();
+}
+
+}  // namespace turnscan::studio

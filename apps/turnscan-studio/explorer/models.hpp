@@ -1,0 +1,93 @@
+#pragma once
+// The models of the Explorer, and every state of their list that undo goes back to.
+
+#include <QColor>
+#include <QObject>
+#include <QString>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <turnscan/core/frame.hpp>
+#include <vector>
+
+#include "view/drawable.hpp"
+
+namespace turnscan {
+class Recording;
+}
+
+namespace turnscan::studio {
+
+enum class ModelKind { kMesh, kCloud, kRecording };
+
+/// Never changed once made: an edit makes new data, so that undo only swaps pointers.
+struct ModelData {
+  ModelKind kind = ModelKind::kCloud;
+  TriangleMesh mesh;
+  std::vector<float> confidence;      ///< of each vertex of mesh, or empty; saved with it
+  PointCloud cloud;                   ///< of a recording: a preview
+  std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
+  std::shared_ptr<const Recording> recording;
+  QString source;  ///< file, or what was run to make it
+  QString report;  ///< several lines for people
+  DrawablePtr drawable;
+};
+using ModelDataPtr = std::shared_ptr<const ModelData>;
+
+struct Model {
+  int id = 0;
+  QString name;
+  ModelDataPtr data;
+  bool visible = true;
+  QColor color;
+  bool own_colors = true;
+};
+
+/// "24 686 triangles", "12 345 points" or "920 frames"
+QString count_text(const ModelData& data);
+
+class ModelStore : public QObject {
+  Q_OBJECT
+ public:
+  using QObject::QObject;
+
+  const std::vector<Model>& models() const { return models_; }
+  const Model* find(int id) const;
+
+  /// Every change is one step of undo; `what` names it: "Undo delete".
+  int add(const QString& name, ModelDataPtr data);
+  /// Several models as one step.
+  std::vector<int> add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
+                           const QString& what);
+  void rename(int id, const QString& name);
+  void set_visible(int id, bool visible);
+  void set_color(int id, const QColor& color, bool own_colors);
+  void set_data(int id, ModelDataPtr data, const QString& what);
+  void duplicate(int id);
+  void remove(int id);
+
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+  QString undo_text() const { return undo_.empty() ? QString() : undo_.back().what; }
+  QString redo_text() const { return redo_.empty() ? QString() : redo_.back().what; }
+  void undo();
+  void redo();
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  struct State {
+    QString what;
+    std::vector<Model> models;
+  };
+  void step(const QString& what);
+  Model* mutable_find(int id);
+  QString free_name(const QString& wanted) const;
+
+  std::vector<Model> models_;
+  std::vector<State> undo_, redo_;
+  int next_id_ = 1, next_color_ = 0;
+};
+
+}  // namespace turnscan::studio

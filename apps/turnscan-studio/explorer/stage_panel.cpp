@@ -1,0 +1,202 @@
+#include "explorer/stage_panel.hpp"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QPushButton>
+#include <QSettings>
+#include <QVBoxLayout>
+#include <deque>
+#include <map>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/workflow/config_file.hpp>
+
+#include "explorer/stage_runs.hpp"
+#include "widgets/option_form.hpp"
+#include "widgets/section.hpp"
+#include "widgets/text.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+const std::map<std::string, QString>& titles() {
+  static const std::map<std::string, QString> names{{"crop", QObject::tr("Crop")},
+                                                    {"outliers", QObject::tr("Statistical filter")},
+                                                    {"merge", QObject::tr("Merge")},
+                                                    {"voxels", QObject::tr("Voxelisation")},
+                                                    {"candidates", QObject::tr("Candidate points")},
+                                                    {"components", QObject::tr("Objects")},
+                                                    {"normals", QObject::tr("Normals")},
+                                                    {"refine", QObject::tr("Refinement")},
+                                                    {"base", QObject::tr("Base")},
+                                                    {"surface", QObject::tr("Mesh")},
+                                                    {"volumetric", QObject::tr("Volumetric mesh")}};
+  return names;
+}
+
+/// Stage of a section -> the cloud that can be made there, and the text of the button.
+const std::map<std::string, std::pair<std::string, QString>>& outputs() {
+  static const std::map<std::string, std::pair<std::string, QString>> made{
+      {"merge", {"merged", QObject::tr("Merge the frames")}},
+      {"voxels", {"voxels", QObject::tr("Voxelise")}},
+      {"candidates", {"candidates", QObject::tr("Find candidates")}},
+      {"refine", {"refined", QObject::tr("Refine candidates")}},
+      {"base", {"oriented", QObject::tr("Oriented points")}}};
+  return made;
+}
+
+}  // namespace
+
+StagePanel::StagePanel(QWidget* parent)
+    : QWidget(parent),
+      options_(std::make_unique<ReconstructOptions>()),
+      error_(new MessageLabel(this)) {
+  build();
+  restore();
+}
+
+StagePanel::~StagePanel() = default;
+
+void StagePanel::build() {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  mesh_ = primary_button(tr("Reconstruct"),
+                         tr("Run every stage on the selected recording or cloud (Ctrl+R)"), this);
+  mesh_->setShortcut(QKeySequence("Ctrl+R"));
+  connect(mesh_, &QPushButton::clicked, this,
+          [this] { Q_EMIT run(QString::fromStdString(kMeshStage)); });
+  auto* top = new QVBoxLayout;
+  top->setSpacing(8);
+  top->setContentsMargins(0, 2, 0, 6);
+  top->addWidget(mesh_);
+  top->addLayout(make_preset_buttons());
+  top->addWidget(error_);
+  layout->addLayout(top);
+  for (StageOptions& stage : describe_stages(*options_))
+    layout->addWidget(make_section(stage.stage, std::move(stage.table)));
+}
+
+QLayout* StagePanel::make_preset_buttons() {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  auto* load = button(tr("Load preset…"), tr("Options from a TOML file"), this);
+  auto* save = button(tr("Save preset…"), tr("Options as a TOML file for --config"), this);
+  auto* reset = button(tr("Defaults"), tr("Set all options back"), this);
+  for (QPushButton* each : {load, save, reset}) row->addWidget(each);
+  const QString filter = tr("Presets (*.toml)");
+  connect(load, &QPushButton::clicked, this, [this, filter] {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Load preset"), {}, filter);
+    if (path.isEmpty()) return;
+    const auto read = load_preset(path.toStdString());
+    show_error(read ? QString() : QString::fromStdString(read.error().text()));
+  });
+  connect(save, &QPushButton::clicked, this, [this, filter] {
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save preset"), "preset.toml", filter);
+    if (!path.isEmpty()) Q_EMIT save_preset(path);
+  });
+  connect(reset, &QPushButton::clicked, this, [this] {
+    for (const auto& [stage, form] : forms_) form->reset_to_defaults();
+    show_error({});
+  });
+  return row;
+}
+
+Section* StagePanel::make_section(const std::string& stage, OptionTable table) {
+  const auto title = titles().find(stage);
+  auto* section = new Section(title == titles().end() ? title_of(stage) : title->second, false,
+                              this, Section::kNested);
+  section->setObjectName("stage:" + QString::fromStdString(stage));
+  auto* form = new OptionForm(std::move(table), {}, section);
+  section->body()->addWidget(form);
+  forms_.emplace_back(stage, form);
+  connect(form, &OptionForm::changed, this, &StagePanel::store);
+  add_run_button(stage, *section);
+  return section;
+}
+
+void StagePanel::add_run_button(const std::string& stage, Section& section) {
+  if (stage == "outliers") {
+    filter_ = button(tr("Filter the cloud"),
+                     tr("Drop outliers of the selected cloud; adds a new model"), &section);
+    filter_->setObjectName("run:outliers");
+    connect(filter_, &QPushButton::clicked, this, &StagePanel::filter);
+    section.body()->addWidget(filter_);
+  }
+  const auto made = outputs().find(stage);
+  if (made == outputs().end()) return;
+  auto* start =
+      button(made->second.second,
+             tr("Run the stages up to this one; adds its cloud as a new model"), &section);
+  start->setObjectName("run:" + QString::fromStdString(made->second.first));
+  const QString output = QString::fromStdString(made->second.first);
+  connect(start, &QPushButton::clicked, this, [this, output] { Q_EMIT run(output); });
+  section.body()->addWidget(start);
+  run_buttons_.push_back(start);
+}
+
+QString StagePanel::first_error() const {
+  for (const auto& [stage, form] : forms_)
+    if (!form->valid()) return form->first_error();
+  return {};
+}
+
+void StagePanel::show_used(const std::vector<Choice>& choices) {
+  for (const Choice& choice : choices)
+    for (const auto& [stage, form] : forms_)
+      form->show_used(QString::fromStdString(choice.option), QString::fromStdString(choice.value),
+                      QString::fromStdString(choice.reason));
+}
+
+void StagePanel::show_error(const QString& text) { error_->show_text(text); }
+
+void StagePanel::set_target(bool recording, bool cloud) {
+  mesh_->setEnabled(recording || cloud);
+  for (QPushButton* start : run_buttons_) start->setEnabled(recording || cloud);
+  filter_->setEnabled(cloud);
+}
+
+std::string StagePanel::preset_text() const {
+  std::string text;
+  for (const auto& [stage, form] : forms_) {
+    std::string lines;
+    const QMap<QString, QString> values = form->values();
+    for (auto it = values.begin(); it != values.end(); ++it)
+      lines += fmt::format("{} = \"{}\"\n", it.key().toStdString(), it.value().toStdString());
+    if (!lines.empty()) text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", stage, lines);
+  }
+  return text.empty() ? "# all options at their defaults\n" : text;
+}
+
+Result<> StagePanel::load_preset(const std::string& path) {
+  ReconstructOptions fresh;
+  std::deque<OptionGroup> groups;
+  for (StageOptions& stage : describe_stages(fresh))
+    groups.push_back({stage.stage, std::move(stage.table)});
+  TURNSCAN_TRY(read_config_file(path, groups));
+  *options_ = fresh;
+  for (const auto& [stage, form] : forms_) form->refresh();
+  store();
+  return {};
+}
+
+void StagePanel::store() const {
+  for (const auto& [stage, form] : forms_) form->store("stages/" + QString::fromStdString(stage));
+}
+
+/// All are read before the first is set: a change stores them.
+void StagePanel::restore() {
+  QSettings settings;
+  std::vector<QMap<QString, QString>> stored;
+  for (const auto& [stage, form] : forms_) {
+    settings.beginGroup("stages/" + QString::fromStdString(stage));
+    QMap<QString, QString> values;
+    for (const QString& key : settings.childKeys()) values[key] = settings.value(key).toString();
+    stored.push_back(values);
+    settings.endGroup();
+  }
+  for (std::size_t i = 0; i < forms_.size(); ++i) forms_[i].second->set_values(stored[i]);
+}
+
+}  // namespace turnscan::studio

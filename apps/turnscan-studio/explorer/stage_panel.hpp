@@ -1,0 +1,67 @@
+#pragma once
+// The stages of the pipeline as panels, in their order.
+
+#include <QWidget>
+#include <memory>
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <vector>
+
+class QLayout;
+class QPushButton;
+
+namespace turnscan {
+class OptionTable;
+struct Choice;
+struct ReconstructOptions;
+}  // namespace turnscan
+
+namespace turnscan::studio {
+
+class MessageLabel;
+class OptionForm;
+class Section;
+
+class StagePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StagePanel(QWidget* parent = nullptr);
+  ~StagePanel() override;
+
+  const ReconstructOptions& options() const { return *options_; }
+  /// Empty, or the first thing that is wrong with the options.
+  QString first_error() const;
+  /// What the automatic values were.
+  void show_used(const std::vector<Choice>& choices);
+  void show_error(const QString& text);
+  /// Which buttons make sense for the selected model.
+  void set_target(bool recording, bool cloud);
+
+  /// TOML as the command line's --config reads it.
+  std::string preset_text() const;
+  Result<> load_preset(const std::string& path);
+  void store() const;  ///< keeps the options in the settings
+
+ Q_SIGNALS:
+  /// A stage of saveable_stages(), or "mesh".
+  void run(const QString& stage);
+  void filter();
+  /// preset_text() is to go there.
+  void save_preset(const QString& path);
+
+ private:
+  void build();
+  QLayout* make_preset_buttons();
+  Section* make_section(const std::string& stage, OptionTable table);
+  void restore();
+  void add_run_button(const std::string& stage, Section& section);
+
+  std::unique_ptr<ReconstructOptions> options_;
+  std::vector<std::pair<std::string, OptionForm*>> forms_;
+  std::vector<QPushButton*> run_buttons_;
+  QPushButton* filter_ = nullptr;
+  QPushButton* mesh_ = nullptr;
+  MessageLabel* error_;
+};
+
+}  // namespace turnscan::studio

@@ -1,0 +1,158 @@
+#include "explorer/stage_runs.hpp"
+
+#include <optional>
+#include <turnscan/reconstruction/outliers/outliers.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/turntable/rotation.hpp>
+#include <turnscan/workflow/mesh_output.hpp>
+#include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/text/reconstruction_text.hpp>
+#include <variant>
+
+#include "explorer/cloud_sequence.hpp"
+#include "explorer/edits.hpp"
+#include "explorer/reconstruct_until.hpp"
+#include "widgets/text.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+std::vector<Viewpoint> viewpoints_of(const FrameSequence& sequence,
+                                     const std::optional<double>& speed_rad_s) {
+  std::vector<Viewpoint> out;
+  const auto poses = frame_poses(sequence.header(), sequence.frames(), speed_rad_s);
+  if (!poses) return out;
+  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
+    const SensorInfo& sensor = sequence.header().sensors[sequence.frames()[i].sensor];
+    out.push_back(sensor.viewpoint.transformed(poses->T_table_sensor[i]));
+  }
+  return out;
+}
+
+QString source_of(const std::string& stage, const Model& model) {
+  return QObject::tr("%1 of %2").arg(QString::fromStdString(stage), model.name);
+}
+
+/// The clouds of these stages are made on the way to a surface by points.
+bool of_points(const std::string& stage) { return stage != kMeshStage && stage != "fitted"; }
+
+StageRun cloud_run(PointCloud cloud, const FrameSequence& frames, const Model& model,
+                   const std::string& stage, const std::optional<double>& speed_rad_s,
+                   const std::string& note, const RunContext& context) {
+  const bool has_frames = cloud.frame.size() == cloud.size();
+  auto viewpoints = has_frames ? viewpoints_of(frames, speed_rad_s) : std::vector<Viewpoint>();
+  context.begin_phase("prepare the view", 0);
+  StageRun out;
+  out.models.emplace_back(QString("%1 %2").arg(model.name, QString::fromStdString(stage)),
+                          cloud_model(std::move(cloud), source_of(stage, model),
+                                      QString::fromStdString(note), std::move(viewpoints)));
+  return out;
+}
+
+StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context) {
+  StageRun out;
+  const QString report = QString::fromStdString(reconstruction_text(result));
+  context.begin_phase("prepare the view", result.objects.size());
+  for (ObjectResult& object : result.objects) {
+    const QString name =
+        result.objects.size() == 1
+            ? QObject::tr("%1 mesh").arg(model.name)
+            : QObject::tr("%1 %2").arg(model.name, QString::fromStdString(object.mesh.name));
+    out.models.emplace_back(name, mesh_model(std::move(object.mesh), source_of(kMeshStage, model),
+                                             report, std::move(object.confidence)));
+    context.advance();
+  }
+  out.choices = std::move(result.choices);
+  return out;
+}
+
+Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const std::string& stage,
+                        ReconstructOptions options, const std::string& note,
+                        const RunContext& context) {
+  if (of_points(stage) && options.surface.method == SurfaceMethod::kVolumetric)
+    options.surface.method = SurfaceMethod::kPoisson;
+  options.keep_points = stage == "merged";
+  TURNSCAN_ASSIGN(auto made, reconstruct_until(stage, frames, options, context));
+  if (auto* cloud = std::get_if<PointCloud>(&made))
+    return cloud_run(std::move(*cloud), frames, model, stage, options.merge.speed_rad_s, note,
+                     context);
+  auto& result = std::get<Reconstruction>(made);
+  if (stage != kMeshStage)
+    return fail(ErrorCode::kUnsupported,
+                "the stage {} is not a part of this method; choose another method", stage);
+  if (!note.empty()) result.notes.insert(result.notes.begin(), note);
+  if (options.surface.repair) TURNSCAN_TRY(check_watertight(result));
+  return mesh_run(std::move(result), model, context);
+}
+
+Result<StageRun> run_recording(const Model& model, const std::string& stage,
+                               const ReconstructOptions& options, const RunContext& context) {
+  const Recording& recording = *model.data->recording;
+  TURNSCAN_ASSIGN(CalibratedFrames calibrated,
+                  calibrate_frames(recording, "auto", false, options, context));
+  TURNSCAN_ASSIGN(StageRun run,
+                  run_on(*calibrated.frames, model, stage, std::move(calibrated.options),
+                         calibrated.choice.note, context));
+  // Frames that are damaged, too: what was left out is told with what was made.
+  if (recording.notes().empty()) return run;
+  QString notes;
+  for (const std::string& note : recording.notes())
+    notes += QObject::tr("\nNote: %1").arg(QString::fromStdString(note));
+  for (auto& [name, data] : run.models) {
+    auto told = std::make_shared<ModelData>(*data);
+    told->report += notes;
+    data = std::move(told);
+  }
+  return run;
+}
+
+Result<StageRun> run_cloud(const Model& model, const std::string& stage, ReconstructOptions options,
+                           const RunContext& context) {
+  std::string note;
+  if (options.surface.method == SurfaceMethod::kVolumetric) {
+    options.surface.method = SurfaceMethod::kPoisson;
+    note = "method volumetric needs the frames of a recording; a cloud takes poisson";
+  }
+  options.crop.enabled = false;
+  options.outliers.enabled = options.merge.cloud_outliers;
+  options.base.enabled = false;
+  const auto frames = sequence_of(model.data->cloud, model.data->viewpoints);
+  return run_on(*frames, model, stage, std::move(options), note, context);
+}
+
+}  // namespace
+
+Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
+                              const ReconstructOptions& options, const RunContext& context) {
+  switch (model.data->kind) {
+    case ModelKind::kRecording:
+      return run_recording(model, stage, options, context);
+    case ModelKind::kCloud:
+      return run_cloud(model, stage, options, context);
+    case ModelKind::kMesh:
+      break;
+  }
+  return fail(ErrorCode::kUnsupported, "'{}' is a mesh already; select a recording or a cloud",
+              model.name.toStdString());
+}
+
+Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,
+                                  const RunContext& context) {
+  if (model.data->kind != ModelKind::kCloud)
+    return fail(ErrorCode::kUnsupported,
+                "'{}' is not a cloud; the frames of a recording are filtered when it is merged",
+                model.name.toStdString());
+  const PointCloud& from = model.data->cloud;
+  context.begin_phase("filter", 0);
+  TURNSCAN_ASSIGN(const auto inlier, outliers::statistical_outlier_mask(
+                                         std::span<const Vec3f>(from.points), options, context));
+  PointCloud inliers = points_where(from, [&](std::size_t i) { return inlier[i] != 0; });
+  context.begin_phase("prepare the view", 0);
+  const QString report = QObject::tr("%1 of %2 points were dropped")
+                             .arg(grouped(from.size() - inliers.size()), grouped(from.size()));
+  return cloud_model(std::move(inliers), QObject::tr("filter of %1").arg(model.name), report,
+                     model.data->viewpoints);
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,30 @@
+#pragma once
+// Stages of the pipeline run on a model. All of this runs on a worker's thread.
+
+#include <string>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <vector>
+
+#include "explorer/loading.hpp"
+
+namespace turnscan::studio {
+
+/// The stage that ends with meshes; the others are those of saveable_stages().
+inline const std::string kMeshStage = "mesh";
+
+struct StageRun {
+  NamedModels models;
+  std::vector<Choice> choices;  ///< automatic values as they were used
+};
+
+/// Runs the pipeline on a recording or a cloud up to a stage. For a recording the results are those
+/// of `turnscan reconstruct` with the same options (--calibration auto, --save-stage), byte for
+/// byte. A mesh fails with kUnsupported, else as reconstruct() does.
+Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
+                              const ReconstructOptions& options, const RunContext& context);
+
+/// The statistical filter on a cloud.
+Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,
+                                  const RunContext& context);
+
+}  // namespace turnscan::studio

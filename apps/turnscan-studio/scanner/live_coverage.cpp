@@ -1,0 +1,85 @@
+#include "scanner/live_coverage.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+
+namespace turnscan::studio {
+
+namespace {
+
+constexpr std::int64_t kCellLimit = 1 << 20;  // per axis, both ways
+
+/// 21 bits per axis.
+std::uint64_t key_of(const Vec3f& p, double cell_m) {
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::int64_t>(std::floor(double(p[axis]) / cell_m));
+    key = key << 21 | static_cast<std::uint64_t>(at + kCellLimit);
+  }
+  return key;
+}
+
+}  // namespace
+
+void LiveCoverage::add(const std::vector<Vec3f>& points, double turned_rad) {
+  ++frame_;
+  const double share = turned_rad / kTurn - std::floor(turned_rad / kTurn);
+  const std::uint64_t side = std::uint64_t(1) << std::min(kSides - 1, int(share * kSides));
+  sides_ |= side;
+  const double reach = cell_m_ * double(kCellLimit - 1);
+  for (const Vec3f& p : points) {
+    if (!p.allFinite() || double(p.cwiseAbs().maxCoeff()) >= reach) continue;
+    Cell& cell = cells_[key_of(p, cell_m_)];
+    cell.sum += p;
+    ++cell.points;
+    cell.sides |= side;
+    if (cell.last_frame == frame_) continue;
+    cell.last_frame = frame_;
+    ++cell.frames;
+  }
+}
+
+double LiveCoverage::area_m2() const {
+  const auto seen = std::count_if(cells_.begin(), cells_.end(),
+                                  [](const auto& entry) { return entry.second.frames > 1; });
+  return double(seen) * cell_m_ * cell_m_ / 1.5;
+}
+
+double LiveCoverage::share_well() const {
+  std::size_t all = 0, well = 0;
+  for (const auto& [key, cell] : cells_) {
+    if (cell.frames < 2) continue;
+    ++all;
+    well += std::popcount(cell.sides) >= kWell ? 1 : 0;
+  }
+  return all == 0 ? 0.0 : double(well) / double(all);
+}
+
+int LiveCoverage::sides() const { return std::popcount(sides_); }
+
+std::optional<Rgb> LiveCoverage::color_at(const Vec3f& p) const {
+  if (!p.allFinite() || double(p.cwiseAbs().maxCoeff()) >= cell_m_ * double(kCellLimit - 1))
+    return std::nullopt;
+  const auto found = cells_.find(key_of(p, cell_m_));
+  if (found == cells_.end() || found->second.frames < 2) return std::nullopt;
+  return color_of_sides(std::popcount(found->second.sides));
+}
+
+PointCloud LiveCoverage::cloud() const {
+  PointCloud out;
+  for (const auto& [key, cell] : cells_) {
+    if (cell.frames < 2) continue;
+    out.points.push_back(cell.sum / float(cell.points));
+    out.colors.push_back(color_of_sides(std::popcount(cell.sides)));
+  }
+  return out;
+}
+
+Rgb color_of_sides(int sides) {
+  if (sides >= LiveCoverage::kWell) return {91, 168, 120};
+  return sides == 2 ? Rgb{214, 190, 84} : Rgb{226, 140, 60};
+}
+
+}  // namespace turnscan::studio

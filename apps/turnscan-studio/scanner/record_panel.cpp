@@ -1,0 +1,174 @@
+#include "scanner/record_panel.hpp"
+
+#include <QCheckBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QVBoxLayout>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/workflow/output_file.hpp>
+
+#include "app/paths.hpp"
+#include "scanner/live_coverage.hpp"
+#include "scanner/live_feed.hpp"
+#include "scanner/motor_panel.hpp"
+#include "widgets/option_form.hpp"
+#include "widgets/section.hpp"
+
+namespace turnscan::studio {
+
+struct RecordPanel::Options {
+  CaptureOptions capture;
+
+  OptionTable speed() {
+    OptionTable table;
+    table.number("speed", capture.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
+                 "Speed of the table, counter-clockwise seen from above is positive: of the motor "
+                 "(then 10deg/s unless it is given), or where turns are counted. auto: from the "
+                 "frames' angles, the calibration or the motion");
+    return table;
+  }
+};
+
+RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_unique<Options>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  auto* row = new QHBoxLayout;
+  folder_ = new QLineEdit(this);
+  folder_->setObjectName("scanner_folder");
+  folder_->setToolTip(tr("Folder to make; a number is added where it has content"));
+  folder_->setText(QSettings().value("scanner/folder", "~/recording").toString());
+  auto* browse = button(tr("…"), tr("Choose the folder"), this);
+  row->addWidget(folder_, 1);
+  row->addWidget(browse);
+  layout->addLayout(row);
+  build_options();
+  reconstruct_ = new QCheckBox(tr("Make the mesh when it is done"), this);
+  reconstruct_->setChecked(QSettings().value("scanner/reconstruct", true).toBool());
+  record_ = button(tr("Record"), tr("Record until the turns are done"), this);
+  record_->setObjectName("record");
+  record_->setEnabled(false);
+  bar_ = new QProgressBar(this);
+  bar_->setRange(0, 1000);
+  bar_->setTextVisible(false);
+  bar_->setVisible(false);
+  text_ = quiet_label({}, this);
+  text_->setObjectName("quiet");
+  seen_ = quiet_label({}, this);
+  error_ = new MessageLabel(this);
+  for (QWidget* part :
+       std::initializer_list<QWidget*>{reconstruct_, record_, bar_, text_, seen_, error_})
+    layout->addWidget(part);
+  text_->setVisible(false);
+  seen_->setVisible(false);
+  connect(browse, &QPushButton::clicked, this, [this] {
+    const QString path = QFileDialog::getExistingDirectory(this, tr("Folder of the recording"));
+    if (!path.isEmpty()) set_folder(path);
+  });
+  connect(record_, &QPushButton::clicked, this, &RecordPanel::clicked);
+}
+
+RecordPanel::~RecordPanel() = default;
+
+void RecordPanel::build_options() {
+  CaptureOptions& capture = options_->capture;
+  const auto add = [this](const QString& name, OptionTable table, const QStringList& hide,
+                          QWidget* parent) {
+    auto* form = new OptionForm(std::move(table), hide, parent);
+    forms_.emplace_back(name, form);
+    return form;
+  };
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  layout->addWidget(add("turns", describe(capture.limits),
+                        {"seconds", "frames", "until-stopped", "overlap", "device-timeout"}, this));
+  layout->addWidget(add("speed", options_->speed(), {}, this));
+  auto* motor = new Section(tr("Motor"), false, this, Section::kNested);
+  motor_ = new MotorPanel(motor);
+  motor->body()->addWidget(motor_);
+  layout->addWidget(motor);
+  auto* more = new Section(tr("More options"), false, this, Section::kNested);
+  more->body()->addWidget(add("limits", describe(capture.limits), {"turns"}, more));
+  more->body()->addWidget(add("crop", describe(capture.crop), {}, more));
+  more->body()->addWidget(add("recorder", describe(capture.recorder), {}, more));
+  layout->addWidget(more);
+  for (const auto& [name, form] : forms_) form->restore("scanner/" + name);
+  motor_->restore();
+}
+
+void RecordPanel::set_folder(const QString& folder) { folder_->setText(shown_path(folder)); }
+
+bool RecordPanel::reconstruct() const { return reconstruct_->isChecked(); }
+
+std::optional<RecordingRequest> RecordPanel::request() {
+  QString problem = motor_->first_error();
+  for (const auto& [name, form] : forms_)
+    if (problem.isEmpty()) problem = form->first_error();
+  if (motor_->turning()) problem = tr("The motor is being tried; stop it first");
+  error_->show_text(problem);
+  if (!problem.isEmpty()) return std::nullopt;
+  const QString folder = free_folder(typed_path(folder_->text()));
+  if (const auto good = check_output_folder(folder.toStdString()); !good) {
+    error_->show_text(QString::fromStdString(good.error().text()));
+    return std::nullopt;
+  }
+  RecordingRequest request{folder.toStdString(), options_->capture, motor_->port(),
+                           motor_->options()};
+  if (!request.motor_port.empty()) request.options.stops = motor_->stops();
+  return request;
+}
+
+void RecordPanel::show_error(const QString& text) { error_->show_text(text); }
+
+QString RecordPanel::progress_text(const LiveState& state) const {
+  const CaptureProgress& p = state.progress;
+  const QString turns = p.turned_rad ? tr("turn %1").arg(*p.turned_rad / kTurn, 0, 'f', 2)
+                                     : tr("turns not known yet");
+  const QString space =
+      p.free_bytes > 0 ? tr(", %1 GB free").arg(double(p.free_bytes) * 1e-9, 0, 'f', 1) : QString();
+  return tr("%1 frames, %2, %3 dropped%4")
+      .arg(qulonglong(p.frames))
+      .arg(turns)
+      .arg(qulonglong(p.dropped))
+      .arg(space);
+}
+
+void RecordPanel::show_state(const LiveState& state, bool open) {
+  record_->setEnabled(open);
+  record_->setText(state.recording ? tr("Stop recording") : tr("Record"));
+  motor_->set_in_use(state.recording);
+  if (!state.record_error.empty()) error_->show_text(QString::fromStdString(state.record_error));
+  bar_->setVisible(state.recording);
+  if (state.recording) {
+    bar_->setRange(0, state.progress.fraction > 0.0 ? 1000 : 0);
+    bar_->setValue(int(1000.0 * state.progress.fraction));
+    text_->setText(progress_text(state));
+    text_->setVisible(true);
+    seen_->setVisible(true);
+    seen_->setText(
+        state.seen ? tr("Seen so far: about %1 cm², %2 % of it well (from %3 sides or more)")
+                         .arg(1e4 * state.seen->area_m2, 0, 'f', 0)
+                         .arg(100.0 * state.seen->share_well, 0, 'f', 0)
+                         .arg(LiveCoverage::kWell)
+                   : tr("What is covered is shown once the table's place and speed are known."));
+  }
+  if (!state.outcome.empty()) {
+    text_->setText(tr("Recorded %1").arg(QString::fromStdString(state.outcome)));
+    text_->setVisible(true);
+  }
+}
+
+void RecordPanel::store() const {
+  QSettings settings;
+  settings.setValue("scanner/folder", folder_->text());
+  settings.setValue("scanner/reconstruct", reconstruct_->isChecked());
+  for (const auto& [name, form] : forms_) form->store("scanner/" + name);
+  motor_->store();
+}
+
+}  // namespace turnscan::studio

@@ -1,0 +1,57 @@
+#pragma once
+// Where to, how long and with what: the panel of a recording, and how it goes on.
+
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+class QCheckBox;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+
+namespace turnscan::studio {
+
+class MessageLabel;
+class MotorPanel;
+class OptionForm;
+struct LiveState;
+struct RecordingRequest;
+
+class RecordPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit RecordPanel(QWidget* parent = nullptr);
+  ~RecordPanel() override;
+
+  void set_folder(const QString& folder);
+  bool reconstruct() const;
+  /// What is to be recorded; nullopt: something is wrong, and it is shown.
+  std::optional<RecordingRequest> request();
+  void show_error(const QString& text);
+  /// open: a sensor is there to be recorded.
+  void show_state(const LiveState& state, bool open);
+  MotorPanel& motor() { return *motor_; }
+  void store() const;
+
+ Q_SIGNALS:
+  void clicked();
+
+ private:
+  struct Options;
+  void build_options();
+  QString progress_text(const LiveState& state) const;
+
+  std::unique_ptr<Options> options_;
+  QLineEdit* folder_;
+  QCheckBox* reconstruct_;
+  QPushButton* record_;
+  QProgressBar* bar_;
+  QLabel *text_, *seen_;
+  MessageLabel* error_;
+  MotorPanel* motor_;
+  std::vector<std::pair<QString, OptionForm*>> forms_;
+};
+
+}  // namespace turnscan::studio

@@ -1,0 +1,277 @@
+#include "scanner/scanner.hpp"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <turnscan/capture/source/plugins.hpp>
+
+#include "app/jobs.hpp"
+#include "app/paths.hpp"
+#include "scanner/live_coverage.hpp"
+#include "scanner/live_feed.hpp"
+#include "scanner/motor_panel.hpp"
+#include "scanner/record_panel.hpp"
+#include "scanner/scanner_parts.hpp"
+#include "view/scene_view.hpp"
+#include "widgets/option_form.hpp"
+#include "widgets/section.hpp"
+#include "widgets/text.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+Legend legend_of_sides() {
+  Legend legend;
+  legend.title = QObject::tr("Seen from");
+  legend.entries = {{to_color(color_of_sides(1)), QObject::tr("1 side")},
+                    {to_color(color_of_sides(2)), QObject::tr("2 sides")},
+                    {to_color(color_of_sides(LiveCoverage::kWell)),
+                     QObject::tr("%1 or more").arg(LiveCoverage::kWell)}};
+  return legend;
+}
+
+}  // namespace
+
+ScannerMode::ScannerMode(const Services& services, QWidget* parent)
+    : Mode(services, parent),
+      feed_(std::make_unique<LiveFeed>()),
+      options_(std::make_unique<CalibrationOptions>()),
+      pick_tool_(std::make_unique<PickTool>(*this)),
+      quick_(new JobRunner(this)),
+      poll_(new QTimer(this)) {
+  build_device();
+  build_calibration();
+  build_recording();
+  panel()->addStretch();
+  view().set_up(-Vec3d::UnitY());
+  view().set_empty_text(tr("No picture yet"),
+                        tr("Choose a device on the right and press Play. The virtual sensors need "
+                           "no hardware."));
+  view().set_empty_actions({{tr("Play now"), [this] {
+                               if (!feed_->running()) toggle_play();
+                             }}});
+  poll_->setInterval(50);
+  connect(poll_, &QTimer::timeout, this, &ScannerMode::poll);
+}
+
+ScannerMode::~ScannerMode() {
+  view().set_tool(nullptr);
+  delete quick_;
+}
+
+void ScannerMode::build_device() {
+  auto* section = new Section(tr("1  Device"), true, this);
+  device_ = new QComboBox(section);
+  device_->setObjectName("device");
+  device_->setEditable(true);
+  device_->setInsertPolicy(QComboBox::NoInsert);
+  device_->setToolTip(tr("A device of the list, or any URI, e.g. replay:FOLDER"));
+  auto* row = new QHBoxLayout;
+  play_ = primary_button(tr("Play"), tr("Show what the sensor sees"), section);
+  filter_ = new QCheckBox(tr("Filter points"), section);
+  filter_->setToolTip(tr("Show only what stands on the turntable; needs a calibration"));
+  filter_->setEnabled(false);
+  live_ = button(tr("Back to live"), tr("Show what the sensor sees now"), section);
+  live_->setVisible(false);
+  row->addWidget(play_);
+  row->addWidget(filter_);
+  row->addStretch();
+  row->addWidget(live_);
+  live_text_ = quiet_label(tr("Not playing"), section);
+  device_error_ = new MessageLabel(section);
+  section->body()->addWidget(device_);
+  section->body()->addLayout(row);
+  section->body()->addWidget(live_text_);
+  section->body()->addWidget(device_error_);
+  connect(play_, &QPushButton::clicked, this, &ScannerMode::toggle_play);
+  connect(live_, &QPushButton::clicked, this, [this] { set_still(false); });
+  connect(filter_, &QCheckBox::toggled, this, [this](bool on) {
+    feed_->set_filter(on);
+    set_still(false);
+  });
+  panel()->addWidget(section);
+}
+
+void ScannerMode::build_recording() {
+  auto* section = new Section(tr("3  Recording"), true, this);
+  record_ = new RecordPanel(section);
+  section->body()->addWidget(record_);
+  connect(record_, &RecordPanel::clicked, this, &ScannerMode::toggle_record);
+  panel()->addWidget(section);
+}
+
+void ScannerMode::showEvent(QShowEvent* event) {
+  Mode::showEvent(event);
+  // Drivers take seconds to look for devices: not before somebody comes here.
+  if (device_->count() == 0) list_devices();
+}
+
+void ScannerMode::list_devices() {
+  const QString typed = device_->currentText();
+  device_->addItem(tr("Virtual Kinect v2, doll"), "virtual:doll?sensor=kinect-v2&realtime=1");
+  device_->addItem(tr("Virtual Kinect v2, letter A on a desk"),
+                   "virtual:letter-a?sensor=kinect-v2&realtime=1&room=desk");
+  device_->addItem(tr("Virtual Kinect v1, cylinder"),
+                   "virtual:cylinder?sensor=kinect-v1&realtime=1");
+  device_->addItem(tr("Virtual Kinect v2, empty table on a desk"),
+                   "virtual:empty?sensor=kinect-v2&realtime=1&room=desk");
+  const QString last = QSettings().value("scanner/device").toString();
+  if (!typed.isEmpty() || !last.isEmpty()) device_->setEditText(typed.isEmpty() ? last : typed);
+  quick_->start(tr("Look for devices"), this,
+                [this](const RunContext& context) -> Result<Finish> {
+                  const auto drivers = list_drivers();
+                  TURNSCAN_TRY(context.check());
+                  return Finish([this, drivers] {
+                    int at = 0;
+                    for (const DriverState& driver : drivers)
+                      for (const FoundDevice& device : driver.devices)
+                        device_->insertItem(at++, QString::fromStdString(device.model),
+                                            QString::fromStdString(device.uri));
+                  });
+                },
+                {});
+}
+
+void ScannerMode::set_device(const QString& uri) {
+  device_->setEditText(uri);
+  device_->lineEdit()->setCursorPosition(0);
+}
+
+QString ScannerMode::chosen_uri() const {
+  const int known = device_->findText(device_->currentText());
+  return known >= 0 ? device_->itemData(known).toString() : device_->currentText().trimmed();
+}
+
+void ScannerMode::toggle_play() {
+  device_error_->show_text({});
+  if (feed_->running()) {
+    // The thread may have frames to write yet; the window does not wait for it.
+    feed_->cancel();
+    play_->setEnabled(false);
+    live_text_->setText(tr("Stopping"));
+    return;
+  }
+  set_still(false);
+  framed_ = false;
+  play_->setText(tr("Stop"));
+  live_text_->setText(tr("Opening %1").arg(device_->currentText()));
+  feed_->start(chosen_uri().toStdString());
+  poll_->start();
+}
+
+void ScannerMode::poll() {
+  const bool end = feed_->ended();
+  feed_->set_most_points(view().points_at_once());
+  const LiveState state = feed_->take_state();
+  show_state(state);
+  if (averaging_) {
+    if (auto frames = feed_->take_collected()) average_done(std::move(frames));
+  }
+  if (!state.finished.empty()) {
+    const QString folder = QString::fromStdString(state.finished);
+    Q_EMIT status(tr("Wrote %1").arg(shown_path(folder)));
+    // What a fault has ended is for a person to look at first.
+    Q_EMIT recording_made(folder, record_->reconstruct() && state.record_error.empty());
+  }
+  if (end) ended();
+}
+
+void ScannerMode::ended() {
+  feed_->stop();
+  poll_->stop();
+  averaging_ = false;
+  play_->setText(tr("Play"));
+  play_->setEnabled(true);
+  live_text_->setText(tr("Not playing"));
+  average_->setEnabled(false);
+  record_->show_state({}, false);
+}
+
+void ScannerMode::show_state(const LiveState& state) {
+  if (!state.error.empty()) device_error_->show_text(QString::fromStdString(state.error));
+  record_->show_state(state, state.open);
+  show_seen(state);
+  if (!state.open) return;
+  if (state.kept && !calibration_) show_calibration(state.kept, true);
+  average_->setEnabled(!averaging_);
+  filter_->setEnabled(state.table_known);
+  if (play_->isEnabled())
+    live_text_->setText(tr("%1 frames a second, %2 points, %3 dropped")
+                            .arg(state.fps, 0, 'f', 1)
+                            .arg(grouped(state.points))
+                            .arg(qulonglong(state.dropped)));
+  if (averaging_)
+    calibration_text_->setText(
+        tr("Averaging: %1 of %2 frames").arg(state.averaged).arg(options_->average.frames));
+  show_picture(state);
+}
+
+void ScannerMode::show_picture(const LiveState& state) {
+  if (!state.picture || still_) return;
+  const ItemStyle style = picture_style(true);
+  if (live_item_ == 0) {
+    live_item_ = view().add(state.picture, style);
+  } else {
+    view().replace(live_item_, state.picture);
+  }
+  if (framed_ || box_of(*state.picture).empty()) return;
+  view().look_as_sensor(box_of(*state.picture).center());
+  framed_ = true;
+}
+
+void ScannerMode::show_seen(const LiveState& state) {
+  if (recording_ && !state.recording) {
+    view().remove(seen_item_);
+    seen_item_ = 0;
+    view().set_legend({});
+  }
+  recording_ = state.recording;
+  if (!recording_ || !state.seen || !state.seen->picture) return;
+  if (seen_item_ == 0) {
+    ItemStyle style;
+    style.boxed = style.in_view = false;
+    style.point_scale = 3.0;
+    seen_item_ = view().add(state.seen->picture, style);
+    view().set_legend(legend_of_sides());
+  } else {
+    view().replace(seen_item_, state.seen->picture);
+  }
+}
+
+/// Shows the averaged scan in place of the live picture.
+void ScannerMode::set_still(bool still) {
+  still_ = still;
+  live_->setVisible(still && feed_->running());
+  view().set_style(scan_item_, picture_style(still));
+  view().set_style(live_item_, picture_style(!still));
+}
+
+void ScannerMode::toggle_record() {
+  record_->show_error({});
+  if (recording_) {
+    feed_->stop_recording();
+    return;
+  }
+  const auto request = record_->request();
+  if (!request) return;
+  set_still(false);
+  feed_->record(*request);
+}
+
+void ScannerMode::shut_down() {
+  QSettings().setValue("scanner/device", device_->currentText());
+  average_form_->store("scanner/average");
+  detect_form_->store("scanner/detect");
+  record_->store();
+  record_->motor().stop();
+  feed_->stop();
+}
+
+}  // namespace turnscan::studio

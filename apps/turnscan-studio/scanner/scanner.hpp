@@ -1,0 +1,103 @@
+#pragma once
+// 3D Scanner: look, calibrate, record.
+
+#include <memory>
+#include <optional>
+#include <turnscan/turntable/detection/average.hpp>
+#include <vector>
+
+#include "app/mode.hpp"
+#include "view/drawable.hpp"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLayout;
+class QPushButton;
+class QTimer;
+
+namespace turnscan {
+struct Calibration;
+}
+
+namespace turnscan::studio {
+
+class LiveFeed;
+class MessageLabel;
+class OptionForm;
+class PickTool;
+class RecordPanel;
+struct LiveState;
+
+class ScannerMode : public Mode {
+  Q_OBJECT
+ public:
+  explicit ScannerMode(const Services& services, QWidget* parent = nullptr);
+  ~ScannerMode() override;
+
+  void undo() override { undo_pick(); }
+  QString undo_text() const override { return picks_.empty() ? QString() : tr("click"); }
+  void shut_down() override;
+
+  void set_device(const QString& uri);
+  RecordPanel& recording() { return *record_; }
+  const Calibration* calibration() const { return calibration_.get(); }
+  void load_calibration(const QString& path);
+  void save_calibration(const QString& path);
+  /// A point on the platter's rim, sensor frame.
+  void add_pick(const Vec3d& point);
+  void undo_pick();
+  std::size_t picks() const { return picks_.size(); }
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  struct CalibrationOptions;
+
+  void build_device();
+  void build_calibration();
+  QLayout* make_pick_buttons(QWidget* parent);
+  QLayout* make_calibration_files(QWidget* parent);
+  void build_recording();
+  void list_devices();
+  QString chosen_uri() const;
+  void toggle_play();
+  void poll();
+  void ended();
+  void show_state(const LiveState& state);
+  void show_picture(const LiveState& state);
+  void show_seen(const LiveState& state);
+  void start_average();
+  void average_done(std::unique_ptr<FrameSequence> frames);
+  void show_average(std::shared_ptr<const AveragedScan> scan, const DrawablePtr& drawable,
+                    const std::string& check);
+  void calibrate();
+  void start_picking(bool on);
+  void fit_picks();
+  void show_calibration(std::shared_ptr<const Calibration> calibration, bool kept = false);
+  void draw_calibration();
+  void toggle_record();
+  void set_still(bool still);
+
+  std::unique_ptr<LiveFeed> feed_;
+  std::unique_ptr<CalibrationOptions> options_;
+  std::unique_ptr<PickTool> pick_tool_;
+  std::shared_ptr<const AveragedScan> scan_;
+  std::shared_ptr<const Calibration> calibration_;
+  std::vector<Vec3d> picks_;
+
+  JobRunner* quick_;
+  QTimer* poll_;
+  QComboBox* device_;
+  QPushButton *play_, *live_, *average_, *calibrate_, *pick_, *undo_pick_, *save_;
+  QCheckBox* filter_;
+  QLabel *live_text_, *calibration_text_;
+  RecordPanel* record_;
+  OptionForm *average_form_, *detect_form_;
+  MessageLabel *device_error_, *calibration_error_;
+  int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0, seen_item_ = 0;
+  bool averaging_ = false, still_ = false, framed_ = false, recording_ = false;
+};
+
+}  // namespace turnscan::studio

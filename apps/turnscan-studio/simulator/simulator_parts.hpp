@@ -1,0 +1,39 @@
+#pragma once
+// For the sources of the Simulator.
+
+#include <memory>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/simulator/scene_file.hpp>
+
+#include "simulator/simulator.hpp"
+#include "view/scene_view.hpp"
+
+namespace turnscan::studio {
+
+struct SimulatorMode::RigScanner {
+  QString name;
+  ScannerModel model;
+  ScannerPlacement placement;
+  OptionForm* form = nullptr;
+  int lines = 0, bodies = 0;  // items of the view
+};
+
+/// Drags a scanner about the point that it looks at; with Shift nearer and farther.
+class RigTool : public ViewTool {
+ public:
+  explicit RigTool(SimulatorMode& mode) : mode_(mode) {}
+  bool press(const QPointF& at, Qt::KeyboardModifiers keys) override;
+  void drag(const QPointF& at, Qt::KeyboardModifiers keys) override;
+  void release(const QPointF& at) override;
+  QCursor cursor() const override { return Qt::ArrowCursor; }
+
+ private:
+  Vec3d position_of(const SimulatorMode::RigScanner& scanner) const;
+  void turn(SimulatorMode::RigScanner& scanner, const QPointF& at) const;
+
+  SimulatorMode& mode_;
+  int dragged_ = -1;
+  QPointF last_;
+};
+
+}  // namespace turnscan::studio

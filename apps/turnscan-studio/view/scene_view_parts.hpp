@@ -1,0 +1,109 @@
+#pragma once
+// What a SceneView consists of, for its own sources.
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkPlaneCollection.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <QPainter>
+#include <QTimer>
+#include <QVariantAnimation>
+#include <array>
+#include <map>
+
+#include "view/drawable_parts.hpp"
+#include "view/scene_view.hpp"
+#include "widgets/theme.hpp"
+
+namespace turnscan::studio {
+
+inline constexpr int kRestAfterMs = 180;    ///< the camera, after it moved
+inline constexpr double kViewAngle = 30.0;  ///< degrees, vertical
+inline constexpr double kPointSize = 2.0;   ///< pixels, unless somebody changes it
+
+/// The OpenGL surface; the mouse belongs to the view.
+class VtkCanvas : public QVTKOpenGLNativeWidget {
+ public:
+  explicit VtkCanvas(SceneView* view) : QVTKOpenGLNativeWidget(view), view_(view) {}
+
+ protected:
+  bool event(QEvent* event) override;
+
+ private:
+  SceneView* view_;
+};
+
+class ViewOverlay;
+
+struct SceneView::Item {
+  DrawablePtr drawable;
+  ItemStyle style;
+  /// Of each chunk, made when it is first drawn: hundreds at once would be a pause that shows.
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+  vtkSmartPointer<vtkActor> coarse, box;
+};
+
+struct SceneView::Parts {
+  VtkCanvas* canvas = nullptr;
+  ViewOverlay* overlay = nullptr;
+  vtkNew<vtkGenericOpenGLRenderWindow> window;
+  std::array<vtkNew<vtkRenderer>, 2> renderers;
+  vtkNew<vtkCamera> camera;
+  vtkNew<vtkPlaneCollection> clip_planes;
+  std::map<int, Item> items;
+  int next_item = 1;
+
+  const Theme* theme = nullptr;
+  double point_size = kPointSize, speed = 1.0;
+  bool boxes = false, split = false;
+  std::array<QString, 2> pane_titles;
+  Legend legend;
+  QString empty_title, empty_text, hint;
+  QWidget* empty_actions = nullptr;
+
+  Vec3d up = Vec3d::UnitY();
+  Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a flight
+  QVariantAnimation flight;
+
+  QTimer render;  ///< the next frame
+  QTimer rest;    ///< the camera has come to rest
+  QTimer more;    ///< the next piece of the points that are still missing
+  bool moving = false, complete = false, warm = false;
+  std::size_t budget = 40000, chunks_a_frame = 1, points_drawn = 0;
+  double longest_ms = 0.0;
+  struct Piece {
+    Item* item;
+    std::size_t chunk;
+  };
+  std::vector<Piece> pending;
+
+  QPointF last_mouse;
+  bool tool_active = false;
+  bool touched = false;  ///< somebody has moved the camera
+
+  void fly(double share);
+  void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
+  void warm_up();
+  void learn_from(double ms);
+  void size_points(Item& item, double ratio, double metres_per_pixel);
+  void drop(Item& item) {
+    for (auto& renderer : renderers) {
+      for (const auto& actor : item.actors)
+        if (actor) renderer->RemoveActor(actor);
+      if (item.coarse) renderer->RemoveActor(item.coarse);
+      if (item.box) renderer->RemoveActor(item.box);
+    }
+    item.actors.clear();
+    item.coarse = item.box = nullptr;
+    pending.clear();
+  }
+};
+
+Segments box_segments(const Box& box);
+
+}  // namespace turnscan::studio

@@ -1,0 +1,247 @@
+#include "widgets/option_form.hpp"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSettings>
+#include <QSignalBlocker>
+#include <QStyle>
+#include <QWheelEvent>
+
+#include "widgets/text.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+const char* unit_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kLength:
+      return "mm";
+    case Quantity::kAngle:
+      return "deg";
+    case Quantity::kTime:
+      return "s";
+    case Quantity::kAngularSpeed:
+      return "deg/s";
+    case Quantity::kNone:
+      break;
+  }
+  return "";
+}
+
+/// A number that was typed without its unit gets the one that people use.
+QString with_unit(const QString& text, Quantity quantity) {
+  const std::string plain = text.trimmed().toStdString();
+  return parse_number(plain) ? text.trimmed() + unit_of(quantity) : text.trimmed();
+}
+
+QString tip_of(const OptionField& field) {
+  QString tip = QString("<b>%1</b><br>%2")
+                    .arg(QString::fromStdString(field.name).toHtmlEscaped(),
+                         QString::fromStdString(field.help).toHtmlEscaped());
+  if (field.range) {
+    const auto text = [&](double value) {
+      return QString::fromStdString(format_quantity(value, field.quantity));
+    };
+    tip += QObject::tr("<br>From %1 to %2").arg(text(field.range->min), text(field.range->max));
+  }
+  return tip;
+}
+
+/// The wheel scrolls the panel; it must not change values on its way.
+class NoWheel : public QObject {
+ public:
+  using QObject::QObject;
+  bool eventFilter(QObject* object, QEvent* event) override {
+    if (event->type() != QEvent::Wheel) return QObject::eventFilter(object, event);
+    event->ignore();
+    return true;
+  }
+};
+
+}  // namespace
+
+OptionForm::OptionForm(OptionTable table, const QStringList& hide, QWidget* parent)
+    : QWidget(parent), table_(std::move(table)), grid_(new QGridLayout(this)) {
+  grid_->setContentsMargins(0, 0, 0, 0);
+  grid_->setHorizontalSpacing(10);
+  grid_->setVerticalSpacing(5);
+  grid_->setColumnStretch(0, 3);
+  grid_->setColumnStretch(1, 2);
+  for (const OptionField& field : table_.fields())
+    if (!hide.contains(QString::fromStdString(field.name))) add_row(field);
+}
+
+void OptionForm::add_row(const OptionField& field) {
+  const std::size_t index = rows_.size();
+  rows_.push_back({&field, nullptr, nullptr, field.get(), {}});
+  Row& row = rows_.back();
+  row.editor = make_editor(index);
+  row.editor->setObjectName("option:" + QString::fromStdString(field.name));
+  row.editor->setToolTip(tip_of(field));
+  const int line = grid_->rowCount();
+  if (field.is_flag) {
+    grid_->addWidget(row.editor, line, 0, 1, 2);
+  } else {
+    auto* label = new QLabel(title_of(field.name), this);
+    label->setToolTip(tip_of(field));
+    label->setBuddy(row.editor);
+    label->setWordWrap(true);
+    grid_->addWidget(label, line, 0);
+    grid_->addWidget(row.editor, line, 1);
+  }
+  row.error = new QLabel(this);
+  row.error->setObjectName("field_error");
+  row.error->setWordWrap(true);
+  row.error->setVisible(false);
+  grid_->addWidget(row.error, line + 1, 0, 1, 2);
+  show_value(row);
+}
+
+QWidget* OptionForm::make_editor(std::size_t index) {
+  const OptionField& field = *rows_[index].field;
+  if (field.is_flag) {
+    auto* box = new QCheckBox(title_of(field.name), this);
+    connect(box, &QCheckBox::toggled, this,
+            [this, index](bool on) { take(index, on ? "true" : "false"); });
+    return box;
+  }
+  if (!field.choices.empty()) {
+    auto* box = new QComboBox(this);
+    for (const std::string& choice : field.choices) box->addItem(QString::fromStdString(choice));
+    box->installEventFilter(new NoWheel(box));
+    connect(box, &QComboBox::currentTextChanged, this,
+            [this, index](const QString& text) { take(index, text); });
+    return box;
+  }
+  auto* edit = new QLineEdit(this);
+  edit->setMinimumWidth(84);
+  if (field.may_be_auto) {
+    edit->setPlaceholderText(tr("automatic"));
+    edit->setClearButtonEnabled(true);
+  }
+  connect(edit, &QLineEdit::textEdited, this,
+          [this, index](const QString& text) { take(index, text); });
+  // Clearing by the button does not count as editing.
+  connect(edit, &QLineEdit::textChanged, this, [this, index](const QString& text) {
+    if (text.isEmpty() && rows_[index].field->may_be_auto) take(index, text);
+  });
+  connect(edit, &QLineEdit::editingFinished, this, [this, index] {
+    if (rows_[index].problem.isEmpty()) show_value(rows_[index]);
+  });
+  return edit;
+}
+
+void OptionForm::take(std::size_t index, const QString& text) {
+  Row& row = rows_[index];
+  const OptionField& field = *row.field;
+  const std::string before = field.get();
+  QString value = text;
+  if (field.may_be_auto && text.trimmed().isEmpty()) value = "auto";
+  if (field.quantity != Quantity::kNone) value = with_unit(value, field.quantity);
+  Result<> set = field.set(value.toStdString());
+  if (set) set = field.check();
+  row.problem = set ? QString() : QString::fromStdString(set.error().text());
+  if (!set) (void)field.set(before);
+  show_problem(row);
+  Q_EMIT changed();
+}
+
+void OptionForm::show_problem(Row& row) {
+  const bool bad = !row.problem.isEmpty();
+  row.error->setText(row.problem);
+  row.error->setVisible(bad);
+  if (row.editor->property("invalid").toBool() == bad) return;
+  row.editor->setProperty("invalid", bad);
+  row.editor->style()->unpolish(row.editor);
+  row.editor->style()->polish(row.editor);
+}
+
+void OptionForm::show_value(const Row& row) {
+  const QString value = QString::fromStdString(row.field->get());
+  const QSignalBlocker quiet(row.editor);
+  if (row.field->is_flag) {
+    static_cast<QCheckBox*>(row.editor)->setChecked(value == "true");
+  } else if (!row.field->choices.empty()) {
+    static_cast<QComboBox*>(row.editor)->setCurrentText(value);
+  } else {
+    const bool automatic = row.field->may_be_auto && value == "auto";
+    auto* edit = static_cast<QLineEdit*>(row.editor);
+    if (edit->text() != (automatic ? QString() : value)) edit->setText(automatic ? "" : value);
+    edit->setCursorPosition(0);
+  }
+}
+
+bool OptionForm::valid() const { return first_error().isEmpty(); }
+
+QString OptionForm::first_error() const {
+  for (const Row& row : rows_)
+    if (!row.problem.isEmpty()) return row.problem;
+  return {};
+}
+
+void OptionForm::refresh() {
+  for (Row& row : rows_) {
+    row.problem.clear();
+    show_problem(row);
+    show_value(row);
+  }
+}
+
+void OptionForm::reset_to_defaults() {
+  for (Row& row : rows_) (void)row.field->set(row.initial);
+  refresh();
+  Q_EMIT changed();
+}
+
+void OptionForm::show_used(const QString& field, const QString& value, const QString& why) {
+  for (Row& row : rows_) {
+    if (field != QString::fromStdString(row.field->name) || !row.field->may_be_auto) continue;
+    auto* edit = static_cast<QLineEdit*>(row.editor);
+    edit->setPlaceholderText(tr("auto: %1").arg(value));
+    edit->setToolTip(tip_of(*row.field) +
+                     tr("<br><i>Last run: %1, %2</i>").arg(value, why.toHtmlEscaped()));
+  }
+}
+
+QMap<QString, QString> OptionForm::values() const {
+  QMap<QString, QString> values;
+  for (const Row& row : rows_) {
+    const std::string value = row.field->get();
+    if (value != row.initial)
+      values[QString::fromStdString(row.field->name)] = QString::fromStdString(value);
+  }
+  return values;
+}
+
+void OptionForm::set_values(const QMap<QString, QString>& values) {
+  for (Row& row : rows_) {
+    const auto found = values.find(QString::fromStdString(row.field->name));
+    if (found != values.end()) (void)row.field->set(found->toStdString());
+  }
+  refresh();
+  Q_EMIT changed();
+}
+
+void OptionForm::store(const QString& group) const {
+  QSettings settings;
+  settings.beginGroup(group);
+  settings.remove("");
+  const QMap<QString, QString> all = values();
+  for (auto it = all.begin(); it != all.end(); ++it) settings.setValue(it.key(), it.value());
+  settings.endGroup();
+}
+
+void OptionForm::restore(const QString& group) {
+  QSettings settings;
+  settings.beginGroup(group);
+  QMap<QString, QString> all;
+  for (const QString& key : settings.childKeys()) all[key] = settings.value(key).toString();
+  settings.endGroup();
+  set_values(all);
+}
+
+}  // namespace turnscan::studio

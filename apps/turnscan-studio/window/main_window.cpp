@@ -1,0 +1,209 @@
+#include "window/main_window.hpp"
+
+#include <QApplication>
+#include <QBuffer>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMimeData>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <turnscan/io/file/atomic_file.hpp>
+
+#include "app/jobs.hpp"
+#include "app/paths.hpp"
+#include "explorer/explorer.hpp"
+#include "scanner/scanner.hpp"
+#include "simulator/simulator.hpp"
+#include "view/scene_view.hpp"
+#include "view/view_settings.hpp"
+#include "widgets/theme.hpp"
+#include "window/job_bar.hpp"
+
+namespace turnscan::studio {
+
+namespace {
+
+constexpr int kRecentFiles = 10;
+
+}  // namespace
+
+MainWindow::MainWindow()
+    : jobs_(new JobRunner(this)),
+      settings_(new ViewSettings(this)),
+      stack_(new QStackedWidget(this)),
+      mode_bar_(nullptr),
+      scanner_(nullptr),
+      explorer_(nullptr),
+      simulator_(nullptr),
+      status_(new QLabel(this)) {
+  setWindowTitle(tr("turnscan Studio"));
+  setAcceptDrops(true);
+  auto* center = new QWidget(this);
+  auto* column = new QVBoxLayout(center);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(make_top_bar());
+  column->addWidget(stack_, 1);
+  setCentralWidget(center);
+  statusBar()->addWidget(status_, 1);
+  auto* job_bar = new JobBar(*jobs_, this);
+  statusBar()->addPermanentWidget(job_bar);
+  statusBar()->setSizeGripEnabled(false);
+  // As high without a job: the view is not to jump when one begins.
+  statusBar()->setMinimumHeight(job_bar->sizeHint().height() + 6);
+  scanner_ = new ScannerMode({*jobs_, *settings_}, stack_);
+  add_mode("scanner", tr("3D Scanner"), tr("Calibrate and record with a sensor (F1)"), scanner_);
+  explorer_ = new ExplorerMode({*jobs_, *settings_}, stack_);
+  add_mode("explorer", tr("Model Explorer"), tr("Look at models and process them (F2)"), explorer_);
+  simulator_ = new SimulatorMode({*jobs_, *settings_}, stack_);
+  add_mode("simulator", tr("Scanner Simulator"), tr("Try a rig before it is built (F3)"),
+           simulator_);
+  connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
+  menu_ = make_main_menu(*this);
+  connect(menu_.recent, &QMenu::aboutToShow, this, &MainWindow::fill_recent);
+  connect(settings_, &ViewSettings::changed, this, &MainWindow::apply_settings);
+  apply_settings();
+  restore_window();
+}
+
+MainWindow::~MainWindow() {
+  // Before the modes, to whose widgets the results of jobs go.
+  delete jobs_;
+  jobs_ = nullptr;
+}
+
+QWidget* MainWindow::make_top_bar() {
+  mode_bar_ = new QWidget(this);
+  mode_bar_->setObjectName("top_bar");
+  auto* row = new QHBoxLayout(mode_bar_);
+  row->setContentsMargins(12, 7, 12, 7);
+  row->setSpacing(6);
+  row->addStretch();
+  return mode_bar_;
+}
+
+void MainWindow::add_mode(const QString& name, const QString& title, const QString& tip,
+                          Mode* mode) {
+  stack_->addWidget(mode);
+  auto* button = new QToolButton(mode_bar_);
+  button->setObjectName("mode");
+  button->setText(title);
+  button->setToolTip(tip);
+  button->setCheckable(true);
+  button->setAutoExclusive(true);
+  button->setShortcut(QKeySequence(name == "scanner"    ? Qt::Key_F1
+                                   : name == "explorer" ? Qt::Key_F2
+                                                        : Qt::Key_F3));
+  static_cast<QHBoxLayout*>(mode_bar_->layout())->insertWidget(int(mode_buttons_.size()), button);
+  mode_buttons_.emplace_back(name, button);
+  connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
+  connect(mode, &Mode::status, status_, &QLabel::setText);
+  connect(mode, &Mode::mode_wanted, this, &MainWindow::show_mode);
+  connect(mode, &Mode::undo_changed, this, [this] {
+    if (menu_.undo) update_undo();
+  });
+  connect(mode, &Mode::recording_made, this, [this](const QString& folder, bool reconstruct) {
+    show_mode("explorer");
+    explorer_->take_recording(folder, reconstruct);
+  });
+}
+
+void MainWindow::show_mode(const QString& name) {
+  for (std::size_t i = 0; i < mode_buttons_.size(); ++i) {
+    if (mode_buttons_[i].first != name) continue;
+    mode_buttons_[i].second->setChecked(true);
+    stack_->setCurrentIndex(int(i));
+    QSettings().setValue("window/mode", name);
+  }
+  update_undo();
+}
+
+Mode& MainWindow::mode() const { return *static_cast<Mode*>(stack_->currentWidget()); }
+
+void MainWindow::open(const QString& path) {
+  show_mode("explorer");
+  explorer_->open_file(path);
+}
+
+void MainWindow::screenshot(const QString& path) {
+  const QImage picture = mode().view().screenshot();
+  const auto no = [this](const QString& text) { status_->setText(text); };
+  jobs_->start(
+      tr("Save screenshot"), this,
+      [this, picture, path](const RunContext&) -> Result<Finish> {
+        QByteArray png;
+        QBuffer buffer(&png);
+        if (!picture.save(&buffer, "PNG"))
+          return fail_at(path.toStdString(), ErrorCode::kIo, "the picture cannot be packed");
+        TURNSCAN_TRY(write_file_atomically(path.toStdString(), png.toStdString()));
+        return Finish([this, path] { status_->setText(tr("Wrote %1").arg(shown_path(path))); });
+      },
+      no);
+}
+
+void MainWindow::add_recent(const QString& path) {
+  QSettings settings;
+  QStringList recent = settings.value("files/recent").toStringList();
+  const QString full = QFileInfo(path).absoluteFilePath();
+  recent.removeAll(full);
+  recent.prepend(full);
+  while (recent.size() > kRecentFiles) recent.removeLast();
+  settings.setValue("files/recent", recent);
+}
+
+void MainWindow::fill_recent() {
+  menu_.recent->clear();
+  for (const QString& path : QSettings().value("files/recent").toStringList())
+    menu_.recent->addAction(shown_path(path), this, [this, path] { open(path); });
+  if (menu_.recent->isEmpty()) menu_.recent->addAction(tr("No files yet"))->setEnabled(false);
+}
+
+void MainWindow::apply_settings() {
+  menu_.dark->setChecked(settings_->dark());
+  // A new style sheet makes every widget be laid out anew: only when the theme changed.
+  if (property("theme").toInt() == (settings_->dark() ? 2 : 1)) return;
+  setProperty("theme", settings_->dark() ? 2 : 1);
+  apply_theme(*static_cast<QApplication*>(QApplication::instance()), settings_->theme());
+}
+
+void MainWindow::update_undo() {
+  const QString undo = mode().undo_text(), redo = mode().redo_text();
+  menu_.undo->setEnabled(!undo.isEmpty());
+  menu_.redo->setEnabled(!redo.isEmpty());
+  menu_.undo->setText(tr("Undo %1").arg(undo));
+  menu_.redo->setText(tr("Redo %1").arg(redo));
+}
+
+void MainWindow::restore_window() {
+  const QSettings settings;
+  resize(1440, 900);
+  restoreGeometry(settings.value("window/geometry").toByteArray());
+  const QString last = settings.value("window/mode").toString();  // before a mode is stored
+  show_mode("explorer");
+  show_mode(last);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile() && !mode().open_file(url.toLocalFile())) open(url.toLocalFile());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue("window/geometry", saveGeometry());
+  for (int i = 0; i < stack_->count(); ++i) static_cast<Mode*>(stack_->widget(i))->shut_down();
+  jobs_->cancel();
+  event->accept();
+}
+
+}  // namespace turnscan::studio

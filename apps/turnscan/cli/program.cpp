@@ -1,0 +1,297 @@
+#include "cli/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <new>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/version.hpp>
+#include <turnscan/simulator/scanner/scanner_model.hpp>
+
+#include "cli/command_line.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress_display.hpp"
+#include "cli/reference_page.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;
+
+struct RunOptions {
+  int threads = 0;
+  bool quiet = false;
+};
+
+OptionTable describe(RunOptions& o) {
+  OptionTable table;
+  table.number("threads", o.threads, {0, 1024},
+               "How many threads may work; 0 means all cores. The result is the same");
+  table.flag("quiet", o.quiet, "Show no progress on standard error");
+  return table;
+}
+
+/// --help with long lines wrapped and flags shown without CLI11's marks.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = Formatter::make_option_name(option, is_positional);
+    if (const auto mark = name.find("{false}"); mark != std::string::npos)
+      name.erase(mark, std::strlen("{false}"));
+    for (auto i = name.find(','); i != std::string::npos; i = name.find(',', i + 2))
+      name.insert(i + 1, " ");
+    return name;
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(), wrapped(command->get_description(), 76), 16);
+    return out.str();
+  }
+};
+
+int exit_code_of(ErrorCode code) {
+  if (code == ErrorCode::kCancelled) return kExitCancelled;
+  return code == ErrorCode::kInvalidOption ? kExitUsage : kExitFailed;
+}
+
+/// What to do about an error whose sentence does not say it.
+std::string_view advice_for(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kNotFound:
+      return "check the path";
+    case ErrorCode::kIo:
+      return "check permissions and free space";
+    case ErrorCode::kFormat:
+      return "the file is damaged or not what its name says, so get it again";
+    case ErrorCode::kUnsupported:
+      return "use another format";
+    case ErrorCode::kAlreadyExists:
+      return "choose another name";
+    case ErrorCode::kMissingData:
+    case ErrorCode::kTooFewPoints:
+      return "look at the input with 'turnscan info'";
+    case ErrorCode::kDeviceBusy:
+      return "close the other program that uses it";
+    case ErrorCode::kDeviceLost:
+      return "check the cable and the power supply";
+    case ErrorCode::kNoPermission:
+      return "let your user open it (docs/devices.md says how)";
+    default:
+      return "try other options";
+  }
+}
+
+std::string with_advice(const Error& error) {
+  std::string text = error.text();
+  if (text.find("; ") != std::string::npos) return text;
+  return fmt::format("{}; {}", text, advice_for(error.code));
+}
+
+/// One line whatever a path or a library's message contains.
+void print_error(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  std::fputs(("turnscan: " + text + "\n").c_str(), stderr);
+}
+
+std::string with_hint(const std::string& text, const std::string& command) {
+  const char* joint = text.find("; ") == std::string::npos ? "; " : ", or ";
+  return fmt::format("{}{}see '{} --help'", text, joint, command);
+}
+
+int usage_error(const std::string& text, const std::string& command) {
+  print_error(with_hint(text, command));
+  return kExitUsage;
+}
+
+/// Written at the end, because a full disk shows only when the buffer is flushed.
+int put_text(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+  print_error(fmt::format("standard output: {}; make room or print elsewhere",
+                          errno != 0 ? std::strerror(errno) : "cannot be written"));
+  return kExitFailed;
+}
+
+/// CLI11's words for what a user can do wrong, in the form of our own errors.
+std::string parse_error_text(const CLI::ParseError& error) {
+  std::string text = error.what();
+  if (const auto at = text.rfind(" is required"); at != std::string::npos)
+    return text.substr(0, at) + ": missing; give it";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    return text.substr(0, text.find(':')) + ": its value is missing; give one";
+  return text;
+}
+
+std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names) {
+  if (argument.rfind('-', 0) != 0)
+    return fmt::format("{}: one argument too many; remove it", argument);
+  OptionTable options;
+  std::string unused;
+  for (const std::string& name : names) options.text(name, unused, "");
+  const std::string plain = argument.substr(0, argument.find('='));
+  const auto dashes = std::min(plain.find_first_not_of('-'), plain.size());
+  const std::string hint = options.set(plain.substr(dashes), "").error().message;
+  const auto quote = hint.rfind("did you mean '");
+  if (quote == std::string::npos) return fmt::format("{}: there is no such option", plain);
+  return fmt::format("{}: there is no such option; did you mean '--{}", plain,
+                     hint.substr(quote + std::strlen("did you mean '")));
+}
+
+}  // namespace
+
+struct Program::Entry {
+  std::string help;
+  std::unique_ptr<Command> command;
+  CLI::App* app;
+  CommandLine line;
+  RunOptions run_options;
+
+  Entry(std::string help_text, std::unique_ptr<Command> c, CLI::App* a)
+      : help(std::move(help_text)), command(std::move(c)), app(a), line(*a) {
+    command->declare(line);
+    line.group("run", "Running", describe(run_options));
+    app->allow_extras();  // so that we can name the nearest option ourselves
+  }
+};
+
+struct Program::Parts {
+  CLI::App app{"turnscan makes watertight meshes from recordings of objects on a turntable."};
+  std::deque<Entry> entries;
+};
+
+Program::Program() : parts_(std::make_unique<Parts>()) {
+  CLI::App& app = parts_->app;
+  app.name("turnscan");
+  app.require_subcommand(0, 1);
+  app.allow_extras();
+  app.set_version_flag("--version", fmt::format("turnscan {}", version()), "Print the version");
+  auto formatter = std::make_shared<HelpFormatter>();
+  formatter->column_width(36);
+  formatter->label("SUBCOMMAND", "COMMAND ...");
+  formatter->label("Positionals", "Arguments");
+  app.formatter(formatter);
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.footer("'turnscan COMMAND --help' explains one command.");
+}
+
+Program::~Program() = default;
+
+namespace {
+
+FileReference scanner_file() {
+  ScannerParameters parameters;
+  return {"Scanner files",
+          "A virtual scanner is a TOML file; the presets are in data/scanners. A quantity with a "
+          "unit is a text: `near = \"0.5m\"`.",
+          {keys_of("", "Scanner", describe(parameters)),
+           keys_of("noise", "Noise", describe(parameters.noise))}};
+}
+
+}  // namespace
+
+void Program::add(const std::string& name, const std::string& help,
+                  std::unique_ptr<Command> command) {
+  CLI::App* app = parts_->app.add_subcommand(name, help);
+  app->group("Commands");
+  parts_->entries.emplace_back(help, std::move(command), app);
+}
+
+std::string Program::reference() const {
+  std::vector<CommandReference> commands;
+  for (const Entry& entry : parts_->entries)
+    commands.push_back({entry.app->get_name(), entry.help, entry.line.groups()});
+  return reference_page(commands, {scanner_file()});
+}
+
+void Program::add_reference() {
+  class ReferenceCommand : public Command {
+   public:
+    explicit ReferenceCommand(const Program& program) : program_(program) {}
+    void declare(CommandLine&) override {}
+    Result<> run(Session& session) override {
+      session.print("{}", program_.reference());
+      return {};
+    }
+
+   private:
+    const Program& program_;
+  };
+  add("reference", "Print the reference page of all commands and options (docs/reference.md)",
+      std::make_unique<ReferenceCommand>(*this));
+}
+
+int Program::run_command(Entry& entry) {
+  const std::string called = "turnscan " + entry.app->get_name();
+  if (const auto extra = entry.app->remaining(); !extra.empty())
+    return usage_error(unknown_argument(extra.front(), entry.line.long_names()), called);
+  if (auto applied = entry.line.apply(); !applied) {
+    const Error& error = applied.error();
+    if (exit_code_of(error.code) == kExitUsage) return usage_error(error.text(), called);
+    print_error(with_advice(error));
+    return exit_code_of(error.code);
+  }
+  set_thread_count(entry.run_options.threads);
+  Session session{RunContext()};
+  const InterruptWatch watch(session.context());
+  ProgressDisplay display(session.context(), session.status(), entry.run_options.quiet);
+  Result<> result = entry.command->run(session);
+  display.finish();
+  const int put = put_text(session.text());
+  if (result) return put;
+  const int code = exit_code_of(result.error().code);
+  if (code == kExitUsage) return usage_error(result.error().text(), called);
+  // A command that leaves something behind when it is stopped says so itself.
+  const bool told = result.error().message.find("; ") != std::string::npos;
+  print_error(code == kExitCancelled && !told
+                  ? entry.app->get_name() + ": cancelled; run it again to finish"
+                  : with_advice(result.error()));
+  return code;
+}
+
+int Program::run_checked(int argc, char** argv) {
+  CLI::App& app = parts_->app;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return put_text(app.help());
+  } catch (const CLI::CallForVersion& version_text) {
+    return put_text(std::string(version_text.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    return usage_error(parse_error_text(error),
+                       chosen.empty() ? "turnscan" : "turnscan " + chosen.front()->get_name());
+  }
+  for (Entry& entry : parts_->entries) {
+    if (app.got_subcommand(entry.app)) return run_command(entry);
+  }
+  const auto extra = app.remaining();
+  if (extra.empty()) return usage_error("no command: nothing to do", "turnscan");
+  std::vector<std::string> names;
+  for (const Entry& entry : parts_->entries) names.push_back(entry.app->get_name());
+  if (extra.front().rfind('-', 0) == 0)
+    return usage_error(unknown_argument(extra.front(), {"help", "version"}), "turnscan");
+  return usage_error(fmt::format("{}: there is no such command; use one of {}", extra.front(),
+                                 fmt::join(names, ", ")),
+                     "turnscan");
+}
+
+int Program::run(int argc, char** argv) {
+  try {
+    return run_checked(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_error(
+        "memory: there is not enough of it; use larger voxels, fewer frames or --threads 1");
+  } catch (const std::exception& error) {
+    print_error(fmt::format("internal error: {}; please report it with the command that you ran",
+                            error.what()));
+  }
+  return kExitFailed;
+}
+
+}  // namespace turnscan::cli

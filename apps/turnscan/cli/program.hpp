@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace turnscan::cli {
+
+/// The program: its subcommands, and what their results mean to the caller. Exit codes: 0 done,
+/// 1 failed, 2 wrong usage, 130 cancelled. An error is one line on standard error.
+class Program {
+ public:
+  Program();
+  ~Program();
+
+  /// help: one sentence. The reference page is printed by the command that add_reference() adds.
+  void add(const std::string& name, const std::string& help, std::unique_ptr<Command> command);
+  void add_reference();
+
+  int run(int argc, char** argv);
+
+ private:
+  struct Entry;
+
+  int run_checked(int argc, char** argv);
+  int run_command(Entry& entry);
+  std::string reference() const;
+
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace turnscan::cli

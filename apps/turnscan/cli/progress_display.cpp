@@ -1,0 +1,120 @@
+#include "cli/progress_display.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr auto kTick = std::chrono::milliseconds(250);
+constexpr int kBarCells = 24;
+
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col;
+}
+
+// Not fmt::print: it throws when standard error is closed or full, which must not end a run. And a
+// pipe that nobody reads must not hold up a recording: what it cannot take is not shown.
+void put(const std::string& text) {
+  pollfd ready{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&ready, 1, 0) == 1) std::fputs(text.c_str(), stderr);
+}
+
+std::string duration_text(double s) {
+  const int whole = static_cast<int>(std::ceil(s));
+  if (whole < 60) return fmt::format("{} s", whole);
+  return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(RunContext context, const StatusLine& status, bool quiet)
+    : context_(std::move(context)),
+      status_(status),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1) {
+  if (quiet_) return;
+  context_.set_listener([this](const Progress& progress) { on_progress(progress); });
+  ticker_ = std::thread([this] { tick(); });
+}
+
+void ProgressDisplay::finish() {
+  if (!ticker_.joinable()) return;
+  context_.set_listener({});
+  {
+    std::lock_guard lock(mutex_);
+    finished_ = true;
+  }
+  wake_.notify_all();
+  ticker_.join();
+  if (terminal_) put("\r\033[K");
+}
+
+void ProgressDisplay::on_progress(const Progress& progress) {
+  std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  const bool begins = progress.phase_number != progress_.phase_number;
+  progress_ = progress;
+  if (begins) {
+    phase_begin_ = last_line_ = now;
+    last_fraction_ = 0.0;
+    if (!terminal_) put(progress_.phase + "\n");
+  }
+  if (terminal_) draw_bar();
+}
+
+// Some phases cannot say how far they are; the ticker keeps their clock going.
+void ProgressDisplay::tick() {
+  std::unique_lock lock(mutex_);
+  while (!wake_.wait_for(lock, kTick, [this] { return finished_; })) {
+    if (progress_.phase_number == 0) continue;
+    if (terminal_) {
+      draw_bar();
+    } else {
+      write_line(Clock::now());
+    }
+  }
+}
+
+void ProgressDisplay::write_line(Clock::time_point now) {
+  const double since = seconds(now - last_line_);
+  const bool tenth = progress_.fraction >= last_fraction_ + 0.1 && since >= 1.0;
+  if (since < 10.0 && !tenth) return;
+  last_line_ = now;
+  last_fraction_ = progress_.fraction;
+  put(fmt::format("{}: {}\n", progress_.phase, state_text()));
+}
+
+std::string ProgressDisplay::state_text() const {
+  const double elapsed = seconds(Clock::now() - phase_begin_), f = progress_.fraction;
+  if (const std::string status = status_.text(); !status.empty())
+    return f > 0.0 ? fmt::format("{:3.0f} %, {}", 100.0 * f, status) : status;
+  if (f <= 0.0) return duration_text(elapsed);
+  std::string text = fmt::format("{:3.0f} %", 100.0 * f);
+  if (f > 0.02 && f < 1.0 && elapsed > 0.5)
+    text += fmt::format(", {} left", duration_text(elapsed * (1.0 - f) / f));
+  return text;
+}
+
+void ProgressDisplay::draw_bar() const {
+  const int cells = static_cast<int>(progress_.fraction * kBarCells);
+  std::string line = fmt::format("{:<28.28} [{:#<{}}{:-<{}}] {}", progress_.phase, "", cells, "",
+                                 kBarCells - cells, state_text());
+  line.resize(std::min(line.size(), terminal_width() - 1));
+  put("\r" + line + "\033[K");
+}
+
+}  // namespace turnscan::cli

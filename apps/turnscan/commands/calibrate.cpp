@@ -1,0 +1,178 @@
+#include <turnscan/capture/session/device_calibration.hpp>
+#include <turnscan/capture/session/taken_frames.hpp>
+#include <turnscan/recording/calibration_file.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/turntable/checks/check.hpp>
+
+#include <turnscan/workflow/calibration/calibrate_run.hpp>
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/text/calibration_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr int kFramesForMotion = 920;  // about a turn; half a minute at 30 frames a second
+constexpr int kFramesForCheck = 10;
+
+struct DeviceOptions {
+  std::optional<int> frames;
+};
+
+OptionTable describe(DeviceOptions& o) {
+  OptionTable table;
+  table.number("device-frames", o.frames, {1, 20000},
+               "How many frames are taken from the device; automatic: as many as are averaged, "
+               "920 where motion is looked at, 10 with --check");
+  return table;
+}
+
+class CalibrateCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.optional_positional("RECORDING", recording_,
+                             "Recording of the turntable (see turnscan import)");
+    line.option(
+        "--device", "URI", device_,
+        "Take frames from a sensor instead (see turnscan devices); its calibration is kept, "
+        "and used from then on. With --check: say whether the table has moved since");
+    line.option("--points", "PICKS.csv", request_.points,
+                "Use points on the platter's rim: columns x_mm,y_mm,z_mm (or _m) in the sensor's "
+                "frame, or column,row of the averaged depth image");
+    line.flag("--detect", detect_, "Find the platter's surface and rim in the averaged frames");
+    line.flag("--from-motion", from_motion_,
+              "Find axis, speed and angles from the motion of what stands on the platter");
+    line.flag("--depth-bias", request_.depth_bias,
+              "First find the constant offset of each sensor's depth, from --platter-radius or "
+              "--gauge-ball");
+    line.option("--depth-also", "RECORDING", request_.depth_also,
+                "With --depth-bias: the same platter or ball at another distance, which tells the "
+                "scale of the sensor's depth, too");
+    line.repeatable(
+        "--iai-kinect2", "FOLDER", request_.iai_folders,
+        "First take cameras and depth offset from a Kinect v2 calibration in the layout "
+        "of iai_kinect2; given again: of the next sensor of the recording");
+    line.flag("--check", check_,
+              "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
+              "is wrong; nothing is calibrated");
+    line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
+    line.option("--save", "FILE.json", save_,
+                "Keep the calibration as a file for reconstruct --turntable (the same content)");
+    line.allow_config();
+    line.group("device", "Device", describe(device_options_));
+    line.group("average", "Averaging", describe(request_.average));
+    line.group("detect", "Detection", describe(request_.detect));
+    line.group("gauge", "Gauge", describe(request_.ball));
+    line.group("motion", "Motion", describe(request_.motion));
+  }
+
+  Result<> run(Session& session) override {
+    if (int(!request_.points.empty()) + int(detect_) + int(from_motion_) > 1)
+      return fail(ErrorCode::kInvalidOption,
+                  "--points, --detect and --from-motion are different ways to calibrate; give one "
+                  "of them");
+    if (check_ && !(json_.empty() && save_.empty()))
+      return fail(ErrorCode::kInvalidOption,
+                  "--check makes no calibration; leave out --json and --save");
+    if (!request_.depth_also.empty() && !request_.depth_bias)
+      return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
+    if (request_.depth_bias && !request_.detect.radius_m && !request_.ball.diameter_m)
+      return fail(ErrorCode::kInvalidOption,
+                  "--depth-bias needs a known size; give --platter-radius or --gauge-ball");
+    if (request_.ball.diameter_m && !request_.depth_bias)
+      return fail(ErrorCode::kInvalidOption, "--gauge-ball is for --depth-bias; give both");
+    if (recording_.empty() && device_.empty())
+      return fail(ErrorCode::kInvalidOption, "RECORDING: missing; give it, or --device URI");
+    if (!recording_.empty() && !device_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "RECORDING and --device are both given; give one of them");
+    request_.way = !request_.points.empty() ? CalibrationWay::kPoints
+                   : from_motion_           ? CalibrationWay::kMotion
+                   : detect_                ? CalibrationWay::kPlatter
+                                            : CalibrationWay::kAuto;
+    TURNSCAN_TRY(check_output_file(json_, ".json"));
+    TURNSCAN_TRY(check_output_file(save_, ".json"));
+    if (!device_.empty()) return run_device(session);
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
+    if (check_) return check(recording, session);
+    TURNSCAN_TRY(calibrate_and_tell(recording, session));
+    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    return {};
+  }
+
+ private:
+  Result<> run_device(Session& session) {
+    TURNSCAN_ASSIGN(const auto source, open_source(device_, session.context()));
+    const std::string& identity = source->info().identities.front();
+    if (check_) return check_device(*source, session);
+    const auto count = static_cast<std::size_t>(device_options_.frames.value_or(
+        detect_ || !request_.points.empty() ? request_.average.frames : kFramesForMotion));
+    TURNSCAN_ASSIGN(const auto frames, take_frames(*source, count, session.context()));
+    TURNSCAN_ASSIGN(const Calibration calibration, calibrate_and_tell(*frames, session));
+    TURNSCAN_TRY(keep_calibration(identity, calibration));
+    TURNSCAN_ASSIGN(const auto file, kept_calibration_file(identity));
+    session.print("Kept for {} in {}\n", identity, file.string());
+    return {};
+  }
+
+  /// Fails when the table has moved since it was calibrated.
+  Result<> check_device(FrameSource& source, Session& session) const {
+    const std::string& identity = source.info().identities.front();
+    TURNSCAN_ASSIGN(const auto kept, kept_calibration(identity));
+    if (!kept)
+      return fail(ErrorCode::kMissingData,
+                  "{}: it was never calibrated; run 'turnscan calibrate --device' without --check",
+                  identity);
+    const auto count = static_cast<std::size_t>(device_options_.frames.value_or(kFramesForCheck));
+    TURNSCAN_ASSIGN(const auto frames, take_frames(source, count, session.context()));
+    TURNSCAN_ASSIGN(const AveragedScan scan,
+                    average_frames(*frames, spread_positions(*frames, 0, count), request_.average,
+                                   session.context()));
+    TURNSCAN_ASSIGN(const RigCheck rig, check_rig(scan, *kept, session.context()));
+    if (rig.moved) return fail(ErrorCode::kMissingData, "{}: {}", identity, rig.text);
+    session.print("good   {}\n", rig.text);
+    return {};
+  }
+
+  Result<Calibration> calibrate_and_tell(const FrameSequence& sequence, Session& session) {
+    TURNSCAN_ASSIGN(Calibration calibration,
+                    run_calibration(sequence, request_, session.context()));
+    for (const std::string& path : {json_, save_}) {
+      if (!path.empty()) TURNSCAN_TRY(write_calibration(path, calibration));
+    }
+    session.print("{}", calibration_text(calibration));
+    for (const std::string& path : {json_, save_}) {
+      if (!path.empty()) session.print("Wrote {}\n", path);
+    }
+    return calibration;
+  }
+
+  /// Fails when something is wrong, after saying what.
+  Result<> check(const Recording& recording, Session& session) const {
+    TURNSCAN_ASSIGN(
+        const auto findings,
+        check_recording(recording, {request_.motion, request_.detect}, session.context()));
+    std::size_t wrong = 0;
+    for (const Finding& finding : findings) {
+      session.print("{}  {}\n", finding.good ? "good " : "WRONG", finding.text);
+      wrong += finding.good ? 0 : 1;
+    }
+    if (wrong == 0) return {};
+    return fail(ErrorCode::kMissingData,
+                "{} of {} checks found something wrong; calibrate anew with 'turnscan calibrate'",
+                wrong, findings.size());
+  }
+
+  std::string recording_, device_, json_, save_;
+  DeviceOptions device_options_;
+  bool detect_ = false, from_motion_ = false, check_ = false;
+  CalibrateRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_command() { return std::make_unique<CalibrateCommand>(); }
+
+}  // namespace turnscan::cli

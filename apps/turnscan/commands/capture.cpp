@@ -1,0 +1,61 @@
+#include <turnscan/io/file/atomic_file.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/scan/capture_outcome.hpp>
+#include <turnscan/workflow/scan/capture_report.hpp>
+#include <turnscan/workflow/text/capture_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+#include "commands/capture_arguments.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class CaptureCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.required_repeatable("--device", "URI", setup_.devices,
+                             "Sensor to record from, e.g. virtual:doll (see docs/capture.md). May "
+                             "be given several times: one recording of all of them");
+    line.required_option("-o,--out", "RECORDING", out_,
+                         "Folder to make for the recording; it must not exist or be empty");
+    line.option("--report", "FILE.json", report_, "Write what was recorded and lost as JSON");
+    declare_capture(line, setup_);
+    declare_table(line, setup_);
+    line.group("limits", "End of the recording", describe(setup_.options.limits));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(check_output_folder(out_));
+    TURNSCAN_TRY(check_output_file(report_, ".json"));
+    TURNSCAN_ASSIGN(auto source, setup_.open(session.context()));
+    TURNSCAN_ASSIGN(std::optional<Motor> motor, setup_.open_motor(session.context()));
+    CaptureHooks hooks;
+    hooks.motor = motor ? &*motor : nullptr;
+    hooks.progress = progress_in(session);
+    TURNSCAN_TRY(source->start());
+    session.context().begin_phase("record", 1000);
+    TURNSCAN_ASSIGN(const CaptureResult result,
+                    turnscan::capture(*source, out_, setup_.header, setup_.settings, setup_.options,
+                                      hooks, session.context()));
+    source->stop();
+    session.status().set("");
+    if (!report_.empty())
+      TURNSCAN_TRY(write_file_atomically(report_, capture_report(result, source->info(), out_)));
+    TURNSCAN_TRY(capture_outcome(result, out_));
+    session.print("{}", capture_text(result, out_));
+    if (!report_.empty()) session.print("Wrote {}\n", report_);
+    return {};
+  }
+
+ private:
+  CaptureSetup setup_;
+  std::string out_, report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_capture_command() { return std::make_unique<CaptureCommand>(); }
+
+}  // namespace turnscan::cli

@@ -1,0 +1,50 @@
+#include "commands/capture_arguments.hpp"
+
+#include <algorithm>
+
+#include <turnscan/workflow/text/capture_text.hpp>
+#include "cli/command_line.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr std::uint64_t kSteps = 1000;  // of the phase "record"
+
+OptionTable describe_speed(CaptureSetup& setup) {
+  OptionTable table;
+  table.number("speed", setup.options.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
+               "Speed of the table: of the motor (then 10deg/s unless it is given), or where turns "
+               "are counted. auto: from the frames' angles, the calibration or the motion");
+  return table;
+}
+
+}  // namespace
+
+void declare_capture(CommandLine& line, CaptureSetup& setup) {
+  line.option("--turntable", "FILE.json", setup.turntable_file,
+              "Where the turntable stands: a file that turnscan calibrate saved");
+  line.option("--motor", "PORT", setup.motor_port,
+              "Turn the table by the board at this serial port, e.g. /dev/ttyUSB0 (see "
+              "docs/motor.md)");
+  line.allow_config();
+  line.group("stops", "Stop and go, with --motor", describe(setup.options.stops));
+  line.group("recorder", "Recorder", describe(setup.options.recorder));
+  line.group("motor", "Motor", describe(setup.motor));
+}
+
+void declare_table(CommandLine& line, CaptureSetup& setup) {
+  line.group("table", "Turntable", describe_speed(setup));
+  line.group("crop", "Crop", describe(setup.options.crop));
+}
+
+std::function<void(const CaptureProgress&)> progress_in(Session& session) {
+  return [&session, done = std::uint64_t(0)](const CaptureProgress& progress) mutable {
+    session.status().set(progress_text(progress));
+    const auto steps = static_cast<std::uint64_t>(progress.fraction * double(kSteps));
+    if (steps > done) session.context().advance(steps - done);
+    done = std::max(done, steps);
+  };
+}
+
+}  // namespace turnscan::cli

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <turnscan/core/version.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/text/text_table.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+#include "commands/demo_scene.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DemoOptions {
+  std::string object = "doll";
+};
+
+OptionTable describe(DemoOptions& o) {
+  OptionTable table;
+  table.text("object", o.object,
+             fmt::format("What stands on the turntable: {}, pair (letter-a and doll together), or "
+                         "all of these one after the other",
+                         fmt::join(builtin_object_names(), ", ")));
+  return table;
+}
+
+class DemoCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.option("-o,--out", "FOLDER", out_,
+                "Folder to make; without it ./turnscan-demo, or the next free number");
+    line.allow_config();
+    line.group("demo", "Demo", describe(options_));
+    line.group("virtual-scan", "Virtual camera", describe(scene_.scan));
+    for (StageOptions& stage : describe_stages(scene_.reconstruct))
+      line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
+    line.group("evaluation", "Evaluation", describe(scene_.evaluate));
+  }
+
+  Result<> run(Session& session) override {
+    // "1.5mm" is short for "gaussian:1.5mm".
+    std::string& noise = scene_.scan.measure.noise;
+    if (parse_quantity(noise, Quantity::kLength)) noise = "gaussian:" + noise;
+    TURNSCAN_ASSIGN(const std::vector<std::string> scenes, scene_names(options_.object));
+    const fs::path folder = out_.empty() ? free_folder() : fs::path(out_);
+    TURNSCAN_TRY(check_output_folder(folder.string()));
+    Result<> result = run_scenes(scenes, folder, session);
+    // What a cancelled demo has made so far is nothing that anybody asked for.
+    std::error_code error;
+    if (!result && result.error().code == ErrorCode::kCancelled) fs::remove_all(folder, error);
+    return result;
+  }
+
+ private:
+  Result<> run_scenes(const std::vector<std::string>& scenes, const fs::path& folder,
+                      Session& session) const {
+    workflow::TextTable table({0});
+    table.add({"object", "frames", "triangles", "watertight", "accuracy", "completeness",
+               "F at 1 mm", "seconds"});
+    nlohmann::json figures{{"version", version()}, {"objects", nlohmann::json::array()}};
+    for (const std::string& name : scenes) {
+      TURNSCAN_ASSIGN(const std::vector<DemoFigures> results,
+                      run_demo_scene(name, folder / name, scene_, session.context()));
+      for (const DemoFigures& f : results) add(f, table, figures["objects"]);
+    }
+    TURNSCAN_TRY(write_file_atomically(folder / "figures.json", figures.dump(2) + "\n"));
+    session.print("{}", table.text());
+    session.print("Accuracy and completeness: median (p95) in mm over the seen surface.\n");
+    session.print("Recording, mesh, reference, errors, picture and figures are in {}\n",
+                  folder.string());
+    return {};
+  }
+
+  static fs::path free_folder() {
+    fs::path folder = "turnscan-demo";
+    for (int i = 2; fs::exists(folder); ++i) folder = fmt::format("turnscan-demo-{}", i);
+    return folder;
+  }
+
+  static void add(const DemoFigures& f, workflow::TextTable& table, nlohmann::json& figures) {
+    const auto mm = [](const ErrorStatistics& e) {
+      return fmt::format("{:.3f} ({:.3f})", e.median * 1e3, e.p95 * 1e3);
+    };
+    table.add({f.scene == f.object ? f.object : f.scene + "/" + f.object, std::to_string(f.frames),
+               std::to_string(f.check.triangles), f.check.watertight() ? "yes" : "no",
+               mm(f.evaluation.accuracy), mm(f.evaluation.completeness),
+               fmt::format("{:.4f}", f.f_at_1mm), fmt::format("{:.1f}", f.seconds)});
+    figures.push_back({{"scene", f.scene},
+                       {"object", f.object},
+                       {"frames", f.frames},
+                       {"triangles", f.check.triangles},
+                       {"watertight", f.check.watertight()},
+                       {"f_at_1mm", f.f_at_1mm},
+                       {"seconds", f.seconds},
+                       {"evaluation", nlohmann::json::parse(to_json(f.evaluation))}});
+  }
+
+  std::string out_;
+  DemoOptions options_;
+  DemoSceneOptions scene_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_demo_command() { return std::make_unique<DemoCommand>(); }
+
+}  // namespace turnscan::cli

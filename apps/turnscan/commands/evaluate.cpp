@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/recording/recording.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/simulation/seen_by.hpp>
+#include <turnscan/workflow/text/evaluation_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+struct ErrorMapOptions {
+  std::optional<double> scale_m;
+};
+
+OptionTable describe(ErrorMapOptions& o) {
+  OptionTable table;
+  table.number("error-scale", o.scale_m, Quantity::kLength, {1e-6, 1.0},
+               "Error that gets the last colour of the error map; auto: the largest threshold");
+  return table;
+}
+
+Result<std::optional<double>> unit_of(const std::string& text) {
+  if (text.empty()) return std::optional<double>();
+  TURNSCAN_ASSIGN(const double scale, metres_per(text));
+  return std::optional<double>(scale);
+}
+
+class EvaluateCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positional("MESH", mesh_, "Mesh to be judged");
+    line.required_option("--reference", "MESH", reference_, "The true surface");
+    line.option("--seen-from", "RECORDING", seen_from_,
+                "Judge completeness over what the frames of this recording saw of the reference, "
+                "which must lie in the recording's table frame");
+    line.option("--json", "FILE.json", json_, "Write the figures as JSON");
+    line.option("--error-map", "FILE.ply", error_map_, "Write the mesh coloured by its error");
+    line.option("--unit", "UNIT", unit_, "Unit of MESH if its file does not say it: mm, m, ...");
+    line.option("--reference-unit", "UNIT", reference_unit_, "The same for the reference");
+    line.allow_config();
+    line.group("evaluation", "Evaluation", describe(options_));
+    line.group("error-map", "Error map", describe(map_options_));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(check_output_file(json_, ".json"));
+    TURNSCAN_TRY(check_output_file(error_map_, ".ply"));
+    TURNSCAN_ASSIGN(const auto unit, unit_of(unit_));
+    TURNSCAN_ASSIGN(const auto reference_unit, unit_of(reference_unit_));
+    TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(mesh_, {unit}, session.context()));
+    TURNSCAN_ASSIGN(const TriangleMesh reference,
+                    read_mesh(reference_, {reference_unit}, session.context()));
+    TURNSCAN_ASSIGN(const Evaluation result, judge(mesh, reference, session.context()));
+    if (!error_map_.empty())
+      TURNSCAN_TRY(write_error_map(std::move(mesh), reference, result, session.context()));
+    if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, to_json(result)));
+    session.print("{}", evaluation_text(result));
+    for (const std::string& file : {json_, error_map_}) {
+      if (!file.empty()) session.print("Wrote {}\n", file);
+    }
+    return {};
+  }
+
+ private:
+  Result<Evaluation> judge(const TriangleMesh& mesh, const TriangleMesh& reference,
+                           const RunContext& context) const {
+    if (seen_from_.empty()) return evaluate(mesh, reference, options_, {}, context);
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(seen_from_));
+    TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&reference, 1)));
+    return evaluate(mesh, reference, options_, seen_by(scene, recording, context), context);
+  }
+
+  Result<> write_error_map(TriangleMesh mesh, const TriangleMesh& reference,
+                           const Evaluation& result, const RunContext& context) const {
+    double scale = map_options_.scale_m.value_or(0.0);
+    for (const ThresholdScore& score : result.scores) {
+      if (!map_options_.scale_m) scale = std::max(scale, score.threshold_m);
+    }
+    for (Vec3f& p : mesh.vertices) p = (result.T_reference_mesh * p.cast<double>()).cast<float>();
+    mesh.normals.clear();
+    TURNSCAN_ASSIGN(const TriangleMesh colored, color_by_error(mesh, reference, scale, context));
+    return write_mesh(error_map_, colored);
+  }
+
+  std::string mesh_, reference_, seen_from_, json_, error_map_, unit_, reference_unit_;
+  EvaluateOptions options_;
+  ErrorMapOptions map_options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_evaluate_command() { return std::make_unique<EvaluateCommand>(); }
+
+}  // namespace turnscan::cli

@@ -1,0 +1,43 @@
+#include <turnscan/io/import/importers.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/summary.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class ImportCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positional("SOURCE", source_, "Data set to read: a folder, a .conf or a .json file");
+    line.required_option("-o,--out", "RECORDING", out_,
+                         "Folder to make for the recording; it must not exist or be empty");
+    line.allow_config();
+    line.group("import", "Import", describe(options_));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(options_.check());
+    TURNSCAN_TRY(check_output_folder(out_));
+    TURNSCAN_ASSIGN(const auto sequence, open_foreign(source_, options_));
+    TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_));
+    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));
+    session.print("{}Wrote {}\n", summary_text(summary), out_);
+    return {};
+  }
+
+ private:
+  std::string source_, out_;
+  ImportOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_import_command() { return std::make_unique<ImportCommand>(); }
+
+}  // namespace turnscan::cli

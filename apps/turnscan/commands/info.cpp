@@ -1,0 +1,134 @@
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/repair.hpp>
+#include <turnscan/recording/summary.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/text/mesh_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class InfoCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positional("RECORDING|MESH", path_, "Recording, mesh or point cloud to look at");
+    line.flag(
+        "--repair", repair_,
+        "Finish a recording whose program was ended: keep every whole frame, mark it complete "
+        "and say what was lost");
+    line.flag("--json", json_, "Print JSON, SI units in the names");
+    line.option("--unit", "UNIT", unit_,
+                "Unit of a mesh or cloud file that does not say it: um, mm, cm, m, in");
+  }
+
+  Result<> run(Session& session) override {
+    const std::filesystem::path path(path_);
+    std::error_code error;
+    if (!std::filesystem::exists(path, error))
+      return fail_at(path_, ErrorCode::kNotFound,
+                     "there is no such file or folder; check the path");
+    if (std::filesystem::is_directory(path, error)) return about_recording(path, session);
+    if (path.filename() == "recording.json") return about_recording(path.parent_path(), session);
+    if (repair_)
+      return fail(ErrorCode::kInvalidOption,
+                  "--repair: {} is not a recording; give the folder of one", path_);
+    if (!unit_.empty()) {
+      TURNSCAN_ASSIGN(metres_per_unit_, metres_per(unit_));
+    }
+    if (ending_of(path_) == ".pcd") return about_cloud(session);
+    auto meshes = read_meshes(path, {metres_per_unit_}, session.context());
+    // A PLY file without triangles is a cloud.
+    if (!meshes && meshes.error().code == ErrorCode::kTooFewPoints && ending_of(path_) == ".ply")
+      return about_cloud(session);
+    if (!meshes) return tl::unexpected<Error>(meshes.error());
+    return about_meshes(*meshes, session);
+  }
+
+ private:
+  static Result<> repair(const std::filesystem::path& folder, Session& session) {
+    TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder));
+    for (const std::string& text : report.done) session.print("Repair: {}\n", text);
+    session.print("Repair: {} frames are whole; the recording {}\n", report.frames,
+                  report.was_complete ? "was complete already" : "is marked complete now");
+    return {};
+  }
+
+  Result<> about_recording(const std::filesystem::path& path, Session& session) const {
+    const std::filesystem::path folder = path.empty() ? std::filesystem::path(".") : path;
+    if (repair_ && json_)
+      return fail(ErrorCode::kInvalidOption,
+                  "--repair and --json cannot be used together; repair "
+                  "first");
+    if (repair_) TURNSCAN_TRY(repair(folder, session));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
+    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));
+    session.print("{}", json_ ? summary_json(summary) + "\n" : summary_text(summary));
+    return {};
+  }
+
+  Result<> about_meshes(const std::vector<TriangleMesh>& meshes, Session& session) const {
+    std::vector<MeshReport> reports;
+    for (const TriangleMesh& mesh : meshes) {
+      TURNSCAN_TRY(session.context().check());
+      reports.push_back(check_mesh(mesh));
+      if (!json_) print_mesh(mesh, reports.back(), meshes.size(), session);
+    }
+    if (json_) session.print("{}\n", meshes_json(meshes, reports));
+    return {};
+  }
+
+  void print_mesh(const TriangleMesh& mesh, const MeshReport& report, std::size_t count,
+                  Session& session) const {
+    const std::string name = mesh.name.empty() ? "" : fmt::format(" '{}'", mesh.name);
+    session.print("{}: {}{}\n", path_, count == 1 ? "mesh" : "one of several meshes", name);
+    session.print("{} vertices{}, {} triangles in {} {}, {}\n", report.vertices,
+                  mesh.colors.empty() ? "" : " with colours", report.triangles, report.components,
+                  report.components == 1 ? "piece" : "pieces", size_text(bounds(mesh.vertices)));
+    session.print("Area {:.2f} cm2", report.area_m2 * 1e4);
+    if (report.closed) session.print(", volume {:.2f} cm3", report.volume_m3 * 1e6);
+    session.print("\n{}", check_sentences(report));
+  }
+
+  Result<> about_cloud(Session& session) const {
+    TURNSCAN_ASSIGN(CloudFile file, read_cloud(path_));
+    const double scale = metres_per_unit_.value_or(1.0);
+    for (Vec3f& p : file.cloud.points) p *= static_cast<float>(scale);
+    const Box box = bounds(file.cloud.points);
+    const bool colored = !file.cloud.colors.empty(), normals = !file.cloud.normals.empty();
+    if (json_) {
+      const Vec3d size = box.size();
+      const nlohmann::json json{{"kind", "cloud"},
+                                {"points", file.cloud.size()},
+                                {"grid", {file.grid_width, file.grid_height}},
+                                {"size_m", {size.x(), size.y(), size.z()}},
+                                {"colored", colored},
+                                {"normals", normals}};
+      session.print("{}\n", json.dump(2));
+      return {};
+    }
+    session.print("{}: point cloud\n{} points{}{}, {}{}\n", path_, file.cloud.size(),
+                  normals ? " with normals" : "", colored ? " with colours" : "", size_text(box),
+                  metres_per_unit_ ? "" : " if its unit is the metre");
+    if (file.grid_width > 0)
+      session.print("A grid of {} x {} cells\n", file.grid_width, file.grid_height);
+    return {};
+  }
+
+  std::string path_, unit_;
+  bool json_ = false, repair_ = false;
+  std::optional<double> metres_per_unit_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_info_command() { return std::make_unique<InfoCommand>(); }
+
+}  // namespace turnscan::cli

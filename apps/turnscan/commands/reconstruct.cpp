@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/recording/recording.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/text/reconstruction_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class ReconstructCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positional("RECORDING", recording_, "Recording to reconstruct (see turnscan import)");
+    line.required_option("-o,--out", "MESH", files_.mesh,
+                         "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm. Several "
+                         "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file");
+    line.option(
+        "--report", "FILE.json", files_.report,
+        "Write what was done as JSON: counts, parameters with their reasons, times, checks");
+    line.repeatable(
+        "--save-stage", "NAME[=FILE.ply]", save_stages_,
+        fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
+                    "--method volumetric, the others without)",
+                    fmt::join(saveable_stages(), ", ")));
+    line.option(
+        "--turntable", "FILE.json", request_.turntable,
+        "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
+    line.option(
+        "--calibration", "WAY", request_.calibration,
+        "Where turntable and angles come from: auto, recorded or motion. auto: from the object's "
+        "motion where the "
+        "recording has none, or one that does not fit one turn later. For comparison also free "
+        "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
+    line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
+    line.allow_config();
+    for (StageOptions& stage : describe_stages(request_.options))
+      line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(check_files());
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
+    for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
+    TURNSCAN_ASSIGN(const ReconstructRun made,
+                    run_reconstruction(recording, request_, session.context()));
+    TURNSCAN_ASSIGN(const auto files, write_outputs(files_, made, request_.options));
+    session.print("{}", reconstruction_text(made.reconstruction));
+    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    for (const std::string& file : files) session.print("Wrote {}\n", file);
+    return {};
+  }
+
+ private:
+  Result<> check_files() {
+    TURNSCAN_TRY(check_outputs(files_));
+    for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
+    return {};
+  }
+
+  Result<> add_stage_file(const std::string& text) {
+    const auto equals = text.find('=');
+    const std::string stage = text.substr(0, equals);
+    const auto& stages = saveable_stages();
+    if (std::find(stages.begin(), stages.end(), stage) == stages.end())
+      return fail(ErrorCode::kInvalidOption,
+                  "--save-stage {}: there is no such stage; use one of {}", stage,
+                  fmt::join(stages, ", "));
+    const auto made = saveable_stages(request_.options.surface.method);
+    if (std::find(made.begin(), made.end(), stage) == made.end())
+      return fail(ErrorCode::kInvalidOption,
+                  "--save-stage {}: this method has no such stage; choose another --method, or one "
+                  "of {}",
+                  stage, fmt::join(made, ", "));
+    const std::string& mesh = files_.mesh;
+    const std::string file =
+        equals == std::string::npos
+            ? with_suffix(mesh.substr(0, mesh.size() - ending_of(mesh).size()) + ".ply",
+                          "-" + stage)
+            : text.substr(equals + 1);
+    files_.stages[stage] = file;
+    return check_output_file(file, ".ply");
+  }
+
+  std::string recording_;
+  std::vector<std::string> save_stages_;
+  ReconstructFiles files_;
+  ReconstructRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_reconstruct_command() {
+  return std::make_unique<ReconstructCommand>();
+}
+
+}  // namespace turnscan::cli

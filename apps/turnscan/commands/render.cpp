@@ -1,0 +1,58 @@
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/simulator/rendering/picture.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class RenderCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positionals("MESH...", meshes_, "Meshes to show");
+    line.required_option("-o,--out", "PICTURE.png", out_, "Picture to write");
+    line.flag("--side-by-side", side_by_side_, "Show each mesh in a picture of its own, in a row");
+    line.allow_config();
+    line.group("picture", "Picture", describe(options_));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(check_output_file(out_, ".png"));
+    std::vector<TriangleMesh> meshes;
+    for (const std::string& path : meshes_) {
+      TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(path, {}, session.context()));
+      meshes.push_back(std::move(mesh));
+    }
+    TURNSCAN_ASSIGN(const ColorImage picture, draw(meshes, session.context()));
+    TURNSCAN_TRY(write_color_png(out_, picture));
+    session.print("Wrote {}\n", out_);
+    return {};
+  }
+
+ private:
+  Result<ColorImage> draw(const std::vector<TriangleMesh>& meshes,
+                          const RunContext& context) const {
+    if (!side_by_side_) return render_picture(meshes, options_, context);
+    std::vector<ColorImage> pictures;
+    for (const TriangleMesh& mesh : meshes) {
+      TURNSCAN_ASSIGN(ColorImage picture, render_picture(std::span(&mesh, 1), options_, context));
+      pictures.push_back(std::move(picture));
+    }
+    return turnscan::side_by_side(pictures, options_.background);
+  }
+
+  std::vector<std::string> meshes_;
+  std::string out_;
+  bool side_by_side_ = false;
+  PictureOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_render_command() { return std::make_unique<RenderCommand>(); }
+
+}  // namespace turnscan::cli

@@ -1,0 +1,113 @@
+#include <filesystem>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+
+#include <turnscan/workflow/simulation/coverage_file.hpp>
+#include <turnscan/workflow/simulation/simulate.hpp>
+#include <turnscan/workflow/simulation/simulation_text.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+constexpr std::string_view kEmptyTable = "builtin:empty";
+
+class SimulateCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.optional_positional(
+        "OBJECT", object_,
+        fmt::format("What stands on the turntable: a mesh file, {}{}, or {} for the table alone",
+                    kBuiltin, fmt::join(builtin_object_names(), fmt::format(", {}", kBuiltin)),
+                    kEmptyTable));
+    line.option("-o,--out", "RECORDING", request_.recording,
+                "Folder to make for the recording; it must not exist or be empty");
+    line.repeatable(
+        "--scanner", "SCANNER", scanners_,
+        fmt::format("A preset ({}) or a file FILE.toml; may be given several times. What of its "
+                    "place is its own follows behind commas: kinect-v2,azimuth=90deg (default: "
+                    "kinect-v2)",
+                    fmt::join(scanner_presets(), ", ")));
+    line.repeatable("--next-pass", "NAME=VALUE,...", next_passes_,
+                    "Another pass after the first, in the same recording: how the object lies "
+                    "then, by the options of the object, e.g. tip=90deg,yaw=30deg; may be given "
+                    "several times");
+    line.option("--unit", "UNIT", unit_, "Unit of OBJECT if its file does not say it: mm, m, ...");
+    line.option("--coverage", "FILE.ply", request_.coverage,
+                "Write how well the scan covers the object, and why not: a coloured mesh, and "
+                "beside it FILE.json. Without --out nothing is recorded");
+    line.flag("--samples", request_.samples,
+              "Also write every sample with what there was to see, into RECORDING/truth/samples");
+    line.option("--report", "FILE.json", request_.report,
+                "Write what was done as JSON: options, counts, times");
+    line.file_option(
+        "--scene", "FILE.toml",
+        "Read everything from a TOML file: the tables below, [[scanner]], [[pass]] and the "
+        "object. The command line takes precedence over the file",
+        [this](const std::string& path) { return read_scene(path, request_.scene); });
+    for (SceneTable& table : describe(request_.scene))
+      line.group(table.name, table.title, std::move(table.options));
+    line.group("coverage", "Coverage", describe(request_.coverage_options));
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_TRY(take_arguments());
+    TURNSCAN_TRY(check_something_is_made());
+    TURNSCAN_ASSIGN(const Simulation made, simulate(request_, session.context()));
+    if (!request_.recording.empty()) tell_recording(made, session);
+    if (made.coverage) tell_coverage(*made.coverage, session);
+    return {};
+  }
+
+ private:
+  Result<> take_arguments() {
+    if (!object_.empty()) request_.scene.object = object_;
+    if (!unit_.empty()) request_.scene.unit = unit_;
+    if (request_.scene.object.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "OBJECT: missing; give a mesh file, a built-in object or a scene that names one");
+    if (!next_passes_.empty()) request_.scene.next_passes.clear();
+    for (const std::string& text : next_passes_) {
+      TURNSCAN_ASSIGN(PassEntry pass, parse_pass_entry(text));
+      request_.scene.next_passes.push_back(std::move(pass));
+    }
+    if (scanners_.empty()) return {};
+    request_.scene.scanners.clear();
+    for (const std::string& text : scanners_) {
+      TURNSCAN_ASSIGN(ScannerEntry entry, parse_scanner_entry(text));
+      request_.scene.scanners.push_back(std::move(entry));
+    }
+    return {};
+  }
+
+  Result<> check_something_is_made() const {
+    if (!request_.recording.empty() || !request_.coverage.empty()) return {};
+    return fail(ErrorCode::kInvalidOption,
+                "--out: missing; give the folder to make, or --coverage FILE.ply");
+  }
+
+  void tell_recording(const Simulation& made, Session& session) const {
+    session.print("{}", simulation_text(made));
+    session.print("Wrote {} and the truth in {}\n", request_.recording,
+                  (std::filesystem::path(request_.recording) / "truth").string());
+    if (!request_.report.empty()) session.print("Wrote {}\n", request_.report);
+  }
+
+  void tell_coverage(const CoverageMap& map, Session& session) const {
+    session.print("{}", coverage_text(map, request_.coverage_options));
+    session.print("Wrote {} and {}\n", request_.coverage, coverage_json_file(request_));
+  }
+
+  std::string object_, unit_;
+  std::vector<std::string> scanners_, next_passes_;
+  SimulateRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_simulate_command() { return std::make_unique<SimulateCommand>(); }
+
+}  // namespace turnscan::cli

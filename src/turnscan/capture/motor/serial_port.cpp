@@ -1,0 +1,170 @@
+// Bytes go through termios, because libserialport opens only what the system lists as a serial
+// port: not pseudo-terminals, and so neither socat's nor the ones that our tests make. Which ports
+// there are, and what hangs on them, comes from libserialport.
+
+#include <fcntl.h>
+#include <libserialport.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <deque>
+#include <system_error>
+#include <turnscan/capture/motor/serial_port.hpp>
+
+namespace turnscan::motor {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 240;
+constexpr int kWriteTimeout_ms = 500;
+
+/// "/dev/ttyUSB0 (CP2102 USB to UART Bridge)", one after the other; "none" where there are none.
+std::string ports_there() {
+  std::string text;
+  sp_port** ports = nullptr;
+  if (sp_list_ports(&ports) != SP_OK) return "none";
+  for (int i = 0; ports[i] != nullptr && i < 8; ++i) {
+    const char* about = sp_get_port_description(ports[i]);
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", sp_get_port_name(ports[i]),
+                        about != nullptr ? fmt::format(" ({})", about) : std::string());
+  }
+  sp_free_port_list(ports);
+  return text.empty() ? "none" : text;
+}
+
+tl::unexpected<Error> refusal(const std::string& name, int error) {
+  if (error == ENOENT || error == ENODEV || error == ENXIO || error == ENOTDIR)
+    return fail_at(name, ErrorCode::kNotFound,
+                   "there is no such serial port (there are: {}); plug the table in, or give "
+                   "another name",
+                   ports_there());
+  if (error == EACCES || error == EPERM)
+    return fail_at(name, ErrorCode::kNoPermission,
+                   "this user may not use the serial port; add the user to the group dialout and "
+                   "log in again");
+  if (error == EBUSY || error == EWOULDBLOCK)
+    return fail_at(name, ErrorCode::kDeviceBusy,
+                   "another program uses the serial port; close that program");
+  return fail_at(name, ErrorCode::kIo, "cannot open the serial port: {}; is it one?",
+                 std::generic_category().message(error));
+}
+
+}  // namespace
+
+struct SerialPort::State {
+  std::string name;
+  int descriptor = -1;
+  std::string half;
+  std::deque<std::string> lines;
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  tl::unexpected<Error> lost() const {
+    return fail_at(name, ErrorCode::kDeviceLost,
+                   "the turntable's serial port is gone; check cable and power of the table");
+  }
+
+  void take(std::string_view bytes) {
+    for (const char c : bytes) {
+      const bool end = c == '\n' || c == '\r';
+      if (!end) half += c;
+      if ((end && !half.empty()) || half.size() >= kLongestLine) {
+        lines.push_back(std::move(half));
+        half.clear();
+      }
+    }
+  }
+
+  /// False: nothing came.
+  Result<bool> receive(int timeout_ms) {
+    pollfd wait{descriptor, POLLIN, 0};
+    const int ready = ::poll(&wait, 1, timeout_ms);
+    if (ready < 0 && errno != EINTR) return lost();
+    if (ready <= 0) return false;
+    std::array<char, 512> bytes{};
+    const auto got = ::read(descriptor, bytes.data(), bytes.size());
+    if (got < 0 && (errno == EAGAIN || errno == EINTR)) return false;
+    // Readable without anything to read: nobody is at the other end.
+    if (got <= 0) return lost();
+    take(std::string_view(bytes.data(), static_cast<std::size_t>(got)));
+    return true;
+  }
+};
+
+SerialPort::SerialPort(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SerialPort::SerialPort(SerialPort&&) noexcept = default;
+SerialPort& SerialPort::operator=(SerialPort&&) noexcept = default;
+SerialPort::~SerialPort() = default;
+
+const std::string& SerialPort::name() const { return state_->name; }
+const std::string& SerialPort::half_line() const { return state_->half; }
+
+namespace {
+
+/// Bytes as they come, 8N1, no flow control. False: not a serial port, or not at that speed.
+bool make_raw(int descriptor, int baud) {
+  termios mode{};
+  if (::tcgetattr(descriptor, &mode) != 0) return false;
+  ::cfmakeraw(&mode);
+  mode.c_cflag |= CLOCAL | CREAD;
+  mode.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+  if (::cfsetspeed(&mode, static_cast<speed_t>(baud)) != 0) return false;
+  return ::tcsetattr(descriptor, TCSANOW, &mode) == 0;
+}
+
+}  // namespace
+
+Result<SerialPort> SerialPort::open(const std::string& name, int baud) {
+  auto state = std::make_unique<State>();
+  state->name = name;
+  state->descriptor = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (state->descriptor < 0) return refusal(name, errno);
+  if (::isatty(state->descriptor) == 0) return refusal(name, ENOTTY);
+  if (::flock(state->descriptor, LOCK_EX | LOCK_NB) != 0) return refusal(name, errno);
+  (void)::ioctl(state->descriptor, TIOCEXCL);
+  if (!make_raw(state->descriptor, baud))
+    return fail_at(name, ErrorCode::kIo,
+                   "the serial port does not work at {} baud; try another --motor-baud", baud);
+  ::tcflush(state->descriptor, TCIOFLUSH);
+  return SerialPort(std::move(state));
+}
+
+Result<> SerialPort::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    pollfd wait{state_->descriptor, POLLOUT, 0};
+    if (::poll(&wait, 1, kWriteTimeout_ms) <= 0 || (wait.revents & POLLOUT) == 0)
+      return state_->lost();
+    const auto done = ::write(state_->descriptor, bytes.data(), bytes.size());
+    if (done < 0 && errno != EAGAIN && errno != EINTR) return state_->lost();
+    if (done > 0) bytes.remove_prefix(static_cast<std::size_t>(done));
+  }
+  return {};
+}
+
+Result<std::optional<std::string>> SerialPort::read_line(double timeout_s) {
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(std::max(0.0, timeout_s)));
+  while (state_->lines.empty()) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    TURNSCAN_ASSIGN(const bool came,
+                    state_->receive(static_cast<int>(std::max<long>(0, left.count() + 1))));
+    if (!came && Clock::now() >= end) return std::optional<std::string>();
+  }
+  std::string line = std::move(state_->lines.front());
+  state_->lines.pop_front();
+  return line;
+}
+
+}  // namespace turnscan::motor

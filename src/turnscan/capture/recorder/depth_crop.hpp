@@ -1,0 +1,28 @@
+#pragma once
+// The crop of what is recorded. As LiveCrop::image(), but it tells returns before the cylinder from
+// those behind it: only these say that the space up to there is empty.
+
+#include <cstdint>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
+#include <vector>
+
+namespace turnscan {
+
+class DepthCrop {
+ public:
+  /// T_table_sensor: with the platter at any angle. Fails as LiveCrop::create().
+  static Result<DepthCrop> create(const Cylinder& cylinder, const Pose& T_table_sensor,
+                                  const SensorInfo& sensor);
+
+  /// Returns behind the cylinder's far side, or on rays that miss it, become kOutsideCrop. Returns
+  /// before its near side become kNoReturn. Throws std::invalid_argument when the image has not the
+  /// sensor's size.
+  void apply(DepthImage& image) const;
+
+ private:
+  DepthCrop() = default;
+  std::vector<std::uint16_t> nearest_, farthest_;  ///< raw depths that are kept, per pixel
+};
+
+}  // namespace turnscan

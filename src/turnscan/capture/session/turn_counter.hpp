@@ -1,0 +1,55 @@
+#pragma once
+// How far the table has turned since the recording began.
+
+#include <future>
+#include <memory>
+#include <string>
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <vector>
+
+namespace turnscan::session {
+
+/// By the frames' own angles; by a known speed and the frames' times; or by the speed that is found
+/// from the motion of what the first seconds show (turntable/motion/motion.hpp, on a thread of its
+/// own), and once more after half a turn, which shows it ten times as well.
+class TurnCounter {
+ public:
+  /// wait: frames wait while the speed is looked for, so that the same frames give the same end.
+  TurnCounter(const SequenceHeader& header, std::optional<double> speed_rad_s, bool find_speed,
+              bool wait);
+  ~TurnCounter();
+  TurnCounter(const TurnCounter&) = delete;
+  TurnCounter& operator=(const TurnCounter&) = delete;
+
+  /// A frame that belongs to the recording, in order.
+  void add(const Frame& frame);
+  /// Turned since the first frame, radians, unsigned; nullopt: not known yet.
+  std::optional<double> turned_rad() const { return turned_; }
+  /// "angles of the frames", "stated speed", "motion"; empty: not known yet.
+  const std::string& found() const { return found_; }
+  std::optional<double> speed_rad_s() const { return speed_; }
+  /// Why the speed was not found so far; empty: no attempt has failed.
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  void look_for_speed(const Frame& frame);
+  bool time_to_look() const;
+  void take_result();
+
+  SequenceHeader header_;
+  std::optional<double> speed_;
+  bool find_speed_, wait_;
+  bool found_well_ = false;  ///< from half a turn
+  std::optional<double> first_time_, last_time_, first_angle_, start_time_;
+  std::optional<double> turned_;
+  std::string found_, trouble_;
+
+  std::vector<std::shared_ptr<const Frame>> kept_;
+  std::size_t every_ = 1, seen_ = 0;
+  double attempt_s_;
+  std::future<Result<Calibration>> search_;
+  bool last_search_ = false;  ///< search_ is the one after half a turn
+};
+
+}  // namespace turnscan::session

@@ -1,0 +1,174 @@
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <turnscan/capture/source/plugin_source.hpp>
+#include <turnscan/capture/source/plugins.hpp>
+
+namespace turnscan::source {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kFoldersUp = 4;
+constexpr std::string_view kPrefix = "turnscan-", kSuffix = ".so";
+constexpr std::int32_t kMaxDevices = 64;
+
+/// Debian's packages of the libraries that drivers need.
+const std::map<std::string, std::string>& packages() {
+  static const std::map<std::string, std::string> names{{"openni2", "libopenni2-0"},
+                                                        {"freenect", "libfreenect0.5"}};
+  return names;
+}
+
+std::vector<fs::path> split_folders(std::string_view text) {
+  std::vector<fs::path> folders;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(':'), text.size());
+    if (end > 0) folders.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return folders;
+}
+
+std::string name_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (name.size() <= kPrefix.size() + kSuffix.size() || !name.starts_with(kPrefix) ||
+      !name.ends_with(kSuffix))
+    return {};
+  return name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size());
+}
+
+/// Files by the name of their driver; the first folder that has one counts.
+std::map<std::string, fs::path> plugin_files() {
+  std::map<std::string, fs::path> files;
+  for (const fs::path& folder : plugin_folders()) {
+    std::error_code error;
+    for (fs::directory_iterator file(folder, error), end; !error && file != end;
+         file.increment(error))
+      if (const std::string name = name_of(file->path()); !name.empty())
+        files.emplace(name, file->path());
+  }
+  return files;
+}
+
+/// What to do about the dynamic loader's message.
+std::string load_failure(const std::string& scheme, std::string why) {
+  constexpr std::string_view kMissing = ": cannot open shared object file";
+  if (const std::size_t at = why.find(kMissing); at != std::string::npos) {
+    const auto package = packages().find(scheme);
+    return fmt::format("its library {} is not installed; {}", why.substr(0, at),
+                       package != packages().end()
+                           ? "install Debian's package " + package->second
+                           : std::string("docs/devices.md says where it comes from"));
+  }
+  std::replace(why.begin(), why.end(), ';', ',');
+  return fmt::format("it cannot be loaded ({}); build it against the libraries of this machine",
+                     why);
+}
+
+Result<const turnscan_plugin*> load_file(const std::string& scheme, const fs::path& file) {
+  const auto failed = [&](const std::string& why) {
+    return fail(ErrorCode::kLibrary, "driver {} ({}): {}", scheme, file.string(), why);
+  };
+  // Never unloaded: drivers leave threads and exit handlers behind.
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (library == nullptr) return failed(load_failure(scheme, dlerror()));
+  const auto entry =
+      reinterpret_cast<turnscan_plugin_entry_function>(dlsym(library, "turnscan_plugin_entry"));
+  if (entry == nullptr)
+    return failed("it has no function turnscan_plugin_entry; it is no plug-in of turnscan");
+  const turnscan_plugin* plugin = entry();
+  if (plugin == nullptr) return failed("it offers nothing; build it again");
+  if (plugin->version != TURNSCAN_PLUGIN_VERSION)
+    return failed(fmt::format(
+        "it was made for version {} of the interface, and this turnscan has version {}; build it "
+        "again",
+        plugin->version, TURNSCAN_PLUGIN_VERSION));
+  if (plugin->name != scheme)
+    return failed(fmt::format("it calls itself {}; the file's name must be turnscan-{}.so",
+                              plugin->name, plugin->name));
+  return plugin;
+}
+
+std::vector<FoundDevice> found_devices(const turnscan_plugin& plugin, std::string& problem) {
+  std::vector<turnscan_device_entry> entries(kMaxDevices);
+  turnscan_error error{};
+  const std::int32_t count = plugin.list(entries.data(), kMaxDevices, &error);
+  if (count < 0) {
+    problem = plugin_failure(plugin, count, error).value().message;
+    return {};
+  }
+  std::vector<FoundDevice> devices;
+  for (std::int32_t i = 0; i < std::min(count, kMaxDevices); ++i) {
+    turnscan_device_entry& entry = entries[static_cast<std::size_t>(i)];
+    entry.address[sizeof entry.address - 1] = entry.model[sizeof entry.model - 1] =
+        entry.serial[sizeof entry.serial - 1] = '\0';
+    devices.push_back(
+        {format_source_uri({plugin.name, entry.address, {}}), entry.model, entry.serial});
+  }
+  return devices;
+}
+
+}  // namespace
+
+Result<const turnscan_plugin*> load_plugin(const std::string& scheme) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const auto files = plugin_files();
+  const auto file = files.find(scheme);
+  if (file != files.end()) return load_file(scheme, file->second);
+  std::string known = "virtual:, replay:";
+  for (const auto& [name, path] : files) known += ", " + name + ":";
+  return fail(ErrorCode::kNotFound,
+              "device '{}:': there is no driver of that name; use one of {} (docs/devices.md says "
+              "how others are added)",
+              scheme, known);
+}
+
+}  // namespace turnscan::source
+
+namespace turnscan {
+
+using namespace source;
+namespace fs = std::filesystem;
+
+std::vector<fs::path> plugin_folders() {
+  if (const char* set = std::getenv("TURNSCAN_PLUGINS"); set != nullptr && *set != '\0')
+    return split_folders(set);
+  std::vector<fs::path> folders;
+  std::error_code error;
+  fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (int i = 0; i < kFoldersUp && !above.empty(); ++i, above = above.parent_path())
+    if (const fs::path folder = above / "lib" / "turnscan" / "plugins";
+        fs::is_directory(folder, error))
+      folders.push_back(folder);
+  if (folders.empty()) folders.emplace_back(TURNSCAN_INSTALLED_PLUGINS);
+  return folders;
+}
+
+std::vector<DriverState> list_drivers() {
+  std::vector<DriverState> drivers;
+  for (const auto& [name, file] : plugin_files()) {
+    DriverState state;
+    state.name = name;
+    state.file = file;
+    if (const auto plugin = load_plugin(name); !plugin) {
+      state.error = plugin.error().message;
+    } else {
+      state.description = (*plugin)->description;
+      for (std::int32_t i = 0; i < (*plugin)->parameter_count; ++i) {
+        const turnscan_parameter_info& p = (*plugin)->parameters[i];
+        state.parameters.push_back({p.name, p.help, p.default_value});
+      }
+      state.devices = found_devices(**plugin, state.error);
+    }
+    drivers.push_back(std::move(state));
+  }
+  return drivers;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,43 @@
+#pragma once
+// A FrameSource of a Grabber: its thread, its queue, and the rules that every frame keeps.
+
+#include <atomic>
+#include <thread>
+#include <turnscan/capture/source/frame_queue.hpp>
+#include <turnscan/capture/source/grabber.hpp>
+
+namespace turnscan::source {
+
+class QueuedSource : public FrameSource {
+ public:
+  QueuedSource(std::unique_ptr<Grabber> grabber, std::size_t capacity);
+  ~QueuedSource() override;
+  QueuedSource(const QueuedSource&) = delete;
+  QueuedSource& operator=(const QueuedSource&) = delete;
+
+  const SourceInfo& info() const override { return grabber_->info(); }
+  Result<> start() override;
+  Result<Delivery> next(double timeout_s, const RunContext& context) override;
+  void stop() override;
+  SourceStatistics statistics() const override;
+
+ private:
+  void run();
+  Result<> admit(Delivery& delivery);
+  std::string fault_of(const Frame& frame) const;
+
+  std::unique_ptr<Grabber> grabber_;
+  FrameQueue queue_;
+  std::thread thread_;
+  std::atomic<bool> stopping_ = false;
+  std::optional<Error> failed_;
+  // Of the grabbing thread.
+  std::optional<Delivery> pending_;  ///< admitted, but there was no place for it when stop() came
+  std::uint32_t next_index_ = 0;
+  int refused_in_a_row_ = 0;
+  std::vector<double> last_time_s_;
+  // Counted.
+  std::atomic<std::uint64_t> delivered_ = 0, dropped_by_sensor_ = 0, refused_ = 0;
+};
+
+}  // namespace turnscan::source

@@ -1,0 +1,101 @@
+#pragma once
+// How well a mesh agrees with a reference: accuracy, completeness, what was invented.
+// docs/evaluation.md has the definitions.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/registration/registration.hpp>
+#include <vector>
+
+namespace turnscan {
+
+enum class Align { kNone, kIcp };
+/// What of the mesh is nearest to an open edge of the reference, as what closes its holes.
+enum class Border { kCount, kLeaveOut };
+
+struct EvaluateOptions {
+  std::string thresholds = "0.5mm,1mm,2mm";  ///< for precision, recall and F
+  int samples = 200000;                      ///< drawn from each of the two surfaces
+  int seed = 1;
+  Align align = Align::kNone;      ///< kIcp: first move the mesh rigidly onto the reference
+  IcpOptions icp{};                ///< of that
+  Border border = Border::kCount;  ///< kLeaveOut: judged as what was not seen
+};
+/// Fields thresholds, samples, sample-seed, border (count, leave-out), align (none, icp), and those
+/// of IcpOptions.
+OptionTable describe(EvaluateOptions& options);
+
+/// Lengths separated by commas, as "0.5mm,1mm", in metres, ascending. kInvalidOption unless there
+/// are one to 64, all positive.
+Result<std::vector<double>> parse_thresholds(std::string_view text);
+
+/// Which points of the reference the sensors saw: one entry a point, 1 = seen. Points in metres in
+/// the reference's frame, unit normals. An empty function: all were seen.
+using SeenTest = std::function<Result<std::vector<std::uint8_t>>(std::span<const Vec3f> points,
+                                                                 std::span<const Vec3f> normals)>;
+
+/// Of unsigned distances, metres; all zero when there are none (count == 0). Percentiles are by
+/// nearest rank.
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double mean = 0.0, median = 0.0, p95 = 0.0, max = 0.0, rms = 0.0;
+};
+ErrorStatistics error_statistics(std::vector<double> distances);
+
+/// Fractions, 0 to 1.
+struct ThresholdScore {
+  double threshold_m = 0.0;
+  double precision = 0.0;  ///< of the mesh within the threshold of the reference
+  double recall = 0.0;     ///< of the seen reference within the threshold of the mesh
+  double f = 0.0;          ///< harmonic mean of both; 0 when both are
+};
+
+struct Evaluation {
+  /// Mesh to reference over the part of the mesh whose nearest reference point was seen (and, with
+  /// Border::kLeaveOut, is not on an open edge).
+  ErrorStatistics accuracy;
+  /// Seen part of the reference to mesh.
+  ErrorStatistics completeness;
+  /// Mean of the way from the reference to the samples of accuracy, along the reference's normal:
+  /// positive when the mesh lies outside the reference.
+  double bias_m = 0.0;
+  std::vector<ThresholdScore> scores;
+  double mesh_area_m2 = 0.0, reference_area_m2 = 0.0;
+  double seen_area_m2 = 0.0;  ///< of the reference
+  /// The rest of the mesh, where nothing was seen: its area and its own distance to the reference.
+  double invented_area_m2 = 0.0;
+  ErrorStatistics invented;
+  bool aligned = false;
+  Pose T_reference_mesh = Pose::Identity();  ///< found by the alignment, else identity
+  double alignment_rms_m = 0.0;
+};
+
+/// Distances are exact from sample to triangle; the samples are area-uniform and the same for every
+/// run. Begins the phases "align" (if asked for), "sample", "accuracy", "completeness", "seen" (if
+/// given). Fails with kFormat (the message says which of the two meshes), kInvalidOption,
+/// kTooFewPoints when a mesh has no area or nothing of the reference was seen, as icp() and the
+/// SeenTest do, and kCancelled. The same bytes for any number of threads.
+Result<Evaluation> evaluate(const TriangleMesh& mesh, const TriangleMesh& reference,
+                            const EvaluateOptions& options, const SeenTest& seen,
+                            const RunContext& context);
+
+/// JSON text with a final newline; keys carry units ("median_m"). docs/evaluation.md lists them.
+std::string to_json(const Evaluation& evaluation);
+
+/// The mesh moved to where `pose` puts it; normals turn along.
+TriangleMesh transformed(const TriangleMesh& mesh, const Pose& pose);
+
+/// The mesh with each vertex coloured by its exact distance to the reference, on the perceptually
+/// ordered map viridis (Smith and van der Walt 2015): 0 is dark violet, half of max_error_m teal,
+/// max_error_m and more yellow. Fails with kFormat, kInvalidOption (max_error_m not positive),
+/// kTooFewPoints (no triangle in the reference), kCancelled.
+Result<TriangleMesh> color_by_error(const TriangleMesh& mesh, const TriangleMesh& reference,
+                                    double max_error_m, const RunContext& context);
+
+}  // namespace turnscan

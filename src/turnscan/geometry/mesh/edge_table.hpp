@@ -1,0 +1,70 @@
+#pragma once
+// Half edges of a triangle mesh, and which of them lie on the same edge.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::mesh {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Stands for no vertex, half edge or triangle.
+inline constexpr std::uint32_t kNone = ~0u;
+
+/// Half edge h = 3 * triangle + corner runs from that corner to the triangle's next corner.
+inline std::uint32_t next_in_triangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline std::uint32_t previous_in_triangle(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// The vertex that half edge h leaves.
+inline std::uint32_t origin(const TriangleMesh& mesh, std::uint32_t h) {
+  return mesh.triangles[h / 3][h % 3];
+}
+
+/// Half edges grouped by their edge. O(triangles) memory and, for bounded vertex degrees, time.
+class EdgeTable {
+ public:
+  /// Triangles for which use[t] == 0 are left out (an empty use: none is). The indices of the
+  /// others must be in [0, vertex_count). At most 2^30 triangles.
+  EdgeTable(std::span<const Triangle> triangles, std::size_t vertex_count,
+            std::span<const std::uint8_t> use = {});
+
+  std::size_t edge_count() const { return first_.size() - 1; }
+  /// Half edges of one edge, ascending. Edges are in the order of (smaller, larger vertex).
+  std::span<const std::uint32_t> half_edges(std::size_t edge) const {
+    return std::span(half_edges_).subspan(first_[edge], first_[edge + 1] - first_[edge]);
+  }
+
+ private:
+  std::vector<std::uint32_t> half_edges_;
+  std::vector<std::uint32_t> first_;
+};
+
+/// Sets of numbers [0, n) that merge (union by the smaller root, so that a set's root is its
+/// smallest member).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    for (std::size_t i = 0; i < n; ++i) parent_[i] = std::uint32_t(i);
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    if (a < b) parent_[b] = a;
+    if (b < a) parent_[a] = b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace turnscan::mesh

@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/edge_table.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/sparse_ldlt.hpp>
+
+namespace turnscan {
+namespace {
+
+using Triplet = Eigen::Triplet<double>;
+
+/// The plate's term of a vertex couples all its neighbours with each other: hubs of large fans
+/// would fill the matrix, so they get the membrane's.
+constexpr std::size_t kLargestPlateDegree = 64;
+constexpr std::size_t kMaxFactorBytes = std::size_t(6) << 30;
+
+/// Neighbours of every vertex along edges.
+class Adjacency {
+ public:
+  explicit Adjacency(const TriangleMesh& mesh) : start_(mesh.vertices.size() + 1, 0) {
+    const mesh::EdgeTable edges(mesh.triangles, mesh.vertices.size());
+    const auto ends = [&](std::size_t e) {
+      const std::uint32_t h = edges.half_edges(e)[0];
+      const std::uint32_t g = mesh::next_in_triangle(h);
+      return std::pair(mesh.triangles[h / 3][h % 3], mesh.triangles[g / 3][g % 3]);
+    };
+    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
+      const auto [a, b] = ends(e);
+      if (a == b) continue;
+      ++start_[a + 1];
+      ++start_[b + 1];
+    }
+    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+    neighbours_.resize(start_.back());
+    std::vector<std::size_t> cursor(start_.begin(), start_.end() - 1);
+    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
+      const auto [a, b] = ends(e);
+      if (a == b) continue;
+      neighbours_[cursor[a]++] = b;
+      neighbours_[cursor[b]++] = a;
+    }
+  }
+  std::span<const std::uint32_t> of(std::uint32_t v) const {
+    return std::span(neighbours_).subspan(start_[v], start_[v + 1] - start_[v]);
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<std::uint32_t> neighbours_;
+};
+
+/// Movable vertices that are connected, or that touch the same fixed vertex: the plate's term of
+/// that vertex couples them. Regions that touch no fixed vertex at all are left out.
+std::vector<std::vector<std::uint32_t>> find_regions(const Adjacency& adjacency,
+                                                     const std::vector<std::uint8_t>& movable) {
+  std::vector<std::vector<std::uint32_t>> regions;
+  std::vector<std::uint8_t> seen(movable.size(), 0);
+  for (std::uint32_t seed = 0; seed < movable.size(); ++seed) {
+    if (movable[seed] == 0 || seen[seed] != 0) continue;
+    std::vector<std::uint32_t> region, queue(1, seed);
+    seen[seed] = 1;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::uint32_t v = queue[i];
+      if (movable[v] != 0) region.push_back(v);
+      for (const std::uint32_t n : adjacency.of(v)) {
+        if (seen[n] != 0 || (movable[v] == 0 && movable[n] == 0)) continue;
+        seen[n] = 1;
+        queue.push_back(n);
+      }
+    }
+    const bool held = region.size() < queue.size();
+    if (held) regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
+/// Minimises (1 - tension) * sum over vertices |sum over neighbours (x_i - x_j)|^2 / degree
+/// + tension * sum over edges |x_i - x_j|^2 over one region (Kobbelt, Campagna, Vorsatz, Seidel
+/// 1998, "Interactive multi-resolution modeling on arbitrary meshes").
+class PlateSystem {
+ public:
+  PlateSystem(const TriangleMesh& mesh, const Adjacency& adjacency,
+              const std::vector<std::uint32_t>& region, const std::vector<std::uint32_t>& place,
+              double tension)
+      : mesh_(mesh), adjacency_(adjacency), region_(region), place_(place) {
+    origin_ = mesh.vertices[region[0]].cast<double>();
+    right_ = mesh::Columns3::Zero(Eigen::Index(region.size()), 3);
+    assemble(tension);
+  }
+
+  Result<> solve(const RunContext& context, std::vector<Vec3f>& vertices) {
+    mesh::SparseMatrix matrix(right_.rows(), right_.rows());
+    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
+    triplets_ = {};
+    TURNSCAN_ASSIGN(const mesh::Columns3 moved,
+                    mesh::solve_sparse(matrix, right_, kMaxFactorBytes, context));
+    if (!moved.allFinite()) {
+      return fail(ErrorCode::kLibrary, "sparse system: the solution is not finite; check the mesh");
+    }
+    for (std::size_t i = 0; i < region_.size(); ++i) {
+      const Vec3d p = moved.row(Eigen::Index(i)).transpose() + origin_;
+      vertices[region_[i]] = p.cast<float>();
+    }
+    return {};
+  }
+
+ private:
+  void assemble(double tension) {
+    std::vector<std::uint32_t> rows = region_;
+    for (const std::uint32_t v : region_) {
+      const auto around = adjacency_.of(v);
+      rows.insert(rows.end(), around.begin(), around.end());
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (const std::uint32_t v : rows) {
+      const bool hub = adjacency_.of(v).size() > kLargestPlateDegree;
+      if (!hub && tension < 1.0) add_plate(v, 1.0 - tension);
+      if (hub || tension > 0.0) add_membrane(v, hub ? 1.0 : tension);
+    }
+  }
+
+  void add_plate(std::uint32_t v, double weight) {
+    const auto around = adjacency_.of(v);
+    row_.assign(1, {v, double(around.size())});
+    for (const std::uint32_t n : around) row_.emplace_back(n, -1.0);
+    add_square(weight / double(around.size()));
+  }
+
+  /// Half of each edge's term; the other half comes with its other end (or is that of a fixed
+  /// edge's end and then counts half, too).
+  void add_membrane(std::uint32_t v, double weight) {
+    for (const std::uint32_t n : adjacency_.of(v)) {
+      row_.assign({{v, 1.0}, {n, -1.0}});
+      add_square(0.5 * weight);
+    }
+  }
+
+  /// Adds weight * (row . x)^2.
+  void add_square(double weight) {
+    for (const auto& [i, a] : row_) {
+      const std::uint32_t row = place_[i];
+      if (row == mesh::kNone) continue;
+      for (const auto& [j, b] : row_) {
+        const std::uint32_t column = place_[j];
+        if (column == mesh::kNone) {
+          right_.row(row) -=
+              weight * a * b * (mesh_.vertices[j].cast<double>() - origin_).transpose();
+        } else if (column <= row) {
+          triplets_.emplace_back(int(row), int(column), weight * a * b);
+        }
+      }
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  const Adjacency& adjacency_;
+  const std::vector<std::uint32_t>& region_;
+  const std::vector<std::uint32_t>& place_;  // vertex -> row, kNone for fixed ones
+  Vec3d origin_;
+  mesh::Columns3 right_;
+  std::vector<Triplet> triplets_;
+  std::vector<std::pair<std::uint32_t, double>> row_;
+};
+
+}  // namespace
+
+OptionTable describe(RelaxOptions& options) {
+  OptionTable table;
+  table.number("relax-tension", options.tension, Quantity::kNone, {0.0, 1.0},
+               "Stiffness of filled surfaces: 0 is a bent plate, 1 a soap film.");
+  return table;
+}
+
+Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint8_t>& movable,
+                           const RelaxOptions& options, const RunContext& context) {
+  TURNSCAN_TRY(validate_mesh(mesh));
+  RelaxOptions checked = options;
+  TURNSCAN_TRY(describe(checked).check());
+  if (movable.size() != mesh.vertices.size()) {
+    return fail(ErrorCode::kInvalidOption,
+                "relax: {} marks for {} vertices; give one for each vertex", movable.size(),
+                mesh.vertices.size());
+  }
+  const Adjacency adjacency(mesh);
+  const auto regions = find_regions(adjacency, movable);
+  std::vector<std::uint32_t> place(mesh.vertices.size(), mesh::kNone);
+  for (const auto& region : regions) {
+    for (std::size_t i = 0; i < region.size(); ++i) place[region[i]] = std::uint32_t(i);
+  }
+  TriangleMesh relaxed = mesh;
+  std::vector<Result<>> solved(regions.size());
+  parallel_for(regions.size(), 1, [&](std::size_t r) {
+    if (context.cancelled()) return;
+    PlateSystem system(mesh, adjacency, regions[r], place, options.tension);
+    solved[r] = system.solve(context, relaxed.vertices);
+  });
+  TURNSCAN_TRY(context.check());
+  for (const Result<>& result : solved) TURNSCAN_TRY(result);
+  if (!relaxed.normals.empty()) {
+    const std::vector<Vec3f> normals = vertex_normals(relaxed);
+    for (const auto& region : regions) {
+      for (const std::uint32_t v : region) relaxed.normals[v] = normals[v];
+    }
+  }
+  return relaxed;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,74 @@
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/geometry/mesh/mesh_edit.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/simplify.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr int kTries = 5;
+
+TriangleMesh collapse(const TriangleMesh& mesh, std::size_t triangles, float relative_error) {
+  std::vector<unsigned int> from, to(3 * mesh.triangles.size());
+  from.reserve(to.size());
+  for (const auto& t : mesh.triangles) from.insert(from.end(), t.begin(), t.end());
+  to.resize(meshopt_simplify(to.data(), from.data(), from.size(), mesh.vertices.data()->data(),
+                             mesh.vertices.size(), sizeof(Vec3f), 3 * triangles, relative_error, 0,
+                             nullptr));
+  TriangleMesh out = mesh;
+  out.triangles.clear();
+  for (std::size_t i = 0; i + 2 < to.size(); i += 3)
+    out.triangles.push_back({to[i], to[i + 1], to[i + 2]});
+  mesh::compact_vertices(out);
+  return out;
+}
+
+/// Collapses do not look whether edges fold together: parts the surface there and closes the cuts.
+/// Nothing when that does not give as many pieces as there were.
+Result<TriangleMesh> mend(const TriangleMesh& mesh, std::size_t pieces) {
+  FillHolesOptions options;
+  options.refine = false;
+  TURNSCAN_ASSIGN(const TriangleMesh whole, repair(mesh, options, RunContext()));
+  TURNSCAN_ASSIGN(std::vector<TriangleMesh> parts, split_components(whole));
+  if (parts.size() < pieces) return fail(ErrorCode::kLibrary, "simplify: a piece is lost");
+  parts.resize(pieces);  // the rest are folds of a few triangles
+  TriangleMesh out = join_meshes(parts);
+  out.name = mesh.name;
+  if (!check_mesh(out).watertight()) return fail(ErrorCode::kLibrary, "simplify: still broken");
+  return out;
+}
+
+}  // namespace
+
+Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal) {
+  TURNSCAN_TRY(validate_mesh(mesh));
+  const std::size_t n = mesh.triangles.size();
+  std::size_t target = std::min(goal.triangles, n);
+  if (mesh.empty() || target == n) return mesh;
+  bool watertight = true;
+  std::size_t pieces = 1;
+  if (!goal.one_solid) {
+    const MeshReport report = check_mesh(mesh);
+    watertight = report.watertight();
+    pieces = std::size_t(report.components);
+  }
+  const double extent = double(
+      meshopt_simplifyScale(mesh.vertices.data()->data(), mesh.vertices.size(), sizeof(Vec3f)));
+  const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;
+  const auto error = static_cast<float>(std::min(relative, 1e10));
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    TriangleMesh out = collapse(mesh, target, error);
+    if (!out.empty() && (!watertight || check_mesh(out).watertight())) return out;
+    if (auto mended = mend(out, pieces); mended) return *mended;
+    // Collapses are made in order of error: fewer of them end before the one that did harm.
+    target = std::max(target, out.triangles.size());
+    target += (n - target) / 2;
+  }
+  return mesh;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,242 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/decode_file.hpp>
+
+namespace turnscan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t(1) << 16;
+
+std::string words_of(int error) { return std::generic_category().message(error); }
+
+tl::unexpected<Error> system_error(const fs::path& path, std::string_view what, int error) {
+  const bool missing = error == ENOENT || error == ENOTDIR;
+  return fail_at(path.string(), missing ? ErrorCode::kNotFound : ErrorCode::kIo, "{}: {}", what,
+                 words_of(error));
+}
+
+/// Closes on destruction.
+class Descriptor {
+ public:
+  explicit Descriptor(int value = -1) : value_(value) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return value_; }
+  int close() {
+    const int result = value_ >= 0 ? ::close(value_) : 0;
+    value_ = -1;
+    return result;
+  }
+
+ private:
+  int value_;
+};
+
+Result<> read_all(int descriptor, const fs::path& path, std::string& content) {
+  std::size_t used = 0;
+  while (used < content.size()) {
+    const ssize_t got = ::read(descriptor, content.data() + used, content.size() - used);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error(path, "cannot read", errno);
+    if (got == 0) break;
+    used += static_cast<std::size_t>(got);
+  }
+  content.resize(used);
+  return {};
+}
+
+Descriptor open_to_read(const fs::path& path) {
+  // O_NONBLOCK: opening a pipe must not wait for a writer.
+  return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+}
+
+/// Right after open_to_read, whose failure it tells.
+Result<std::uint64_t> size_of_regular_file(const Descriptor& descriptor, const fs::path& path) {
+  if (descriptor.get() < 0) return system_error(path, "cannot open", errno);
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) return system_error(path, "cannot read", errno);
+  if (S_ISDIR(status.st_mode)) return system_error(path, "cannot read", EISDIR);
+  if (!S_ISREG(status.st_mode))
+    return fail_at(path.string(), ErrorCode::kIo, "cannot read: not a regular file");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+/// The file that a symbolic link leads to, also when it does not exist yet.
+fs::path follow_links(fs::path path) {
+  std::error_code error;
+  for (int depth = 0; depth < 40 && fs::is_symlink(path, error); ++depth) {
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) break;
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  return path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string().substr(0, 200),
+                                          ::getpid(), counter.fetch_add(1));
+}
+
+void sync_folder(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // Not every file system can sync a folder; the content itself is on the disk by now.
+  if (descriptor.get() >= 0) (void)::fsync(descriptor.get());
+}
+
+}  // namespace
+
+Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
+  const Descriptor descriptor = open_to_read(path);
+  TURNSCAN_ASSIGN(const std::uint64_t size, size_of_regular_file(descriptor, path));
+  if (size > max_bytes)
+    return fail_at(path.string(), ErrorCode::kResourceLimit,
+                   "the file has {} bytes: at most {} are allowed", size, max_bytes);
+  std::string content(size, '\0');
+  TURNSCAN_TRY(read_all(descriptor.get(), path, content));
+  return content;
+}
+
+Result<> file::check_readable(const fs::path& path) {
+  TURNSCAN_TRY(size_of_regular_file(open_to_read(path), path));
+  return {};
+}
+
+FileSink::FileSink(int descriptor, std::string path)
+    : descriptor_(descriptor),
+      path_(std::move(path)),
+      buffer_(std::make_unique_for_overwrite<char[]>(kBufferBytes)) {}
+
+FileSink::~FileSink() = default;
+
+Result<> FileSink::write(std::span<const std::byte> bytes) {
+  return write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+Result<> FileSink::write(std::string_view text) {
+  if (used_ + text.size() > kBufferBytes) TURNSCAN_TRY(flush());
+  if (text.size() >= kBufferBytes) return write_through(text.data(), text.size());
+  std::copy(text.begin(), text.end(), buffer_.get() + used_);
+  used_ += text.size();
+  return state_;
+}
+
+Result<> FileSink::flush() {
+  const std::size_t size = used_;
+  used_ = 0;
+  return write_through(buffer_.get(), size);
+}
+
+Result<> FileSink::write_through(const char* data, std::size_t size) {
+  while (state_ && size > 0) {
+    const ssize_t done = ::write(descriptor_, data, size);
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) {
+      state_ = system_error(path_, "cannot write", errno);
+      break;
+    }
+    data += done;
+    size -= static_cast<std::size_t>(done);
+  }
+  return state_;
+}
+
+/// One file being written: the temporary one is gone unless commit() succeeded.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const fs::path& path) : path_(follow_links(path)) {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::equivalent(path, path_, error)) {
+      // /dev/stdout may lead to a file that has no name, or no longer has it.
+      path_ = path;
+      nameless_ = true;
+    }
+  }
+  ~AtomicFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  Result<> write(const std::function<Result<>(FileSink&)>& body, Durability durability) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path_, error);
+    if (fs::is_directory(status)) return system_error(path_, "cannot write", EISDIR);
+    if (nameless_ || (fs::exists(status) && !fs::is_regular_file(status)))
+      return write_directly(body);
+    temporary_ = temporary_beside(path_);
+    Descriptor descriptor(
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (descriptor.get() < 0) return refuse(errno);
+    if (fs::exists(status))
+      (void)::fchmod(descriptor.get(), static_cast<mode_t>(status.permissions()) & 07777);
+    TURNSCAN_TRY(run(body, descriptor));
+    if (durability == Durability::kSynced && ::fsync(descriptor.get()) != 0)
+      return system_error(path_, "cannot write", errno);
+    if (descriptor.close() != 0) return system_error(path_, "cannot write", errno);
+    return commit(durability);
+  }
+
+ private:
+  Result<> refuse(int error) {
+    temporary_.clear();  // it is not ours
+    return system_error(path_, "cannot write", error);
+  }
+
+  Result<> run(const std::function<Result<>(FileSink&)>& body, const Descriptor& descriptor) {
+    FileSink sink(descriptor.get(), path_.string());
+    TURNSCAN_TRY(body(sink));
+    return sink.flush();
+  }
+
+  Result<> write_directly(const std::function<Result<>(FileSink&)>& body) {
+    Descriptor descriptor(::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
+    if (descriptor.get() < 0) return system_error(path_, "cannot write", errno);
+    TURNSCAN_TRY(run(body, descriptor));
+    if (descriptor.close() != 0) return system_error(path_, "cannot write", errno);
+    return {};
+  }
+
+  Result<> commit(Durability durability) {
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+      return system_error(path_, "cannot write", errno);
+    temporary_.clear();
+    if (durability == Durability::kSynced) sync_folder(path_);
+    return {};
+  }
+
+  fs::path path_;
+  fs::path temporary_;
+  bool nameless_ = false;
+};
+
+Result<> write_file_atomically(const fs::path& path, const std::function<Result<>(FileSink&)>& body,
+                               Durability durability) {
+  return AtomicFile(path).write(body, durability);
+}
+
+Result<> write_file_atomically(const fs::path& path, std::span<const std::byte> bytes,
+                               Durability durability) {
+  return write_file_atomically(
+      path, [bytes](FileSink& sink) { return sink.write(bytes); }, durability);
+}
+
+Result<> write_file_atomically(const fs::path& path, std::string_view text, Durability durability) {
+  return write_file_atomically(
+      path, [text](FileSink& sink) { return sink.write(text); }, durability);
+}
+
+}  // namespace turnscan

@@ -1,0 +1,44 @@
+#pragma once
+// Depth images (16-bit grey PNG) and colour images (PNG, JPEG).
+//
+// All readers refuse an image of more than kMaxImagePixels pixels, or of more than 65535 in a row
+// or column, or whose size its file's length cannot hold, before they allocate anything for it
+// (kResourceLimit, kFormat). Damaged and truncated files fail with kFormat.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <turnscan/core/image.hpp>
+#include <turnscan/core/result.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+
+namespace turnscan {
+
+inline constexpr std::uint64_t kMaxImagePixels = std::uint64_t(1) << 26;
+
+/// Raw values of a 16-bit grey PNG. Any other kind of PNG fails with kUnsupported: an 8-bit image
+/// is a picture of depth, not depth.
+Result<DepthImage> read_depth_png(const std::filesystem::path& path);
+Result<DepthImage> decode_depth_png(std::string_view bytes);
+
+/// The same image always gives the same bytes (for one version of zlib). Throws
+/// std::invalid_argument when the image is empty or its pixels do not fit its size.
+Result<> write_depth_png(const std::filesystem::path& path, const DepthImage& image,
+                         Durability durability = Durability::kSynced);
+Result<std::string> encode_depth_png(const DepthImage& image);
+
+/// PNG (grey, RGB, RGBA, palette; 1 to 16 bits a channel, alpha dropped) or JPEG (grey, YCbCr,
+/// RGB), told apart by content. Anything else fails with kUnsupported.
+Result<ColorImage> read_color(const std::filesystem::path& path);
+Result<ColorImage> decode_color(std::string_view bytes);
+
+/// Throw std::invalid_argument as write_depth_png does; quality is 1 to 100.
+Result<> write_color_png(const std::filesystem::path& path, const ColorImage& image,
+                         Durability durability = Durability::kSynced);
+Result<> write_color_jpeg(const std::filesystem::path& path, const ColorImage& image,
+                          int quality = 92, Durability durability = Durability::kSynced);
+Result<std::string> encode_color_png(const ColorImage& image);
+Result<std::string> encode_color_jpeg(const ColorImage& image, int quality = 92);
+
+}  // namespace turnscan

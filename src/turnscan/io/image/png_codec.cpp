@@ -1,0 +1,188 @@
+#include <turnscan/io/image/png_codec.hpp>
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/png_depth.hpp>
+#include <vector>
+
+namespace turnscan::image {
+
+namespace {
+
+// libpng reports errors by longjmp. Between setjmp and the jump only plain data may live: all C++
+// objects belong to the callers of decode_rows and encode_rgb_rows.
+
+struct Source {
+  const unsigned char* data;
+  std::size_t left;
+};
+
+struct Failure {
+  std::array<char, 128> text;
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+  auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+  std::strncpy(failure->text.data(), message, failure->text.size() - 1);
+  png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+void read_bytes(png_structp png, png_bytep target, std::size_t size) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (size > source->left) png_error(png, "the file ends too early");
+  std::memcpy(target, source->data, size);
+  source->data += size;
+  source->left -= size;
+}
+
+bool append(std::string& target, const unsigned char* data, std::size_t size) {
+  try {
+    target.append(reinterpret_cast<const char*>(data), size);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+void write_bytes(png_structp png, png_bytep data, std::size_t size) {
+  if (!append(*static_cast<std::string*>(png_get_io_ptr(png)), data, size))
+    png_error(png, "out of memory");
+}
+
+void flush_bytes(png_structp) {}
+
+void ask_for(png_structp png, PngPixels kind) {
+  if (kind == PngPixels::kDepth16) {
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+    return;
+  }
+  png_set_palette_to_rgb(png);
+  png_set_expand_gray_1_2_4_to_8(png);
+  png_set_scale_16(png);
+  png_set_strip_alpha(png);
+  png_set_gray_to_rgb(png);
+}
+
+std::size_t bytes_per_pixel(PngPixels kind) { return kind == PngPixels::kDepth16 ? 2 : 3; }
+
+bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_bytepp rows,
+                 Failure* failure) {
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, failure, on_error, on_warning);
+  if (png == nullptr) return false;
+  png_infop info = png_create_info_struct(png);
+  if (info == nullptr || setjmp(png_jmpbuf(png))) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    return false;
+  }
+  png_set_read_fn(png, source, read_bytes);
+  // Texts and profiles are not needed, and their compressed content may be huge.
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+  png_set_user_limits(png, 65535, 65535);
+  png_read_info(png, info);
+  ask_for(png, kind);
+  (void)png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "unexpected kind of pixels");
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  png_destroy_read_struct(&png, &info, nullptr);
+  return true;
+}
+
+bool encode_rgb_rows(const unsigned char* pixels, int width, int height, std::string* target,
+                     Failure* failure) {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, failure, on_error, on_warning);
+  if (png == nullptr) return false;
+  png_infop info = png_create_info_struct(png);
+  if (info == nullptr || setjmp(png_jmpbuf(png))) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_set_write_fn(png, target, write_bytes, flush_bytes);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(png, 3);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
+  png_write_info(png, info);
+  for (int row = 0; row < height; ++row)
+    png_write_row(png,
+                  pixels + static_cast<std::size_t>(row) * static_cast<std::size_t>(width) * 3);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+/// Deflate cannot make data shorter than about a 1032nd (zlib, technical details).
+bool can_hold(std::size_t file_bytes, const PngInfo& info) {
+  const std::uint64_t bits = static_cast<std::uint64_t>(info.width) *
+                             static_cast<std::uint64_t>(info.channels() * info.bit_depth);
+  const std::uint64_t raw = (bits / 8) * info.height;
+  return raw <= static_cast<std::uint64_t>(file_bytes) * 1100 + 4096;
+}
+
+}  // namespace
+
+int PngInfo::channels() const {
+  constexpr std::array<int, 7> kChannels{1, 0, 3, 1, 2, 0, 4};
+  return color_type >= 0 && color_type < 7 ? kChannels[static_cast<std::size_t>(color_type)] : 0;
+}
+
+std::uint32_t big_endian_32(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+bool looks_like_png(std::string_view bytes) { return bytes.starts_with(kPngSignature); }
+
+Result<PngInfo> read_png_info(std::string_view bytes) {
+  if (!looks_like_png(bytes)) return fail(ErrorCode::kUnsupported, "not a PNG image");
+  if (bytes.size() < 33 || bytes.substr(12, 4) != "IHDR")
+    return fail(ErrorCode::kFormat, "damaged PNG image: the header is missing");
+  const PngInfo info{big_endian_32(bytes, 16), big_endian_32(bytes, 20), bytes[24], bytes[25]};
+  if (info.channels() == 0 || info.width == 0 || info.height == 0)
+    return fail(ErrorCode::kFormat, "damaged PNG image: the header makes no sense");
+  const std::uint64_t pixels = static_cast<std::uint64_t>(info.width) * info.height;
+  if (std::max(info.width, info.height) > 65535 || pixels > kMaxImagePixels)
+    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
+                info.width, info.height, kMaxImagePixels);
+  if (!can_hold(bytes.size(), info))
+    return fail(ErrorCode::kFormat, "damaged PNG image: {} bytes cannot hold {} x {} pixels",
+                bytes.size(), info.width, info.height);
+  return info;
+}
+
+Result<> decode_png(std::string_view bytes, const PngInfo& info, PngPixels kind,
+                    unsigned char* pixels) {
+  if (kind == PngPixels::kDepth16 && decode_plain_depth(bytes, info, pixels)) return {};
+  const std::size_t row_bytes = info.width * bytes_per_pixel(kind);
+  std::vector<png_bytep> rows(info.height);
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = pixels + row * row_bytes;
+  Source source{reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+  Failure failure{};
+  if (!decode_rows(&source, kind, row_bytes, rows.data(), &failure))
+    return fail(ErrorCode::kFormat, "damaged PNG image: {}", failure.text.data());
+  return {};
+}
+
+Result<std::string> encode_png(const unsigned char* pixels, int width, int height, PngPixels kind) {
+  if (kind == PngPixels::kDepth16)
+    return encode_plain_depth(pixels, static_cast<std::uint32_t>(width),
+                              static_cast<std::uint32_t>(height));
+  std::string bytes;
+  Failure failure{};
+  if (!encode_rgb_rows(pixels, width, height, &bytes, &failure))
+    return fail(ErrorCode::kLibrary, "cannot encode the image as PNG: {}", failure.text.data());
+  return bytes;
+}
+
+}  // namespace turnscan::image

@@ -1,0 +1,149 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/units.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/import/iai_kinect2.hpp>
+#include <turnscan/io/text/text_fields.hpp>
+
+namespace turnscan::foreign {
+
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1 << 20;
+
+Result<double> depth_shift_mm(std::string_view text) {
+  constexpr std::string_view kKey = "depthShift:";
+  text::LineReader lines(text);
+  while (const auto line = lines.next()) {
+    const std::string_view content = text::trimmed(line->text);
+    if (!content.starts_with(kKey)) continue;
+    return parse_number(text::trimmed(content.substr(kKey.size())));
+  }
+  return fail(ErrorCode::kFormat, "there is no line 'depthShift: ...'");
+}
+
+/// Where the line "name: ..." begins; npos: nowhere.
+std::size_t line_of(std::string_view text, std::string_view name) {
+  const std::string key = fmt::format("{}:", name);
+  for (auto at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
+    if (at == 0 || text[at - 1] == '\n') return at;
+  }
+  return text.npos;
+}
+
+/// The numbers between the brackets after "data:" of a matrix.
+Result<std::vector<double>> matrix(std::string_view text, std::string_view name, std::size_t least,
+                                   std::size_t most) {
+  const auto start = line_of(text, name);
+  const auto open = start == text.npos ? text.npos : text.find('[', start);
+  const auto close = open == text.npos ? text.npos : text.find(']', open);
+  if (close == text.npos) return fail(ErrorCode::kFormat, "there is no matrix {}", name);
+  std::string numbers(text.substr(open + 1, close - open - 1));
+  for (char& c : numbers) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
+  if (count < least || count > most)
+    return fail(ErrorCode::kFormat, "the matrix {} has {} numbers, not {}", name, count, least);
+  // OpenCV writes whole numbers with a point and nothing behind it.
+  std::string clean;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    clean += numbers[i];
+    const char next = i + 1 < numbers.size() ? numbers[i + 1] : ' ';
+    if (numbers[i] == '.' && (next < '0' || next > '9')) clean += '0';
+  }
+  return text::parse_numbers(clean, count);
+}
+
+Result<CameraIntrinsics> parse_camera(std::string_view text, int width, int height) {
+  TURNSCAN_ASSIGN(const auto k, matrix(text, "cameraMatrix", 9, 9));
+  TURNSCAN_ASSIGN(const auto d, matrix(text, "distortionCoefficients", 5, 8));
+  if (std::any_of(d.begin() + 5, d.end(), [](double v) { return v != 0.0; }))
+    return fail(ErrorCode::kUnsupported,
+                "it has {} coefficients of distortion, but only 5 are known here; calibrate "
+                "without 'rational'",
+                d.size());
+  CameraIntrinsics camera;
+  camera.width = width, camera.height = height;
+  camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
+  for (std::size_t i = 0; i < 5; ++i) camera.distortion[i] = d[i];
+  TURNSCAN_TRY(camera.check());
+  return camera;
+}
+
+/// From the depth to the colour camera, as OpenCV's stereo calibration gives it.
+Result<Pose> parse_stereo_pose(std::string_view text) {
+  TURNSCAN_ASSIGN(const auto r, matrix(text, "rotation", 9, 9));
+  TURNSCAN_ASSIGN(const auto t, matrix(text, "translation", 3, 3));
+  Eigen::Matrix3d R;
+  R << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
+  if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3) ||
+      R.determinant() < 0.0)
+    return fail(ErrorCode::kFormat, "the matrix rotation is no rotation");
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  pose.translation() = Vec3d(t[0], t[1], t[2]);
+  if (!(pose.translation().norm() <= 1.0))
+    return fail(ErrorCode::kFormat, "the translation is beyond 1 m");
+  return pose;
+}
+
+Result<double> parse_shift(std::string_view text) {
+  TURNSCAN_ASSIGN(const double shift_mm, depth_shift_mm(text));
+  if (!(std::abs(shift_mm) <= 1000.0))
+    return fail(ErrorCode::kFormat, "depthShift is {} mm, beyond 1 m", shift_mm);
+  return shift_mm * 1e-3;
+}
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
+
+/// What `parse` makes of the file; its error gets the path. Numbers that make no sense are damage.
+template <class Parse>
+auto parsed(const std::filesystem::path& path, const Parse& parse) -> decltype(parse("")) {
+  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));
+  auto value = parse(std::string_view(text));
+  if (value) return value;
+  const Error& error = value.error();
+  const bool variant = error.code == ErrorCode::kUnsupported;
+  return fail_at(path.string(), variant ? error.code : ErrorCode::kFormat, "{}", error.message);
+}
+
+}  // namespace
+
+}  // namespace turnscan::foreign
+
+namespace turnscan {
+
+using namespace foreign;
+
+Result<Kinect2Calibration> read_iai_kinect2(const std::filesystem::path& folder) {
+  Kinect2Calibration out;
+  const auto depth = folder / "calib_depth.yaml", ir = folder / "calib_ir.yaml",
+             color = folder / "calib_color.yaml", pose = folder / "calib_pose.yaml";
+  if (!is_there(depth) && !is_there(ir))
+    return fail_at(folder.string(), ErrorCode::kNotFound,
+                   "there is neither calib_depth.yaml nor calib_ir.yaml in the folder");
+  const std::string found = "iai_kinect2 calibration " + folder.string();
+  if (is_there(depth)) {
+    out.depth.emplace();
+    TURNSCAN_ASSIGN(out.depth->bias_m, parsed(depth, parse_shift));
+    out.depth->found = found;
+  }
+  if (!is_there(ir)) return out;
+  out.camera.emplace();
+  out.camera->found = found;
+  TURNSCAN_ASSIGN(out.camera->intrinsics,
+                  parsed(ir, [](std::string_view text) { return parse_camera(text, 512, 424); }));
+  if (!is_there(color) || !is_there(pose)) return out;
+  TURNSCAN_ASSIGN(out.camera->color_intrinsics, parsed(color, [](std::string_view text) {
+                    return parse_camera(text, 1920, 1080);
+                  }));
+  TURNSCAN_ASSIGN(out.camera->T_color_sensor, parsed(pose, parse_stereo_pose));
+  return out;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <turnscan/io/import/importers.hpp>
+#include <turnscan/io/import/importers_common.hpp>
+
+namespace turnscan::foreign {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Opener = OpenResult (*)(const fs::path&, const ImportOptions&);
+
+struct Importer {
+  ImporterInfo info;
+  Opener open;
+  /// Options that have a meaning for the layout, beside "format" and the turntable's.
+  std::vector<std::string_view> options;
+};
+
+const std::vector<Importer>& table() {
+  static const std::vector<Importer> importers = {
+      {{ImportFormat::kStanfordConf, "stanford-conf",
+        "range scans with a Stanford .conf (bmesh and mesh lines)"},
+       open_stanford_conf,
+       {"point-unit", "sensor-position", "sensor-direction", "world-up"}},
+      {{ImportFormat::kCloudFolder, "cloud-folder", "PLY or PCD scans with a table of angles"},
+       open_cloud_folder,
+       {"angles", "point-unit", "sensor-position", "sensor-direction", "clockwise"}},
+      {{ImportFormat::kTumRgbd, "tum", "TUM RGB-D folder (depth.txt, rgb.txt, groundtruth.txt)"},
+       open_tum,
+       {"depth-unit", "intrinsics", "iai-kinect2", "world-up", "clockwise"}},
+      {{ImportFormat::kFramePose, "frame-pose",
+        "frame-N.depth.png with frame-N.pose.txt and camera-intrinsics.txt"},
+       open_frame_pose,
+       {"depth-unit", "intrinsics", "iai-kinect2", "pose-direction", "world-up"}},
+      {{ImportFormat::kJsonPng, "json-png", "depth_N.png described by a JSON file"},
+       open_json_png,
+       {"depth-unit", "iai-kinect2", "pose-direction", "world-up", "clockwise"}}};
+  return importers;
+}
+
+std::string known_layouts() {
+  std::string text;
+  for (const Importer& importer : table())
+    text +=
+        fmt::format("{}{} ({})", text.empty() ? "" : ", ", importer.info.name, importer.info.help);
+  return text;
+}
+
+bool any_ends_with(const std::vector<std::string>& names, std::string_view ending) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return name.ends_with(ending); });
+}
+
+/// kAuto: not recognised.
+ImportFormat recognise_folder(const std::vector<std::string>& names, const ImportOptions& options) {
+  const auto has = [&](std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (!options.angles.empty()) return ImportFormat::kCloudFolder;
+  if (has("depth.txt")) return ImportFormat::kTumRgbd;
+  if (any_ends_with(names, ".conf")) return ImportFormat::kStanfordConf;
+  const bool frame_pose = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name.starts_with("frame-") && name.ends_with(".depth.png");
+  });
+  if (frame_pose) return ImportFormat::kFramePose;
+  if (any_ends_with(names, ".json") && any_ends_with(names, ".png")) return ImportFormat::kJsonPng;
+  if (any_ends_with(names, ".ply") || any_ends_with(names, ".pcd"))
+    return ImportFormat::kCloudFolder;
+  return ImportFormat::kAuto;
+}
+
+Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& options) {
+  std::error_code error;
+  ImportFormat format = ImportFormat::kAuto;
+  if (fs::is_directory(path, error)) {
+    TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
+    if (std::find(names.begin(), names.end(), "recording.json") != names.end())
+      return fail_at(path.string(), ErrorCode::kUnsupported,
+                     "this is a turnscan recording already; it needs no import");
+    format = recognise_folder(names, options);
+  } else if (path.extension() == ".conf") {
+    format = ImportFormat::kStanfordConf;
+  } else if (path.extension() == ".json") {
+    format = ImportFormat::kJsonPng;
+  }
+  if (format != ImportFormat::kAuto) return format;
+  return fail_at(path.string(), ErrorCode::kUnsupported,
+                 "this is none of the layouts that can be imported: {}", known_layouts());
+}
+
+std::vector<std::string_view> stated_options(const ImportOptions& o) {
+  std::vector<std::string_view> stated;
+  const auto note = [&](bool is_stated, std::string_view name) {
+    if (is_stated) stated.push_back(name);
+  };
+  note(!o.angles.empty(), "angles");
+  note(o.depth_unit_m.has_value(), "depth-unit");
+  note(o.point_unit != LengthUnit::kAuto, "point-unit");
+  note(!o.intrinsics.empty(), "intrinsics");
+  note(!o.iai_kinect2.empty(), "iai-kinect2");
+  note(!o.sensor_position.empty(), "sensor-position");
+  note(!o.sensor_direction.empty(), "sensor-direction");
+  note(o.pose_direction != PoseDirection::kAuto, "pose-direction");
+  note(!o.world_up.empty(), "world-up");
+  note(o.clockwise, "clockwise");
+  return stated;
+}
+
+/// An option that would be ignored in silence is a mistake.
+Result<> check_meaning(const Importer& importer, const ImportOptions& options) {
+  for (const std::string_view name : stated_options(options)) {
+    const auto& used = importer.options;
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      return fail(ErrorCode::kInvalidOption,
+                  "{} has no meaning for the layout {} ({}); leave it out, or state another "
+                  "format",
+                  name, importer.info.name, importer.info.help);
+  }
+  return {};
+}
+
+}  // namespace
+
+}  // namespace turnscan::foreign
+
+namespace turnscan {
+
+using namespace foreign;
+namespace fs = std::filesystem;
+
+Result<> ImportOptions::check() const {
+  ImportOptions copy = *this;
+  return describe(copy).check();
+}
+
+OptionTable describe(ImportOptions& o) {
+  OptionTable table;
+  table.choice("format", o.format,
+               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png"},
+               "Layout of the data set; auto recognises it by its files");
+  table.text("angles", o.angles,
+             "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
+  table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},
+               "Length of one step of the depth images; auto takes it from the data set");
+  table.choice("point-unit", o.point_unit, {"auto", "m", "mm", "cm", "um", "in"},
+               "Unit of the coordinates of scans; auto takes it from the layout's definition");
+  table.text("intrinsics", o.intrinsics,
+             "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
+  table.text(
+      "iai-kinect2", o.iai_kinect2,
+      "Folder with a Kinect v2's calibration in the layout of iai_kinect2: cameras and offset "
+      "of depth are taken from there");
+  table.text("sensor-position", o.sensor_position,
+             "Where the scanner stands in the frame of its scans: x,y,z with units");
+  table.text("sensor-direction", o.sensor_direction,
+             "Direction x,y,z from the surface to a scanner with parallel rays");
+  table.choice("pose-direction", o.pose_direction, {"auto", "camera-to-world", "world-to-camera"},
+               "What the poses map; auto is camera-to-world");
+  table.text("world-up", o.world_up,
+             "Direction x,y,z that is up in the world of the poses; without it, +y");
+  table.flag("clockwise", o.clockwise,
+             "Angles and speed count clockwise seen from above (else counter-clockwise)");
+  table.text("turntable-axis", o.turntable_axis,
+             "Direction x,y,z of the rotation axis, upwards, in the frame of sensor 0");
+  table.text("turntable-center", o.turntable_center,
+             "Centre of the platter's surface, x,y,z with units, in the frame of sensor 0");
+  table.number("turntable-radius", o.turntable_radius_m, Quantity::kLength, {1e-3, 100.0},
+               "Radius of the cylinder above the platter that is kept");
+  table.number("platter-height", o.platter_height_m, Quantity::kLength, {-100.0, 100.0},
+               "Height of the platter's surface above the given point of the axis, up positive");
+  table.number("speed", o.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
+               "Speed of the turntable, counter-clockwise seen from above is positive");
+  return table;
+}
+
+const std::vector<ImporterInfo>& importers() {
+  static const std::vector<ImporterInfo> infos = [] {
+    std::vector<ImporterInfo> out;
+    for (const Importer& importer : table()) out.push_back(importer.info);
+    return out;
+  }();
+  return infos;
+}
+
+Result<std::unique_ptr<FrameSequence>> open_foreign(const fs::path& path,
+                                                    const ImportOptions& options) {
+  TURNSCAN_TRY(options.check());
+  std::error_code error;
+  if (!fs::exists(path, error))
+    return fail_at(path.string(), ErrorCode::kNotFound, "there is no such file or folder");
+  ImportFormat format = options.format;
+  if (format == ImportFormat::kAuto) {
+    TURNSCAN_ASSIGN(format, recognise(path, options));
+  }
+  const auto importer = std::find_if(table().begin(), table().end(),
+                                     [&](const Importer& i) { return i.info.format == format; });
+  TURNSCAN_TRY(check_meaning(*importer, options));
+  return importer->open(path, options);
+}
+
+}  // namespace turnscan

@@ -1,0 +1,109 @@
+#pragma once
+// What the importers share.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/io/import/importers.hpp>
+#include <vector>
+
+namespace turnscan::foreign {
+
+/// One frame of a foreign data set and the files that hold it; empty paths: none.
+struct ForeignFrame {
+  FrameInfo info;
+  std::filesystem::path data;
+  std::filesystem::path color;
+};
+
+/// A data set whose files are read when their frames are read.
+class ForeignSequence : public FrameSequence {
+ public:
+  /// metres_per_unit scales the coordinates of scans.
+  ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
+                  double metres_per_unit);
+  const SequenceHeader& header() const override { return header_; }
+  const std::vector<FrameInfo>& frames() const override { return frames_; }
+  Result<Frame> read(std::size_t position) const override;
+
+ private:
+  struct Files {
+    std::filesystem::path data, color;
+  };
+  SequenceHeader header_;
+  std::vector<FrameInfo> frames_;
+  std::vector<Files> files_;
+  double metres_per_unit_;
+};
+
+using OpenResult = Result<std::unique_ptr<FrameSequence>>;
+
+// One opener per layout. path is the file or folder that the user named.
+OpenResult open_stanford_conf(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_cloud_folder(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_tum(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options);
+
+/// Text files of data sets are refused beyond this.
+inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t(16) << 20;
+
+/// Names of the files and folders in a folder, sorted; at most a million.
+Result<std::vector<std::string>> names_in(const std::filesystem::path& folder);
+
+/// The last part of a path, for people; also for "dir/" and ".".
+std::string display_name(const std::filesystem::path& path);
+
+/// folder / name, if name stays inside the folder and is a file. The error names what mentions it.
+Result<std::filesystem::path> existing_file(const std::filesystem::path& folder,
+                                            std::string_view name, std::string_view mentioned_by);
+
+/// Adds a sentence about an assumption to header.source.
+void add_note(SequenceHeader& header, std::string_view note);
+
+/// Gives an error the path of the file that it is about.
+tl::unexpected<Error> at_path(const std::filesystem::path& path, Error error);
+
+/// Metres per unit of scans: as stated, else `by_format`, else an error that asks.
+Result<double> point_scale(const ImportOptions& options, std::optional<double> by_format);
+
+/// Metres per step of depth images: as stated, else `by_format`, else an error that asks.
+Result<double> depth_scale(const ImportOptions& options, std::optional<double> by_format);
+
+/// From options.intrinsics ("fx,fy,cx,cy" or a file), without the image size.
+Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
+/// Those of the depth camera in options.iai_kinect2, if that folder is stated and holds them.
+Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options);
+/// The 3x3 matrix of a text file, without the image size.
+Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
+
+/// From options.sensor_position or options.sensor_direction, if either is given.
+Result<std::optional<Viewpoint>> stated_viewpoint(const ImportOptions& options);
+
+/// "x,y,z" without units; has a length.
+Result<Vec3d> parse_direction(std::string_view name, std::string_view text);
+/// "x,y,z" with units of length, in metres.
+Result<Vec3d> parse_position(std::string_view name, std::string_view text);
+
+/// T_world_sensor from a pose of the data set: as options.pose_direction says, camera to world by
+/// default, in a world turned so that options.world_up becomes +Y.
+Result<Pose> placed_pose(const Pose& pose, const ImportOptions& options);
+
+/// Completes header.turntable from the options. on_platter: the centre that is there already lies
+/// on the platter's surface.
+Result<> apply_turntable_options(const ImportOptions& options, bool on_platter,
+                                 SequenceHeader& header);
+
+/// Cameras and depth offset of sensor 0 from options.iai_kinect2, if that is given; its colour
+/// camera where the frames have colour images of its size. Fails as read_iai_kinect2 does, and
+/// with kInvalidOption when the depth images are of another size.
+Result<> apply_iai_kinect2(const ImportOptions& options, const std::vector<ForeignFrame>& frames,
+                           SequenceHeader& header);
+
+/// Reads the size of the first frame's images; sets the sensor's image size where it is 0, and
+/// drops the colour of all frames, with a note, when it is not registered and has no camera.
+Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>& frames);
+
+}  // namespace turnscan::foreign

@@ -1,0 +1,46 @@
+#pragma once
+// lib3mf 1.8 (its C interface) with owned handles. For the sources of 3MF only.
+
+#include <Model/COM/NMR_DLLInterfaces.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace turnscan::mesh_io {
+
+/// Releases its object at the end.
+class Lib3mfHandle {
+ public:
+  Lib3mfHandle() = default;
+  ~Lib3mfHandle() {
+    if (object_ != nullptr) (void)NMR::lib3mf_release(object_);
+  }
+  Lib3mfHandle(Lib3mfHandle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Lib3mfHandle(const Lib3mfHandle&) = delete;
+  Lib3mfHandle& operator=(const Lib3mfHandle&) = delete;
+  Lib3mfHandle& operator=(Lib3mfHandle&&) = delete;
+
+  NMR::PLib3MFBase* get() const { return object_; }
+  /// For functions that return a new object.
+  NMR::PLib3MFBase** out() { return &object_; }
+
+ private:
+  NMR::PLib3MFBase* object_ = nullptr;
+};
+
+/// Thrown and caught within one call of ours.
+struct Lib3mfFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws what lib3mf says about `object` unless the result is success.
+inline void require(LIB3MFRESULT result, const Lib3mfHandle& object) {
+  if (result == LIB3MF_OK) return;
+  DWORD code = 0;
+  LPCSTR words = nullptr;
+  if (object.get() != nullptr) (void)NMR::lib3mf_getlasterror(object.get(), &code, &words);
+  throw Lib3mfFailure(words != nullptr && *words != '\0' ? words : "unknown error of lib3mf");
+}
+
+}  // namespace turnscan::mesh_io

@@ -1,0 +1,47 @@
+#pragma once
+// The formats of meshes, one function each.
+
+#include <span>
+#include <string_view>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <vector>
+
+namespace turnscan::mesh_io {
+
+using Meshes = Result<std::vector<TriangleMesh>>;
+
+// Readers: coordinates in the file's own unit; indices are in range; objects may be empty and
+// coordinates not finite. Fail with kFormat or kUnsupported.
+
+Meshes decode_ply_mesh(std::string_view bytes);
+/// Several PLY files, one directly behind the other.
+Meshes decode_ply_sequence(std::string_view bytes);
+Meshes decode_stl(std::string_view bytes);
+Meshes decode_obj(std::string_view bytes);
+Meshes decode_off(std::string_view bytes);
+
+struct MeshesWithUnit {
+  std::vector<TriangleMesh> meshes;
+  double metres_per_unit = 1.0;
+};
+
+// These two rest on libraries that were not made for hostile files: read_meshes runs them in a
+// child process.
+
+Result<MeshesWithUnit> decode_3mf(std::string_view bytes);
+/// In metres.
+Meshes decode_glb(std::string_view bytes);
+
+// Writers: meshes in metres, already checked.
+
+Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
+                             std::span<const float> confidence);
+Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes);
+
+}  // namespace turnscan::mesh_io

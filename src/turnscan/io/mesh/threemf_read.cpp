@@ -1,0 +1,193 @@
+#include <cmath>
+#include <limits>
+#include <turnscan/io/mesh/lib3mf_handle.hpp>
+#include <turnscan/io/mesh/mesh_formats.hpp>
+
+namespace turnscan::mesh_io {
+
+namespace {
+
+constexpr int kMaxDepth = 32;  // of objects made of objects
+
+double metres_of(unsigned unit) {
+  switch (unit) {
+    case NMR::MODELUNIT_MICROMETER:
+      return 1e-6;
+    case NMR::MODELUNIT_CENTIMETER:
+      return 1e-2;
+    case NMR::MODELUNIT_INCH:
+      return 0.0254;
+    case NMR::MODELUNIT_FOOT:
+      return 0.3048;
+    case NMR::MODELUNIT_METER:
+      return 1.0;
+    default:
+      return 1e-3;
+  }
+}
+
+/// The fields are the upper three rows; their last column is the translation.
+Eigen::Affine3d transform_from(const NMR::MODELTRANSFORM& fields) {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      transform.matrix()(row, column) = static_cast<double>(fields.m_fFields[row][column]);
+  return transform;
+}
+
+class ThreemfReader {
+ public:
+  explicit ThreemfReader(std::string_view bytes) {
+    require(NMR::lib3mf_createmodel(model_.out()), model_);
+    Lib3mfHandle reader;
+    require(NMR::lib3mf_model_queryreader(model_.get(), "3mf", reader.out()), model_);
+    // The buffer is only read; the interface merely lacks a const.
+    auto* buffer = reinterpret_cast<unsigned char*>(const_cast<char*>(bytes.data()));
+    require(NMR::lib3mf_reader_readfrombuffer(reader.get(), buffer, bytes.size()), reader);
+  }
+
+  double metres_per_unit() const {
+    DWORD unit = 0;
+    require(NMR::lib3mf_model_getunit(model_.get(), &unit), model_);
+    return metres_of(unit);
+  }
+
+  std::vector<TriangleMesh> meshes() {
+    Lib3mfHandle items;
+    require(NMR::lib3mf_model_getbuilditems(model_.get(), items.out()), model_);
+    for (;;) {
+      BOOL more = 0;
+      require(NMR::lib3mf_builditemiterator_movenext(items.get(), &more), items);
+      if (more == 0) return std::move(meshes_);
+      Lib3mfHandle item;
+      require(NMR::lib3mf_builditemiterator_getcurrent(items.get(), item.out()), items);
+      add_item(item);
+    }
+  }
+
+ private:
+  void add_item(const Lib3mfHandle& item) {
+    Lib3mfHandle object;
+    require(NMR::lib3mf_builditem_getobjectresource(item.get(), object.out()), item);
+    NMR::MODELTRANSFORM fields{};
+    require(NMR::lib3mf_builditem_getobjecttransform(item.get(), &fields), item);
+    TriangleMesh mesh;
+    mesh.name = name_of(object);
+    add_object(object, transform_from(fields), 0, mesh);
+    if (mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
+    meshes_.push_back(std::move(mesh));
+  }
+
+  static std::string name_of(const Lib3mfHandle& object) {
+    ULONG needed = 0;
+    if (NMR::lib3mf_object_getnameutf8(object.get(), nullptr, 0, &needed) != LIB3MF_OK ||
+        needed > 10000)
+      return {};
+    std::string name(needed + 1, '\0');
+    if (NMR::lib3mf_object_getnameutf8(object.get(), name.data(), needed + 1, &needed) != LIB3MF_OK)
+      return {};
+    return name.substr(0, name.find('\0'));
+  }
+
+  void add_object(const Lib3mfHandle& object, const Eigen::Affine3d& transform, int depth,
+                  TriangleMesh& target) {
+    if (depth > kMaxDepth) throw Lib3mfFailure("objects are nested too deeply");
+    BOOL is_mesh = 0;
+    require(NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh), object);
+    if (is_mesh != 0) return add_mesh(object, transform, target);
+    DWORD count = 0;
+    require(NMR::lib3mf_componentsobject_getcomponentcount(object.get(), &count), object);
+    for (DWORD i = 0; i < count; ++i) {
+      Lib3mfHandle component;
+      require(NMR::lib3mf_componentsobject_getcomponent(object.get(), i, component.out()), object);
+      add_component(component, transform, depth, target);
+    }
+  }
+
+  void add_component(const Lib3mfHandle& component, const Eigen::Affine3d& transform, int depth,
+                     TriangleMesh& target) {
+    Lib3mfHandle object;
+    require(NMR::lib3mf_component_getobjectresource(component.get(), object.out()), component);
+    NMR::MODELTRANSFORM fields{};
+    require(NMR::lib3mf_component_gettransform(component.get(), &fields), component);
+    add_object(object, transform * transform_from(fields), depth + 1, target);
+  }
+
+  static void add_mesh(const Lib3mfHandle& object, const Eigen::Affine3d& transform,
+                       TriangleMesh& target) {
+    DWORD vertex_count = 0;
+    DWORD triangle_count = 0;
+    require(NMR::lib3mf_meshobject_getvertexcount(object.get(), &vertex_count), object);
+    require(NMR::lib3mf_meshobject_gettrianglecount(object.get(), &triangle_count), object);
+    if (vertex_count == 0 || triangle_count == 0) return;
+    const std::size_t first = target.vertices.size();
+    if (first + vertex_count > std::numeric_limits<std::int32_t>::max()) throw std::bad_alloc();
+    std::vector<NMR::MODELMESHVERTEX> vertices(vertex_count);
+    std::vector<NMR::MODELMESHTRIANGLE> triangles(triangle_count);
+    require(
+        NMR::lib3mf_meshobject_getvertices(object.get(), vertices.data(), vertex_count, nullptr),
+        object);
+    require(NMR::lib3mf_meshobject_gettriangleindices(object.get(), triangles.data(),
+                                                      triangle_count, nullptr),
+            object);
+    for (const NMR::MODELMESHVERTEX& v : vertices)
+      target.vertices.push_back(
+          (transform * Vec3f(v.m_fPosition[0], v.m_fPosition[1], v.m_fPosition[2]).cast<double>())
+              .cast<float>());
+    add_triangles(triangles, first, vertex_count, transform.linear().determinant() < 0.0, target);
+    if (target.colors.size() == first) add_colors(object, triangles, vertex_count, target);
+  }
+
+  static void add_triangles(const std::vector<NMR::MODELMESHTRIANGLE>& triangles, std::size_t first,
+                            std::size_t vertex_count, bool mirrored, TriangleMesh& target) {
+    for (const NMR::MODELMESHTRIANGLE& t : triangles) {
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t index = t.m_nIndices[mirrored ? 2 - k : k];
+        if (index >= vertex_count) throw Lib3mfFailure("the index of a vertex is out of range");
+        triangle[k] = static_cast<std::uint32_t>(first) + index;
+      }
+      target.triangles.push_back(triangle);
+    }
+  }
+
+  /// Only if all corners have one, and the same at each vertex; transparent means none.
+  static void add_colors(const Lib3mfHandle& object,
+                         const std::vector<NMR::MODELMESHTRIANGLE>& triangles,
+                         std::size_t vertex_count, TriangleMesh& target) {
+    Lib3mfHandle handler;
+    std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> corners(triangles.size());
+    if (NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()) != LIB3MF_OK ||
+        NMR::lib3mf_propertyhandler_getcolorarray(handler.get(), corners.data()) != LIB3MF_OK)
+      return;
+    std::vector<Rgb> colors(vertex_count);
+    std::vector<std::uint8_t> known(vertex_count, 0);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const NMR::MODELMESHCOLOR_SRGB& c = corners[i].m_Colors[k];
+        const Rgb color{c.m_Red, c.m_Green, c.m_Blue};
+        const std::uint32_t v = triangles[i].m_nIndices[k];
+        if (c.m_Alpha == 0 || (known[v] != 0 && colors[v] != color)) return;
+        colors[v] = color;
+        known[v] = 1;
+      }
+    target.colors.insert(target.colors.end(), colors.begin(), colors.end());
+  }
+
+  Lib3mfHandle model_;
+  std::vector<TriangleMesh> meshes_;
+};
+
+}  // namespace
+
+Result<MeshesWithUnit> decode_3mf(std::string_view bytes) {
+  try {
+    ThreemfReader reader(bytes);
+    const double unit = reader.metres_per_unit();
+    return MeshesWithUnit{reader.meshes(), unit};
+  } catch (const Lib3mfFailure& failure) {
+    return fail(ErrorCode::kFormat, "damaged 3MF file: {}", failure.what());
+  }
+}
+
+}  // namespace turnscan::mesh_io

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cstring>
+#include <turnscan/io/file/clean_name.hpp>
+#include <turnscan/io/mesh/lib3mf_handle.hpp>
+#include <turnscan/io/mesh/mesh_formats.hpp>
+
+namespace turnscan::mesh_io {
+
+namespace {
+
+/// A file in memory: lib3mf goes back to complete what it wrote.
+struct Target {
+  std::string bytes;
+  std::size_t position = 0;
+  bool out_of_memory = false;
+};
+
+unsigned write_chunk(const unsigned char* data, unsigned size, Target* target) {
+  try {
+    if (target->bytes.size() < target->position + size)
+      target->bytes.resize(target->position + size);
+  } catch (const std::bad_alloc&) {
+    target->out_of_memory = true;
+    return 1;
+  }
+  std::memcpy(target->bytes.data() + target->position, data, size);
+  target->position += size;
+  return 0;
+}
+
+unsigned seek(unsigned long long position, Target* target) {
+  target->position = position;
+  return 0;
+}
+
+/// lib3mf would take random ones, and the same mesh shall give the same bytes.
+std::string uuid(unsigned kind, std::size_t number) {
+  return fmt::format("{:08x}-0000-4000-8000-{:012x}", kind, number);
+}
+
+bool is_degenerate(const std::array<std::uint32_t, 3>& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+class Writer {
+ public:
+  explicit Writer(std::span<const TriangleMesh> meshes) {
+    require(NMR::lib3mf_createmodel(model_.out()), model_);
+    require(NMR::lib3mf_model_setunit(model_.get(), NMR::MODELUNIT_MILLIMETER), model_);
+    require(NMR::lib3mf_model_setbuilduuidutf8(model_.get(), uuid(1, 0).c_str()), model_);
+    for (std::size_t i = 0; i < meshes.size(); ++i) add(meshes[i], i);
+  }
+
+  std::string write() {
+    Lib3mfHandle writer;
+    require(NMR::lib3mf_model_querywriter(model_.get(), "3mf", writer.out()), model_);
+    Target target;
+    const auto result = NMR::lib3mf_writer_writetocallback(
+        writer.get(), reinterpret_cast<void*>(write_chunk), reinterpret_cast<void*>(seek), &target);
+    if (target.out_of_memory) throw std::bad_alloc();
+    require(result, writer);
+    return std::move(target.bytes);
+  }
+
+ private:
+  void add(const TriangleMesh& mesh, std::size_t number) {
+    Lib3mfHandle object;
+    require(NMR::lib3mf_model_addmeshobject(model_.get(), object.out()), model_);
+    add_geometry(object, mesh);
+    if (!mesh.colors.empty()) add_colors(object, mesh);
+    if (!mesh.name.empty())
+      require(NMR::lib3mf_object_setnameutf8(object.get(), file::clean_name(mesh.name).c_str()),
+              object);
+    require(NMR::lib3mf_object_setuuidutf8(object.get(), uuid(2, number).c_str()), object);
+    Lib3mfHandle item;
+    require(NMR::lib3mf_model_addbuilditem(model_.get(), object.get(), nullptr, item.out()),
+            model_);
+    require(NMR::lib3mf_builditem_setuuidutf8(item.get(), uuid(3, number).c_str()), item);
+  }
+
+  void add_geometry(const Lib3mfHandle& object, const TriangleMesh& mesh) {
+    std::vector<NMR::MODELMESHVERTEX> vertices(mesh.vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        vertices[i].m_fPosition[k] =
+            static_cast<float>(static_cast<double>(mesh.vertices[i][k]) * 1000.0);
+    triangles_.clear();
+    for (const auto& t : mesh.triangles)
+      if (!is_degenerate(t)) triangles_.push_back({{t[0], t[1], t[2]}});  // the format forbids it
+    if (triangles_.empty()) throw Lib3mfFailure("all triangles are degenerate");
+    require(NMR::lib3mf_meshobject_setgeometry(
+                object.get(), vertices.data(), static_cast<unsigned>(vertices.size()),
+                triangles_.data(), static_cast<unsigned>(triangles_.size())),
+            object);
+  }
+
+  /// A colour group; the default property, which the format wants beside it, is its first colour.
+  void add_colors(const Lib3mfHandle& object, const TriangleMesh& mesh) {
+    std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> colors(triangles_.size());
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Rgb c = mesh.colors[triangles_[i].m_nIndices[k]];
+        colors[i].m_Colors[k] = {c.r, c.g, c.b, 255};
+      }
+    Lib3mfHandle handler;
+    require(NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()), object);
+    require(NMR::lib3mf_propertyhandler_setgradientcolorarray(handler.get(), colors.data()),
+            handler);
+    Lib3mfHandle fallback;
+    require(NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), fallback.out()), object);
+    require(NMR::lib3mf_defaultpropertyhandler_setcolor(fallback.get(), &colors[0].m_Colors[0]),
+            fallback);
+  }
+
+  Lib3mfHandle model_;
+  std::vector<NMR::MODELMESHTRIANGLE> triangles_;  ///< of the mesh being added
+};
+
+}  // namespace
+
+Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes) {
+  try {
+    const std::string bytes = Writer(meshes).write();
+    if (bytes.empty()) return fail(ErrorCode::kLibrary, "lib3mf wrote nothing");
+    return sink.write(bytes);
+  } catch (const Lib3mfFailure& failure) {
+    return fail(ErrorCode::kLibrary, "cannot write 3MF: {}", failure.what());
+  }
+}
+
+}  // namespace turnscan::mesh_io

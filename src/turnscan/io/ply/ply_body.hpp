@@ -1,0 +1,41 @@
+#pragma once
+// Elements of a PLY file into arrays.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <turnscan/core/result.hpp>
+#include <turnscan/io/ply/ply_header.hpp>
+#include <vector>
+
+namespace turnscan::ply {
+
+/// Where one scalar property of all rows goes: row i to target + i * stride bytes.
+struct PlyColumn {
+  enum class Kind {
+    kFloat,  ///< float
+    kColor,  ///< std::uint8_t: integers as they are (16 bits scaled down), floats times 255
+    kIndex   ///< std::uint32_t, clamped
+  };
+  std::size_t property;
+  Kind kind;
+  void* target;
+  std::size_t stride;
+};
+
+/// What to take from an element. Everything else in it is skipped.
+struct PlyWanted {
+  std::vector<PlyColumn> columns;
+  int list = -1;  ///< position of a list property of integers, or -1
+  /// Gets the list of each row, in order; a text that says what is wrong with it ends the reading.
+  std::function<const char*(std::span<const std::int64_t>)> on_list;
+};
+
+/// Reads the rows of `element`, which begin at `position`, and returns where they end. Fails with
+/// kFormat where the file ends too early or a text is not a number.
+Result<std::size_t> read_ply_element(std::string_view bytes, std::size_t position, PlyFormat format,
+                                     const PlyElement& element, const PlyWanted& wanted);
+
+}  // namespace turnscan::ply

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <turnscan/io/text/json_fields.hpp>
+#include <turnscan/io/text/text_fields.hpp>
+
+namespace turnscan::text {
+
+namespace {
+
+Result<double> finite_number(const Json& value, const std::string& place) {
+  if (!value.is_number()) return fail(ErrorCode::kFormat, "{} is not a number", place);
+  const double number = value.get<double>();
+  if (!std::isfinite(number)) return fail(ErrorCode::kFormat, "{} is not finite", place);
+  return number;
+}
+
+Result<> append_numbers(const Json& value, const std::string& place, std::vector<double>& out) {
+  if (!value.is_array()) return fail(ErrorCode::kFormat, "{} is not a list of numbers", place);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    TURNSCAN_ASSIGN(const double number, finite_number(value[i], fmt::format("{}[{}]", place, i)));
+    out.push_back(number);
+  }
+  return {};
+}
+
+bool holds_objects(const OrderedJson& value) {
+  return std::any_of(value.begin(), value.end(), [](const OrderedJson& v) {
+    return v.is_object() || (v.is_array() && holds_objects(v));
+  });
+}
+
+std::string one_line(const OrderedJson& value) {
+  return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+void write(const OrderedJson& value, const std::string& indent, std::string& out) {
+  const bool nested = value.is_object() || (value.is_array() && holds_objects(value));
+  if (!nested || value.empty()) {
+    out += one_line(value);
+    return;
+  }
+  const std::string inner = indent + "  ";
+  const char* separator = "\n";
+  out += value.is_object() ? '{' : '[';
+  for (const auto& item : value.items()) {
+    out += separator + inner;
+    if (value.is_object()) out += one_line(item.key()) + ": ";
+    write(item.value(), inner, out);
+    separator = ",\n";
+  }
+  out += '\n' + indent + (value.is_object() ? '}' : ']');
+}
+
+}  // namespace
+
+Result<Json> parse_json(std::string_view text) {
+  Json value = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (value.is_discarded()) return fail(ErrorCode::kFormat, "not valid JSON");
+  return value;
+}
+
+Result<JsonObject> JsonObject::from(const Json& value, std::string place) {
+  if (!value.is_object())
+    return fail(ErrorCode::kFormat, "{} is not a JSON object",
+                place.empty() ? "the file's content" : place);
+  return JsonObject(value, std::move(place));
+}
+
+const Json* JsonObject::find(const char* key) const {
+  const auto found = value_->find(key);
+  return found == value_->end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string JsonObject::place_of(const char* key) const {
+  return place_.empty() ? std::string(key) : place_ + "." + key;
+}
+
+Result<const Json*> JsonObject::require(const char* key) const {
+  const Json* value = find(key);
+  if (value == nullptr) return fail(ErrorCode::kFormat, "{} is missing", place_of(key));
+  return value;
+}
+
+Result<double> JsonObject::number(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  return finite_number(*value, place_of(key));
+}
+
+Result<double> JsonObject::number_or(const char* key, double fallback) const {
+  return has(key) ? number(key) : fallback;
+}
+
+Result<std::optional<double>> JsonObject::optional_number(const char* key) const {
+  if (!has(key)) return std::optional<double>();
+  TURNSCAN_ASSIGN(const double value, number(key));
+  return std::optional<double>(value);
+}
+
+Result<int> JsonObject::integer(const char* key, int min, int max) const {
+  TURNSCAN_ASSIGN(const double value, number(key));
+  if (!(value >= min && value <= max) || value != std::floor(value))
+    return fail(ErrorCode::kFormat, "{} = {} is not a whole number from {} to {}", place_of(key),
+                value, min, max);
+  return static_cast<int>(value);
+}
+
+Result<std::string> JsonObject::text_or(const char* key, std::string fallback) const {
+  const Json* value = find(key);
+  if (value == nullptr) return fallback;
+  if (!value->is_string()) return fail(ErrorCode::kFormat, "{} is not a text", place_of(key));
+  return value->get<std::string>();
+}
+
+Result<bool> JsonObject::flag_or(const char* key, bool fallback) const {
+  const Json* value = find(key);
+  if (value == nullptr) return fallback;
+  if (!value->is_boolean())
+    return fail(ErrorCode::kFormat, "{} is neither true nor false", place_of(key));
+  return value->get<bool>();
+}
+
+Result<std::vector<double>> JsonObject::numbers(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  std::vector<double> out;
+  TURNSCAN_TRY(append_numbers(*value, place_of(key), out));
+  return out;
+}
+
+Result<std::vector<std::string>> JsonObject::texts(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  const bool good = value->is_array() && std::all_of(value->begin(), value->end(),
+                                                     [](auto& v) { return v.is_string(); });
+  if (!good) return fail(ErrorCode::kFormat, "{} is not a list of texts", place_of(key));
+  return value->get<std::vector<std::string>>();
+}
+
+Result<Vec3d> JsonObject::vector(const char* key) const {
+  TURNSCAN_ASSIGN(const std::vector<double> v, numbers(key));
+  if (v.size() != 3)
+    return fail(ErrorCode::kFormat, "{} has {} numbers, not 3", place_of(key), v.size());
+  return Vec3d(v[0], v[1], v[2]);
+}
+
+Result<Pose> JsonObject::pose(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  return pose_from_json(*value, place_of(key));
+}
+
+Result<JsonObject> JsonObject::object(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  return from(*value, place_of(key));
+}
+
+Result<std::vector<JsonObject>> JsonObject::objects(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* value, require(key));
+  if (!value->is_array()) return fail(ErrorCode::kFormat, "{} is not a list", place_of(key));
+  std::vector<JsonObject> out;
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    TURNSCAN_ASSIGN(JsonObject object, from((*value)[i], fmt::format("{}[{}]", place_of(key), i)));
+    out.push_back(std::move(object));
+  }
+  return out;
+}
+
+Result<Pose> pose_from_json(const Json& value, const std::string& place) {
+  std::vector<double> numbers;
+  const bool rows = value.is_array() && value.size() == 4;
+  if (rows) {
+    for (const Json& row : value) TURNSCAN_TRY(append_numbers(row, place, numbers));
+  } else {
+    TURNSCAN_TRY(append_numbers(value, place, numbers));
+  }
+  auto pose = pose_from_rows(numbers);
+  if (!pose) return fail(ErrorCode::kFormat, "{}: {}", place, pose.error().message);
+  return pose;
+}
+
+Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object) {
+  CameraIntrinsics camera;
+  TURNSCAN_ASSIGN(camera.width, object.integer("width", 1, 65535));
+  TURNSCAN_ASSIGN(camera.height, object.integer("height", 1, 65535));
+  TURNSCAN_ASSIGN(camera.fx, object.number("fx"));
+  TURNSCAN_ASSIGN(camera.fy, object.number("fy"));
+  TURNSCAN_ASSIGN(camera.cx, object.number("cx"));
+  TURNSCAN_ASSIGN(camera.cy, object.number("cy"));
+  if (object.has("distortion")) {
+    TURNSCAN_ASSIGN(const std::vector<double> k, object.numbers("distortion"));
+    if (k.size() != camera.distortion.size())
+      return fail(ErrorCode::kFormat, "{} has {} numbers, not 5 (k1 k2 p1 p2 k3)",
+                  object.place_of("distortion"), k.size());
+    std::copy(k.begin(), k.end(), camera.distortion.begin());
+  }
+  TURNSCAN_TRY(camera.check());
+  return camera;
+}
+
+OrderedJson json_of(const Vec3d& v) { return OrderedJson::array({v.x(), v.y(), v.z()}); }
+
+OrderedJson json_of(const Pose& pose) {
+  OrderedJson rows = OrderedJson::array();
+  for (int r = 0; r < 4; ++r) {
+    const Eigen::RowVector4d row = pose.matrix().row(r);
+    rows.push_back(OrderedJson::array({row[0], row[1], row[2], row[3]}));
+  }
+  return rows;
+}
+
+OrderedJson json_of(const CameraIntrinsics& camera) {
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion", camera.distortion}};
+}
+
+std::string json_text(const OrderedJson& value) {
+  std::string out;
+  write(value, "", out);
+  return out + "\n";
+}
+
+}  // namespace turnscan::text

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/estimation/first_frames.hpp>
+
+namespace turnscan::estimation {
+
+namespace {
+
+/// Profiles of line scanners that an estimate needs.
+constexpr std::size_t kProfilesNeeded = 256;
+/// Of more than these the older half is forgotten.
+constexpr std::size_t kMostKept = 512;
+
+}  // namespace
+
+FirstFrames::FirstFrames(const SequenceHeader& header, const std::vector<RayTable>& rays,
+                         const CropOptions& crop, bool colored)
+    : header_(header),
+      rays_(rays),
+      crop_(crop),
+      colored_(colored),
+      needed_(frames_for_estimate(header, crop)) {}
+
+Result<std::size_t> FirstFrames::keep(std::span<const PosedFrame> posed, const FrameReader& read,
+                                      const RunContext& context) {
+  const std::size_t count = std::min(needed_ - frames_.size(), posed.size());
+  std::vector<Result<Frame>> results(count);
+  parallel_for(count, 1, [&](std::size_t i) {
+    if (context.cancelled()) return;
+    results[i] = read(posed[i].position);
+    if (results[i] && !colored_) results[i]->color = ColorImage();
+  });
+  TURNSCAN_TRY(context.check());
+  for (const auto& frame : results) {
+    TURNSCAN_TRY(frame);
+    const std::size_t s = frame->info.sensor;
+    TURNSCAN_TRY(points_of(*frame, header_.sensors.at(s), rays_.at(s)));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    frames_.push_back(std::move(*results[i]));
+    poses_.push_back(posed[i].T_table_sensor);
+  }
+  return count;
+}
+
+Result<bool> FirstFrames::enough() {
+  if (frames_.size() < needed_) return false;
+  if (needed_ >= kProfilesNeeded) return true;
+  TURNSCAN_ASSIGN(const auto sheets, find_sheets(frames_, header_, rays_));
+  const bool profiles = !sheets.empty() && std::all_of(sheets.begin(), sheets.end(),
+                                                       [](const auto& s) { return s.has_value(); });
+  if (profiles) needed_ = kProfilesNeeded;
+  return !profiles;
+}
+
+void FirstFrames::ask_for_more() {
+  if (frames_.size() < kMostKept) {
+    needed_ = 2 * frames_.size();
+    return;
+  }
+  const auto half = std::ptrdiff_t(frames_.size() / 2);
+  forgotten_ += std::size_t(half);
+  frames_.erase(frames_.begin(), frames_.begin() + half);
+  poses_.erase(poses_.begin(), poses_.begin() + half);
+}
+
+Result<ScanEstimate> FirstFrames::estimate() const {
+  return estimate_scan(frames_, poses_, header_, rays_, crop_);
+}
+
+std::vector<PosedFrame> FirstFrames::posed_frames() const {
+  std::vector<PosedFrame> posed;
+  for (std::size_t i = 0; i < frames_.size(); ++i) posed.push_back({i, frames_[i].info, poses_[i]});
+  return posed;
+}
+
+void FirstFrames::clear() {
+  frames_ = {};
+  poses_ = {};
+}
+
+}  // namespace turnscan::estimation

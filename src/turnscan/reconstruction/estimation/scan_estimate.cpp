@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <turnscan/core/median.hpp>
+#include <turnscan/geometry/search/knn.hpp>
+#include <turnscan/reconstruction/estimation/scan_estimate.hpp>
+#include <turnscan/reconstruction/estimation/scan_statistics.hpp>
+#include <turnscan/reconstruction/length_text.hpp>
+
+namespace turnscan::estimation {
+
+namespace {
+
+constexpr std::size_t kSampledFrames = 12;
+constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
+
+bool is_cropped(const SequenceHeader& header, const CropOptions& crop) {
+  return crop.enabled && (header.turntable || crop.radius_m);
+}
+
+std::optional<double> known_radius(const SequenceHeader& header, const CropOptions& crop) {
+  return crop.radius_m || !header.turntable ? crop.radius_m : header.turntable->radius_m;
+}
+
+/// Roughly the object and its noise, not the platter.
+Cylinder rough_cylinder(const SequenceHeader& header, const CropOptions& crop) {
+  Cylinder rough;
+  rough.margin_m = crop.margin_m.value_or(0.003);
+  rough.radius_m = known_radius(header, crop).value_or(1e3);
+  rough.height_m = crop.height_m;
+  return rough;
+}
+
+void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
+                 const CropOptions& crop, ScanEstimate& estimate) {
+  Cylinder cylinder;
+  cylinder.height_m = crop.height_m;
+  const std::optional<double> known = known_radius(header, crop);
+  const PlatterReturns platter = measure_platter(sample, std::min(known.value_or(0.5), 0.5));
+  const auto found = known ? known : find_platter_radius(sample, platter);
+  if (found) {
+    estimate.choices.push_back({"crop-radius", mm(*found),
+                                crop.radius_m ? "given"
+                                : known       ? "the platter's radius"
+                                              : "where the returns of the platter end"});
+  } else {
+    estimate.notes.emplace_back(
+        "the platter's radius is not known and its edge was not found: nothing is "
+        "cropped sideways; give --crop-radius");
+  }
+  cylinder.radius_m = found.value_or(1e3);
+  double margin = std::max(0.002, 4.0 * estimate.noise_m);
+  std::string reason = fmt::format("4 times the sensor's noise of {}", mm(estimate.noise_m));
+  if (platter.count > 0) {
+    margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
+    reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
+                         mm(platter.height_m), mm(platter.sigma_m));
+  }
+  cylinder.margin_m = crop.margin_m.value_or(margin);
+  estimate.choices.push_back(
+      {"crop-margin", mm(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});
+  estimate.cylinder = cylinder;
+}
+
+/// A frame's points on the object, in the order of their sheet if they lie in one.
+Result<FramePoints> object_points(const Frame& frame, const Pose& pose,
+                                  const SequenceHeader& header, const RayTable& rays,
+                                  const std::optional<views::LightSheet>& sheet,
+                                  const CropOptions& crop_options, std::vector<Vec3f>* all) {
+  TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header.sensors[frame.info.sensor], rays));
+  for (const Vec3f& p : points.cloud.points) {
+    if (all != nullptr) all->push_back(pose.cast<float>() * p);
+  }
+  if (sheet) points = in_sheet_order(points, *sheet);
+  if (is_cropped(header, crop_options))
+    points = crop(points, SensorCrop(rough_cylinder(header, crop_options), pose));
+  return points;
+}
+
+/// How far the next profile lies from one: median of the distances of its points.
+double profile_distance(const FramePoints& own, const Pose& own_pose, const FramePoints& next,
+                        const Pose& next_pose) {
+  std::vector<Vec3f> others;
+  for (const Vec3f& p : next.cloud.points) others.push_back(next_pose.cast<float>() * p);
+  const KdTree tree(others);
+  std::vector<double> distances;
+  const std::size_t step = std::max<std::size_t>(1, own.cloud.size() / 200);
+  for (std::size_t i = 0; i < own.cloud.size(); i += step) {
+    std::uint32_t index = 0;
+    float squared = 0.0f;
+    if (tree.knn(own_pose.cast<float>() * own.cloud.points[i], 1, &index, &squared) == 1)
+      distances.push_back(std::sqrt(squared));
+  }
+  return median(distances);
+}
+
+std::optional<std::size_t> next_of_sensor(std::span<const Frame> frames, std::size_t i) {
+  for (std::size_t k = i + 1; k < frames.size(); ++k) {
+    if (frames[k].info.sensor == frames[i].info.sensor) return k;
+  }
+  return std::nullopt;
+}
+
+/// What the estimate is made from.
+struct PosedScan {
+  std::span<const Frame> frames;
+  std::span<const Pose> poses;
+  const SequenceHeader& header;
+  const std::vector<RayTable>& rays;
+  const std::vector<std::optional<views::LightSheet>>& sheets;
+  const CropOptions& crop;
+};
+
+/// Statistics of single frames.
+class FrameSamples {
+ public:
+  explicit FrameSamples(const PosedScan& scan) : scan_(scan) {}
+
+  Result<> add(std::size_t i) {
+    const std::optional<views::LightSheet>& sheet = scan_.sheets.at(scan_.frames[i].info.sensor);
+    TURNSCAN_ASSIGN(const FramePoints points, points_on_object(i, &points_));
+    if (points.cloud.size() < kFewestPoints) return {};
+    const FrameStatistics statistics = frame_statistics(points);
+    spacing_.push_back(statistics.spacing_m);
+    even_.push_back(statistics.even_spacing_m);
+    noise_.push_back(statistics.noise_m);
+    const auto next = sheet ? next_of_sensor(scan_.frames, i) : std::nullopt;
+    if (!next) return {};
+    TURNSCAN_ASSIGN(const FramePoints neighbour, points_on_object(*next, nullptr));
+    if (neighbour.cloud.size() >= kFewestPoints)
+      across_.push_back(profile_distance(points, scan_.poses[i], neighbour, scan_.poses[*next]));
+    return {};
+  }
+
+  Result<> summarise(ScanEstimate& estimate) {
+    if (spacing_.empty())
+      return fail(ErrorCode::kTooFewPoints,
+                  "none of the frames looked at has 10 points on the object; check the turntable's "
+                  "place and --crop-margin, --crop-radius");
+    std::sort(spacing_.begin(), spacing_.end());
+    std::sort(noise_.begin(), noise_.end());
+    estimate.noise_m = noise_[noise_.size() / 2];
+    estimate.profiles = across_.size() == spacing_.size();
+    estimate.spacing_m = std::max(spacing_[spacing_.size() / 2], median(across_));
+    estimate.even_spacing_m = std::max(median(even_), median(across_));
+    return {};
+  }
+
+  /// Of all frames, uncropped, table frame.
+  const std::vector<Vec3f>& points() const { return points_; }
+
+ private:
+  Result<FramePoints> points_on_object(std::size_t i, std::vector<Vec3f>* all) const {
+    const std::size_t s = scan_.frames[i].info.sensor;
+    return object_points(scan_.frames[i], scan_.poses[i], scan_.header, scan_.rays.at(s),
+                         scan_.sheets.at(s), scan_.crop, all);
+  }
+
+  PosedScan scan_;
+  std::vector<double> spacing_, even_, noise_;
+  std::vector<double> across_;  ///< between neighbouring profiles
+  std::vector<Vec3f> points_;
+};
+
+}  // namespace
+
+Result<std::vector<std::optional<views::LightSheet>>> find_sheets(
+    std::span<const Frame> frames, const SequenceHeader& header,
+    const std::vector<RayTable>& rays) {
+  std::vector<std::optional<views::LightSheet>> sheets(header.sensors.size());
+  std::vector<std::size_t> lines(sheets.size(), 0), some(sheets.size(), 0);
+  for (const Frame& frame : frames) {
+    const std::size_t s = frame.info.sensor;
+    if (header.sensors.at(s).kind != SensorKind::kPointScanner) continue;
+    TURNSCAN_ASSIGN(const FramePoints points, points_of(frame, header.sensors[s], rays.at(s)));
+    if (points.cloud.size() < kFewestPoints) continue;
+    ++some[s];
+    const auto sheet = views::find_sheet(points);
+    if (!sheet) continue;
+    ++lines[s];
+    if (!sheets[s]) sheets[s] = sheet;
+  }
+  for (std::size_t s = 0; s < sheets.size(); ++s) {
+    if (lines[s] < 2 || 10 * lines[s] < 8 * some[s]) sheets[s].reset();
+  }
+  return sheets;
+}
+
+std::size_t frames_for_estimate(const SequenceHeader& header, const CropOptions& crop) {
+  return !is_cropped(header, crop) || known_radius(header, crop) ? 32 : 128;
+}
+
+Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<const Pose> poses,
+                                   const SequenceHeader& header, const std::vector<RayTable>& rays,
+                                   const CropOptions& crop_options) {
+  ScanEstimate estimate;
+  TURNSCAN_ASSIGN(estimate.sheets, find_sheets(frames, header, rays));
+  FrameSamples samples({frames, poses, header, rays, estimate.sheets, crop_options});
+  const std::size_t count = std::min(kSampledFrames, frames.size());
+  for (std::size_t k = 0; k < count; ++k) TURNSCAN_TRY(samples.add(k * frames.size() / count));
+  TURNSCAN_TRY(samples.summarise(estimate));
+  // Rounding to the sensor's unit spreads depth by unit / sqrt(12) at least.
+  for (const SensorInfo& sensor : header.sensors) {
+    if (sensor.kind == SensorKind::kDepthCamera)
+      estimate.noise_m = std::max(estimate.noise_m, sensor.depth_unit_m / std::sqrt(12.0));
+  }
+  if (is_cropped(header, crop_options))
+    choose_crop(samples.points(), header, crop_options, estimate);
+  return estimate;
+}
+
+}  // namespace turnscan::estimation

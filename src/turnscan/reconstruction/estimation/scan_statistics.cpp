@@ -1,0 +1,207 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/geometry/search/knn.hpp>
+#include <turnscan/reconstruction/estimation/scan_statistics.hpp>
+#include <turnscan/reconstruction/voxels/voxel_grid.hpp>
+
+namespace turnscan::estimation {
+
+namespace {
+
+/// Spacing of points in no order, from the nearest neighbour and from the eighth: of points strewn
+/// at random the nearest lies only half as far as the points of a grid of the same density.
+void unordered_spacing(const std::vector<Vec3f>& points, FrameStatistics& out) {
+  constexpr std::size_t kAround = 8;
+  const KdTree tree(points);
+  std::vector<double> nearest, eighth;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 2000);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    std::array<std::uint32_t, kAround + 1> index;
+    std::array<float, kAround + 1> squared;
+    const std::size_t found = tree.knn(points[i], kAround + 1, index.data(), squared.data());
+    if (found > 1) nearest.push_back(std::sqrt(squared[1]));
+    if (found > kAround) eighth.push_back(std::sqrt(squared[kAround]));
+  }
+  out.spacing_m = median(nearest);
+  out.even_spacing_m = median(eighth, out.spacing_m) * std::sqrt(std::numbers::pi / kAround);
+}
+
+struct Thickness {
+  double sigma = 0.0;
+  double density = 0.0;  ///< points per square metre
+  double spread = 0.0;   ///< extent across by extent along: 1 on a surface, 0 on a line
+};
+
+/// Points that spread less than this lie on lines, of which a ball must hold several before its
+/// points a square metre are those of the surface.
+constexpr double kOnALine = 0.5;
+
+/// So many points of a neighbourhood give its thickness to some percent; of more, every n-th is
+/// used.
+constexpr std::size_t kPointsUsed = 2048;
+
+/// The points that a grid has sorted, in its order.
+struct SortedPoints {
+  const std::vector<Vec3f>& points;
+  const points::VoxelGrid& grid;
+  Vec3f point(std::size_t k) const { return points[grid.order()[k]]; }
+  double count(std::size_t) const { return 1.0; }
+};
+
+/// Items within r of p are spread along the normal with sigma. items: those of the grid's voxels.
+template <class Items>
+Thickness thickness_at(const Items& items, const points::VoxelGrid& grid, const Vec3f& p,
+                       double r) {
+  const points::VoxelIndex low =
+      ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
+  const points::VoxelIndex high =
+      ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
+  Vec3d sum = Vec3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  std::size_t around = 0;
+  double n = 0.0;
+  grid.for_each_in_box(
+      low, high, [&](std::uint32_t v) { around += grid.voxels()[v].end - grid.voxels()[v].begin; });
+  const std::size_t step = std::max<std::size_t>(1, around / kPointsUsed);
+  std::size_t skip = 0;  // points of the next voxel to leave out first
+  grid.for_each_in_box(low, high, [&](std::uint32_t v) {
+    const points::VoxelGrid::Voxel& voxel = grid.voxels()[v];
+    std::size_t k = voxel.begin + skip;
+    for (; k < voxel.end; k += step) {
+      const Vec3d d = (items.point(k) - p).template cast<double>();
+      if (d.squaredNorm() > r * r) continue;
+      const double w = items.count(k);
+      sum += w * d;
+      squares += w * d * d.transpose();
+      n += w;
+    }
+    skip = k - voxel.end;
+  });
+  if (n < 8.0) return {};
+  const Vec3d mean = sum / n;
+  const Eigen::Matrix3d covariance = squares / n - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  const Vec3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return {extent[0], n * double(step) / (std::numbers::pi * r * r),
+          extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
+}
+
+}  // namespace
+
+FrameStatistics frame_statistics(const FramePoints& points) {
+  FrameStatistics out;
+  if (points.cell.empty()) {
+    unordered_spacing(points.cloud.points, out);
+    return out;
+  }
+  std::vector<double> steps, bends;
+  const auto& p = points.cloud.points;
+  const bool depth = !points.viewpoint.parallel;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (points.cell[i] != points.cell[i - 1] + 1) continue;
+    steps.push_back((p[i] - p[i - 1]).norm());
+    if (i + 1 == p.size() || points.cell[i + 1] != points.cell[i] + 1) continue;
+    // Along the ray; a scanner with parallel rays looks along the viewpoint's direction.
+    const Vec3f bend = p[i] - 0.5f * (p[i - 1] + p[i + 1]);
+    bends.push_back(std::abs(depth ? bend.z() : bend.dot(points.viewpoint.value.cast<float>())));
+  }
+  out.spacing_m = out.even_spacing_m = median(steps);
+  out.noise_m = 1.4826 * median(bends) / std::sqrt(1.5);
+  return out;
+}
+
+namespace {
+
+/// Of samples: thickness_of(r) gives the function from a random key to the thickness of the cloud
+/// within r of the sample that the key picks, or nullopt where r is too small for a grid.
+template <class ThicknessOf>
+CloudStatistics statistics(double start_radius_m, const ThicknessOf& thickness_of) {
+  constexpr std::size_t kSamples = 1500;
+  CloudStatistics out;
+  double r = start_radius_m;
+  for (int round = 0; round < 9; ++round, r *= std::numbers::sqrt2) {
+    std::vector<double> sigmas(kSamples), densities(kSamples), spreads(kSamples);
+    const auto thickness = thickness_of(r);
+    if (!thickness) return out;
+    parallel_for(kSamples, 16, [&](std::size_t s) {
+      const Thickness t = (*thickness)(mix64(s));
+      sigmas[s] = t.sigma;
+      densities[s] = t.density;
+      spreads[s] = t.spread;
+    });
+    out.noise_m = median(sigmas);
+    const double density = median(densities);
+    out.spacing_m = density > 0.0 ? 1.0 / std::sqrt(density) : 0.0;
+    if (density > 0.0 && out.noise_m < r / 4.5 && median(spreads) > kOnALine) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+CloudStatistics cloud_statistics(const points::MergedCloud& merged, double start_radius_m) {
+  using ThicknessAt = std::function<Thickness(std::uint64_t)>;
+  const auto& points = merged.cloud.points;
+  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+    auto built = points::VoxelGrid::build(points, r, RunContext());
+    if (!built) return std::nullopt;
+    const auto grid = std::make_shared<const points::VoxelGrid>(std::move(*built));
+    return [grid, r, &points](std::uint64_t key) {
+      return thickness_at(SortedPoints{points, *grid}, *grid, points[key % points.size()], r);
+    };
+  });
+}
+
+CloudStatistics cloud_statistics(const points::MeasuredCells& measurements, double start_radius_m) {
+  using ThicknessAt = std::function<Thickness(std::uint64_t)>;
+  const points::VoxelGrid& grid = measurements.grid;
+  std::vector<std::uint64_t> sum;  // of the points up to a cell
+  for (std::size_t i = 0; i < measurements.size(); ++i)
+    sum.push_back((i > 0 ? sum.back() : 0) + std::uint64_t(measurements.count(i)));
+  if (sum.empty()) return {};
+  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+    return [&, r](std::uint64_t key) {
+      const auto at = std::upper_bound(sum.begin(), sum.end(), key % sum.back());
+      const Vec3f p = measurements.point(std::size_t(at - sum.begin()));
+      return thickness_at(measurements, grid, p, r);
+    };
+  });
+}
+
+double frames_apart(const points::MergedCloud& merged, double point_spacing_m) {
+  constexpr std::size_t kSamples = 2000;
+  constexpr int kDoublings = 7;
+  constexpr double kShare = 0.95;
+  const PointCloud& cloud = merged.cloud;
+  if (cloud.points.empty() || !(point_spacing_m > 0.0)) return 0.0;
+  const KdTree tree(cloud.points);
+  std::vector<double> distances(kSamples, 0.0);
+  parallel_for(kSamples, 16, [&](std::size_t s) {
+    const std::size_t i = mix64(s) % cloud.size();
+    std::vector<std::pair<std::uint32_t, float>> near;
+    double r = 2.0 * point_spacing_m;
+    for (int round = 0; round <= kDoublings && distances[s] == 0.0; ++round, r *= 2.0) {
+      tree.radius(cloud.points[i], static_cast<float>(r), near);
+      for (const auto& [other, squared] : near) {
+        if (cloud.frame[other] == cloud.frame[i]) continue;
+        distances[s] = std::max(std::sqrt(double(squared)), 1e-9);
+        break;
+      }
+    }
+  });
+  std::erase(distances, 0.0);
+  if (distances.empty()) return 0.0;
+  const auto at = distances.begin() + std::ptrdiff_t(kShare * double(distances.size() - 1));
+  std::nth_element(distances.begin(), at, distances.end());
+  return *at;
+}
+
+}  // namespace turnscan::estimation

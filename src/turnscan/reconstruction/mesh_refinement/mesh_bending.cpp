@@ -1,0 +1,136 @@
+// How far vertices go: between what was measured around each and a surface that bends little.
+
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
+
+namespace turnscan::mesh_refinement {
+
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+/// Support from which on a bend beside a vertex may be a crease: a pixel or two on an edge.
+constexpr float kCreaseSupport = 0.15f;
+constexpr int kJacobiRounds = 40;
+constexpr float kDamping =
+    0.35f;  // of Jacobi's steps; the bending's matrix has large off-diagonals
+
+class OffsetSolver {
+ public:
+  OffsetSolver(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+               const std::vector<Vec3f>& normals, const VertexMeasurements& measured,
+               const MeshFitScale& scale)
+      : mesh_(mesh),
+        neighbours_(neighbours),
+        normals_(normals),
+        measured_(measured),
+        scale_(scale),
+        typical_(typical_support(measured.support)) {}
+
+  /// Damped Jacobi.
+  std::vector<float> offsets() {
+    bends();
+    weights();
+    const std::size_t n = bend_.size();
+    std::vector<float> own(n), diagonal(n), delta(n), rest(n);
+    parallel_for(n, kGrain, [&](std::size_t v) {
+      const float support = measured_.support[v];
+      own[v] = support > 1e-3f ? measured_.offset[v] / support : 0.0f;
+      diagonal[v] = support + stiff_[v] + coupling_[v] + 1e-6f;
+      neighbours_.each(v, [&](std::uint32_t u) {
+        diagonal[v] += (stiff_[u] + coupling_[u]) / (neighbours_.count(u) * neighbours_.count(u));
+      });
+    });
+    for (int round = 0; round < kJacobiRounds; ++round) {
+      parallel_for(n, kGrain, [&](std::size_t v) {
+        rest[v] = stiff_[v] * bend_[v] +
+                  (stiff_[v] + coupling_[v]) * (neighbours_.mean(delta, v, 0.0f) - delta[v]);
+      });
+      parallel_for(n, kGrain, [&](std::size_t v) {
+        float gradient = measured_.support[v] * (own[v] - delta[v]) + rest[v];
+        neighbours_.each(v, [&](std::uint32_t u) { gradient -= rest[u] / neighbours_.count(u); });
+        delta[v] += kDamping * gradient / diagonal[v];
+      });
+    }
+    return delta;
+  }
+
+ private:
+  /// How far each vertex lies below the mean of its neighbours, along its normal.
+  void bends() {
+    const auto& p = mesh_.vertices;
+    bend_.resize(p.size());
+    parallel_for(p.size(), kGrain, [&](std::size_t v) {
+      bend_[v] = (neighbours_.mean(p, v, Vec3f(Vec3f::Zero())) - p[v]).dot(normals_[v]);
+    });
+  }
+
+  /// Bends averaged with those of the neighbours: a ridge bends along a line of vertices, while one
+  /// vertex that noise pulled out bends its neighbours the other way, and nothing is left.
+  float shared_bend(std::size_t v) const {
+    const float count = neighbours_.count(v);
+    return (bend_[v] + count * neighbours_.mean(bend_, v, 0.0f)) / (1.0f + count);
+  }
+
+  /// How far a vertex and its neighbours were measured, 0 to 1. A bend beside what was not is no
+  /// crease: measurements end there, and raggedly.
+  std::vector<float> seen() const {
+    std::vector<float> out(bend_.size());
+    parallel_for(out.size(), kGrain, [&](std::size_t v) {
+      out[v] = below_floor(mesh_.vertices[v], scale_)
+                   ? 1.0f
+                   : std::min(1.0f, measured_.support[v] / kCreaseSupport);
+    });
+    return neighbours_.filtered(std::move(out), 1, [](float a, float b) { return std::min(a, b); });
+  }
+
+  /// Stiffness m and coupling c of fitted_offsets(), per vertex.
+  void weights() {
+    const std::vector<float> seen = this->seen();
+    const float crease = float(scale_.crease_sigmas) * float(scale_.noise_m);
+    stiff_.resize(bend_.size());
+    coupling_.resize(bend_.size());
+    parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
+      // Where less was measured than usual, only a larger bend is more than noise.
+      const float around =
+          0.5f * (measured_.support[v] + neighbours_.mean(measured_.support, v, 0.0f)) / typical_;
+      const float share =
+          below_floor(mesh_.vertices[v], scale_) ? 1.0f : std::clamp(around, 0.02f, 1.0f);
+      const float s = seen[v] * shared_bend(v) * std::sqrt(share * typical_) / crease;
+      const float fade = 1.0f / ((1.0f + s * s) * (1.0f + s * s));
+      stiff_[v] = float(scale_.stiffness) * typical_ * fade;
+      coupling_[v] = float(scale_.crease_coupling) * (1.0f - fade);
+    });
+  }
+
+  const TriangleMesh& mesh_;
+  const MeshNeighbours& neighbours_;
+  const std::vector<Vec3f>& normals_;
+  const VertexMeasurements& measured_;
+  const MeshFitScale& scale_;
+  float typical_;
+  std::vector<float> bend_, stiff_, coupling_;
+};
+
+}  // namespace
+
+float typical_support(const std::vector<float>& support) {
+  std::vector<float> some;
+  std::copy_if(support.begin(), support.end(), std::back_inserter(some),
+               [](float s) { return s > 0.01f; });
+  return float(median(some, 1.0));
+}
+
+/// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +
+/// sum c (mean of the neighbours' d - d)^2. A bend that is too large to be noise is a crease, and
+/// m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves with its
+/// neighbours rather than each vertex with its own noise.
+std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                                  const std::vector<Vec3f>& normals,
+                                  const VertexMeasurements& measured, const MeshFitScale& scale) {
+  return OffsetSolver(mesh, neighbours, normals, measured, scale).offsets();
+}
+
+}  // namespace turnscan::mesh_refinement

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/reconstruction/mesh_refinement/vertex_observations.hpp>
+
+namespace turnscan::mesh_refinement {
+
+namespace {
+
+/// Each iteration uses twice as many views as the one before it, but not fewer than these.
+constexpr std::size_t kFewestFitViews = 128;
+/// Dark or slanted places are noisier than others, up to so many times as far as it matters.
+constexpr float kMostSpread = 4.0f;
+/// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
+constexpr float kUsualSpread = 1.2f;
+/// A rim scatters, too, by what else is measured near it, but it is narrow: noisy places are wider
+/// than twice so many rings of neighbours.
+constexpr int kRimRings = 6;
+/// Fewer views do not show how measurements scatter.
+constexpr std::size_t kLeastViewsForSpread = 24;
+
+/// How many times the noise measurements scatter, when a share of them lies within kNear of its
+/// deviations: of normal errors it is erf(kNear / (sqrt(2) times)).
+float times_the_noise(float share) {
+  float low = 1.0f, high = kMostSpread * kUsualSpread;
+  for (int round = 0; round < 12; ++round) {
+    const float middle = 0.5f * (low + high);
+    (std::erf(kNear / (1.4142136f * middle)) > share ? low : high) = middle;
+  }
+  return low;
+}
+
+class MeshFitter {
+ public:
+  MeshFitter(const TriangleMesh& mesh, std::span<const views::DepthView> views,
+             const MeshFitScale& scale)
+      : views_(views), scale_(scale), neighbours_(mesh), observer_(mesh) {
+    fit_.mesh = mesh;
+  }
+
+  Result<MeshFit> run(const RunContext& context) {
+    const std::size_t n = fit_.mesh.vertices.size();
+    const bool estimates_spread = scale_.iterations > 0 && views_.size() >= kLeastViewsForSpread;
+    const int rounds = std::max(1, scale_.iterations), extra = estimates_spread ? 1 : 0;
+    context.begin_phase("fit", observer_.blocks() * std::size_t(rounds + extra));
+    spread_.assign(n, 1.0f);
+    if (estimates_spread) {
+      std::fill(spread_.begin(), spread_.end(), kMostSpread * kMostSpread);
+      update_vertices(0);
+      TURNSCAN_TRY(measure_all(view_stride(rounds - 1), context));
+      estimate_spread();
+    }
+    for (int iteration = 0; iteration < rounds; ++iteration) {
+      update_vertices(iteration);
+      TURNSCAN_TRY(measure_all(view_stride(rounds - 1 - iteration), context));
+      discard_platter();
+      if (scale_.iterations > 0) move();
+      if (scale_.iterations > 0 && iteration == 0 && scale_.fair_m > 0.0)
+        fair(fit_.mesh, neighbours_, measured_.support, scale_);
+    }
+    if (scale_.iterations > 0 && scale_.floor_height_m)
+      straighten_walls(fit_.mesh, neighbours_, measured_.support, scale_);
+    fit_.support = std::move(measured_.support);
+    return std::move(fit_);
+  }
+
+ private:
+  /// Distance between the views that are used when so many iterations are to follow.
+  std::size_t view_stride(int to_go) const {
+    std::size_t stride = 1;
+    for (; to_go > 0 && views_.size() / (2 * stride) >= kFewestFitViews; --to_go) stride *= 2;
+    return stride;
+  }
+
+  /// Positions and smoothed normals.
+  void update_vertices(int iteration) {
+    const std::size_t n = fit_.mesh.vertices.size();
+    normals_ = vertex_normals(fit_.mesh);
+    for (int round = 0; round < (iteration == 0 ? 3 : 2); ++round) {
+      std::vector<Vec3f> next(n);
+      parallel_for(n, 4096, [&](std::size_t v) {
+        const Vec3f sum = normals_[v] + neighbours_.mean(normals_, v, Vec3f(Vec3f::Zero()));
+        next[v] = sum.norm() > 1e-3f ? Vec3f(sum.normalized()) : normals_[v];
+      });
+      normals_.swap(next);
+    }
+    observer_.set_vertices(fit_.mesh.vertices, normals_, spread_);
+  }
+
+  /// How much more measurements scatter than the noise says, from those of the neighbours, too.
+  void estimate_spread() {
+    parallel_for(spread_.size(), 1024, [&](std::size_t v) {
+      const float count = neighbours_.count(v);
+      const float all = measured_.support[v] + count * neighbours_.mean(measured_.support, v, 0.0f);
+      const float near = near_[v] + count * neighbours_.mean(near_, v, 0.0f);
+      const float times = times_the_noise(all > 1e-3f ? near / all : 1.0f) / kUsualSpread;
+      const float spread = std::clamp(times, 1.0f, kMostSpread);
+      spread_[v] = spread * spread;
+    });
+    const auto least = [](float a, float b) { return std::min(a, b); };
+    const auto most = [](float a, float b) { return std::max(a, b); };
+    spread_ = neighbours_.filtered(std::move(spread_), kRimRings, least);
+    spread_ = neighbours_.filtered(std::move(spread_), kRimRings, most);
+  }
+
+  /// With every stride-th view.
+  Result<> measure_all(std::size_t stride, const RunContext& context) {
+    TURNSCAN_ASSIGN(VertexObservations found, observer_.observe(views_, stride, scale_, context));
+    measured_ = std::move(found.measured);
+    near_ = std::move(found.near);
+    return {};
+  }
+
+  /// What was measured in the lower half of the margin may be the platter.
+  void discard_platter() {
+    if (!scale_.floor_height_m) return;
+    for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
+      if (fit_.mesh.vertices[v].y() < 0.5f * float(*scale_.floor_height_m))
+        measured_.support[v] = measured_.offset[v] = 0.0f;
+    }
+  }
+
+  void move() {
+    const std::vector<float> delta =
+        fitted_offsets(fit_.mesh, neighbours_, normals_, measured_, scale_);
+    const float limit = float(scale_.limit_m);
+    const auto& p = fit_.mesh.vertices;
+    std::vector<Vec3f> step(p.size());
+    parallel_for(p.size(), 4096, [&](std::size_t v) {
+      step[v] = std::clamp(delta[v], -limit, limit) * normals_[v];
+      if (below_floor(p[v], scale_)) step[v].y() = 0.0f;
+    });
+    take_steps(fit_.mesh, std::move(step));
+  }
+
+  std::span<const views::DepthView> views_;
+  MeshFitScale scale_;
+  MeshNeighbours neighbours_;
+  VertexObserver observer_;
+  MeshFit fit_;
+  std::vector<Vec3f> normals_;
+  VertexMeasurements measured_;
+  std::vector<float> near_;    // as VertexSums, by vertex
+  std::vector<float> spread_;  // squared, as VertexColumns::spread
+};
+
+}  // namespace
+
+Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const views::DepthView> views,
+                         const MeshFitScale& scale, const RunContext& context) {
+  return MeshFitter(mesh, views, scale).run(context);
+}
+
+}  // namespace turnscan::mesh_refinement

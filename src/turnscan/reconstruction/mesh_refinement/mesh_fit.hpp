@@ -1,0 +1,43 @@
+#pragma once
+// Refinement of a mesh: vertices move along their normals to where all depth frames together say
+// the surface is.
+
+#include <span>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/reconstruction/views/depth_view.hpp>
+
+namespace turnscan::mesh_refinement {
+
+struct MeshFitScale {
+  double noise_m = 0.001;   ///< of a depth along its ray
+  double reach_m = 0.0013;  ///< measurements farther across the normal do not count
+  double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
+  double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
+  /// Curvature, averaged with the neighbours', in deviations of the noise, at which the weight of
+  /// the bending term falls to a quarter: larger ones are creases.
+  double crease_sigmas = 0.1;
+  /// Weight, in measurements, with which vertices on a crease move as their neighbours do.
+  double crease_coupling = 8.0;
+  double fair_m = 0.0;     ///< what was not measured is faired; vertices move at most so far
+  double limit_m = 0.002;  ///< a vertex moves at most so far in one iteration
+  float edge_weight = 0.1f;
+  int iterations = 3;                    ///< 0: only measures the support
+  std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others
+};
+
+struct MeshFit {
+  TriangleMesh mesh;
+  std::vector<float> support;  ///< per vertex: sum of the weights of its measurements
+};
+
+/// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
+/// the measurements around each vertex and its tangent plane, of the views that face it, and a
+/// bending term, which averages noise away where the surface is smooth, fades at edges, and decides
+/// where few measurements are. Triangles stay as they are; no step towards the measurements turns
+/// one by more than 73 degrees (fairing what was not measured may). Fails with kCancelled. The same
+/// bytes for any number of threads.
+Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const views::DepthView> views,
+                         const MeshFitScale& scale, const RunContext& context);
+
+}  // namespace turnscan::mesh_refinement

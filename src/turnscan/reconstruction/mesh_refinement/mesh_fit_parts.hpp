@@ -1,0 +1,67 @@
+#pragma once
+// The parts of fit_mesh(): who neighbours whom, how far vertices go, how they get there, and what
+// becomes of those that nobody measured.
+
+#include <cstdint>
+#include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
+
+namespace turnscan::mesh_refinement {
+
+/// Who is joined to whom by an edge, in a closed mesh.
+struct MeshNeighbours {
+  std::vector<std::uint32_t> begin, list;
+
+  explicit MeshNeighbours(const TriangleMesh& mesh);
+  float count(std::size_t v) const { return float(begin[v + 1] - begin[v]); }
+  /// The vertex's own value if it has no neighbour.
+  template <class T>
+  T mean(const std::vector<T>& values, std::size_t v, const T& zero) const {
+    T sum = zero;
+    each(v, [&](std::uint32_t other) { sum += values[other]; });
+    return begin[v + 1] > begin[v] ? T(sum / count(v)) : values[v];
+  }
+  template <class Visit>
+  void each(std::size_t v, const Visit& visit) const {
+    for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) visit(list[k]);
+  }
+  /// choose(a, b) over each vertex and its neighbours, so many rings of them: a minimum or maximum
+  /// filter.
+  std::vector<float> filtered(std::vector<float> values, int rings,
+                              float (*choose)(float, float)) const;
+};
+
+/// What was measured around each vertex.
+struct VertexMeasurements {
+  std::vector<float> support;  ///< sum of the weights
+  std::vector<float> offset;   ///< sum of weight times distance along the normal
+};
+
+/// Median of the supports that there are.
+float typical_support(const std::vector<float>& support);
+
+/// Whether a vertex lies below the floor, where only the platter is measured.
+inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale) {
+  return scale.floor_height_m && vertex.y() < float(*scale.floor_height_m);
+}
+
+/// How far each vertex goes along its normal.
+std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                                  const std::vector<Vec3f>& normals,
+                                  const VertexMeasurements& measured, const MeshFitScale& scale);
+
+/// Least cosine between a triangle's normals before and after take_steps().
+inline constexpr float kLeastTurn = 0.3f;
+/// Adds the steps to the vertices: shorter ones, or none, where a triangle would turn by more.
+void take_steps(TriangleMesh& mesh, std::vector<Vec3f> step);
+
+/// Where little or nothing was measured the volume ends in rags, pixel by pixel. Those vertices
+/// move towards the middle of their neighbours, held by what was measured around them.
+void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vector<float>& support,
+          const MeshFitScale& scale);
+
+/// Below the floor nothing was measured: walls go on straight down from what was fitted above
+/// them, even along the base's outline, and the base's vertices go with it.
+void straighten_walls(TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                      const std::vector<float>& support, const MeshFitScale& scale);
+
+}  // namespace turnscan::mesh_refinement

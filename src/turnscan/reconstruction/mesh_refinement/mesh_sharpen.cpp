@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
+#include <turnscan/reconstruction/mesh_refinement/vertex_observations.hpp>
+#include <turnscan/reconstruction/views/view_drawing.hpp>
+
+namespace turnscan::mesh_refinement {
+
+namespace {
+
+constexpr std::size_t kMostDrawnViews = 64, kFewestDrawnViews = 16;
+constexpr std::size_t kMostDrawnBytes = std::size_t(64) << 20;
+/// Neighbours this much nearer or farther do not mix: such pixels are rejected, or phases apart.
+constexpr float kApart_m = 0.06f;
+/// Each vertex goes with those around it: alone, rims would become saws.
+constexpr int kRings = 8;
+constexpr float kLeast_m = 1e-4f;   // shorter steps are mostly what noise left on the surface
+constexpr float kTrusted = 0.005f;  // of the usual support; with less vertices go less far
+constexpr float kUnseen = 1e-4f;    // with less they stay
+
+void put(views::DepthView& view, std::size_t at, float z) {
+  const float raw = std::round((z - view.bias_m) / view.unit_m);
+  if (raw >= 1.0f && raw < 65534.0f) view.pixels[at] |= std::uint32_t(raw);
+}
+
+/// Depth of a pixel inside the border after the filter.
+float filtered_depth(const std::vector<views::ViewDrawing::Received>& received, std::size_t at,
+                     int width, float share) {
+  const float taps[3] = {share, 1.0f - 2.0f * share, share};
+  views::ViewDrawing::Received sum;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      const auto& other = received[at + std::size_t(std::ptrdiff_t(j) * width + i)];
+      if (!(other.light > 0.0f) || std::abs(other.mean() - received[at].mean()) > kApart_m)
+        continue;
+      sum.light += taps[j + 1] * taps[i + 1] * other.light;
+      sum.depth += taps[j + 1] * taps[i + 1] * other.depth;
+    }
+  }
+  return sum.mean();
+}
+
+/// What the filter makes of the mesh, where the view measured something: the fit saw no more.
+views::DepthView draw(const views::DepthView& view, const TriangleMesh& mesh, float share) {
+  views::DepthView out = view;
+  out.colors.clear();
+  for (std::uint32_t& word : out.pixels) word &= views::DepthView::kEdge;
+  const views::ViewDrawing drawing(view, mesh);
+  std::vector<views::ViewDrawing::Received> received(view.pixels.size());
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x)
+      received[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] = drawing.received(x, y);
+  }
+  for (int y = 1; y + 1 < view.height; ++y) {
+    for (int x = 1; x + 1 < view.width; ++x) {
+      const std::size_t at = std::size_t(y) * std::size_t(view.width) + std::size_t(x);
+      if ((view.pixels[at] & 0xffffu) != 0 && received[at].light > 0.0f)
+        put(out, at, filtered_depth(received, at, view.width, share));
+    }
+  }
+  return out;
+}
+
+Result<std::vector<views::DepthView>> draw_some(const TriangleMesh& mesh,
+                                                std::span<const views::DepthView> views,
+                                                float share, const RunContext& context) {
+  std::size_t pixels = 1;
+  for (const views::DepthView& view : views) pixels = std::max(pixels, view.pixels.size());
+  const std::size_t fit = kMostDrawnBytes / (sizeof(std::uint32_t) * pixels);
+  const std::size_t count =
+      std::min(views.size(), std::clamp(fit, kFewestDrawnViews, kMostDrawnViews));
+  std::vector<views::DepthView> out(count);
+  parallel_for(count, 1, [&](std::size_t i) {
+    if (!context.cancelled()) out[i] = draw(views[i * views.size() / count], mesh, share);
+  });
+  TURNSCAN_TRY(context.check());
+  return out;
+}
+
+/// Each value becomes the mean of itself and the mean around it.
+template <class T>
+void blend(std::vector<T>& values, const MeshNeighbours& neighbours, const T& zero) {
+  std::vector<T> out(values.size(), zero);
+  parallel_for(values.size(), 4096, [&](std::size_t v) {
+    out[v] = 0.5f * (values[v] + neighbours.mean(values, v, zero));
+  });
+  values.swap(out);
+}
+
+/// The step of each vertex to where the filter would make of it what was measured.
+std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
+                                    const VertexMeasurements& measured,
+                                    const VertexMeasurements& drawn, const MeshFitScale& scale) {
+  const std::size_t n = mesh.vertices.size();
+  const float typical = typical_support(drawn.support);
+  std::vector<float> weight(n, 0.0f);
+  std::vector<Vec3f> step(n, Vec3f::Zero());
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!(measured.support[v] > 0.0f) || !(drawn.support[v] > 0.0f)) continue;
+    weight[v] = std::min(drawn.support[v], typical);
+    step[v] = weight[v] * normals[v] *
+              (measured.offset[v] / measured.support[v] - drawn.offset[v] / drawn.support[v]);
+  }
+  const MeshNeighbours neighbours(mesh);
+  for (int ring = 0; ring < kRings; ++ring) {
+    blend(step, neighbours, Vec3f(Vec3f::Zero()));
+    blend(weight, neighbours, 0.0f);
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
+    if (!(weight[v] > kUnseen * typical) || !(length > kLeast_m) ||
+        below_floor(mesh.vertices[v], scale)) {
+      step[v].setZero();
+      continue;
+    }
+    const float trust = std::min(1.0f, weight[v] / (kTrusted * typical));
+    step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kLeast_m) / step[v].norm();
+  }
+  return step;
+}
+
+}  // namespace
+
+Result<> sharpen_mesh(TriangleMesh& mesh, std::span<const views::DepthView> views, double share,
+                      const MeshFitScale& scale, const RunContext& context) {
+  TURNSCAN_ASSIGN(const std::vector<views::DepthView> drawn,
+                  draw_some(mesh, views, float(share), context));
+  const std::vector<Vec3f> normals = vertex_normals(mesh);
+  VertexObserver observer(mesh);
+  observer.set_vertices(mesh.vertices, normals, {});
+  context.begin_phase("sharpen", 2 * observer.blocks());
+  TURNSCAN_ASSIGN(const auto filtered, observer.observe(drawn, 1, scale, context));
+  TURNSCAN_ASSIGN(const auto found, observer.observe(views, 1, scale, context));
+  take_steps(mesh, sharpening_steps(mesh, normals, found.measured, filtered.measured, scale));
+  return {};
+}
+
+}  // namespace turnscan::mesh_refinement

@@ -1,0 +1,62 @@
+#pragma once
+// Options of the stages from frames to candidate points (thesis 3.4).
+
+#include <optional>
+#include <string>
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/core/result.hpp>
+
+namespace turnscan {
+
+struct MergeOptions {
+  std::optional<double> speed_rad_s;
+  bool cloud_outliers = false;  ///< a second statistical filter, on the merged cloud
+  std::optional<int> pass;      ///< only the frames in which the object lies this way
+};
+OptionTable describe(MergeOptions& options);
+
+struct VoxelOptions {
+  std::optional<double> size_m;   ///< edge of a voxel
+  std::optional<int> grid;        ///< or: voxels along the longest side that the first frames show
+  std::optional<int> min_points;  ///< M: voxels with fewer points go
+};
+OptionTable describe(VoxelOptions& options);
+
+enum class CandidateMethod { kCentroid, kSubVoxel };
+enum class SubVoxelLine { kChord, kTowardsSensor };
+
+struct CandidateOptions {
+  CandidateMethod method = CandidateMethod::kCentroid;
+  int subdivisions = 4;  ///< s: a voxel is split into s^3 sub-voxels
+  SubVoxelLine line = SubVoxelLine::kChord;
+};
+OptionTable describe(CandidateOptions& options);
+
+struct ComponentOptions {
+  std::string keep = "all";     ///< "all", "largest" or a number N: the N largest
+  double min_share = 0.02;      ///< smaller pieces, relative to the largest, are crumbs
+  std::optional<double> gap_m;  ///< pieces closer than this belong together
+};
+OptionTable describe(ComponentOptions& options);
+
+/// Fails with kInvalidOption unless keep is all, largest or a positive number. 0 means all.
+Result<int> objects_to_keep(const ComponentOptions& options);
+
+struct NormalOptions {
+  std::optional<double> radius_m;
+};
+OptionTable describe(NormalOptions& options);
+
+struct RefineOptions {
+  bool enabled = true;
+  std::optional<double> radius_m;  ///< tangential reach (standard deviation of the weight)
+  int iterations = 3;
+};
+OptionTable describe(RefineOptions& options);
+
+struct BaseOptions {
+  bool enabled = true;
+};
+OptionTable describe(BaseOptions& options);
+
+}  // namespace turnscan

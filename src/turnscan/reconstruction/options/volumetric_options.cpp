@@ -1,0 +1,29 @@
+#include <turnscan/reconstruction/options/volumetric_options.hpp>
+
+namespace turnscan {
+
+OptionTable describe(VolumetricOptions& o) {
+  OptionTable table;
+  table
+      .number("truncation", o.truncation_m, Quantity::kLength, {1e-5, 1.0},
+              "Volumetric: how far along its ray a measurement counts; automatic: from its noise")
+      .flag("fit", o.fit, "Volumetric: move the vertices onto the frames' measurements")
+      .number("fit-reach", o.fit_reach_m, Quantity::kLength, {1e-5, 0.1},
+              "Volumetric: measurements farther from a vertex, across its normal, do not count in "
+              "the fit; automatic: from the spacing")
+      .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
+      .flag("sharpen", o.sharpen,
+            "Volumetric: where noise shows that the sensor averages over neighbouring pixels, take "
+            "back what that did to edges and thin parts")
+      .number("triangles", o.triangles, {4, 1000000000},
+              "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
+              "of what the volume gives")
+      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
+              "Volumetric: as few triangles as keep the surface within this of what it would be "
+              "otherwise, still closed; with --triangles whichever ends sooner; automatic: all")
+      .flag("mark-invented", o.mark_invented,
+            "Volumetric: paint in magenta what no frame measured, the rest in its colour or grey");
+  return table;
+}
+
+}  // namespace turnscan

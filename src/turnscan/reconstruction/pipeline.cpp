@@ -1,0 +1,31 @@
+#include <algorithm>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/stream.hpp>
+
+namespace turnscan {
+
+namespace {
+
+/// Frames that are read and worked on together: enough to keep the cores busy, few enough to keep
+/// memory flat.
+constexpr std::size_t kFramesAtOnce = 64;
+
+}  // namespace
+
+Result<Reconstruction> reconstruct(const FrameSequence& sequence, const ReconstructOptions& options,
+                                   const StageSink& sink, const RunContext& context) {
+  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options));
+  TURNSCAN_TRY(context.check());
+  const auto& frames = sequence.frames();
+  context.begin_phase("read frames", frames.size());
+  for (std::size_t begin = 0; begin < frames.size(); begin += kFramesAtOnce) {
+    const std::size_t end = std::min(begin + kFramesAtOnce, frames.size());
+    const std::vector<FrameInfo> infos(frames.begin() + std::ptrdiff_t(begin),
+                                       frames.begin() + std::ptrdiff_t(end));
+    TURNSCAN_TRY(stream.add(
+        infos, [&](std::size_t i) { return sequence.read(begin + i); }, context));
+  }
+  return stream.finish(sink, context);
+}
+
+}  // namespace turnscan

@@ -1,0 +1,12 @@
+#pragma once
+// The methods from points: each frame's points are added up as they come, and only the sums are
+// kept; candidate points, normals and the surface follow at the end (thesis 3.4).
+
+#include <turnscan/reconstruction/method.hpp>
+
+namespace turnscan::points {
+
+MethodEntry poisson_method();
+MethodEntry concave_hull_method();
+
+}  // namespace turnscan::points

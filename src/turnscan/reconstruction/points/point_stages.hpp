@@ -1,0 +1,20 @@
+#pragma once
+// From measurements to meshes through candidate points (thesis 3.4): the stages of the methods
+// poisson and concave-hull.
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/options.hpp>
+#include <turnscan/reconstruction/result.hpp>
+#include <turnscan/reconstruction/voxels/measured_cells.hpp>
+
+namespace turnscan::points {
+
+/// Threshold, objects, candidates, normals, refine, base, surface. spacing_m: 1 / sqrt(points per
+/// square metre). out holds what the frames told, with the thickness of the cloud, and gets the
+/// objects. Fails as reconstruct() does.
+Result<> reconstruct_points(const MeasuredCells& measurements, double spacing_m,
+                            const std::optional<Cylinder>& cylinder,
+                            const ReconstructOptions& options, const StageSink& sink,
+                            const RunContext& context, Reconstruction& out);
+
+}  // namespace turnscan::points

@@ -1,0 +1,92 @@
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/version.hpp>
+#include <turnscan/reconstruction/report.hpp>
+
+namespace turnscan {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json check_json(const MeshReport& r) {
+  return {{"watertight", r.watertight()},
+          {"closed", r.closed},
+          {"manifold", r.manifold},
+          {"oriented", r.oriented},
+          {"outward", r.outward},
+          {"components", r.components},
+          {"boundary_edges", r.boundary_edges},
+          {"non_manifold_edges", r.non_manifold_edges},
+          {"non_manifold_vertices", r.non_manifold_vertices},
+          {"degenerate_triangles", r.degenerate_triangles},
+          {"area_cm2", r.area_m2 * 1e4},
+          {"volume_cm3", r.volume_m3 * 1e6}};
+}
+
+Json object_json(const ObjectResult& o) {
+  const Vec3d size = bounds(o.mesh.vertices).size() * 1e3;
+  return {{"name", o.mesh.name},
+          {"points", o.points},
+          {"candidates", o.candidates},
+          {"surface_points", o.surface_points},
+          {"vertices", o.mesh.vertices.size()},
+          {"triangles", o.mesh.triangles.size()},
+          {"size_mm", {size.x(), size.y(), size.z()}},
+          {"invented_area_cm2", o.invented_area_m2 * 1e4},
+          {"mesh", check_json(o.check)},
+          {"notes", o.notes}};
+}
+
+double peak_memory_bytes() {
+  struct rusage own {
+  }, children{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  return 1024.0 * double(std::max(own.ru_maxrss, children.ru_maxrss));
+}
+
+}  // namespace
+
+std::string report_json(const Reconstruction& r, const ReconstructOptions& options) {
+  Json stages = Json::object();
+  double total = 0.0;
+  for (const StageTime& stage : r.stages) {
+    stages[stage.stage] = stage.seconds;
+    total += stage.seconds;
+  }
+  Json choices = Json::array();
+  for (const Choice& c : r.choices)
+    choices.push_back({{"option", c.option}, {"value", c.value}, {"reason", c.reason}});
+  Json objects = Json::array();
+  for (const ObjectResult& o : r.objects) objects.push_back(object_json(o));
+  ReconstructOptions copy = options;
+  Json given = Json::object();
+  for (const StageOptions& stage : describe_stages(copy)) {
+    for (const OptionField& field : stage.table.fields())
+      given[stage.stage][field.name] = field.get();
+  }
+  const Json report = {{"software", "turnscan"},
+                       {"version", version()},
+                       {"frames", r.frames},
+                       {"dropped_frames", r.dropped_frames},
+                       {"returns", r.returns},
+                       {"points_in_crop", r.inside_crop},
+                       {"points", r.points},
+                       {"sensor_noise_mm", r.sensor_noise_m * 1e3},
+                       {"merged_noise_mm", r.merged_noise_m * 1e3},
+                       {"frame_spacing_mm", r.frame_spacing_m * 1e3},
+                       {"objects", objects},
+                       {"parameters", choices},
+                       {"options", given},
+                       {"seconds", stages},
+                       {"seconds_total", total},
+                       {"threads", thread_count()},
+                       {"peak_memory_mb", peak_memory_bytes() / 1048576.0},
+                       {"notes", r.notes}};
+  return report.dump(2) + "\n";
+}
+
+}  // namespace turnscan

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <turnscan/reconstruction/options.hpp>
+#include <turnscan/reconstruction/result.hpp>
+
+namespace turnscan {
+
+/// JSON of what was done: counts, choices, times, mesh checks, peak memory, version.
+std::string report_json(const Reconstruction& reconstruction, const ReconstructOptions& options);
+
+}  // namespace turnscan

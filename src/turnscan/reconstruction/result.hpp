@@ -1,0 +1,56 @@
+#pragma once
+// What a reconstruction gives: meshes, and what was chosen, measured and repaired on the way.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// A parameter as it was used.
+struct Choice {
+  std::string option;  ///< field name, e.g. "voxel-size"
+  std::string value;   ///< with unit
+  std::string reason;  ///< "given", or what in the data led to it
+  int object = -1;     ///< -1: for all objects
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+struct ObjectResult {
+  TriangleMesh mesh;
+  MeshReport check;
+  std::size_t points = 0;          ///< merged points in its voxels
+  std::size_t candidates = 0;      ///< of the voxel stage
+  std::size_t surface_points = 0;  ///< oriented points given to the surface stage
+  double invented_area_m2 = 0.0;   ///< surface far from any candidate
+  /// Per vertex, volumetric only: what its measurements weigh, over the median of the mesh, at most
+  /// 1. 0 where nothing was measured.
+  std::vector<float> confidence;
+  std::vector<std::string> notes;  ///< what was repaired, for people
+};
+
+struct Reconstruction {
+  std::vector<ObjectResult> objects;  ///< largest first
+  std::vector<Choice> choices;
+  std::vector<StageTime> stages;
+  std::vector<std::string> notes;
+  std::size_t frames = 0, dropped_frames = 0;
+  std::uint64_t returns = 0;      ///< of all frames, before the crop
+  std::uint64_t inside_crop = 0;  ///< of these
+  std::uint64_t points = 0;       ///< of these, what the outlier filter kept
+  double sensor_noise_m = 0.0, merged_noise_m = 0.0, frame_spacing_m = 0.0;
+};
+
+/// Called with a stage's cloud (all objects together), table frame.
+using StageSink = std::function<Result<>(const std::string& stage, const PointCloud& cloud)>;
+
+}  // namespace turnscan

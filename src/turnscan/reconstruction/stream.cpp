@@ -1,0 +1,214 @@
+#include <mutex>
+#include <turnscan/reconstruction/estimation/first_frames.hpp>
+#include <turnscan/reconstruction/method.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/turntable/rotation.hpp>
+
+namespace turnscan {
+
+namespace {
+
+Result<> check_options(const ReconstructOptions& options) {
+  ReconstructOptions checked = options;
+  TURNSCAN_TRY(describe(checked).check());
+  TURNSCAN_TRY(objects_to_keep(options.components));
+  if (options.voxels.size_m && options.voxels.grid)
+    return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
+  return {};
+}
+
+Result<> check_sensor(const FrameInfo& info, const SequenceHeader& header) {
+  if (info.sensor < header.sensors.size()) return {};
+  return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", info.index, info.sensor);
+}
+
+/// Frames with poses of their own may lie as they like: the poses bring them together.
+Result<> check_pass(const FrameInfo& info, const FrameInfo& first) {
+  if (info.pass == first.pass || info.T_table_sensor) return {};
+  return fail(
+      ErrorCode::kInvalidOption,
+      "frames {} and {} are of passes {} and {}, in which the object lies differently; give "
+      "--pass to say which to use",
+      first.index, info.index, first.pass, info.pass);
+}
+
+}  // namespace
+
+/// Places the frames on the table and keeps the first ones until the scale is known; then the
+/// method works on them.
+class ReconstructionStream::Impl {
+ public:
+  Impl(const SequenceHeader& header, const ReconstructOptions& options)
+      : header_(header),
+        options_(options),
+        entry_(method_entry(options_.surface.method)),
+        rays_(ray_tables(header_)),
+        poser_(header_, options_.merge.speed_rad_s),
+        first_frames_(header_, rays_, options_.crop, options_.color) {}
+
+  Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
+               const RunContext& context) {
+    const StageTimer timer(out_.stages, "frames");
+    TURNSCAN_ASSIGN(const Selection selected, select(infos));
+    if (method_) {
+      TURNSCAN_TRY(method_->add(selected.frames, read, context, out_));
+    } else {
+      TURNSCAN_TRY(buffer_until_scale_known(selected.frames, read, context));
+    }
+    out_.dropped_frames += selected.dropped;
+    context.advance(selected.dropped + selected.left_out);
+    return {};
+  }
+
+  Result<TriangleMesh> preview(const RunContext& context) {
+    if (!entry_.previews)
+      return fail(ErrorCode::kInvalidOption,
+                  "preview: only --method volumetric shows the growing surface");
+    const Method* method = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      method = method_.get();
+    }
+    return method == nullptr ? TriangleMesh() : method->preview(context);
+  }
+
+  Result<Reconstruction> finish(const StageSink& sink, const RunContext& context) {
+    TURNSCAN_TRY(context.check());
+    if (!method_) TURNSCAN_TRY(start_with_what_is_there(context));
+    for (const std::string& name : unused_options(options_))
+      out_.notes.push_back(fmt::format("option {}: this method does not use it", name));
+    if (first_frames_.forgotten() > 0)
+      out_.notes.push_back(fmt::format("the first {} frames show nothing on the platter",
+                                       first_frames_.forgotten()));
+    TURNSCAN_TRY(method_->finish(sink, context, out_));
+    return std::move(out_);
+  }
+
+ private:
+  /// What is used of the frames handed over.
+  struct Selection {
+    std::vector<PosedFrame> frames;
+    std::size_t dropped = 0;
+    std::size_t left_out = 0;  ///< of other passes
+  };
+
+  Result<Selection> select(const std::vector<FrameInfo>& infos) {
+    Selection out;
+    const std::optional<int>& pass = options_.merge.pass;
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      TURNSCAN_TRY(check_sensor(infos[i], header_));
+      if (pass && infos[i].pass != std::uint32_t(*pass)) {
+        ++out.left_out;
+        continue;
+      }
+      if (!first_) first_ = infos[i];
+      TURNSCAN_TRY(check_pass(infos[i], *first_));
+      TURNSCAN_ASSIGN(const Pose pose, poser_(infos[i]));
+      if (infos[i].status == FrameStatus::kDropped)
+        ++out.dropped;
+      else
+        out.frames.push_back({i, infos[i], pose});
+    }
+    return out;
+  }
+
+  /// Keeps frames until there are enough to estimate the scale; what is left of them then goes to
+  /// the method.
+  Result<> buffer_until_scale_known(std::span<const PosedFrame> frames, const FrameReader& read,
+                                    const RunContext& context) {
+    while (!method_) {
+      TURNSCAN_ASSIGN(const std::size_t kept, first_frames_.keep(frames, read, context));
+      frames = frames.subspan(kept);
+      TURNSCAN_ASSIGN(const bool enough, first_frames_.enough());
+      if (!enough) {
+        if (frames.empty()) return {};
+        continue;
+      }
+      const auto estimate = first_frames_.estimate();
+      if (estimate) {
+        TURNSCAN_TRY(start_method(*estimate, false, context));
+      } else if (estimate.error().code == ErrorCode::kTooFewPoints) {
+        first_frames_.ask_for_more();
+      } else {
+        return tl::unexpected<Error>(estimate.error());
+      }
+    }
+    return method_->add(frames, read, context, out_);
+  }
+
+  /// The scan has ended before its scale was known.
+  Result<> start_with_what_is_there(const RunContext& context) {
+    const bool none = first_frames_.frames().empty();
+    if (none && options_.merge.pass && !first_)
+      return fail(ErrorCode::kInvalidOption, "the recording has no frame of pass {}",
+                  *options_.merge.pass);
+    if (none) return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
+    TURNSCAN_ASSIGN(const auto estimate, first_frames_.estimate());
+    return start_method(estimate, true, context);
+  }
+
+  /// Makes the method and adds the frames that waited for it. whole: there will be no others.
+  Result<> start_method(const estimation::ScanEstimate& estimate, bool whole,
+                        const RunContext& context) {
+    out_.frame_spacing_m = estimate.spacing_m;
+    out_.sensor_noise_m = estimate.noise_m;
+    out_.choices = estimate.choices;
+    out_.notes = estimate.notes;
+    const std::vector<Frame>& frames = first_frames_.frames();
+    {
+      const std::lock_guard lock(mutex_);
+      TURNSCAN_ASSIGN(method_, entry_.create({header_, options_, rays_, estimate, frames, whole}));
+    }
+    TURNSCAN_TRY(method_->add(
+        first_frames_.posed_frames(), [&](std::size_t i) -> Result<Frame> { return frames[i]; },
+        context, out_));
+    first_frames_.clear();
+    return method_->begin();
+  }
+
+  SequenceHeader header_;
+  ReconstructOptions options_;
+  const MethodEntry& entry_;
+  std::vector<RayTable> rays_;  ///< per sensor
+  FramePoser poser_;
+  std::optional<FrameInfo> first_;  ///< of those used, dropped ones too
+  estimation::FirstFrames first_frames_;
+  std::mutex mutex_;  ///< guards the pointer method_
+  std::unique_ptr<Method> method_;
+  Reconstruction out_;
+};
+
+ReconstructionStream::ReconstructionStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ReconstructionStream::ReconstructionStream(ReconstructionStream&&) noexcept = default;
+ReconstructionStream& ReconstructionStream::operator=(ReconstructionStream&&) noexcept = default;
+ReconstructionStream::~ReconstructionStream() = default;
+
+Result<ReconstructionStream> ReconstructionStream::create(const SequenceHeader& header,
+                                                          const ReconstructOptions& options) {
+  TURNSCAN_TRY(check_options(options));
+  return ReconstructionStream(std::make_unique<Impl>(header, options));
+}
+
+Result<> ReconstructionStream::add(const std::vector<FrameInfo>& infos, const FrameReader& read,
+                                   const RunContext& context) {
+  return impl_->add(infos, read, context);
+}
+
+Result<> ReconstructionStream::add(const std::vector<Frame>& frames, const RunContext& context) {
+  std::vector<FrameInfo> infos;
+  for (const Frame& frame : frames) infos.push_back(frame.info);
+  return impl_->add(
+      infos, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
+}
+
+Result<TriangleMesh> ReconstructionStream::preview(const RunContext& context) const {
+  return impl_->preview(context);
+}
+
+Result<Reconstruction> ReconstructionStream::finish(const StageSink& sink,
+                                                    const RunContext& context) {
+  return impl_->finish(sink, context);
+}
+
+}  // namespace turnscan

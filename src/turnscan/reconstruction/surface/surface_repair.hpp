@@ -1,0 +1,33 @@
+#pragma once
+// From what a surface method gives to a mesh that can be printed.
+
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
+
+namespace turnscan::surface {
+
+struct RepairedMesh {
+  TriangleMesh mesh;
+  MeshReport check;
+  double invented_area_m2 = 0.0;   ///< of triangles farther than reach_m from any candidate
+  std::vector<std::string> notes;  ///< what was done, for people
+};
+
+/// Makes a Poisson surface one closed, 2-manifold, outward piece: pieces other than the one with
+/// the most vertices near candidates go; and where no candidate is within reach_m, what Poisson
+/// invented (blobs, sheets) is replaced by a smooth and tight continuation of its surroundings if
+/// it swells beyond them.
+/// Fails with kLibrary, saying what is wrong, when the result would not be watertight.
+Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& candidates,
+                                    double reach_m, const RunContext& context);
+
+/// A closed, 2-manifold, outward surface around a concave hull: wrapped on cells of cell_m.
+Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointCloud& candidates,
+                                         double cell_m, double reach_m, const RunContext& context);
+
+/// Colour of each vertex: the weighted mean of the three nearest candidates.
+void color_vertices(TriangleMesh& mesh, const PointCloud& candidates);
+
+}  // namespace turnscan::surface

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/tsdf/volume.hpp>
+
+namespace turnscan::tsdf {
+
+/// The harmonic function that continues what is known of a volume, on cells of 4^3 samples (2^3 a
+/// brick): signs and first values for what no view saw. Solved by Gauss and Seidel's iteration from
+/// coarse to fine.
+class HarmonicFill {
+ public:
+  /// Beyond the volume everything is outside, but under a platter. Fails with kCancelled.
+  static Result<HarmonicFill> solve(const Volume& volume, bool on_platter,
+                                    const RunContext& context);
+
+  /// Of a cell; beyond the volume that of the nearest one.
+  float cell(int i, int j, int k) const;
+  /// Trilinear between cell centres, at a sample.
+  float at_sample(int i, int j, int k) const;
+
+ private:
+  /// The cells, or the coarser ones of a level above them.
+  struct FillLevel {
+    GridIndex cells;
+    std::vector<float> value;
+    std::vector<std::uint8_t> fixed;
+
+    explicit FillLevel(const GridCoords& size)
+        : cells(size), value(cells.count(), 0.0f), fixed(cells.count(), 0) {}
+    std::size_t at(int i, int j, int k) const { return cells.at({i, j, k}); }
+  };
+
+  explicit HarmonicFill(FillLevel finest, float outside, bool on_platter)
+      : outside_(outside), on_platter_(on_platter) {
+    levels_.push_back(std::move(finest));
+  }
+  static FillLevel finest_level(const Volume& volume);
+  static FillLevel halved(const FillLevel& fine);
+  static void prolong(const FillLevel& coarse, FillLevel& fine);
+  void relax(FillLevel& level) const;
+
+  float outside_;
+  bool on_platter_;
+  std::vector<FillLevel> levels_;  ///< finest first
+};
+
+}  // namespace turnscan::tsdf

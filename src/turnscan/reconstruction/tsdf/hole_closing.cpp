@@ -1,0 +1,283 @@
+// What no view saw: decided by what lies around it.
+
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
+#include <turnscan/reconstruction/tsdf/outside_flood.hpp>
+#include <turnscan/reconstruction/tsdf/volume_samples.hpp>
+
+namespace turnscan::tsdf {
+
+namespace {
+
+constexpr int kMostExtensions = 8;
+constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
+
+/// Calls body(i, j, k) for each sample of a brick.
+template <class Body>
+void for_each_in_brick(const Body& body) {
+  for (int k = 0; k < kBrickSide; ++k) {
+    for (int j = 0; j < kBrickSide; ++j) {
+      for (int i = 0; i < kBrickSide; ++i) body(i, j, k);
+    }
+  }
+}
+
+class HoleClosing {
+ public:
+  HoleClosing(Volume& volume, const VolumeScale& scale, const RunContext& context)
+      : v_(volume), scale_(scale), context_(context), samples_(volume) {}
+
+  Result<> run() {
+    if (scale_.floor_m) forget_below_floor();
+    TURNSCAN_ASSIGN(const HarmonicFill fill,
+                    HarmonicFill::solve(v_, scale_.floor_m.has_value(), context_));
+    adopt(fill);
+    for (int round = 0; round < kMostExtensions; ++round) {
+      TURNSCAN_TRY(relax(round == 0 ? kFirstRounds : kMoreRounds));
+      if (!extend(fill)) break;
+    }
+    if (scale_.floor_m) extend_walls_to_platter();
+    TURNSCAN_TRY(context_.check());
+    fill_enclosed();
+    return {};
+  }
+
+ private:
+  /// First layer of samples that is looked up.
+  int floor_row() const {
+    return std::max(0, int(std::ceil((*scale_.floor_m - v_.origin_m.y()) / v_.cell_m)));
+  }
+
+  /// What was measured there may be the platter.
+  void forget_below_floor() {
+    const int floor = floor_row();
+    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
+      const int first = v_.bricks.coords(b)[1] * kBrickSide;
+      if (first >= floor) continue;
+      if (v_.slot[b] < 0) {
+        if (first + kBrickSide <= floor) v_.uniform[b] = 0.0f;
+        continue;
+      }
+      for (int j = 0; j < kBrickSide && first + j < floor; ++j) {
+        for (int c = 0; c < 64; ++c)
+          v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
+      }
+    }
+  }
+
+  void allocate_from(const HarmonicFill& fill, std::size_t b) {
+    const GridCoords at = v_.bricks.coords(b);
+    const float known = v_.uniform[b];
+    v_.allocate(b, known * float(v_.truncation_m));
+    const std::size_t base = v_.first_sample(b);
+    for_each_in_brick([&](int i, int j, int k) {
+      const std::size_t s = base + sample_in_brick(i, j, k);
+      if (known > 0.0f)
+        v_.weight[s] = 1.0f;  // seen empty, and stays so
+      else
+        v_.value[s] =
+            fill.at_sample(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k);
+    });
+    if (known <= 0.0f) has_unknown_[b] = 1;
+  }
+
+  /// Signs for bricks without samples, samples for those through which the surface may go, and
+  /// first values for what is unknown.
+  void adopt(const HarmonicFill& fill) {
+    has_unknown_.assign(v_.brick_count(), 0);
+    std::vector<std::size_t> crossed;
+    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
+      if (v_.slot[b] >= 0) {
+        start_unknown(fill, b);
+        continue;
+      }
+      if (v_.uniform[b] > 0.0f) continue;
+      const auto [negative, positive] = signs_around(fill, v_.bricks.coords(b));
+      if (negative && positive) {
+        crossed.push_back(b);
+      } else {
+        v_.uniform[b] = negative ? -1.0f : 1.0f;
+        guessed_.push_back(b);
+      }
+    }
+    for (const std::size_t b : crossed) allocate_from(fill, b);
+  }
+
+  /// Which signs the cells of a brick and those beside it have.
+  struct Signs {
+    bool negative = false, positive = false;
+  };
+  static Signs signs_around(const HarmonicFill& fill, const GridCoords& at) {
+    Signs out;
+    for (int k = -1; k < 3; ++k) {
+      for (int j = -1; j < 3; ++j) {
+        for (int i = -1; i < 3; ++i)
+          (fill.cell(2 * at[0] + i, 2 * at[1] + j, 2 * at[2] + k) < 0.0f ? out.negative
+                                                                         : out.positive) = true;
+      }
+    }
+    return out;
+  }
+
+  void start_unknown(const HarmonicFill& fill, std::size_t b) {
+    const GridCoords at = v_.bricks.coords(b);
+    for_each_in_brick([&](int i, int j, int k) {
+      const std::size_t s = v_.first_sample(b) + sample_in_brick(i, j, k);
+      if (v_.weight[s] > 0.0f) return;
+      v_.value[s] =
+          fill.at_sample(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k);
+      has_unknown_[b] = 1;
+    });
+  }
+
+  /// Rounds of Jacobi over what is unknown.
+  Result<> relax(int rounds) {
+    std::vector<std::size_t> work;
+    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
+      if (v_.slot[b] >= 0 && has_unknown_[b]) work.push_back(b);
+    }
+    std::vector<float> next(work.size() * kBrickSamples);
+    for (int round = 0; round < rounds; ++round) {
+      TURNSCAN_TRY(context_.check());
+      parallel_for(work.size(), 8,
+                   [&](std::size_t w) { relax_brick(work[w], &next[w * kBrickSamples]); });
+      parallel_for(work.size(), 64, [&](std::size_t w) {
+        std::copy_n(&next[w * kBrickSamples], kBrickSamples, &v_.value[v_.first_sample(work[w])]);
+      });
+    }
+    return {};
+  }
+
+  void relax_brick(std::size_t b, float* out) const {
+    constexpr int kRow = BrickHalo::kWide, kLayer = kRow * kRow;
+    const float outside = float(v_.truncation_m);
+    BrickHalo halo;
+    halo.gather(v_, samples_, v_.bricks.coords(b));
+    auto value = halo.value;
+    for (std::size_t c = 0; c < value.size(); ++c) {
+      if (halo.weight[c] > 0.0f) value[c] = boundary_value(value[c], outside);
+    }
+    for_each_in_brick([&](int i, int j, int k) {
+      const std::size_t c = BrickHalo::at(i, j, k);
+      const float sum = value[c - 1] + value[c + 1] + value[c - kRow] + value[c + kRow] +
+                        value[c - kLayer] + value[c + kLayer];
+      out[sample_in_brick(i, j, k)] = halo.weight[c] > 0.0f ? halo.value[c] : sum / 6.0f;
+    });
+  }
+
+  /// Gives samples to guessed bricks beside which the surface leaves a brick. Whether there were
+  /// any.
+  bool extend(const HarmonicFill& fill) {
+    std::vector<std::size_t> more;
+    for (const std::size_t b : guessed_) {
+      if (v_.slot[b] < 0 && borders_other_sign(b)) more.push_back(b);
+    }
+    for (const std::size_t b : more) allocate_from(fill, b);
+    return !more.empty();
+  }
+
+  bool borders_other_sign(std::size_t b) const {
+    const GridCoords at = v_.bricks.coords(b);
+    const bool negative = v_.uniform[b] < 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {-1, 1}) {
+        GridCoords next = at;
+        next[std::size_t(axis)] += side;
+        if (!v_.bricks.contains(next)) continue;
+        const std::size_t other = v_.bricks.at(next);
+        if (v_.slot[other] >= 0 ? face_differs(other, axis, side > 0 ? 0 : 7, negative)
+                                : (v_.uniform[other] < 0.0f) != negative)
+          return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether a layer of a brick's samples, across an axis, has one of the other sign.
+  bool face_differs(std::size_t b, int axis, int layer, bool negative) const {
+    const float* values = &v_.value[v_.first_sample(b)];
+    for (int c = 0; c < 64; ++c) {
+      GridCoords s{c & 7, c >> 3, layer};
+      if (axis == 0) s = {layer, c & 7, c >> 3};
+      if (axis == 1) s = {c & 7, layer, c >> 3};
+      if ((values[sample_in_brick(s[0], s[1], s[2])] < 0.0f) != negative) return true;
+    }
+    return false;
+  }
+
+  /// Walls go on straight down from the floor, and end at y = 0.
+  void extend_walls_to_platter() {
+    const int floor = floor_row();
+    const auto& size = samples_.size();
+    if (floor >= size[1]) return;
+    const int layers = floor / kBrickSide + 1;
+    allocate_columns(floor / kBrickSide, layers);
+    for (int k = 0; k < size[2]; ++k) {
+      for (int i = 0; i < size[0]; ++i) {
+        const float wall = samples_.value(i, floor, k);
+        for (int j = 0; j < layers * kBrickSide && j < size[1]; ++j) {
+          const std::ptrdiff_t s = samples_.at(i, j, k);
+          if (s < 0) continue;
+          const float under = -float(v_.position(i, j, k).y());
+          float& own = v_.value[std::size_t(s)];
+          own = std::max(j < floor ? wall : own, under);
+        }
+      }
+    }
+  }
+
+  /// Samples for the lowest layers of bricks, but where the brick of layer `source` is all outside:
+  /// there they are outside, too.
+  void allocate_columns(int source, int layers) {
+    const GridCoords& bricks = v_.bricks.size();
+    std::vector<std::size_t> more;
+    for (int bz = 0; bz < bricks[2]; ++bz) {
+      for (int bx = 0; bx < bricks[0]; ++bx) {
+        const std::size_t above = v_.bricks.at({bx, source, bz});
+        const bool outside = v_.slot[above] < 0 && v_.uniform[above] > 0.0f;
+        for (int by = 0; by < layers && by < bricks[1]; ++by) {
+          const std::size_t b = v_.bricks.at({bx, by, bz});
+          if (v_.slot[b] < 0 && !outside)
+            more.push_back(b);
+          else if (v_.slot[b] < 0)
+            v_.uniform[b] = 1.0f;
+        }
+      }
+    }
+    for (const std::size_t b : more) v_.allocate(b, v_.uniform[b] * float(v_.truncation_m));
+  }
+
+  /// Free space that cannot be reached from beyond the volume becomes inside.
+  void fill_enclosed() {
+    const OutsideFlood flood(v_);
+    parallel_for(v_.brick_count(), 64, [&](std::size_t b) {
+      if (v_.slot[b] < 0) {
+        if (!flood.reached(b, 0)) v_.uniform[b] = -1.0f;
+        return;
+      }
+      float* value = &v_.value[v_.first_sample(b)];
+      for (std::size_t c = 0; c < kBrickSamples; ++c) {
+        if (value[c] >= 0.0f && !flood.reached(b, c))
+          value[c] = -std::max(value[c], 0.1f * float(v_.cell_m));
+      }
+    });
+  }
+
+  Volume& v_;
+  const VolumeScale& scale_;
+  const RunContext& context_;
+  VolumeSamples samples_;
+  std::vector<std::uint8_t> has_unknown_;  // per brick with samples
+  std::vector<std::size_t> guessed_;       // bricks without samples that no view saw
+};
+
+}  // namespace
+
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const RunContext& context) {
+  context.begin_phase("closing", 0);
+  return HoleClosing(volume, scale, context).run();
+}
+
+}  // namespace turnscan::tsdf

@@ -1,0 +1,41 @@
+#pragma once
+// The points that views measured, and the box around them.
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <turnscan/reconstruction/views/depth_view.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
+
+namespace turnscan::tsdf {
+
+/// Calls take(p_table) for what a view measured in the cylinder, if there is one; edges left out.
+template <class Take>
+void for_each_point(const views::DepthView& view, const std::optional<Cylinder>& cylinder,
+                    const Take& take) {
+  const Eigen::Matrix3f back = view.rotation.transpose();
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const std::uint32_t word = view.pixels[std::size_t(y) * std::size_t(view.width) + x];
+      if ((word & 0xffffu) == 0 || (word & views::DepthView::kEdge) != 0) continue;
+      const float z = float(word & 0xffffu) * view.unit_m + view.bias_m;
+      const float s = view.parallel ? 1.0f : z;
+      const Vec3f p =
+          back * (Vec3f((float(x) - view.cx) / view.fx * s, (float(y) - view.cy) / view.fy * s, z) -
+                  view.translation);
+      if (!cylinder || cylinder->contains(p.cast<double>())) take(p);
+    }
+  }
+}
+
+/// The box around the points of about most_views of the views, evenly spread, but for the outermost
+/// 2 in 10,000 of each side, which may be stray. Empty without a point.
+Box measured_box(std::span<const views::DepthView> views, const std::optional<Cylinder>& cylinder,
+                 std::size_t most_views = std::numeric_limits<std::size_t>::max());
+
+/// Distance between views of which about most_views are looked at.
+inline std::size_t view_stride(std::size_t views, std::size_t most_views) {
+  return std::max<std::size_t>(1, views / most_views);
+}
+
+}  // namespace turnscan::tsdf

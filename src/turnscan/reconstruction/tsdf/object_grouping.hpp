@@ -1,0 +1,29 @@
+#pragma once
+// Which of a surface's connected components are objects, which are detached parts of one, and which
+// are nothing.
+
+#include <optional>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::tsdf {
+
+struct GroupingRules {
+  double min_share = 0.0;  ///< components with less of the largest one's area are dropped
+  std::size_t keep = 0;    ///< most objects that are kept, the largest; 0: all
+  /// Components that lie entirely above this height (y) are detached: no frame showed what holds
+  /// them. nullopt: none are.
+  std::optional<double> detached_above_m;
+};
+
+/// Whether a closed mesh is more than nothing: not a hole within another component, which few
+/// frames leave and nobody sees or prints, nor a crumb of a voxel or two, which is folded already
+/// or folds where it is fitted.
+bool encloses_volume(const TriangleMesh& mesh);
+
+/// Components of each object, largest object first: the one that stands, which may be the largest
+/// wherever it lies, then the detached ones that are nearest to it.
+std::vector<std::vector<TriangleMesh>> group_objects(std::vector<TriangleMesh> components,
+                                                     const GroupingRules& rules);
+
+}  // namespace turnscan::tsdf

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <numeric>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_measure.hpp>
+#include <turnscan/reconstruction/tsdf/measured_points.hpp>
+#include <turnscan/reconstruction/tsdf/piece_measures.hpp>
+
+namespace turnscan::tsdf {
+
+namespace {
+
+constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
+
+}  // namespace
+
+void measure_confidence(VolumetricPiece& piece) {
+  std::vector<float> sorted = piece.support;
+  const auto typical = float(median(sorted));
+  for (const float s : piece.support)
+    piece.confidence.push_back(typical > 0.0f ? std::min(1.0f, s / typical) : 0.0f);
+}
+
+std::vector<std::uint8_t> measure_invented(VolumetricPiece& piece, const VolumeScale& scale) {
+  const auto& p = piece.mesh.vertices;
+  const float base = scale.floor_m ? float(*scale.floor_m) : -1e30f;
+  std::vector<std::uint8_t> invented(piece.mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < invented.size(); ++i) {
+    const auto& t = piece.mesh.triangles[i];
+    const double area = triangle_area(piece.mesh, i);
+    const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+    const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
+    if (high < base && high - low < 0.1f * float(scale.cell_m)) {
+      piece.base_area_m2 += area;
+    } else if (std::any_of(t.begin(), t.end(),
+                           [&](std::uint32_t v) { return piece.confidence[v] < kInvented; })) {
+      invented[i] = 1;
+      piece.invented_area_m2 += area;
+    }
+  }
+  return invented;
+}
+
+std::size_t count_points(const VolumetricInput& input, const Box& box) {
+  std::vector<std::size_t> counts(input.views.size(), 0);
+  parallel_for(counts.size(), 4, [&](std::size_t v) {
+    for_each_point(input.views[v], input.cylinder, [&](const Vec3f& p) {
+      const auto q = p.cast<double>().array();
+      if ((q >= box.min.array()).all() && (q <= box.max.array()).all()) ++counts[v];
+    });
+  });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+}
+
+}  // namespace turnscan::tsdf

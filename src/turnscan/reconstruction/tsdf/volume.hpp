@@ -1,0 +1,64 @@
+#pragma once
+// A truncated signed distance field (TSDF) around what the views saw, in bricks of samples.
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/geometry/grid/grid_index.hpp>
+#include <turnscan/geometry/grid/isosurface.hpp>
+#include <turnscan/reconstruction/views/depth_view.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
+
+namespace turnscan::tsdf {
+
+struct VolumeScale {
+  double cell_m = 0.001;  ///< the voxel size: distance between samples
+  /// Along its ray, a measurement counts for samples up to this far before and behind it.
+  double truncation_m = 0.005;
+  /// Up to this far behind it with full weight; from there to the truncation its weight falls to 0.
+  double full_weight_behind_m = 0.003;
+  float edge_weight = 0.1f;          ///< of measurements beside an edge
+  std::optional<Cylinder> cylinder;  ///< what counts
+  std::optional<double> floor_m;     ///< on a platter: lowest height at which samples are looked up
+  std::size_t max_bytes = std::size_t(600) << 20;
+};
+
+/// Samples at origin + cell * (i, j, k), in bricks of 8^3 that exist only where a surface may be.
+/// Negative is inside.
+class Volume {
+ public:
+  Vec3d origin_m = Vec3d::Zero();
+  double cell_m = 0.0;
+  double truncation_m = 0.0;
+  GridIndex bricks;
+  std::vector<std::int32_t> slot;  ///< per brick: number of its samples, or -1
+  std::vector<float> uniform;      ///< per brick without samples: +1 free, -1 inside, 0 unknown
+  std::vector<float> value;        ///< 512 per slot, metres
+  std::vector<float> weight;       ///< 512 per slot; 0: unknown
+
+  /// So many bricks along each axis, none with samples, all unknown.
+  void set_bricks(const GridCoords& size);
+  std::size_t brick_count() const { return slot.size(); }
+  Vec3d position(int i, int j, int k) const { return origin_m + cell_m * Vec3d(i, j, k); }
+  std::size_t slots() const { return value.size() / kBrickSamples; }
+  /// Position of a brick's first sample in value and weight; the brick must have samples.
+  std::size_t first_sample(std::size_t brick) const {
+    return std::size_t(slot[brick]) * kBrickSamples;
+  }
+  /// Gives a brick samples, at first `start` with weight 0.
+  void allocate(std::size_t brick, float start);
+  /// Those with samples, in ascending order.
+  std::vector<std::size_t> allocated_bricks() const;
+};
+
+/// Averages known samples with their known neighbours, by their weights.
+void smooth(Volume& volume, int rounds);
+
+/// Decides what no view saw: the harmonic function that continues what is known, positive beyond
+/// the volume; below the floor of a platter the walls go on down and end flat at y = 0. Enclosed
+/// free spaces that do not reach the outside are filled. Fails with kCancelled, and then leaves the
+/// volume half done.
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const RunContext& context);
+
+/// For isosurface(). Fails as BrickGrid does.
+Result<BrickGrid> to_grid(const Volume& volume, std::size_t max_bytes);
+
+}  // namespace turnscan::tsdf

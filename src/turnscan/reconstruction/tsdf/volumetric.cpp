@@ -1,0 +1,173 @@
+#include <turnscan/geometry/mesh/even_out.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/simplify.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/tsdf/measured_points.hpp>
+#include <turnscan/reconstruction/tsdf/object_grouping.hpp>
+#include <turnscan/reconstruction/tsdf/piece_measures.hpp>
+#include <turnscan/reconstruction/tsdf/simplify_within.hpp>
+#include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
+#include <turnscan/reconstruction/tsdf/volumetric.hpp>
+
+namespace turnscan::tsdf {
+
+namespace {
+
+constexpr std::size_t kSampledViews = 64;
+
+using mesh_refinement::MeshFit;
+using mesh_refinement::MeshFitScale;
+
+/// From the surface's components to refined, measured pieces.
+class VolumetricReconstruction {
+ public:
+  VolumetricReconstruction(const VolumetricInput& input, const VolumetricScale& scale,
+                           const VolumetricOptions& options, const RunContext& context)
+      : input_(input), scale_(scale), options_(options), context_(context) {}
+
+  Result<VolumetricResult> run(const Integrator& integrator, double min_share) {
+    const Box box = measured_box(input_);
+    if (box.empty())
+      return fail(ErrorCode::kTooFewPoints, "volumetric: no frame has a point on the object");
+    TURNSCAN_ASSIGN(const ExtractedSurface surface,
+                    extract_surface(integrator, scale_.volume, box, out_.stages, context_));
+    TURNSCAN_ASSIGN(std::vector<TriangleMesh> components, split_components(surface.mesh));
+    for (const auto& object : group_objects(std::move(components), grouping_rules(min_share)))
+      TURNSCAN_TRY(refine(object, surface.grid));
+    if (out_.pieces.empty())
+      return fail(
+          ErrorCode::kTooFewPoints,
+          "volumetric: the frames show no surface: where one sees something, others see past "
+          "it; check the turntable's place and the angles");
+    for (VolumetricPiece& piece : out_.pieces) {
+      TURNSCAN_TRY(reduce_triangles(piece));
+      TURNSCAN_TRY(color(piece));
+      measure(piece);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  template <class Stage>
+  auto timed(const char* name, const Stage& stage) {
+    return turnscan::timed(out_.stages, name, stage);
+  }
+
+  GroupingRules grouping_rules(double min_share) const {
+    const VolumeScale& volume = scale_.volume;
+    GroupingRules rules;
+    rules.min_share = min_share;
+    rules.keep = std::size_t(input_.keep);
+    if (volume.floor_m)
+      rules.detached_above_m = *volume.floor_m + volume.truncation_m + volume.cell_m;
+    return rules;
+  }
+
+  /// Evens out and fits the components of an object, and makes one piece of them.
+  Result<> refine(const std::vector<TriangleMesh>& components, const EvenOutScale& grid) {
+    VolumetricPiece piece;
+    std::vector<TriangleMesh> refined;
+    for (const TriangleMesh& component : components) {
+      TURNSCAN_ASSIGN(const TriangleMesh even,
+                      timed("even out", [&] { return even_out(component, grid, context_); }));
+      TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
+                        return fit_mesh(even, input_.views, fit_scale(), context_);
+                      }));
+      if (options_.sharpen && input_.filter_share > 0.0)
+        TURNSCAN_TRY(timed("sharpen", [&] {
+          return sharpen_mesh(fitted.mesh, input_.views, input_.filter_share, fit_scale(),
+                              context_);
+        }));
+      if (!encloses_volume(fitted.mesh)) continue;
+      piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
+      refined.push_back(std::move(fitted.mesh));
+    }
+    if (refined.empty()) return {};
+    piece.detached = refined.size() - 1;
+    piece.mesh = refined.size() == 1 ? std::move(refined[0]) : join_meshes(refined);
+    out_.pieces.push_back(std::move(piece));
+    return {};
+  }
+
+  /// If asked for; then the support is measured again.
+  Result<> reduce_triangles(VolumetricPiece& piece) {
+    const std::size_t all = piece.mesh.triangles.size();
+    const std::size_t most = options_.triangles ? std::size_t(*options_.triangles) : all;
+    if (most >= all && !options_.max_error_m) return {};
+    TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&]() -> Result<TriangleMesh> {
+                      if (!options_.max_error_m) return simplify(piece.mesh, {most, 1e30, false});
+                      return simplify_within(piece.mesh, options_.triangles ? most : 0,
+                                             *options_.max_error_m, context_);
+                    }));
+    MeshFitScale scale = fit_scale();
+    scale.iterations = 0;
+    TURNSCAN_ASSIGN(MeshFit measured, fit_mesh(piece.mesh, input_.views, scale, context_));
+    piece.support = std::move(measured.support);
+    return {};
+  }
+
+  Result<> color(VolumetricPiece& piece) {
+    if (!input_.colored) return {};
+    const double tolerance = 3.0 * input_.noise_m + 2.0 * scale_.volume.cell_m;
+    TURNSCAN_TRY(timed("colour", [&] {
+      return mesh_refinement::color_from_views(piece.mesh, input_.views, tolerance, context_);
+    }));
+    return {};
+  }
+
+  /// What no frame measured, and how many points there are.
+  void measure(VolumetricPiece& piece) const {
+    measure_confidence(piece);
+    const std::vector<std::uint8_t> invented = measure_invented(piece, scale_.volume);
+    if (options_.mark_invented) mesh_refinement::paint_triangles(piece.mesh, invented);
+    Box box = bounds(piece.mesh.vertices);
+    box.min.array() -= scale_.volume.truncation_m;
+    box.max.array() += scale_.volume.truncation_m;
+    piece.points = count_points(input_, box);
+  }
+
+  MeshFitScale fit_scale() const {
+    const VolumeScale& volume = scale_.volume;
+    MeshFitScale scale;
+    scale.noise_m = input_.noise_m;
+    scale.reach_m = scale_.fit_reach_m;
+    scale.floor_m = 0.1 * input_.noise_m + 0.1 * volume.cell_m;
+    scale.limit_m = 2.0 * volume.cell_m;
+    scale.fair_m = 4.0 * volume.cell_m;
+    scale.iterations = options_.fit ? options_.fit_iterations : 0;
+    if (volume.floor_m) scale.floor_height_m = *volume.floor_m;
+    return scale;
+  }
+
+  const VolumetricInput& input_;
+  const VolumetricScale& scale_;
+  const VolumetricOptions& options_;
+  const RunContext& context_;
+  VolumetricResult out_;
+};
+
+}  // namespace
+
+std::vector<Vec3f> sample_points(const VolumetricInput& input) {
+  std::vector<Vec3f> points;
+  const std::size_t stride = view_stride(input.views.size(), kSampledViews);
+  for (std::size_t v = 0; v < input.views.size(); v += stride)
+    for_each_point(input.views[v], input.cylinder, [&](const Vec3f& p) { points.push_back(p); });
+  return points;
+}
+
+Box measured_box(const VolumetricInput& input) {
+  return measured_box(input.views, input.cylinder, kSampledViews);
+}
+
+Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,
+                                            const VolumetricScale& scale,
+                                            const Integrator& integrator,
+                                            const VolumetricOptions& options, double min_share,
+                                            const RunContext& context) {
+  return VolumetricReconstruction(input, scale, options, context).run(integrator, min_share);
+}
+
+}  // namespace turnscan::tsdf

@@ -1,0 +1,66 @@
+#pragma once
+// The volumetric method: from the integrated views to closed meshes.
+
+#include <turnscan/reconstruction/options/volumetric_options.hpp>
+#include <turnscan/reconstruction/result.hpp>
+#include <turnscan/reconstruction/tsdf/integrator.hpp>
+#include <turnscan/reconstruction/views/depth_view.hpp>
+
+namespace turnscan::tsdf {
+
+/// What the volumetric method is told about the data.
+struct VolumetricInput {
+  std::vector<views::DepthView> views;  ///< all, or as many as are kept, evenly spread
+  double noise_m = 0.0;                 ///< of a depth along its ray
+  double spacing_m = 0.0;               ///< of the points of one frame
+  /// Distance between samples over spacing_m. A camera's many frames fall between each other's
+  /// pixels; a few range scans do not.
+  double cells_of_spacing = 0.5;
+  double filter_share = 0.0;     ///< of a pixel's neighbours in its depth, see sensor_filter.hpp
+  bool profiles = false;         ///< of a line scanner: views are parts of one long scan
+  bool colored = false;          ///< the mesh gets the views' colours
+  std::optional<double> cell_m;  ///< distance between samples; nullopt: from the spacing
+  std::optional<int> grid;       ///< or: samples along the longest side
+  int keep = 0;                  ///< largest pieces that are kept; 0: all
+  std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
+};
+
+/// An object.
+struct VolumetricPiece {
+  TriangleMesh mesh;
+  std::vector<float> support;     ///< per vertex: sum of the weights of its measurements
+  std::vector<float> confidence;  ///< per vertex: support over its median, at most 1
+  double invented_area_m2 = 0.0;  ///< where vertices have a fiftieth of the usual support or less
+  double base_area_m2 = 0.0;      ///< closed flat on the platter
+  std::size_t points = 0;         ///< measured, in the box of the piece
+  std::size_t detached = 0;       ///< components that no frame shows to be connected to the rest
+};
+struct VolumetricResult {
+  std::vector<VolumetricPiece> pieces;  ///< largest area first
+  std::vector<StageTime> stages;
+};
+
+/// Points inside the cylinder of up to about 64 views spread over the input, edges left out.
+std::vector<Vec3f> sample_points(const VolumetricInput& input);
+/// The box around them, but for the outermost, which may be stray. Empty without a point.
+Box measured_box(const VolumetricInput& input);
+
+/// Lengths that follow from the data, and why.
+struct VolumetricScale {
+  VolumeScale volume;
+  double fit_reach_m = 0.0;
+  std::vector<Choice> choices;
+};
+VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
+                             const Box& box);
+
+/// Closed, 2-manifold, outward pieces from all views, integrated. Components with less than
+/// min_share of the largest one's area are dropped. Fails with kTooFewPoints when no surface is
+/// found, kResourceLimit, kCancelled.
+Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,
+                                            const VolumetricScale& scale,
+                                            const Integrator& integrator,
+                                            const VolumetricOptions& options, double min_share,
+                                            const RunContext& context);
+
+}  // namespace turnscan::tsdf

@@ -1,0 +1,316 @@
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <turnscan/geometry/grid/isosurface.hpp>
+#include <turnscan/reconstruction/estimation/scan_statistics.hpp>
+#include <turnscan/reconstruction/estimation/sensor_filter.hpp>
+#include <turnscan/reconstruction/length_text.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/tsdf/view_store.hpp>
+#include <turnscan/reconstruction/tsdf/volumetric.hpp>
+#include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
+#include <turnscan/reconstruction/views/profiles.hpp>
+
+namespace turnscan::tsdf {
+
+namespace {
+
+/// Views that are summed together, brick by brick. Always so many, however they come.
+constexpr std::size_t kViewsAtOnce = 16;
+/// At the end the noise may turn out to be so much larger than at first sight.
+constexpr double kNoiseSlack = 1.3;
+constexpr std::size_t kPreviewBricks = 4000;
+
+/// Fewer points than this make no object.
+constexpr std::uint64_t kFewestPoints = 100;
+
+/// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there
+/// are too few points to tell.
+double thickness(const VolumetricInput& input, double noise_m) {
+  points::MergedCloud sample;
+  sample.cloud.points = sample_points(input);
+  if (sample.cloud.size() < 100) return 0.0;
+  return estimation::cloud_statistics(sample, 3.0 * std::max(input.spacing_m, noise_m)).noise_m;
+}
+
+/// What a frame gives: a view, or a profile of a line scanner, which waits for those after it.
+struct FrameView {
+  views::DepthView view;
+  std::optional<views::Profile> profile;
+  std::uint64_t returns = 0, inside_crop = 0;
+};
+
+class VolumetricMethod final : public Method {
+ public:
+  static Result<std::unique_ptr<Method>> create(const MethodInput& input);
+
+  explicit VolumetricMethod(const MethodInput& input)
+      : header_(input.header),
+        options_(input.options),
+        rays_(input.rays),
+        estimate_(input.estimate) {}
+
+  Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
+               const RunContext& context, Reconstruction& out) override;
+  /// Chooses the scale from the views that are there.
+  Result<> begin() override;
+  Result<TriangleMesh> preview(const RunContext& context) const override;
+  Result<> finish(const StageSink& sink, const RunContext& context, Reconstruction& out) override;
+
+ private:
+  Result<FrameView> view_of(const Frame& frame, const Pose& T_table_sensor) const;
+  Result<> add_profiles(const std::vector<views::Profile>& group, std::uint32_t sensor);
+  Result<> add_view(views::DepthView view, std::uint32_t sensor);
+  Result<> integrate_pending(bool all);
+  Result<> correct_noise(Reconstruction& out);
+  ObjectResult object_of(VolumetricPiece& piece) const;
+
+  const SequenceHeader& header_;
+  const ReconstructOptions& options_;
+  const std::vector<RayTable>& rays_;
+  estimation::ScanEstimate estimate_;
+  views::ViewScale view_scale_;
+  VolumetricInput input_;    ///< its views only at the end
+  bool are_images_ = false;  ///< depth images, all of them
+  bool begun_ = false;
+  std::map<std::uint32_t, views::ProfileGroups> profiles_;  ///< per sensor: of line scanners
+  std::vector<views::DepthView> pending_;
+  std::vector<std::uint32_t> pending_sensor_;
+  ViewStore kept_;
+  VolumetricScale scale_;
+  mutable std::mutex mutex_;  ///< guards integrator_
+  Integrator integrator_;
+};
+
+Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) {
+  auto method = std::make_unique<VolumetricMethod>(in);
+  const double noise = in.estimate.noise_m, apart = in.estimate.even_spacing_m;
+  VolumetricInput& input = method->input_;
+  input.noise_m = noise;
+  // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
+  input.spacing_m = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
+  const auto& sensors = in.header.sensors;
+  if (std::all_of(sensors.begin(), sensors.end(),
+                  [](const SensorInfo& s) { return s.kind == SensorKind::kPointScanner; }))
+    input.cells_of_spacing = 0.9;
+  method->are_images_ = std::all_of(sensors.begin(), sensors.end(), [](const SensorInfo& s) {
+    return s.kind == SensorKind::kDepthCamera;
+  });
+  input.profiles = in.estimate.profiles;
+  input.cylinder = in.estimate.cylinder;
+  input.cell_m = in.options.voxels.size_m;
+  input.grid = in.options.voxels.grid;
+  TURNSCAN_ASSIGN(input.keep, objects_to_keep(in.options.components));
+  method->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m,
+                         in.options.color};
+  input.colored = in.options.color;
+  return method;
+}
+
+Result<> VolumetricMethod::add(std::span<const PosedFrame> frames, const FrameReader& read,
+                               const RunContext& context, Reconstruction& out) {
+  TURNSCAN_ASSIGN(auto views,
+                  process_frames<FrameView>(frames, read, context,
+                                            [&](const Frame& frame, const PosedFrame& posed) {
+                                              return view_of(frame, posed.T_table_sensor);
+                                            }));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    ++out.frames;
+    out.returns += views[i].returns;
+    out.inside_crop += views[i].inside_crop;
+    const std::uint32_t sensor = frames[i].info.sensor;
+    if (views[i].profile) {
+      TURNSCAN_TRY(add_profiles(profiles_[sensor].add(std::move(*views[i].profile)), sensor));
+    } else {
+      TURNSCAN_TRY(add_view(std::move(views[i].view), sensor));
+    }
+  }
+  return {};
+}
+
+/// May be called from several threads at once.
+Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_table_sensor) const {
+  FrameView out;
+  std::optional<SensorCrop> table_crop;
+  if (estimate_.cylinder) table_crop.emplace(*estimate_.cylinder, T_table_sensor);
+  const std::size_t s = frame.info.sensor;
+  if (!estimate_.sheets.at(s)) {
+    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s),
+                                               T_table_sensor, view_scale_, [&](const Vec3f& p) {
+                                                 return !table_crop || table_crop->keeps(p);
+                                               }));
+    out.returns = out.view.returns;
+    out.inside_crop = out.view.kept;
+    return out;
+  }
+  TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header_.sensors[s], rays_[s]));
+  out.returns = points.cloud.size();
+  points = views::in_sheet_order(points, *estimate_.sheets[s]);
+  if (table_crop) points = crop(points, *table_crop);
+  out.inside_crop = points.cloud.size();
+  out.profile = views::Profile{std::move(points), T_table_sensor};
+  return out;
+}
+
+Result<> VolumetricMethod::add_profiles(const std::vector<views::Profile>& group,
+                                        std::uint32_t sensor) {
+  if (group.empty()) return {};
+  return add_view(views::view_of_profiles(group, *estimate_.sheets[sensor], view_scale_), sensor);
+}
+
+Result<> VolumetricMethod::add_view(views::DepthView view, std::uint32_t sensor) {
+  if (view.empty()) return {};
+  pending_.push_back(std::move(view));
+  pending_sensor_.push_back(sensor);
+  return begun_ ? integrate_pending(false) : Result<>();
+}
+
+Result<> VolumetricMethod::begin() {
+  input_.views = std::move(pending_);
+  if (are_images_)
+    input_.filter_share = estimation::share_of_neighbours(input_.views, estimate_.noise_m);
+  input_.noise_m = std::max(estimate_.noise_m, thickness(input_, estimate_.noise_m));
+  scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
+  pending_ = std::move(input_.views);
+  {
+    const std::lock_guard lock(mutex_);
+    integrator_ = Integrator(scale_.volume);
+  }
+  begun_ = true;
+  return integrate_pending(false);
+}
+
+/// Integrates the whole batches of what is pending, or all of it.
+Result<> VolumetricMethod::integrate_pending(bool all) {
+  std::size_t done = 0;
+  while (done + (all ? 1 : kViewsAtOnce) <= pending_.size()) {
+    const std::size_t count = std::min(kViewsAtOnce, pending_.size() - done);
+    {
+      const std::lock_guard lock(mutex_);
+      TURNSCAN_TRY(integrator_.integrate(std::span(pending_).subspan(done, count),
+                                         {kept_.views(), float(kept_.stride())}));
+    }
+    for (std::size_t v = done; v < done + count; ++v)
+      kept_.add(std::move(pending_[v]), pending_sensor_[v]);
+    done += count;
+  }
+  pending_.erase(pending_.begin(), pending_.begin() + std::ptrdiff_t(done));
+  pending_sensor_.erase(pending_sensor_.begin(), pending_sensor_.begin() + std::ptrdiff_t(done));
+  return {};
+}
+
+/// When the frames' places disagree more than the first ones let expect, the volume is made once
+/// more, from the views that were kept.
+Result<> VolumetricMethod::correct_noise(Reconstruction& out) {
+  out.merged_noise_m = thickness(input_, estimate_.noise_m);
+  const double noise = std::max(estimate_.noise_m, out.merged_noise_m);
+  const bool again = noise > kNoiseSlack * input_.noise_m && !options_.volumetric.truncation_m;
+  input_.noise_m = noise;
+  if (!again) return {};
+  out.notes.push_back(
+      fmt::format("the frames' places disagree by {}, which the first frames did not show: the "
+                  "volume was made again",
+                  mm(noise)));
+  scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
+  Integrator integrator(scale_.volume);
+  const std::span<const views::DepthView> all(input_.views);
+  for (std::size_t v = 0; v < all.size(); v += kViewsAtOnce)
+    TURNSCAN_TRY(integrator.integrate(all.subspan(v, std::min(kViewsAtOnce, all.size() - v)),
+                                      {all.first(v), 1.0f}));
+  const std::lock_guard lock(mutex_);
+  integrator_ = std::move(integrator);
+  return {};
+}
+
+Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const {
+  Volume volume;
+  VolumeScale scale;
+  {
+    const std::lock_guard lock(mutex_);
+    volume = integrator_.extract_coarse_volume(kPreviewBricks);
+    scale = integrator_.scale();
+  }
+  if (volume.brick_count() == 0) return TriangleMesh();
+  scale.cell_m = volume.cell_m;
+  scale.truncation_m = volume.truncation_m;
+  TURNSCAN_TRY(close_holes(volume, scale, context));
+  TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(1) << 30));
+  return isosurface(grid, IsosurfaceOptions(), context);
+}
+
+ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
+  ObjectResult object;
+  object.mesh = std::move(piece.mesh);
+  object.check = check_mesh(object.mesh);
+  object.points = piece.points;
+  object.invented_area_m2 = piece.invented_area_m2;
+  object.confidence = std::move(piece.confidence);
+  if (options_.color && object.mesh.colors.empty())
+    object.notes.emplace_back("the recording has no colour");
+  if (piece.base_area_m2 > 0.0)
+    object.notes.push_back(
+        fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+  if (piece.detached > 0)
+    object.notes.push_back(fmt::format(
+        "{} part{} of it hang{} in the air: no frame shows what "
+        "connects them to the rest",
+        piece.detached, piece.detached == 1 ? "" : "s", piece.detached == 1 ? "s" : ""));
+  return object;
+}
+
+Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& context,
+                                  Reconstruction& out) {
+  for (auto& [sensor, group] : profiles_) TURNSCAN_TRY(add_profiles(group.flush(), sensor));
+  out.points = out.inside_crop;
+  if (out.inside_crop < kFewestPoints)
+    return fail(ErrorCode::kTooFewPoints,
+                "{} of {} returns are left after the crop; check the turntable's place, "
+                "--crop-margin and --crop-radius",
+                out.inside_crop, out.returns);
+  {
+    const StageTimer timer(out.stages, "frames");
+    TURNSCAN_TRY(integrate_pending(true));
+  }
+  TURNSCAN_TRY(context.check());
+  if (options_.volumetric.sharpen && input_.filter_share > 0.0)
+    out.notes.push_back(fmt::format(
+        "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
+        "edges are sharpened",
+        200.0 * input_.filter_share));
+  input_.views = kept_.take();
+  {
+    const StageTimer timer(out.stages, "noise");
+    TURNSCAN_TRY(correct_noise(out));
+  }
+  TURNSCAN_ASSIGN(VolumetricResult result,
+                  reconstruct_volume(input_, scale_, integrator_, options_.volumetric,
+                                     options_.components.min_share, context));
+  out.choices.insert(out.choices.end(), scale_.choices.begin(), scale_.choices.end());
+  out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
+  const StageTimer timer(out.stages, "check");
+  PointCloud fitted;
+  for (VolumetricPiece& piece : result.pieces) {
+    ObjectResult& object = out.objects.emplace_back(object_of(piece));
+    object.mesh.name = fmt::format("object {}", out.objects.size());
+    fitted.points.insert(fitted.points.end(), object.mesh.vertices.begin(),
+                         object.mesh.vertices.end());
+    fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());
+  }
+  return sink ? sink("fitted", fitted) : Result<>();
+}
+
+}  // namespace
+
+MethodEntry volumetric_method() {
+  MethodEntry entry;
+  entry.method = SurfaceMethod::kVolumetric;
+  entry.option_stages = {"crop", "volumetric"};
+  entry.options = {"speed",      "pass", "colour",           "voxel-size",
+                   "voxel-grid", "keep", "min-object-share", "method"};
+  entry.saveable_stages = {"fitted"};
+  entry.previews = true;
+  entry.create = &VolumetricMethod::create;
+  return entry;
+}
+
+}  // namespace turnscan::tsdf

@@ -1,0 +1,72 @@
+#pragma once
+// One frame as the volumetric method uses it: the window of a depth image in which the object lies,
+// with the depth that each pixel measured and how far it is sure to have seen free space.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/lens.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::views {
+
+/// Depth of a window of an image, packed one word a pixel, with an empty border of one pixel.
+/// p_view = rotation * p_table + translation; z forward. The image point of p_view is
+/// (fx x/z + cx, fy y/z + cy) in window pixels, after the lens's distortion; for parallel rays the
+/// division is left out and fx, fy are pixels per metre.
+struct DepthView {
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Vec3f translation = Vec3f::Zero();
+  float fx = 1.0f, fy = 1.0f, cx = 0.0f, cy = 0.0f;
+  std::array<float, 5> distortion{};  ///< as CameraIntrinsics::distortion
+  bool distorted = false;
+  bool parallel = false;
+  float unit_m = 1e-4f, bias_m = 0.0f;  ///< depth = raw * unit + bias
+  int width = 0, height = 0;            ///< with the border
+  /// Bits 0 to 15: raw depth, 0 where nothing was measured. Bits 17 to 31: half the raw depth in
+  /// front of which the pixel and its neighbours saw nothing, 0 where that is not known. Bit 16: on
+  /// the edge of something, hence perhaps a mixture of both sides.
+  std::vector<std::uint32_t> pixels;
+  std::uint16_t nearest = 0;  ///< of the raw depths; 0 where it is not known
+  std::vector<Rgb> colors;    ///< per pixel, black where there is none; or empty
+  std::uint32_t returns = 0;  ///< of the whole frame
+  std::uint32_t kept = 0;     ///< of these, those inside the crop
+
+  static constexpr std::uint32_t kEdge = 1u << 16;
+  static std::uint32_t pack(std::uint32_t raw, bool edge, std::uint32_t free) {
+    return raw | (edge ? kEdge : 0u) | (free >> 1 << 17);
+  }
+  bool empty() const { return pixels.empty(); }
+  /// Image point, in window pixels, of a point of the view's frame that lies before it.
+  Eigen::Vector2f project(const Vec3f& p_view) const {
+    const float z = parallel ? 1.0f : p_view.z();
+    float x = p_view.x() / z, y = p_view.y() / z;
+    if (distorted) distort(lens(), x, y);
+    return {x * fx + cx, y * fy + cy};
+  }
+  BrownConrady<float> lens() const {
+    return {distortion[0], distortion[1], distortion[2], distortion[3], distortion[4]};
+  }
+  /// Position of the sensor, or direction towards it, in the table frame.
+  Viewpoint viewpoint() const;
+};
+
+/// What makes a view out of a frame.
+struct ViewScale {
+  double edge_step_m = 0.012;  ///< a neighbour farther than this makes an edge
+  double spacing_m = 0.001;    ///< of the points of one frame; the pixel of resampled scans
+  bool colored = false;        ///< views carry colours where frames have any
+};
+
+/// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the
+/// frame's own. Range scans are resampled to an image as their viewpoint sees them: the triangles
+/// between neighbours in their grid, or the points alone where there is none.
+/// An empty view if nothing is accepted. rays must fit the sensor. Fails as points_of does.
+using KeepPoint = std::function<bool(const Vec3f& p_sensor)>;
+Result<DepthView> make_view(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
+                            const Pose& T_table_sensor, const ViewScale& scale,
+                            const KeepPoint& keep);
+
+}  // namespace turnscan::views

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/reconstruction/views/depth_window.hpp>
+
+namespace turnscan::views {
+
+namespace {
+
+constexpr std::uint16_t kFar = 65534;  // stands for "empty as far as it matters"
+
+/// Whether a neighbour is so much farther that the pixel may hold a mixture of both.
+bool beside_edge(const RawWindow& raw, int x, int y, int step) {
+  const int own = raw.at(x, y);
+  constexpr std::array<std::array<int, 2>, 4> kSides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  return std::any_of(kSides.begin(), kSides.end(), [&](const auto& side) {
+    const int u = x + side[0], v = y + side[1];
+    if (u < 0 || v < 0 || u >= raw.width || v >= raw.height) return true;
+    const std::uint16_t other = raw.at(u, v);
+    return !measured(other) || int(other) > own + step;
+  });
+}
+
+/// A pixel this near to another may look past what that one sees: its own share of the edge, and a
+/// pixel that the sensor's filter spreads it by.
+constexpr int kMayLookPast = 2;
+
+/// Per pixel the least depth of those around it, up to which it saw free space.
+Image<std::uint16_t> free_depths(const RawWindow& raw) {
+  const int w = raw.width, h = raw.height;
+  Image<std::uint16_t> rows(w, h), out(w, h);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      std::uint16_t least = kFar;
+      const int end = std::min(w - 1, x + kMayLookPast);
+      for (int u = std::max(0, x - kMayLookPast); u <= end; ++u)
+        least = std::min(least, measured(raw.at(u, y)) ? raw.at(u, y) : kFar);
+      rows.at(x, y) = least;
+    }
+  }
+  for (int y = 0; y < h; ++y) {
+    const int end = std::min(h - 1, y + kMayLookPast);
+    for (int x = 0; x < w; ++x) {
+      std::uint16_t least = kFar;
+      for (int v = std::max(0, y - kMayLookPast); v <= end; ++v)
+        least = std::min(least, rows.at(x, v));
+      out.at(x, y) = raw.at(x, y) == kNoReturn ? std::uint16_t(0) : least;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
+  const int step = int(std::lround(edge_step_m / double(view.unit_m)));
+  view.width = raw.width + 2;
+  view.height = raw.height + 2;
+  const Image<std::uint16_t> free = free_depths(raw);
+  view.pixels.assign(std::size_t(view.width) * std::size_t(view.height), 0);
+  std::uint16_t nearest = kFar;
+  for (int y = 0; y < raw.height; ++y) {
+    for (int x = 0; x < raw.width; ++x) {
+      const std::uint16_t own = raw.at(x, y);
+      const std::uint32_t depth = measured(own) ? own : 0u;
+      if (depth != 0) nearest = std::min(nearest, own);
+      view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
+          DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step), free.at(x, y));
+    }
+  }
+  view.nearest = nearest;
+}
+
+void set_pose(DepthView& view, const Pose& T_table_view) {
+  const Pose inverse = T_table_view.inverse();
+  view.rotation = inverse.linear().cast<float>();
+  view.translation = inverse.translation().cast<float>();
+}
+
+}  // namespace turnscan::views

@@ -1,0 +1,17 @@
+#pragma once
+// Stable radix sort by key, on all cores; its result does not depend on their number.
+
+#include <cstdint>
+#include <vector>
+
+namespace turnscan::points {
+
+struct KeyedItem {
+  std::uint64_t key;
+  std::uint32_t item;
+};
+
+/// Sorts in ascending order; items with equal keys keep their order. max_key: no key is above it.
+void sort_by_key(std::vector<KeyedItem>& items, std::uint64_t max_key);
+
+}  // namespace turnscan::points

@@ -1,0 +1,44 @@
+#pragma once
+// From frames to one cloud in the table frame (thesis 3.4.1).
+
+#include <turnscan/core/frame.hpp>
+#include <turnscan/reconstruction/outliers/outliers.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
+
+namespace turnscan::points {
+
+/// All points of a scan in the table frame, with where each was seen from.
+struct MergedCloud {
+  PointCloud cloud;                   ///< cloud.frame is set: position of the frame
+  std::vector<Viewpoint> viewpoints;  ///< per frame, table frame, the turn taken out
+  std::uint64_t returns = 0;          ///< valid returns of all frames before the crop
+  std::uint64_t inside_crop = 0;      ///< of these
+  std::uint64_t kept = 0;             ///< of these, kept by the filter of each frame
+  std::size_t frames = 0;             ///< frames used
+
+  /// Unit vector from point i towards the sensor that saw it.
+  Vec3f towards_sensor(std::size_t i) const;
+};
+
+/// The per-frame part: a pure function of one frame. Crop (if any), filter, then to the table.
+struct FrameRecipe {
+  const SequenceHeader* header = nullptr;
+  std::vector<RayTable> rays;  ///< per sensor
+  std::optional<Cylinder> cylinder;
+  OutlierOptions outliers;
+
+  static FrameRecipe make(const SequenceHeader& header);
+};
+struct FramePart {
+  PointCloud cloud;  ///< table frame
+  std::uint64_t returns = 0;
+  std::uint64_t inside_crop = 0;  ///< of these
+};
+Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
+                                const Pose& T_table_sensor);
+
+/// Joins what a frame gave; its viewpoint is in the table frame. Colours are kept for all points or
+/// for none.
+void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merged);
+
+}  // namespace turnscan::points

@@ -1,0 +1,35 @@
+#pragma once
+// recording.json as text.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/io/text/json_fields.hpp>
+#include <turnscan/recording/recording.hpp>
+
+namespace turnscan::recording_format {
+
+inline constexpr std::uint64_t kMaxDescriptionBytes = std::uint64_t(4) << 20;
+
+struct RecordingDescription {
+  SequenceHeader header;
+  CaptureSettings capture;
+  bool complete = false;
+  std::optional<std::uint32_t> frame_count;  ///< known once complete
+};
+
+/// Fails with kUnsupported when the schema is newer, with kFormat when a field is missing or wrong.
+/// Unknown fields are ignored.
+Result<RecordingDescription> parse_recording_json(std::string_view text);
+
+std::string recording_json(const RecordingDescription& description);
+
+/// The object "turntable", SI units.
+text::OrderedJson turntable_json(const TurntableInfo& table);
+
+/// Fails with kInvalidOption, naming the sensor, unless all values of the header are usable.
+Result<> check_header(const SequenceHeader& header);
+
+}  // namespace turnscan::recording_format

@@ -1,0 +1,164 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <turnscan/core/units.hpp>
+#include <turnscan/io/text/json_fields.hpp>
+#include <turnscan/recording/recording_json.hpp>
+#include <turnscan/recording/summary.hpp>
+
+namespace turnscan::recording_format {
+
+namespace {
+
+std::string span_text(const ValueSpan& span, Quantity quantity) {
+  return fmt::format("{} to {}", format_quantity(span.min, quantity),
+                     format_quantity(span.max, quantity));
+}
+
+std::string vector_text(const Vec3d& v, Quantity quantity) {
+  return fmt::format("({}, {}, {})", format_quantity(v.x(), quantity),
+                     format_quantity(v.y(), quantity), format_quantity(v.z(), quantity));
+}
+
+std::string position_text(const SequenceSummary& s) {
+  const std::size_t used = s.frames - s.dropped;
+  std::string text;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", ";
+    text += count == used ? what : fmt::format("{} ({} of {})", what, count, used);
+  };
+  add(s.with_pose, "pose");
+  add(s.with_angle, "angle");
+  add(s.with_time, "time");
+  return text.empty() ? "nothing" : text;
+}
+
+void put_sensor(std::size_t number, const SensorSummary& sensor, std::string& out) {
+  const SensorInfo& info = sensor.info;
+  const bool camera = info.kind == SensorKind::kDepthCamera;
+  out += fmt::format("sensor {}:    {}{}, {} frames\n", number,
+                     camera ? "depth camera" : "point scanner",
+                     info.model.empty() ? "" : " " + info.model, sensor.frames);
+  if (camera) {
+    const CameraIntrinsics& c = info.intrinsics;
+    out +=
+        fmt::format("  image      {} x {} pixels, fx {:.6g}, fy {:.6g}, cx {:.6g}, cy {:.6g}{}\n",
+                    c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.distorted() ? ", distorted" : "");
+    out += fmt::format("  unit       {} a step, bias {}\n",
+                       format_quantity(info.depth_unit_m, Quantity::kLength),
+                       format_quantity(info.depth_bias_m, Quantity::kLength));
+  } else {
+    out += info.viewpoint.parallel
+               ? fmt::format("  seen from  direction {}\n",
+                             vector_text(info.viewpoint.value, Quantity::kNone))
+               : fmt::format("  seen from  {}\n",
+                             vector_text(info.viewpoint.value, Quantity::kLength));
+  }
+  if (sensor.sampled == 0) return;
+  if (sensor.depth_m)
+    out += fmt::format("  {}  {}\n", camera ? "depth    " : "z        ",
+                       span_text(*sensor.depth_m, Quantity::kLength));
+  out += fmt::format("  returns    {} points a frame, {:.1f} % of the cells ({} frames sampled)\n",
+                     sensor.points_per_frame, 100.0 * sensor.valid_share, sensor.sampled);
+  out += fmt::format("  colour     {}\n", sensor.colored == 0                ? "no"
+                                          : sensor.colored == sensor.sampled ? "yes"
+                                                                             : "some frames");
+}
+
+void put_turntable(const SequenceSummary& s, std::string& out) {
+  if (!s.turntable) {
+    out += "turntable:   not known\n";
+    return;
+  }
+  const TurntableInfo& table = *s.turntable;
+  out += fmt::format("turntable:   axis {}, centre {} in the frame of sensor 0\n",
+                     vector_text(table.axis, Quantity::kNone),
+                     vector_text(table.center_m, Quantity::kLength));
+  out += fmt::format("  radius     {}\n", table.radius_m
+                                              ? format_quantity(*table.radius_m, Quantity::kLength)
+                                              : "not known");
+  out +=
+      fmt::format("  speed      {}\n",
+                  table.speed_rad_s ? format_quantity(*table.speed_rad_s, Quantity::kAngularSpeed)
+                                    : "not known");
+}
+
+text::OrderedJson span_json(const ValueSpan& span) {
+  return text::OrderedJson::array({span.min, span.max});
+}
+
+text::OrderedJson sensor_json(const SensorSummary& sensor) {
+  const SensorInfo& info = sensor.info;
+  const bool camera = info.kind == SensorKind::kDepthCamera;
+  text::OrderedJson out;
+  out["kind"] = camera ? "depth-camera" : "point-scanner";
+  out["model"] = info.model;
+  if (camera) {
+    out["intrinsics"] = text::json_of(info.intrinsics);
+    out["depth_unit_m"] = info.depth_unit_m;
+    out["depth_bias_m"] = info.depth_bias_m;
+  } else {
+    out[info.viewpoint.parallel ? "parallel_direction" : "position_m"] =
+        text::json_of(info.viewpoint.value);
+  }
+  out["frames"] = sensor.frames;
+  out["sampled_frames"] = sensor.sampled;
+  out["colored_frames"] = sensor.colored;
+  out["points_per_frame"] = sensor.points_per_frame;
+  out["valid_share"] = sensor.valid_share;
+  if (sensor.depth_m) out["depth_m"] = span_json(*sensor.depth_m);
+  return out;
+}
+
+}  // namespace
+
+}  // namespace turnscan::recording_format
+
+namespace turnscan {
+
+using namespace recording_format;
+
+std::string summary_text(const SequenceSummary& s) {
+  std::string out;
+  if (!s.source.empty()) out += fmt::format("source:      {}\n", s.source);
+  if (!s.software.empty()) out += fmt::format("written by:  {}\n", s.software);
+  out += fmt::format("frames:      {}, {} dropped, {} {}\n", s.frames, s.dropped, s.passes,
+                     s.passes == 1 ? "pass" : "passes");
+  out += fmt::format("placed by:   {}\n", position_text(s));
+  if (s.time_s) out += fmt::format("times:       {}\n", span_text(*s.time_s, Quantity::kTime));
+  if (s.angle_rad)
+    out += fmt::format("angles:      {}\n", span_text(*s.angle_rad, Quantity::kAngle));
+  if (s.turns) out += fmt::format("turns:       {:.3f}\n", *s.turns);
+  for (std::size_t i = 0; i < s.sensors.size(); ++i) put_sensor(i, s.sensors[i], out);
+  put_turntable(s, out);
+  for (const std::string& note : s.notes) out += fmt::format("note:        {}\n", note);
+  for (const std::string& what : s.missing) out += fmt::format("missing:     {}\n", what);
+  return out;
+}
+
+std::string summary_json(const SequenceSummary& s) {
+  text::OrderedJson out;
+  out["kind"] = "recording";
+  out["source"] = s.source;
+  out["software"] = s.software;
+  out["frames"] = s.frames;
+  out["dropped_frames"] = s.dropped;
+  out["passes"] = s.passes;
+  out["frames_with_pose"] = s.with_pose;
+  out["frames_with_angle"] = s.with_angle;
+  out["frames_with_time"] = s.with_time;
+  if (s.time_s) out["time_s"] = span_json(*s.time_s);
+  if (s.angle_rad) out["angle_rad"] = span_json(*s.angle_rad);
+  if (s.turns) out["turns"] = *s.turns;
+  out["sensors"] = text::OrderedJson::array();
+  for (const SensorSummary& sensor : s.sensors) out["sensors"].push_back(sensor_json(sensor));
+  if (s.turntable) out["turntable"] = turntable_json(*s.turntable);
+  out["notes"] = s.notes;
+  out["missing"] = s.missing;
+  std::string text = text::json_text(out);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <turnscan/simulator/noise/kinect_v2.hpp>
+
+namespace turnscan::kinect_v2 {
+
+namespace {
+
+using Planes = std::array<Plane, noise::kFrequencies>;
+
+noise::Phasors at(Planes& re, Planes& im, std::size_t offset) {
+  noise::Phasors p{};
+  for (std::size_t f = 0; f < re.size(); ++f) {
+    p.re[f] = re[f].data() + offset;
+    p.im[f] = im[f].data() + offset;
+  }
+  return p;
+}
+
+template <class Planes>
+void clear(Planes& planes, std::size_t size) {
+  for (Plane& plane : planes) plane.assign(size, 0.0f);
+}
+
+void prepare(Workspace& work, Decoded& out, const Layout& layout) {
+  for (Planes* planes : {&work.re, &work.im, &work.norm, &work.smooth_re, &work.smooth_im})
+    clear(*planes, layout.size());
+  work.half_path.assign(layout.size(), 0.0f);
+  work.unlike.assign(layout.size(), 0.0f);
+  out.layout = layout;
+  out.z.assign(layout.size(), 0.0f);
+  out.amplitude.assign(layout.size(), 0.0f);
+  out.verdict.assign(layout.size(), noise::kDark);
+}
+
+void combine_row(const Raw& raw, std::size_t row, Workspace& work,
+                 const noise::NoiseKernel& kernel) {
+  std::array<const float*, 9> v{};
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = raw.correlations[k].data() + row;
+  std::array<float*, noise::kFrequencies> norm{};
+  for (std::size_t f = 0; f < norm.size(); ++f) norm[f] = work.norm[f].data() + row;
+  kernel.combine(raw.layout.width, v.data(), at(work.re, work.im, row), norm.data());
+}
+
+void decode_row(const Layout& layout, std::size_t row, const Rays& rays, noise::Gate gate,
+                Workspace& work, Decoded& out, const noise::NoiseKernel& kernel) {
+  std::array<const float*, noise::kFrequencies> norm{};
+  for (std::size_t f = 0; f < norm.size(); ++f) norm[f] = work.norm[f].data() + row;
+  const noise::Phasors smooth = at(work.smooth_re, work.smooth_im, row);
+  kernel.smooth(layout.width, layout.stride(), at(work.re, work.im, row), norm.data(), smooth,
+                work.unlike.data() + row);
+  kernel.unwrap(layout.width, smooth, work.half_path.data() + row, out.amplitude.data() + row,
+                out.verdict.data() + row);
+  kernel.depth(layout.width, work.half_path.data() + row,
+               {rays.z_per_range.data() + row, rays.along_emitter.data() + row, rays.emitter2},
+               gate, out.z.data() + row, out.verdict.data() + row);
+}
+
+}  // namespace
+
+void Light::reset(const Layout& to) {
+  layout = to;
+  clear(re, to.size());
+  clear(im, to.size());
+  amplitude.assign(to.size(), 0.0f);
+}
+
+noise::Phasors Light::row(int y) { return at(re, im, layout.at(0, y)); }
+
+void expose(Light& light, const NoiseModel& model, noise::Key key, std::uint32_t first_counter,
+            std::uint32_t counter_stride, Raw& raw, const noise::NoiseKernel& kernel) {
+  raw.layout = light.layout;
+  clear(raw.correlations, light.layout.size());
+  const noise::CorrelationNoise noise{float(model.tof_read_noise), float(model.tof_shot_noise),
+                                      float(model.tof_relative_noise)};
+  for (int y = 0; y < light.layout.height; ++y) {
+    const std::size_t row = light.layout.at(0, y);
+    std::array<float*, 9> v{};
+    for (std::size_t k = 0; k < v.size(); ++k) v[k] = raw.correlations[k].data() + row;
+    kernel.correlate(light.layout.width, light.row(y), light.amplitude.data() + row, key,
+                     first_counter + std::uint32_t(y) * counter_stride, noise, v.data());
+  }
+}
+
+void decode(const Raw& raw, const Rays& rays, noise::Gate gate, Workspace& work, Decoded& out,
+            const noise::NoiseKernel& kernel) {
+  const Layout& layout = raw.layout;
+  prepare(work, out, layout);
+  for (int y = 0; y < layout.height; ++y) combine_row(raw, layout.at(0, y), work, kernel);
+  for (int y = 0; y < layout.height; ++y)
+    decode_row(layout, layout.at(0, y), rays, gate, work, out, kernel);
+  for (int y = 0; y < layout.height; ++y) {
+    const std::size_t row = layout.at(0, y);
+    kernel.edges(layout.width, layout.stride(), out.z.data() + row, out.amplitude.data() + row,
+                 work.unlike.data() + row, out.verdict.data() + row);
+  }
+}
+
+double sigma_m(const NoiseModel& m, double range_m, double incidence_rad, double albedo) {
+  const double amplitude =
+      m.tof_amplitude * albedo * std::max(std::cos(incidence_rad), 0.0) / (range_m * range_m);
+  constexpr double kLeast = 10.0 / 3.0;  // in each frequency, for the driver's sum of 10
+  if (!(amplitude >= kLeast)) return std::numeric_limits<double>::quiet_NaN();
+  double phases = 0.0;
+  for (const double gain : {1.322581, 1.0, 1.612903}) {
+    const double relative = m.tof_relative_noise * amplitude / gain;
+    const double variance =
+        m.tof_read_noise * m.tof_read_noise + m.tof_shot_noise * amplitude + relative * relative;
+    phases += 2.0 / 3.0 * variance * gain * gain / (amplitude * amplitude);
+  }
+  constexpr double kMetresPerTurn = 299792458.0 / (2.0 * 216e6);  // of each phase
+  constexpr double kFilter = 1.0 / 3.0;                           // nine nearly equal weights
+  return kFilter * kMetresPerTurn / (2.0 * std::numbers::pi) * std::sqrt(phases);
+}
+
+}  // namespace turnscan::kinect_v2

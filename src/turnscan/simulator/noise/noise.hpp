@@ -1,0 +1,99 @@
+#pragma once
+// Makes of what a scanner ought to see what it measures.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <turnscan/core/pose.hpp>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/simulator/sampling/samples.hpp>
+#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <vector>
+
+namespace turnscan {
+
+enum class NoiseKind {
+  kNone,
+  kGaussian,  ///< one sigma for all samples
+  kModel,     ///< the formulae of the scanner's NoiseModel
+  kPhysics    ///< NoiseModel::physics
+};
+
+struct NoiseOptions {
+  NoiseKind kind = NoiseKind::kNone;
+  double sigma_m = 0.0;  ///< of kGaussian
+  /// kNone and kGaussian only. Share of the silhouette's pixels (0 to 1) that lie anywhere between
+  /// the edge and what is behind it, at most mixed_reach behind the edge: a caricature of mixed
+  /// pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
+  double mixed_pixels = 0.0;
+  double mixed_reach_m = 0.08;
+};
+
+/// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
+/// more than this, is a pixel of the silhouette. Two neighbours on the platter never are.
+inline constexpr double kSilhouetteStep_m = 0.02;
+
+/// "none", "gaussian:SIGMA" (SIGMA a length up to 1 m), "model" or "physics". Fails with
+/// kInvalidOption.
+Result<NoiseOptions> parse_noise_options(std::string_view text);
+
+/// Share of the scanner's light, 0 to 1, that a triangle of an object of a body sends back.
+using Albedo =
+    std::function<float(std::uint32_t body, std::uint32_t object, std::uint32_t triangle)>;
+inline constexpr double kDefaultAlbedo = 0.8;  ///< of what has no colour
+
+/// Of each triangle, from the colours of its corners (linear, green and red as the eye weighs
+/// them); empty when the mesh has none.
+std::vector<float> triangle_albedos(const TriangleMesh& mesh);
+
+/// From where a frame was taken, of what. All must outlive the call it is passed to.
+struct SensorView {
+  const SampleTracer& tracer;
+  std::span<const Body> bodies;
+  const Pose& T_world_sensor;
+  const Albedo* albedo = nullptr;  ///< nullptr: kDefaultAlbedo everywhere
+};
+
+/// What a scanner measured of one view: arrays over the rectangle of the exact samples, row by row.
+struct MeasuredGrid {
+  PixelRect rect;
+  std::vector<float> z;        ///< along the optical axis, metres; 0: no return
+  std::vector<Miss> miss;      ///< kNone where z > 0
+  std::vector<float> sigma_m;  ///< predicted, along z; on request; 0 where nothing is predicted
+};
+
+/// Immutable; apply() may be called from several threads at once. A value depends on the scanner,
+/// the options and (seed, scanner index, frame, pixel) alone; speckle on the seed, the point of the
+/// surface and the direction to the camera.
+class SensorNoise {
+ public:
+  /// Fails with kInvalidOption when an option or a number of the model is out of range, or when
+  /// physics is asked of a scanner that has none or lacks what it needs.
+  static Result<SensorNoise> create(const ScannerModel& model, const NoiseOptions& options,
+                                    std::uint64_t seed, std::uint32_t scanner_index);
+  SensorNoise(SensorNoise&&) noexcept;
+  SensorNoise& operator=(SensorNoise&&) noexcept;
+  ~SensorNoise();
+
+  /// exact: of view.tracer.trace(view.bodies, view.T_world_sensor), of the same scanner. Mixed
+  /// pixels and laser lines trace more rays. measured is overwritten, on the calling thread.
+  void apply(const SensorView& view, const SampleGrid& exact, std::uint32_t frame,
+             MeasuredGrid& measured, bool with_sigma = false) const;
+
+  /// One sigma along z of a single sample (see noise_model.hpp); NaN where none is to be expected.
+  double predicted_sigma_m(double z_m, double incidence_rad, double albedo = kDefaultAlbedo) const;
+
+ private:
+  struct Impl;
+  explicit SensorNoise(std::unique_ptr<const Impl> impl);
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// f * b of a scanner, pixel * metres: of the camera's fx and the distance of its eyes; of a laser
+/// line, of its own camera and the receiver's distance from the sheet of light. 0 with one eye.
+double focal_baseline(const ScannerModel& model);
+
+}  // namespace turnscan

@@ -1,0 +1,93 @@
+#pragma once
+// The ways to make noise, and what they share.
+
+#include <turnscan/core/camera.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/simulator/noise/noise.hpp>
+#include <turnscan/simulator/noise/noise_kernel.hpp>
+#include <vector>
+
+namespace turnscan::noise {
+
+inline constexpr int kMixedPixelRays = 4;  ///< rows and columns of rays through a mixed pixel
+
+/// What does not change from frame to frame.
+struct Setup {
+  ScannerModel model;
+  NoiseOptions options;
+  std::uint64_t seed = 0;
+  std::uint32_t scanner = 0;
+  double focal_baseline = 0.0;
+  RayTable rays;  ///< of all pixels
+
+  std::size_t pixel(int column, int row) const {
+    return std::size_t(row) * std::size_t(model.camera.width) + std::size_t(column);
+  }
+};
+
+/// One call of SensorNoise::apply.
+struct Job {
+  const Setup& setup;
+  const SensorView& view;
+  const SampleGrid& exact;
+  std::uint32_t frame;
+  MeasuredGrid& out;  ///< sized; z and miss as if nothing were seen
+
+  /// Of random numbers for one purpose.
+  std::uint64_t seed_of(std::uint64_t purpose) const {
+    return hash_key(setup.seed, setup.scanner, frame, purpose);
+  }
+  Key key_of(std::uint64_t purpose) const;
+};
+
+/// How surfaces lie to the line of sight, and what they send back.
+class Surfaces {
+ public:
+  explicit Surfaces(const SensorView& view);
+  /// Unit normal in the sensor frame, of either sign; zero for a triangle without area.
+  /// Precondition: samples.hit(i).
+  Vec3d normal(const Samples& samples, std::size_t i) const;
+  /// Cosine between line of sight (x, y, 1) and normal, 0 to 1. Precondition: samples.hit(i).
+  double facing(const Samples& samples, std::size_t i, double x, double y) const;
+  double albedo(const Samples& samples, std::size_t i) const;
+
+ private:
+  const SensorView& view_;
+  std::vector<Eigen::Matrix3d> R_sensor_body_;
+};
+
+/// Which samples count, as an array of 0 and 1.
+using Mask = std::vector<std::uint8_t>;
+
+/// Where what a pixel sees may not be a plane: next to one that sees nothing (by counts), or where
+/// depth bends by more than kBend_m within three pixels; and all within radius pixels of such.
+Mask steps_of(const SampleGrid& exact, const Mask& counts, int radius);
+inline constexpr float kBend_m = 0.002f;
+
+/// Rays within pixels, traced together.
+struct SubSamples {
+  std::vector<std::uint32_t> index;  ///< position in the grid, of each pixel
+  std::vector<float> x, y;           ///< directions, `each` a pixel
+  Samples samples;
+  std::size_t each = 1;
+
+  /// side x side rays over a square of footprint_px about the pixel's centre moved by (du, dv).
+  void add(const Setup& setup, int column, int row, std::size_t index_in_grid, int side,
+           double footprint_px, double du, double dv);
+};
+
+/// One sigma for all; with NoiseOptions::mixed_pixels the caricature of a silhouette.
+void apply_gaussian(Job& job);
+/// The formulae of NoiseModel.
+void apply_formulae(Job& job);
+/// Takes out what a matcher of dots would not find (NoiseModel::window_px).
+void match_windows(Job& job);
+/// Kinect v2.
+void apply_time_of_flight(Job& job);
+void apply_laser_line(Job& job);
+/// Fills out.sigma_m.
+void predict(Job& job);
+/// One sigma along z; NaN where none is to be expected.
+double predicted_sigma_m(const Setup& setup, double z_m, double incidence_rad, double albedo);
+
+}  // namespace turnscan::noise

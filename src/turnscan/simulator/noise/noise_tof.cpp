@@ -1,0 +1,181 @@
+#include <cmath>
+#include <turnscan/simulator/noise/kinect_v2.hpp>
+#include <turnscan/simulator/noise/noise_apply.hpp>
+
+namespace turnscan::noise {
+
+namespace {
+
+constexpr std::uint64_t kCorrelations = 1;
+constexpr double kFarthest_m = 1e4;  // no light comes back from there
+
+/// Light comes back from what is out of range, too.
+bool lit(const Samples& samples, std::size_t i) {
+  const Miss miss = samples.miss[i];
+  return samples.hit(i) && (miss == Miss::kNone || miss == Miss::kTooNear ||
+                            miss == Miss::kTooFar || miss == Miss::kGrazing);
+}
+
+Miss miss_of(std::uint8_t verdict) {
+  switch (verdict) {
+    case kGood:
+      return Miss::kNone;
+    case kDark:
+      return Miss::kTooDark;
+    case kNear:
+      return Miss::kTooNear;
+    case kFar:
+      return Miss::kTooFar;
+    default:
+      return Miss::kRejected;
+  }
+}
+
+class TimeOfFlight {
+ public:
+  explicit TimeOfFlight(Job& job)
+      : job_(job),
+        surfaces_(job.view),
+        layout_{job.exact.rect.width(), job.exact.rect.height()},
+        lit_(job.exact.size()) {
+    for (std::size_t i = 0; i < lit_.size(); ++i) lit_[i] = lit(job.exact, i) ? 1 : 0;
+  }
+
+  void run() {
+    if (layout_.width <= 0 || layout_.height <= 0) return;
+    light_.reset(layout_);
+    illuminate();
+    kinect_v2::Raw raw;
+    const PixelRect& r = job_.exact.rect;
+    kinect_v2::expose(light_, job_.setup.model.noise, job_.key_of(kCorrelations),
+                      std::uint32_t(job_.setup.pixel(r.left, r.top)),
+                      std::uint32_t(job_.setup.model.camera.width), raw);
+    kinect_v2::Workspace work;
+    kinect_v2::Decoded decoded;
+    const ScannerModel& model = job_.setup.model;
+    kinect_v2::decode(raw, lines_of_sight(), {float(model.near_m), float(model.far_m)}, work,
+                      decoded);
+    deliver(decoded);
+  }
+
+ private:
+  struct Return {
+    float half_path, amplitude;
+  };
+
+  Return returned(const Samples& samples, std::size_t i, double x, double y) const {
+    const Vec3d p = double(samples.z[i]) * Vec3d(x, y, 1.0);
+    const double range = p.norm();
+    if (range > kFarthest_m) return {0.0f, 0.0f};
+    const double back = (p - job_.setup.model.emitter_m).norm();
+    const double amplitude = job_.setup.model.noise.tof_amplitude * surfaces_.albedo(samples, i) *
+                             surfaces_.facing(samples, i, x, y) / (range * range);
+    return {float(0.5 * (range + back)), float(amplitude)};
+  }
+
+  /// Pixels that see a plane have one phasor, those at steps the sum of many.
+  void illuminate() {
+    const double footprint = job_.setup.model.noise.footprint_px;
+    const int radius = static_cast<int>(std::ceil(std::max(0.5 * footprint - 0.5, 0.0)));
+    const Mask mixed =
+        footprint > 0.0 ? steps_of(job_.exact, lit_, radius) : Mask(job_.exact.size(), 0);
+    const PixelRect& r = job_.exact.rect;
+    std::vector<float> half(std::size_t(r.width())), amplitude(half.size());
+    for (int v = r.top; v < r.bottom; ++v) {
+      for (int u = r.left; u < r.right; ++u) {
+        const std::size_t i = job_.exact.index(u, v), k = std::size_t(u - r.left);
+        half[k] = amplitude[k] = 0.0f;
+        if (mixed[i] != 0) rays_.add(job_.setup, u, v, i, kMixedPixelRays, footprint, 0.0, 0.0);
+        if (mixed[i] != 0 || lit_[i] == 0) continue;
+        const std::size_t pixel = job_.setup.pixel(u, v);
+        const Return back =
+            returned(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel]);
+        half[k] = back.half_path;
+        amplitude[k] = back.amplitude;
+      }
+      const int y = v - r.top;
+      NoiseKernels::current().phasors(r.width(), half.data(), amplitude.data(), light_.row(y));
+      std::copy(amplitude.begin(), amplitude.end(),
+                light_.amplitude.begin() + std::ptrdiff_t(layout_.at(0, y)));
+    }
+    if (!rays_.index.empty()) illuminate_mixed();
+  }
+
+  void illuminate_mixed() {
+    job_.view.tracer.trace(job_.view.bodies, job_.view.T_world_sensor, rays_.x, rays_.y,
+                           rays_.samples);
+    const std::size_t n = rays_.samples.size();
+    std::vector<float> half(n, 0.0f), amplitude(n, 0.0f);
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!lit(rays_.samples, k)) continue;
+      const Return back = returned(rays_.samples, k, rays_.x[k], rays_.y[k]);
+      half[k] = back.half_path;
+      amplitude[k] = back.amplitude / float(rays_.each);
+    }
+    std::array<kinect_v2::Plane, kFrequencies> re, im;
+    Phasors phasors{};
+    for (std::size_t f = 0; f < re.size(); ++f) {
+      re[f].resize(n);
+      im[f].resize(n);
+      phasors.re[f] = re[f].data();
+      phasors.im[f] = im[f].data();
+    }
+    NoiseKernels::current().phasors(int(n), half.data(), amplitude.data(), phasors);
+    const auto w = static_cast<std::size_t>(layout_.width);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = rays_.index[k / rays_.each];
+      const std::size_t at = layout_.at(int(i % w), int(i / w));
+      light_.amplitude[at] += amplitude[k];
+      for (std::size_t f = 0; f < re.size(); ++f) {
+        light_.re[f][at] += re[f][k];
+        light_.im[f][at] += im[f][k];
+      }
+    }
+  }
+
+  kinect_v2::Rays lines_of_sight() const {
+    const Vec3d& emitter = job_.setup.model.emitter_m;
+    kinect_v2::Rays rays{kinect_v2::Plane(layout_.size(), 1.0f),
+                         kinect_v2::Plane(layout_.size(), 0.0f), float(emitter.squaredNorm())};
+    const PixelRect& r = job_.exact.rect;
+    for (int v = r.top; v < r.bottom; ++v) {
+      for (int u = r.left; u < r.right; ++u) {
+        const std::size_t pixel = job_.setup.pixel(u, v), at = layout_.at(u - r.left, v - r.top);
+        const double x = job_.setup.rays.x()[pixel], y = job_.setup.rays.y()[pixel];
+        const double z = 1.0 / std::sqrt(x * x + y * y + 1.0);
+        rays.z_per_range[at] = float(z);
+        rays.along_emitter[at] = float(z * (x * emitter.x() + y * emitter.y() + emitter.z()));
+      }
+    }
+    return rays;
+  }
+
+  void deliver(const kinect_v2::Decoded& decoded) {
+    const PixelRect& r = job_.exact.rect;
+    for (int v = r.top; v < r.bottom; ++v) {
+      for (int u = r.left; u < r.right; ++u) {
+        const std::size_t i = job_.exact.index(u, v), at = layout_.at(u - r.left, v - r.top);
+        const Miss miss = miss_of(decoded.verdict[at]);
+        if (miss == Miss::kNone) {
+          job_.out.z[i] = decoded.z[at] + float(job_.setup.model.noise.bias_m);
+          job_.out.miss[i] = Miss::kNone;
+        } else if (job_.exact.counts(i)) {
+          job_.out.miss[i] = miss;
+        }
+      }
+    }
+  }
+
+  Job& job_;
+  Surfaces surfaces_;
+  kinect_v2::Layout layout_;
+  Mask lit_;
+  kinect_v2::Light light_;
+  SubSamples rays_;
+};
+
+}  // namespace
+
+void apply_time_of_flight(Job& job) { TimeOfFlight(job).run(); }
+
+}  // namespace turnscan::noise

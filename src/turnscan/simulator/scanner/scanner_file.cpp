@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cstdlib>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/simulator/toml_options.hpp>
+
+namespace turnscan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kFoldersUp = 4;
+
+bool is_data(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "scanners", error);
+}
+
+Result<> read_parameters(const fs::path& file, const toml::table& table,
+                         ScannerParameters& parameters) {
+  TURNSCAN_TRY(scene::set_from_toml(file, table, describe(parameters), {"noise"}));
+  const toml::node* noise = table.get("noise");
+  if (noise == nullptr) return {};
+  if (!noise->is_table())
+    return scene::fail_in_toml(file, *noise, "noise is a table of the sensor's errors: [noise]");
+  return scene::set_from_toml(file, *noise->as_table(), describe(parameters.noise), {});
+}
+
+}  // namespace
+
+Result<fs::path> data_folder() {
+  if (const char* set = std::getenv("TURNSCAN_DATA"); set != nullptr && *set != '\0') {
+    if (is_data(set)) return fs::path(set);
+    return fail_at(set, ErrorCode::kNotFound,
+                   "TURNSCAN_DATA does not name turnscan's data folder; unset it or correct it");
+  }
+  std::error_code error;
+  fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (int i = 0; i < kFoldersUp && !above.empty(); ++i, above = above.parent_path())
+    if (is_data(above / "share" / "turnscan")) return above / "share" / "turnscan";
+  if (is_data(TURNSCAN_INSTALLED_DATA)) return fs::path(TURNSCAN_INSTALLED_DATA);
+  return fail(ErrorCode::kNotFound,
+              "turnscan's data folder share/turnscan is neither beside the program nor at {}; set "
+              "TURNSCAN_DATA to it",
+              TURNSCAN_INSTALLED_DATA);
+}
+
+std::vector<std::string> scanner_presets() {
+  std::vector<std::string> names;
+  const auto folder = data_folder();
+  if (!folder) return names;
+  std::error_code error;
+  for (fs::directory_iterator file(*folder / "scanners", error), end; !error && file != end;
+       file.increment(error))
+    if (file->path().extension() == ".toml") names.push_back(file->path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Result<ScannerModel> read_scanner(const fs::path& file) {
+  TURNSCAN_ASSIGN(const toml::table table, scene::read_toml(file));
+  ScannerParameters parameters;
+  parameters.name = file.stem().string();
+  TURNSCAN_TRY(read_parameters(file, table, parameters));
+  auto model = scanner_model(parameters);
+  if (!model) return fail_at(file.string(), ErrorCode::kInvalidOption, "{}", model.error().message);
+  return model;
+}
+
+Result<ScannerModel> find_scanner(std::string_view name_or_file) {
+  if (name_or_file.ends_with(".toml") || name_or_file.find('/') != std::string_view::npos)
+    return read_scanner(fs::path(name_or_file));
+  TURNSCAN_ASSIGN(const fs::path folder, data_folder());
+  const std::vector<std::string> names = scanner_presets();
+  if (std::find(names.begin(), names.end(), name_or_file) == names.end())
+    return fail(ErrorCode::kNotFound,
+                "scanner: there is no '{}'; use one of {}, or the path of a .toml file",
+                name_or_file, fmt::join(names, ", "));
+  return read_scanner(folder / "scanners" / (std::string(name_or_file) + ".toml"));
+}
+
+}  // namespace turnscan

@@ -1,0 +1,50 @@
+#pragma once
+// The inside of a scene, for those sources of the simulator that speak to Embree themselves.
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <turnscan/simulator/scene/raster_mesh.hpp>
+#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/simulator/scene/triangle_clusters.hpp>
+#include <type_traits>
+#include <vector>
+
+namespace turnscan {
+
+struct Scene::Impl {
+  struct DeviceDeleter {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct SceneDeleter {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter> scene;
+  std::vector<sampling::ObjectView> objects;  ///< their buffers are Embree's
+  std::optional<double> platter_radius_m;
+  float platter_radius_squared = -1.0f;  ///< negative: there is none
+  Box object_box;
+
+  /// Made when it is first asked for.
+  const sampling::RasterMesh& raster() const;
+  std::size_t triangle_count() const;
+
+  Result<> attach(const TriangleMesh& mesh, std::uint32_t id);
+  /// Where the ray meets the platter, or infinity.
+  float platter_t(const Ray& ray) const;
+  void intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
+                        RTCIntersectContext& context) const;
+  void occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                       RTCIntersectContext& context) const;
+
+ private:
+  mutable std::once_flag raster_once_;
+  mutable std::optional<sampling::RasterMesh> raster_;
+};
+
+}  // namespace turnscan

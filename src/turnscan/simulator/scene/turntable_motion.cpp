@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/simulator/scene/turntable_motion.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr int kDefaultFrames = 920;
+constexpr double kMostFrames = 1e6;
+constexpr double kNever = 1e300;
+constexpr std::uint64_t kDropSalt = 0x64726f70ULL;
+
+/// Speed over time as a share of the full one: 0, up, 1, down to 0 at the end. Its time leaves the
+/// halt out.
+struct SpeedProfile {
+  double delay_s, up_s, down_s, end_s, halt_at_s, halt_s;
+
+  /// Integral from 0 to t of a ramp that starts at `begin` and reaches 1 after `length`.
+  static double ramp_area(double t, double begin, double length) {
+    const double inside = std::clamp(t - begin, 0.0, length);
+    const double rising = length > 0.0 ? 0.5 * inside * inside / length : 0.0;
+    return rising + std::max(0.0, t - begin - length);
+  }
+
+  /// Turned by the time t at a full speed of 1.
+  double turned(double t) const {
+    if (t > halt_at_s) t = std::max(halt_at_s, t - halt_s);
+    return ramp_area(t, delay_s, up_s) - ramp_area(t, end_s - down_s, down_s);
+  }
+};
+
+Result<int> frame_count(const MotionOptions& o) {
+  if (o.frames) return *o.frames;
+  if (!o.speed_rad_s) return kDefaultFrames;
+  if (*o.speed_rad_s == 0.0)
+    return fail(ErrorCode::kInvalidOption,
+                "speed = 0 makes no turn; give the number of frames with it");
+  const double time_s = std::abs(o.turns) * kTurn / std::abs(*o.speed_rad_s) + o.start_delay_s +
+                        o.halt_s + 0.5 * (o.start_ramp_s + o.stop_ramp_s);
+  const double frames = std::round(time_s * o.fps);
+  if (frames > kMostFrames)
+    return fail(ErrorCode::kInvalidOption,
+                "{} turns at {} take {:.0f} frames, more than {:.0f}; give a number of frames",
+                o.turns, format_quantity(*o.speed_rad_s, Quantity::kAngularSpeed), frames,
+                kMostFrames);
+  return std::max(1, static_cast<int>(frames));
+}
+
+/// Something that happens has to happen within the recording.
+Result<> check_moment(const char* name, bool happens, double moment_s, double end_s) {
+  if (!happens || moment_s < end_s) return {};
+  return fail(ErrorCode::kInvalidOption, "{} = {} is not within the recording, which takes {}",
+              name, format_quantity(moment_s, Quantity::kTime),
+              format_quantity(end_s, Quantity::kTime));
+}
+
+Result<double> full_speed(const MotionOptions& o, const SpeedProfile& profile) {
+  if (profile.delay_s + profile.up_s + profile.down_s > profile.end_s * (1.0 + 1e-12))
+    return fail(ErrorCode::kInvalidOption,
+                "start-delay, start-ramp, halt and stop-ramp take {} together, but the recording "
+                "only {}",
+                format_quantity(profile.delay_s + profile.up_s + profile.halt_s + profile.down_s,
+                                Quantity::kTime),
+                format_quantity(profile.end_s + profile.halt_s, Quantity::kTime));
+  TURNSCAN_TRY(check_moment("halt-at", o.halt_s != 0.0, o.halt_at_s, profile.end_s));
+  TURNSCAN_TRY(
+      check_moment("slip-at", o.slip_rad != 0.0, o.slip_at_s, profile.end_s + profile.halt_s));
+  if (o.speed_rad_s) return *o.speed_rad_s;
+  const double turned = profile.turned(profile.end_s + profile.halt_s);
+  if (!(turned > 0.0))
+    return fail(ErrorCode::kInvalidOption, "start-delay = {} leaves no time to turn",
+                format_quantity(profile.delay_s, Quantity::kTime));
+  return o.turns * kTurn / turned;
+}
+
+}  // namespace
+
+OptionTable describe(MotionOptions& o, const std::string& speed_name) {
+  OptionTable table;
+  table
+      .number("frames", o.frames, {1, kMostFrames},
+              "Number of frames of each scanner; auto: 920, or with a speed as many as the turns "
+              "take.")
+      .number("turns", o.turns, Quantity::kNone, {-1000.0, 1000.0},
+              "Turns of the platter that the frames are spread over, unless frames and speed say "
+              "otherwise; negative: clockwise seen from above.")
+      .number("fps", o.fps, Quantity::kNone, {1e-3, 1e6}, "Frames a second.")
+      .number(speed_name, o.speed_rad_s, Quantity::kAngularSpeed, {-1000.0, 1000.0},
+              "Speed of the platter; auto: from turns, frames and fps.")
+      .number("start-delay", o.start_delay_s, Quantity::kTime, {0.0, 1e5},
+              "How long the platter stands still at the beginning.")
+      .number("start-ramp", o.start_ramp_s, Quantity::kTime, {0.0, 1e5},
+              "How long the platter takes to reach its speed.")
+      .number("stop-ramp", o.stop_ramp_s, Quantity::kTime, {0.0, 1e5},
+              "How long it takes to come to rest at the end.")
+      .number("halt-at", o.halt_at_s, Quantity::kTime, {0.0, 1e5},
+              "When the platter stops at once, if halt is given.")
+      .number("halt", o.halt_s, Quantity::kTime, {0.0, 1e5},
+              "How long it stands then before it goes on.")
+      .number("slip-at", o.slip_at_s, Quantity::kTime, {0.0, 1e5},
+              "When the platter jumps, if slip is given.")
+      .number("slip", o.slip_rad, Quantity::kAngle, {-kTurn, kTurn},
+              "By how much more it has turned from then on.")
+      .number("ripple", o.ripple, Quantity::kNone, {0.0, 0.9},
+              "Share of the speed by which it rises and falls: 0.01 for 1 %.")
+      .number("ripple-cycles", o.ripple_cycles, Quantity::kNone, {0.01, 1000.0},
+              "How often the speed rises and falls in one turn.")
+      .number("wobble", o.wobble_rad, Quantity::kAngle, {0.0, 0.2},
+              "By how much the axis leans to the side while it turns.")
+      .number("wobble-cycles", o.wobble_cycles, Quantity::kNone, {0.0, 1000.0},
+              "How often it goes round its mean in one turn.")
+      .number("dropped", o.dropped, Quantity::kNone, {0.0, 1.0},
+              "Share of the frames that are lost.");
+  return table;
+}
+
+Result<std::vector<PlatterState>> platter_states(const MotionOptions& options) {
+  MotionOptions copy = options;
+  TURNSCAN_TRY(describe(copy).check());
+  TURNSCAN_ASSIGN(const int count, frame_count(options));
+  const SpeedProfile profile{options.start_delay_s,
+                             options.start_ramp_s,
+                             options.stop_ramp_s,
+                             count / options.fps - options.halt_s,
+                             options.halt_s > 0.0 ? options.halt_at_s : kNever,
+                             options.halt_s};
+  TURNSCAN_ASSIGN(const double speed, full_speed(options, profile));
+  std::vector<PlatterState> states(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    PlatterState& state = states[static_cast<std::size_t>(i)];
+    state.time_s = i / options.fps;
+    const double theta = speed * profile.turned(state.time_s);
+    // The integral of the ripple over theta.
+    state.angle_rad =
+        theta + options.ripple / options.ripple_cycles * std::sin(options.ripple_cycles * theta);
+    if (options.slip_rad != 0.0 && state.time_s >= options.slip_at_s)
+      state.angle_rad += options.slip_rad;
+    state.travel = count > 1 ? double(i) / (count - 1) : 0.5;
+  }
+  return states;
+}
+
+Eigen::Matrix3d axis_wobble(const MotionOptions& options, double angle_rad) {
+  if (options.wobble_rad == 0.0) return Eigen::Matrix3d::Identity();
+  const double way = options.wobble_cycles * angle_rad;
+  const Vec3d about(std::cos(way), 0.0, -std::sin(way));
+  return Eigen::AngleAxisd(options.wobble_rad, about).toRotationMatrix();
+}
+
+bool frame_dropped(const MotionOptions& options, std::uint64_t seed, std::uint32_t frame,
+                   std::uint32_t scanner) {
+  return options.dropped > 0.0 &&
+         uniform01(hash_key(seed ^ kDropSalt, scanner, frame)) < options.dropped;
+}
+
+}  // namespace turnscan

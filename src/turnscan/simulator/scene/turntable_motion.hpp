@@ -1,0 +1,66 @@
+#pragma once
+// How the platter turns while it is watched: when each frame is taken, and where the platter is
+// then.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <turnscan/core/option_table.hpp>
+#include <turnscan/core/pose.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct MotionOptions {
+  /// Instants at which every scanner takes a frame. None: 920, or with a speed as many as the turns
+  /// take at that speed.
+  std::optional<int> frames;
+  double turns = 1.0;  ///< that the frames are spread over; negative: clockwise
+  double fps = 30.0;   ///< frames a second
+  /// Of the platter when it runs freely. Takes precedence over turns where frames are given, too.
+  std::optional<double> speed_rad_s;
+  double start_delay_s = 0.0;  ///< at rest before it starts
+  double start_ramp_s = 0.0;   ///< from rest to full speed, evenly
+  double stop_ramp_s = 0.0;    ///< from full speed to rest, ending with the recording
+  double halt_at_s = 0.0;      ///< when the platter stops at once,
+  double halt_s = 0.0;         ///< and for how long it stands before it goes on; 0: never
+  double slip_at_s = 0.0;      ///< when it jumps,
+  double slip_rad = 0.0;       ///< and by how much more it has turned then; 0: never
+  double ripple = 0.0;         ///< share of the speed by which it rises and falls
+  double ripple_cycles = 7.0;  ///< of the ripple in one turn
+  double wobble_rad = 0.0;     ///< angle between the axis and its mean
+  double wobble_cycles = 2.0;  ///< of the axis about its mean in one turn
+  double dropped = 0.0;        ///< share of the frames that are lost, chosen at random
+};
+
+/// speed_name: where "speed" means something else already.
+OptionTable describe(MotionOptions& options, const std::string& speed_name = "speed");
+
+/// The platter at the time of one frame.
+struct PlatterState {
+  double time_s = 0.0;     ///< since the first frame
+  double angle_rad = 0.0;  ///< since the first frame; counter-clockwise seen from above
+  double travel = 0.0;  ///< how much of the recording has passed: 0 at the first frame, 1 at last
+};
+
+/// The states of all frames. With T the time of all frames together, the speed is
+///   omega * r(t) * (1 + ripple * cos(ripple_cycles * theta)),   theta(t) = omega * int_0^t r,
+/// where r rises from 0 to 1 during start_ramp after start_delay, and falls to 0 during stop_ramp
+/// before T. Without a speed, omega is such that theta(T) makes the turns: without ramps frame i
+/// of n stands at turns * 2 pi * i / n. While the platter halts its time stands still, too; from
+/// slip_at on slip is added to the angle.
+/// Fails with kInvalidOption when an option is out of range, when delay, ramps and halt take longer
+/// than the recording, when halt or slip lie outside it, or when the turns at the speed take more
+/// than a million frames.
+Result<std::vector<PlatterState>> platter_states(const MotionOptions& options);
+
+/// Where the axis of the platter points at this angle: the rotation that takes its mean (+Y) there.
+/// It goes round a cone wobble_cycles times a turn. (Once a turn would be a platter that lies
+/// obliquely on a true axis.)
+Eigen::Matrix3d axis_wobble(const MotionOptions& options, double angle_rad);
+
+/// Whether a frame of a scanner is lost: a function of its arguments alone.
+bool frame_dropped(const MotionOptions& options, std::uint64_t seed, std::uint32_t frame,
+                   std::uint32_t scanner);
+
+}  // namespace turnscan

@@ -1,0 +1,77 @@
+#pragma once
+// Everything that a simulated recording is made from, as people write it: on the command line, or
+// in one TOML file.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <turnscan/simulator/objects/object_placement.hpp>
+#include <turnscan/simulator/virtual_scan.hpp>
+#include <utility>
+#include <vector>
+
+namespace turnscan {
+
+/// A preset or file, and what of the placement is its own: "kinect-v2,azimuth=90deg,roll=10deg".
+struct ScannerEntry {
+  std::string model;
+  std::vector<std::pair<std::string, std::string>> placement;  ///< names of describe(), values
+};
+
+/// Fails with kInvalidOption. Whether the scanner exists shows later.
+Result<ScannerEntry> parse_scanner_entry(std::string_view text);
+
+/// How the object lies in a further pass: names of ObjectPlacement's options, and values, for those
+/// that differ from the first. Its height does not change.
+using PassEntry = std::vector<std::pair<std::string, std::string>>;
+
+/// "tip=90deg,yaw=30deg". Fails with kInvalidOption.
+Result<PassEntry> parse_pass_entry(std::string_view text);
+
+struct SceneDescription {
+  SceneDescription();
+
+  std::string object;  ///< file or builtin:NAME; builtin:empty for the table alone
+  std::string unit;    ///< of the object's file if that does not say it
+  ObjectPlacement object_placement;
+  std::vector<PassEntry> next_passes;
+  std::vector<ScannerEntry> scanners;  ///< none: kinect-v2
+  ScannerPlacement placement;          ///< of every scanner, but for what is its own
+  MotionOptions motion;
+  PlatterOptions platter;  ///< 12 mm thick unless told otherwise
+  TablePlacement table;
+  RoomOptions room;
+  MeasureOptions measure;
+  RecordOptions record;
+};
+
+struct SceneTable {
+  std::string name;   ///< of the table in the file
+  std::string title;  ///< for people
+  OptionTable options;
+};
+
+/// All options but object, unit and scanners, by table. They refer to the description.
+std::vector<SceneTable> describe(SceneDescription& scene);
+
+/// Adds what a file says: the tables of describe(), in [object] also `file` and `unit`, and
+/// [[scanner]] with `model` and any of the options of [placement], [[pass]] with any of [object]
+/// for each pass after the first. Paths are relative to the file's folder. Fails with kNotFound or
+/// kInvalidOption, naming file and line.
+Result<> read_scene(const std::filesystem::path& file, SceneDescription& scene);
+
+/// The same from the text of such a file. `file` is its name in errors, and what its paths are
+/// relative to.
+Result<> parse_scene(std::string_view text, const std::filesystem::path& file,
+                     SceneDescription& scene);
+
+/// The description as a file that read_scene understands; lengths and angles to 6 digits.
+std::string scene_toml(const SceneDescription& scene);
+
+/// How the object lies in each pass, the first included. Fails with kInvalidOption.
+Result<std::vector<ObjectPlacement>> pass_placements(const SceneDescription& scene);
+
+/// Looks up the scanners. Fails with kNotFound or kInvalidOption.
+Result<VirtualScanOptions> scan_options(const SceneDescription& scene);
+
+}  // namespace turnscan

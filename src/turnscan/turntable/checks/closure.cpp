@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/sequence_views.hpp>
+#include <turnscan/geometry/registration/registration.hpp>
+#include <turnscan/turntable/checks/closure.hpp>
+#include <turnscan/turntable/checks/recorded_angles.hpp>
+#include <turnscan/turntable/motion_input/frame_data.hpp>
+
+namespace turnscan::checks {
+
+namespace {
+
+using motion::MotionData;
+using motion::MotionFrame;
+using motion::SurfaceSample;
+
+constexpr std::size_t kMostPairs = 6;
+/// Between frames that show the same view, but for noise.
+constexpr double kSameView = 3.0 / kDegreesPerRadian;
+constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
+
+struct TurnPair {
+  std::size_t first, second;
+  std::size_t beside = 0;  ///< frame next to the first that shows the same view; the first: none
+};
+
+std::size_t frame_beside(const FrameSequence& sequence, const std::vector<double>& angle,
+                         std::size_t first) {
+  for (std::size_t k = first + 1; k < angle.size(); ++k)
+    if (std::abs(angle[k] - angle[first]) < kSameView &&
+        sequence.frames()[k].pass == sequence.frames()[first].pass)
+      return k;
+  return first;
+}
+
+/// Frames one turn apart, spread over those that have a partner.
+std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vector<double>& angle) {
+  std::vector<TurnPair> all;
+  const auto& frames = sequence.frames();
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    if (std::isfinite(angle[i] - angle[i - 1])) steps.push_back(std::abs(angle[i] - angle[i - 1]));
+  }
+  const double reach = std::max(1.5 / kDegreesPerRadian, steps.empty() ? 0.0 : 0.6 * median(steps));
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    std::size_t best = i;
+    double least = reach;
+    for (std::size_t k = i + 1; k < angle.size(); ++k) {
+      const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
+      if (frames[k].pass == frames[i].pass && off < least) best = k, least = off;
+    }
+    if (best != i) all.push_back({i, best, frame_beside(sequence, angle, i)});
+  }
+  if (all.size() <= kMostPairs) return all;
+  std::vector<TurnPair> out;
+  for (std::size_t k = 0; k < kMostPairs; ++k)
+    out.push_back(all[k * (all.size() - 1) / (kMostPairs - 1)]);
+  return out;
+}
+
+struct PairClosure {
+  double turn_rad, shift_m;
+};
+
+/// How far free registration moves the first frame's points from where the calibration puts them.
+/// Only what it moves along the normals counts: a plate slides in its plane and a cylinder turns
+/// about itself at no cost, and there registration finds anything.
+std::optional<PairClosure> compare_frames(const MotionFrame& first, const MotionFrame& second,
+                                          const TurntableInfo& table, double turn,
+                                          const RunContext& context) {
+  if (first.samples.size() < 100 || second.samples.size() < 100) return std::nullopt;
+  std::vector<Vec3f> points, targets, normals;
+  const Vec3d axis = table.axis.normalized();
+  const Eigen::AngleAxisd R(turn, axis);
+  for (const SurfaceSample& s : first.samples)
+    points.push_back((table.center_m + R * (s.p.cast<double>() - table.center_m)).cast<float>());
+  for (const SurfaceSample& s : second.samples) {
+    targets.push_back(s.p);
+    normals.push_back(s.n);
+  }
+  IcpOptions options;
+  options.max_distance_m = 0.02;
+  options.tolerance_m = 2e-5;
+  options.max_iterations = 200;
+  const auto found = icp(points, targets, normals, Pose::Identity(), options, context);
+  if (!found) return std::nullopt;
+  double moved = 0.0, moved_by_turn = 0.0, lever = 0.0, reach = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3d p = points[i].cast<double>();
+    const Vec3d n = R * first.samples[i].n.cast<double>();
+    const double along = n.dot(found->T_target_source * p - p);
+    const Vec3d tangent = axis.cross(p - table.center_m);
+    const double per_radian = n.dot(tangent);
+    moved += along * along;
+    moved_by_turn += along * per_radian;
+    lever += per_radian * per_radian;
+    reach += tangent.squaredNorm();
+  }
+  // Of a displacement, its normals see a third of the square where they point in all directions.
+  const double shift = std::sqrt(3.0 * moved / double(points.size()));
+  const bool shown = lever > kLeastLever * reach;
+  return PairClosure{shown ? moved_by_turn / lever : std::nan(""), shift};
+}
+
+/// The frames of the pairs, in the order of their positions.
+std::vector<std::size_t> positions_of(const std::vector<TurnPair>& pairs) {
+  std::vector<std::size_t> out;
+  for (const TurnPair& pair : pairs) {
+    out.push_back(pair.first);
+    out.push_back(pair.second);
+    out.push_back(pair.beside);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// data: of the frames at `positions`.
+Result<std::optional<ClosureError>> compare_pairs(const std::vector<TurnPair>& pairs,
+                                                  const std::vector<std::size_t>& positions,
+                                                  const std::vector<double>& angle,
+                                                  const TurntableInfo& table,
+                                                  const MotionData& data,
+                                                  const RunContext& context) {
+  std::vector<double> turns, shifts, noises;
+  const auto frame_at = [&](std::size_t position) -> const MotionFrame& {
+    const auto at = std::lower_bound(positions.begin(), positions.end(), position);
+    return data.frames[std::size_t(at - positions.begin())];
+  };
+  for (const TurnPair& pair : pairs) {
+    TURNSCAN_TRY(context.check());
+    const auto between = [&](std::size_t other) {
+      return compare_frames(frame_at(pair.first), frame_at(other), table,
+                            angle[other] - angle[pair.first], context);
+    };
+    const auto closure = between(pair.second);
+    if (!closure) continue;
+    const auto noise = pair.beside != pair.first ? between(pair.beside) : std::nullopt;
+    noises.push_back(noise ? noise->shift_m : 0.0);
+    if (std::isfinite(closure->turn_rad)) turns.push_back(closure->turn_rad);
+    shifts.push_back(closure->shift_m);
+  }
+  if (shifts.size() < 2) return std::nullopt;
+  return ClosureError{median(turns, std::nan("")), median(shifts), median(noises), shifts.size()};
+}
+
+}  // namespace
+
+}  // namespace turnscan::checks
+
+namespace turnscan {
+
+bool ClosureError::bad() const {
+  const double squared = shift_m * shift_m - noise_m * noise_m;
+  return squared > 0.0015 * 0.0015 ||
+         (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegreesPerRadian > 1.0);
+}
+
+Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
+                                                    const RunContext& context) {
+  const auto& table = sequence.header().turntable;
+  if (!table)
+    return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
+  const auto angle = checks::recorded_angles(sequence);
+  if (std::none_of(angle.begin(), angle.end(), [](double a) { return std::isfinite(a); }))
+    return fail(ErrorCode::kMissingData, "the recording has neither angles nor a speed");
+  const auto pairs = checks::turn_pairs(sequence, angle);
+  if (pairs.empty()) return std::nullopt;
+  const auto positions = checks::positions_of(pairs);
+  if (positions.size() < 3) return std::nullopt;
+  motion::MotionDataOptions loading;
+  loading.hint = table;
+  const auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
+  if (!data) {
+    if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;
+    return tl::unexpected<Error>(data.error());
+  }
+  return checks::compare_pairs(pairs, positions, angle, *table, *data, context);
+}
+
+}  // namespace turnscan

@@ -1,0 +1,29 @@
+#pragma once
+// Whether a recording comes back, after a turn, to the view that it had before.
+
+#include <optional>
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
+
+namespace turnscan {
+
+/// How far the same view, one turn later, lies from where the calibration puts it.
+struct ClosureError {
+  double turn_rad = 0.0;  ///< median turn about the axis that is missing; NaN where the shape does
+                          ///< not show it
+  double shift_m = 0.0;   ///< median of sqrt(3) times the root mean square of how far the object's
+                          ///< points lie off along their normals
+  double noise_m = 0.0;   ///< the same of frames less than 3 degrees apart, which noise alone sets
+                          ///< apart; 0 where there are none
+  std::size_t pairs = 0;  ///< pairs of frames that were compared
+  bool bad() const;       ///< over 1.5 mm beyond the noise (squares), or 1 degree
+};
+
+/// Compares up to six pairs of frames whose angles, as recorded or from the recorded speed, differ
+/// by one turn. nullopt where there are none, or where the object is not seen well enough.
+/// Fails with kMissingData when the recording has no turntable or no angles, kCancelled, and what
+/// reading fails with.
+Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
+                                                    const RunContext& context);
+
+}  // namespace turnscan

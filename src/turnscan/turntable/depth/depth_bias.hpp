@@ -1,0 +1,39 @@
+#pragma once
+// A constant offset of a sensor's depth, from a platter whose radius is known; with recordings of
+// it at two distances or more also the scale.
+
+#include <span>
+#include <turnscan/turntable/detection/detect.hpp>
+
+namespace turnscan {
+
+/// Depth that is b too small makes everything look smaller by b / depth: 2 % at 20 mm. The offset
+/// is the one with which the detected rim has the radius that it has (secant method over
+/// detect_platter). bias_m replaces the recording's own offset, `recorded_m`. The scale stays 1: a
+/// platter at one distance cannot tell it from an offset. options.radius_m is not used.
+/// Fails as detect_platter does, with kInvalidOption for a radius out of range, and with
+/// kMissingData when the radius that is seen is over a fifth off.
+Result<DepthCorrection> estimate_depth_bias(const AveragedScan& scan, double radius_m,
+                                            double recorded_m, const DetectOptions& options,
+                                            const RunContext& context);
+
+/// How far depth is off at one distance.
+struct DepthGauge {
+  double depth_m = 0.0;   ///< of the platter's centre, as recorded without any offset
+  double offset_m = 0.0;  ///< what has to be added to it
+  double sigma_m = 0.0;   ///< standard deviation of the offset
+};
+
+/// What estimate_depth_bias finds, with the distance at which it holds. Fails as that does.
+Result<DepthGauge> gauge_depth(const AveragedScan& scan, double radius_m, double recorded_m,
+                               const DetectOptions& options, const RunContext& context);
+
+/// The least-squares line through gauges at several distances, weighted by their standard
+/// deviations: depth is scale times the recorded one, plus bias_m. Fails with kTooFewPoints for
+/// fewer than two gauges, and when their distances lie less than 5 cm apart.
+Result<DepthCorrection> fit_depth(std::span<const DepthGauge> gauges);
+
+/// The same scan with an offset added to its depth.
+AveragedScan shifted(AveragedScan scan, double offset_m);
+
+}  // namespace turnscan

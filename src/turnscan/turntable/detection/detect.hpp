@@ -1,0 +1,47 @@
+#pragma once
+// The platter in an averaged scan, found without a click: its plane and its round rim.
+
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/turntable/detection/average.hpp>
+
+namespace turnscan {
+
+struct DetectOptions {
+  std::optional<double> radius_m;  ///< the platter's, if known
+  double min_radius_m = 0.05;      ///< of a platter whose radius is not known
+  double max_radius_m = 0.6;
+  double min_rim_share = 0.3;   ///< refuse when less of the rim is seen
+  double min_confidence = 0.7;  ///< refuse below
+};
+/// Fields platter-radius, platter-min-radius, platter-max-radius, platter-rim, platter-confidence.
+OptionTable describe(DetectOptions& options);
+
+struct DetectedPlatter {
+  Vec3d axis = Vec3d::UnitY();     ///< sensor frame, up
+  Vec3d center_m = Vec3d::Zero();  ///< of the rim, on the platter's surface
+  double radius_m = 0.0;
+  double axis_sigma_rad = 0.0, center_sigma_m = 0.0, height_sigma_m = 0.0, radius_sigma_m = 0.0;
+  double plane_rms_m = 0.0;  ///< of the surface's pixels from the plane
+  double rim_rms_m = 0.0;    ///< of the rim's points from the circle, in the plane
+  double rim_share = 0.0;    ///< of 360 places on the rim, those where the surface is seen to end
+  /// Share of the rim's visible places that agree, times the share of the disc that is filled by
+  /// the plane or hidden by what stands on it.
+  double confidence = 0.0;
+  std::size_t plane_pixels = 0, rim_points = 0;
+};
+
+/// Planes are found one after the other (RANSAC); in each, the places where it ends before
+/// something farther give a circle (RANSAC over three of them), then least squares over plane and
+/// rim. The rim lies between two pixels; how far towards the outer one is an unknown of the fit,
+/// so that mixed pixels, which make every rim look smaller, do not shift the centre of a platter
+/// seen at a low angle.
+/// Fails with kMissingData when no plane with a round rim is there, when too little of it is seen,
+/// and when two are equally good: the sentence says which and what would help. Also kInvalidOption,
+/// kCancelled.
+Result<DetectedPlatter> detect_platter(const AveragedScan& scan, const DetectOptions& options,
+                                       const RunContext& context);
+
+/// The same as a calibration.
+Calibration calibration_of(const DetectedPlatter& platter, const AveragedScan& scan);
+
+}  // namespace turnscan

@@ -1,0 +1,79 @@
+#pragma once
+// The round rim of a plane in a depth image.
+
+#include <optional>
+#include <turnscan/turntable/detection/plane_fit.hpp>
+
+namespace turnscan::detection {
+
+/// A place where the surface ends before something farther: between two pixels, in the plane.
+struct RimPoint {
+  Eigen::Vector2d at;         ///< coordinates in the plane
+  Eigen::Matrix2d footprint;  ///< metres in the plane per pixel across and down
+  /// Behind it the depth jumps, so that mixed pixels may hide the true end; false at an edge from
+  /// which a wall goes down.
+  bool jump = true;
+};
+
+/// Coordinates in a plane, whose origin is where the z axis of the sensor's view of it starts.
+class PlaneFrame {
+ public:
+  PlaneFrame(const Plane& plane, const Vec3d& origin);
+  Eigen::Vector2d to_plane(const Vec3d& p) const { return {u_.dot(p - o_), v_.dot(p - o_)}; }
+  Vec3d to_space(const Eigen::Vector2d& q) const { return o_ + q.x() * u_ + q.y() * v_; }
+  Vec3d u() const { return u_; }
+  Vec3d v() const { return v_; }
+
+ private:
+  Vec3d o_, u_, v_;
+};
+
+/// Image, plane and which pixels lie in it.
+struct PlaneView {
+  const ScanPixels& scan;
+  const CameraIntrinsics& camera;
+  const RayTable& rays;
+  Plane plane;
+  double tolerance_m;
+  PlaneFrame frame;
+  std::vector<std::uint8_t> in;  ///< per pixel
+
+  Vec3d ray(double column, double row) const { return camera.ray(column, row); }
+  /// +1 where the pixel lies above the plane (hides it), -1 behind it or empty, 0 in it.
+  int side(int column, int row) const;
+};
+
+/// All ends of the plane except where something stands before them.
+std::vector<RimPoint> rim_points(const PlaneView& view);
+
+/// On the side of a disc that faces the sensor a thick platter shows its wall, of which the upper
+/// end passes for the plane. Where enough of the points there are walls, those that are not are
+/// dropped. to_sensor: direction in the plane.
+void drop_false_ends(const Eigen::Vector2d& center, const Eigen::Vector2d& to_sensor,
+                     std::vector<RimPoint>& points);
+
+struct RimCircle {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+  double edge_px = 0.0;  ///< how much farther out than half way between the pixels the rim lies
+  Eigen::Matrix2d center_covariance = Eigen::Matrix2d::Zero();
+  double radius_sigma_m = 0.0;
+  double rms_m = 0.0;
+  std::size_t points = 0;
+};
+
+/// Radius within [min, max]. nullopt where no circle has enough points all round.
+std::optional<RimCircle> find_circle(const std::vector<RimPoint>& points, double min_radius_m,
+                                     double max_radius_m, std::optional<double> radius_m,
+                                     std::uint64_t seed);
+
+/// How the image agrees with a disc.
+struct DiscSupport {
+  double rim_share = 0.0;  ///< places of the rim where the plane is inside and not outside
+  double agreement = 0.0;  ///< of the places where the image decides, those that agree
+  double filled = 0.0;     ///< of the disc where the image decides, what is in the plane
+  double seen = 0.0;       ///< of the disc, where the image decides
+};
+DiscSupport support_of(const PlaneView& view, const RimCircle& circle);
+
+}  // namespace turnscan::detection

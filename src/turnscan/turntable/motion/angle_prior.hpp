@@ -1,0 +1,40 @@
+#pragma once
+// What is known of the angles without looking at the object, as equations: the motor turns evenly,
+// the frames have angles of their own.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <turnscan/turntable/motion_input/frame_data.hpp>
+#include <utility>
+#include <vector>
+
+namespace turnscan::motion {
+
+struct AnglePrior {
+  bool timed = false;        ///< the speed is a random walk over the frames' times
+  double speed_rad_s = 0.0;  ///< typical, for its scale
+  double speed_walk = 0.02;  ///< standard deviation of its change in a second, as a share of it
+  std::vector<std::uint8_t>
+      transient;                       ///< per frame: the table starts or stops there; may be empty
+  std::vector<std::uint8_t> still;     ///< per frame: the table stands, at the start or the end
+  std::optional<double> stated_rad_s;  ///< mean speed that the user stated
+  double nominal_sigma_rad = 0.0;      ///< of the frames' own angles; 0: none
+  double nominal_sign = 1.0;
+  std::vector<std::uint8_t> held;  ///< per frame: its angle stays as it is; may be empty
+};
+
+/// A coefficient and which of the angles it belongs to.
+using PriorTerm = std::pair<int, double>;
+/// One equation: sum of coefficient * step = -error, with this inverse variance.
+using AddPriorRow =
+    std::function<void(std::span<const PriorTerm> terms, double error, double inverse_variance)>;
+
+/// The prior for the angles of `frames` (positions in data.frames, increasing). Returns -2 times
+/// the logarithm of its probability, up to a constant.
+double add_angle_prior(const MotionData& data, const std::vector<std::size_t>& frames,
+                       const std::vector<double>& angle, const AnglePrior& prior,
+                       const AddPriorRow& add);
+
+}  // namespace turnscan::motion

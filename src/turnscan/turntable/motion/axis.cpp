@@ -1,0 +1,36 @@
+#include <algorithm>
+#include <turnscan/turntable/motion/axis.hpp>
+
+namespace turnscan::motion {
+
+void add_axis_prior(const MotionData& data, const Vec3d& axis, const Vec3d& center, double unit,
+                    Eigen::Ref<Eigen::Matrix4d> normal, Eigen::Ref<Eigen::Vector4d> right) {
+  const double tilt = data.platter ? 0.002 : 0.35, shift = data.platter ? 0.003 : 0.2;
+  const Eigen::Vector4d weight =
+      unit * Eigen::Vector4d(1.0 / (tilt * tilt), 1.0 / (tilt * tilt), 1.0 / (shift * shift),
+                             1.0 / (shift * shift));
+  normal.diagonal() += weight;
+  if (!data.platter) return;
+  const auto [u, v] = tangent_basis(axis);
+  const Vec3d lean = axis.cross(data.platter->axis);  // the turn that would get there
+  const Vec3d off = data.platter->center_m - center;
+  right += weight.cwiseProduct(Eigen::Vector4d(lean.dot(u), lean.dot(v), off.dot(u), off.dot(v)));
+}
+
+std::pair<Vec3d, Vec3d> tangent_basis(const Vec3d& n) {
+  int least = 0;
+  n.cwiseAbs().minCoeff(&least);
+  const Vec3d u = n.cross(Vec3d::Unit(least)).normalized();
+  return {u, n.cross(u)};
+}
+
+std::pair<double, double> move_axis(const Eigen::Vector4d& step, Vec3d& axis, Vec3d& center) {
+  const auto [u, v] = tangent_basis(axis);
+  const Vec3d turn = step[0] * u + step[1] * v, shift = step[2] * u + step[3] * v;
+  const double size = std::min(turn.norm(), 0.2);
+  if (size > 0.0) axis = (Eigen::AngleAxisd(size, turn.normalized()) * axis).normalized();
+  center += shift * std::min(1.0, 0.05 / std::max(shift.norm(), 1e-12));
+  return {size, shift.norm()};
+}
+
+}  // namespace turnscan::motion

@@ -1,0 +1,91 @@
+#pragma once
+// The normal equations of bundle adjustment: axis and knots' angles, the surfels' heights
+// eliminated.
+
+#include <Eigen/Cholesky>
+#include <turnscan/turntable/motion/angle_prior.hpp>
+#include <turnscan/turntable/motion/surfels.hpp>
+
+namespace turnscan::motion {
+
+/// Frames between which angles are interpolated.
+class AngleKnots {
+ public:
+  /// Positions of at least two frames, increasing.
+  explicit AngleKnots(std::vector<std::size_t> frames) : frames_(std::move(frames)) {}
+
+  Eigen::Index size() const { return Eigen::Index(frames_.size()); }
+  const std::vector<std::size_t>& frames() const { return frames_; }
+  /// The knot before a frame, and how far the frame is on the way to the next, 0 to 1.
+  std::pair<Eigen::Index, double> between(std::size_t frame) const;
+
+ private:
+  std::vector<std::size_t> frames_;
+};
+
+/// The unknowns.
+struct BundleState {
+  MotionState motion;
+  std::vector<double> knot_angle;
+  std::vector<Surfel> surfels;
+};
+
+/// One frame's equations. Unknowns: two tilts and two shifts of the axis, the frame's angle.
+struct FrameEquations {
+  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
+  Eigen::Matrix<double, 5, 1> residual = Eigen::Matrix<double, 5, 1>::Zero();
+};
+
+class BundleSystem {
+ public:
+  BundleSystem(const MotionData& data, const AngleKnots& knots) : data_(data), knots_(knots) {}
+
+  /// Linearises the observations of these frames at a state.
+  void accumulate(const BundleState& at, const std::vector<std::size_t>& frames,
+                  const SurfelObservations& observations);
+
+  /// -2 times the logarithm of the evidence for a prior, up to a constant: what the data and the
+  /// prior lose by the best step, and how narrow the prior and the data make the angles.
+  double minus_2_log_evidence(const BundleState& at, const AnglePrior& prior) const;
+
+  /// The step with a prior. Fails with kLibrary when the system cannot be solved.
+  Result<> solve(const BundleState& at, const AnglePrior& prior);
+
+  /// After solve(): knots' angles, then two tilts and two shifts of the axis.
+  const Eigen::VectorXd& step() const { return step_; }
+  /// After solve(): the step of a surfel along its normal, metres; nullopt where none was seen.
+  std::vector<std::optional<double>> heights() const;
+  /// After solve().
+  Eigen::MatrixXd inverse() const;
+
+  std::size_t residuals() const { return residuals_; }
+  double rms_m() const { return rms_m_; }
+  /// Of a residual, enlarged by what correlated errors add.
+  double variance_m2() const { return variance_; }
+
+ private:
+  struct Dense {
+    Eigen::MatrixXd matrix;  ///< lower half
+    Eigen::VectorXd right;
+  };
+
+  double add_frame(const BundleState& at, std::size_t frame,
+                   const std::vector<SurfelObservation>& observed,
+                   const SurfelObservations& observations, FrameEquations& sum);
+  void add_block(const FrameEquations& sum, Eigen::Index knot, double share);
+  void eliminate_heights();
+  Dense with_prior(const BundleState& at, const AnglePrior& prior) const;
+
+  const MotionData& data_;
+  const AngleKnots& knots_;
+  std::size_t residuals_ = 0;
+  double rms_m_ = 0.0, variance_ = 1.0;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_, step_;
+  Eigen::VectorXd total_, sums_;  ///< per surfel: of the weights, and of the weighted distances
+  Eigen::MatrixXf rows_;  ///< per surfel: what its height changes by with each unknown, weighted
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+};
+
+}  // namespace turnscan::motion

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion/initial_guess.hpp>
+#include <turnscan/turntable/motion/pair_residuals.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+/// A point of the axis: the surface that is seen lies in front of it, by about half the object's
+/// half width.
+Vec3d behind_surface(const MotionData& data, const Vec3d& axis, double depth) {
+  const Vec3d view = (data.to_sensor - data.to_sensor.dot(axis) * axis).normalized();
+  const Vec3d side = axis.cross(view);
+  double width = 0.0;
+  for (const Vec3f& p : data.cloud) width += std::abs(side.dot(p.cast<double>() - data.middle));
+  width /= double(std::max<std::size_t>(1, data.cloud.size()));
+  return data.middle - depth * width * view;
+}
+
+std::vector<FramePair> spread_pairs(const MotionData& data, std::size_t gap,
+                                    std::size_t max_pairs) {
+  std::vector<FramePair> out;
+  const std::size_t n = data.keys.size() - gap;
+  for (std::size_t k = 0; k < std::min(n, max_pairs); ++k) {
+    const std::size_t i = k * n / std::min(n, max_pairs);
+    const std::size_t a = data.keys[i], b = data.keys[i + gap];
+    if (data.frames[a].samples.size() < 30 || data.frames[b].surface.empty()) continue;
+    if (data.frames[a].pass != data.frames[b].pass) continue;
+    out.push_back({std::uint32_t(a), std::uint32_t(b)});
+  }
+  return out;
+}
+
+/// Mean cost of the pairs at each constant speed.
+std::vector<double> costs_of_speeds(const MotionData& data, const MotionState& axis,
+                                    const std::vector<FramePair>& pairs,
+                                    const std::vector<double>& speeds) {
+  std::vector<double> costs(speeds.size(), 1.0);
+  parallel_for(speeds.size(), 1, [&](std::size_t k) {
+    double sum = 0.0;
+    for (const FramePair& pair : pairs) {
+      const double dt = data.frames[pair.to].time_s - data.frames[pair.from].time_s;
+      sum += pair_cost(data, axis, pair, speeds[k] * dt, data.inlier_gate_m(), 200);
+    }
+    costs[k] = sum / double(pairs.size());
+  });
+  return costs;
+}
+
+/// Best turn between two frames near a guess, by golden section after a coarse walk.
+double best_turn(const MotionData& data, const MotionState& state,
+                 const std::vector<FramePair>& pairs, const std::vector<double>& offset,
+                 double guess, double reach, double sigma_rad) {
+  const auto cost = [&](double turn) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      sum += pair_cost(data, state, pairs[k], turn + offset[k], data.inlier_gate_m(), 150);
+    return sum / double(pairs.size()) + 1e-3 * std::pow((turn - guess) / sigma_rad, 2);
+  };
+  const int steps = 6;
+  double best = guess, least = cost(guess);
+  for (int k = -steps; k <= steps; ++k) {
+    const double turn = guess + reach * k / steps, here = cost(turn);
+    if (here < least) best = turn, least = here;
+  }
+  double low = best - reach / steps, high = best + reach / steps;
+  for (int i = 0; i < 6; ++i) {
+    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
+    (cost(a) < cost(b) ? high : low) = cost(a) < cost(b) ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Angles of the frames between key frames.
+void interpolate(const MotionData& data, std::vector<double>& angle) {
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k) {
+    const std::size_t a = data.keys[k], b = data.keys[k + 1];
+    const double ta = data.frames[a].time_s, tb = data.frames[b].time_s;
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const double t = data.frames[i].time_s;
+      const bool timed = std::isfinite(t) && tb > ta;
+      const double share = timed ? (t - ta) / (tb - ta) : double(i - a) / double(b - a);
+      angle[i] = angle[a] + share * (angle[b] - angle[a]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MotionState> candidate_axes(const MotionData& data,
+                                        const std::optional<TurntableInfo>& hint) {
+  std::vector<MotionState> out;
+  MotionState state;
+  state.angle.assign(data.frames.size(), 0.0);
+  if (data.platter || hint) {
+    state.axis = data.platter ? data.platter->axis : hint->axis.normalized();
+    state.center = data.platter ? data.platter->center_m : hint->center_m;
+    // The point of the axis beside the object: tilting about it moves the object least.
+    state.center += state.axis.dot(data.middle - state.center) * state.axis;
+    out.push_back(state);
+    return out;
+  }
+  // Upright for the sensor: y down for a camera, y up for scans of points; the sensor looks down.
+  const Vec3d up = data.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
+  const Vec3d right = up.cross(data.to_sensor).normalized();
+  for (const double tilt : {0.0, 20.0, 40.0, 60.0}) {
+    for (const double roll : {0.0, 15.0, -15.0}) {
+      if (roll != 0.0 && tilt > 50.0) continue;
+      // Looking down tilts the axis towards the sensor.
+      state.axis = Eigen::AngleAxisd(roll * kRadiansPerDegree, data.to_sensor) *
+                   (Eigen::AngleAxisd(tilt * kRadiansPerDegree, right) * up);
+      for (const double depth : {0.9, 0.3, 1.6}) {
+        if (depth != 0.9 && (roll != 0.0 || data.projective)) continue;
+        state.center = behind_surface(data, state.axis, depth);
+        out.push_back(state);
+      }
+    }
+  }
+  return out;
+}
+
+double turn_information(const MotionData& data, const MotionState& axis) {
+  double signal = 0.0, noise = 0.0;
+  for (const std::size_t k : data.keys) {
+    for (const SurfaceSample& sample : data.frames[k].samples) {
+      const Vec3d sweep = axis.axis.cross(sample.p.cast<double>() - axis.center);
+      signal += std::pow(sample.n.cast<double>().dot(sweep), 2);
+      noise += sweep.squaredNorm() * std::pow(double(sample.normal_sigma), 2);
+    }
+  }
+  return signal / std::max(noise, 1e-12);
+}
+
+double guess_speed(const MotionData& data, const MotionState& axis) {
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)
+    steps.push_back(data.frames[data.keys[k + 1]].time_s - data.frames[data.keys[k]].time_s);
+  const double dt = median(steps);
+  if (!(dt > 0.0)) return 0.0;
+  double best = 0.0, reach = 60.0 * kRadiansPerDegree / dt;
+  for (std::size_t gap = 1; gap < data.keys.size(); gap *= 2) {
+    const double span = dt * double(gap);
+    const auto pairs = spread_pairs(data, gap, 24);
+    if (pairs.size() < 2) break;
+    const double step = 0.5 * kRadiansPerDegree / span;
+    const int half = int(std::ceil(reach / step));
+    std::vector<double> speeds;
+    for (int k = -half; k <= half; ++k) speeds.push_back(best + step * k);
+    const auto costs = costs_of_speeds(data, axis, pairs, speeds);
+    best = speeds[std::size_t(std::min_element(costs.begin(), costs.end()) - costs.begin())];
+    reach = 3.0 * step;
+    if (std::abs(best) * span > 20.0 * kRadiansPerDegree) break;
+  }
+  return best;
+}
+
+void track_angles(const MotionData& data, MotionState& state, double step_sigma) {
+  const std::vector<double> predicted = state.angle;
+  for (std::size_t k = 1; k < data.keys.size(); ++k) {
+    const std::size_t now = data.keys[k], last = data.keys[k - 1];
+    const double guess = predicted[now] - predicted[last];
+    std::vector<FramePair> pairs;
+    std::vector<double> offset;
+    for (const std::size_t back : {1U, 3U, 6U}) {
+      if (back > k) continue;
+      const std::size_t then = data.keys[k - back];
+      if (data.frames[then].surface.empty() || data.frames[now].samples.size() < 30) continue;
+      if (data.frames[then].pass != data.frames[now].pass) continue;
+      // From now back to then, so that the turn is the negative one.
+      pairs.push_back({std::uint32_t(now), std::uint32_t(then)});
+      offset.push_back(-(state.angle[last] - state.angle[then]));
+    }
+    double turn = guess;
+    if (!pairs.empty()) {
+      const double reach = std::max(1.2 * std::abs(guess), 1.0 * kRadiansPerDegree);
+      turn =
+          -best_turn(data, state, pairs, offset, -guess, std::min(reach, 15.0 * kRadiansPerDegree),
+                     std::max(step_sigma * std::abs(guess), 0.2 * kRadiansPerDegree));
+    }
+    state.angle[now] = state.angle[last] + turn;
+  }
+  interpolate(data, state.angle);
+}
+
+void search_turns(const MotionData& data, MotionState& state) {
+  for (std::size_t k = 1; k < data.keys.size(); ++k) {
+    const std::size_t now = data.keys[k], last = data.keys[k - 1];
+    const FramePair pair{std::uint32_t(last), std::uint32_t(now)};
+    const FramePair back{std::uint32_t(now), std::uint32_t(last)};
+    std::vector<double> costs(180, 1.0);
+    const auto cost = [&](double turn) {
+      return 0.5 * (pair_cost(data, state, pair, turn, data.inlier_gate_m(), 800) +
+                    pair_cost(data, state, back, -turn, data.inlier_gate_m(), 800));
+    };
+    parallel_for(costs.size(), 1, [&](std::size_t i) {
+      costs[i] = cost((2.0 * double(i) - 179.0) * kRadiansPerDegree);
+    });
+    const auto best = std::min_element(costs.begin(), costs.end());
+    double turn = (2.0 * double(best - costs.begin()) - 179.0) * kRadiansPerDegree, least = *best;
+    for (int i = -10; i <= 10; ++i) {
+      const double near = turn + 0.2 * i * kRadiansPerDegree, here = cost(near);
+      if (here < least) least = here, turn = near;
+    }
+    state.angle[now] = state.angle[last] + turn;
+  }
+  interpolate(data, state.angle);
+}
+
+}  // namespace turnscan::motion

@@ -1,0 +1,33 @@
+#pragma once
+// A first guess of axis, speed and angles, good enough for least squares.
+
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/turntable/motion/motion_state.hpp>
+#include <turnscan/turntable/motion_input/frame_data.hpp>
+
+namespace turnscan::motion {
+
+/// Axes to start from: the platter's or the given one; else some that a sensor which looks down on
+/// a table sees, through the middle of what turns.
+std::vector<MotionState> candidate_axes(const MotionData& data,
+                                        const std::optional<TurntableInfo>& hint);
+
+/// How much the shape says about its turn: the sum of the squared speeds at which the samples'
+/// planes would move along their normals, over what noisy normals alone would make of it. About 1
+/// or less for a round object.
+double turn_information(const MotionData& data, const MotionState& axis);
+
+/// The constant speed at which pairs of key frames fit best, rad/s; 0 where times do not increase:
+/// pairs next to each other first, over all speeds up to 60 degrees between them, then pairs twice
+/// as far apart, near the best so far.
+double guess_speed(const MotionData& data, const MotionState& axis);
+
+/// Angles of all frames by following the key frames one after the other, from what `angle` predicts
+/// for each step; frames between key frames are interpolated in time. step_sigma: relative standard
+/// deviation of a step.
+void track_angles(const MotionData& data, MotionState& state, double step_sigma);
+
+/// Angles of key frames by trying all turns from each to the next. Needs neither times nor angles.
+void search_turns(const MotionData& data, MotionState& state);
+
+}  // namespace turnscan::motion

@@ -1,0 +1,30 @@
+#pragma once
+// Where least squares start: axis, angles and what is known of them beforehand.
+
+#include <turnscan/turntable/motion/angle_prior.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+#include <turnscan/turntable/motion/motion_state.hpp>
+
+namespace turnscan::motion {
+
+/// What the frames say of their angles before they are looked at.
+enum class AngleSource { kTimes, kAngles, kNothing };
+
+struct InitialMotion {
+  AngleSource source = AngleSource::kTimes;
+  MotionState state;
+  AnglePrior prior;
+  /// Whether the object's shape shows its turn; else the angles are those of the prior. Judged with
+  /// the last of the candidate axes.
+  bool turn_observable = true;
+};
+
+/// The candidate axis (candidate_axes) about which the frames fit best after a coarse solution,
+/// with angles from the frames' own, from their times or from trying all turns. header: turntable
+/// whose speed is used where the shape does not show one and options state none. Fails with
+/// kMissingData when there is none either, kCancelled.
+Result<InitialMotion> initialise_motion(const MotionData& data, const SequenceHeader& header,
+                                        const FromMotionOptions& options,
+                                        const RunContext& context);
+
+}  // namespace turnscan::motion

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/turntable/motion/pair_residuals.hpp>
+#include <turnscan/turntable/motion/publication.hpp>
+#include <turnscan/turntable/table_frame.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+class Publication {
+ public:
+  Publication(const MotionData& data, const RefinedMotion& motion, const FrameSequence& sequence,
+              const FromMotionOptions& options)
+      : data_(data),
+        motion_(motion),
+        solution_(motion.solution),
+        state_(motion.solution.state),
+        sequence_(sequence),
+        options_(options) {}
+
+  Result<Calibration> run() {
+    if (mean_pair_cost(data_, state_) > 0.85 ||
+        solution_.scale_m > std::max({0.003, 4.0 * data_.noise_m, 2.0 * data_.spacing_m}))
+      return fail(ErrorCode::kLibrary,
+                  "motion: no axis was found about which the frames fit; calibrate with --detect "
+                  "or --points, or take more frames a turn");
+    Calibration out;
+    out.method = CalibrationMethod::kMotion;
+    out.residual_rms_m = solution_.rms_m;
+    out.notes = data_.notes;
+    set_axis(out);
+    set_height(out);
+    set_angles(out);
+    if (motion_.source == AngleSource::kTimes) set_speed(out);
+    if (motion_.prior.nominal_sign < 0.0)
+      out.notes.emplace_back(
+          "the recorded angles count clockwise seen from above: the frames fit "
+          "when their sign is changed");
+    return out;
+  }
+
+ private:
+  void set_axis(Calibration& out) const {
+    out.table.axis = state_.axis;
+    // Besides noise: what smoothing and mixed pixels at silhouettes shift, a few hundredths of a
+    // pixel, and over the size of what turns still a hundredth.
+    const double shift = 0.03 * data_.spacing_m, tilt = 0.01 * data_.spacing_m / data_.extent_m;
+    const auto& c = solution_.covariance;
+    out.axis_sigma_rad = std::sqrt(c(0, 0) + c(1, 1) + tilt * tilt);
+    out.center_sigma_m = std::sqrt(c(2, 2) + c(3, 3) + shift * shift);
+    const std::string how = fmt::format("motion of {} frames, {} distances between them",
+                                        data_.frames.size(), solution_.residuals);
+    out.axis_found = out.center_found = how;
+    if (out.axis_sigma_rad > 1.0 * kRadiansPerDegree) out.undetermined.emplace_back("axis");
+    if (out.center_sigma_m > 0.003) out.undetermined.emplace_back("centre");
+  }
+
+  /// The axis meets the platter's surface, or else ends at the object's lowest points.
+  void set_height(Calibration& out) const {
+    const Vec3d a = state_.axis;
+    if (data_.platter) {
+      const DetectedPlatter& p = *data_.platter;
+      const double along = p.axis.dot(p.center_m - state_.center) / p.axis.dot(a);
+      out.table.center_m = state_.center + along * a;
+      out.table.radius_m = p.radius_m;
+      out.radius_sigma_m = p.radius_sigma_m;
+      out.height_sigma_m = p.height_sigma_m;
+      out.rim_share = p.rim_share;
+      out.confidence = p.confidence;
+      out.height_found = "the platter's surface";
+      out.radius_found = "the platter's rim";
+      return;
+    }
+    std::vector<double> heights;
+    for (const Vec3f& p : data_.cloud) heights.push_back(a.dot(p.cast<double>() - state_.center));
+    const auto low = heights.begin() + std::ptrdiff_t(heights.size() / 200);
+    std::nth_element(heights.begin(), low, heights.end());
+    out.table.center_m = state_.center + *low * a;
+    out.height_sigma_m = std::max(0.002, 2.0 * data_.noise_m);
+    out.height_found = "the lowest points of what turns";
+    const auto& table = sequence_.header().turntable;
+    if (table && options_.use_table && table->radius_m) {
+      out.table.radius_m = table->radius_m;
+      out.radius_found = "the recording's";
+    }
+  }
+
+  /// Frames of other sensors and dropped ones get theirs by time, or from their neighbours.
+  void set_angles(Calibration& out) const {
+    const auto& infos = sequence_.frames();
+    out.angles_rad.assign(infos.size(), 0.0);
+    out.angle_sigma_rad.assign(infos.size(), std::nan(""));
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      while (next < data_.frames.size() && data_.frames[next].position < i) ++next;
+      if (next < data_.frames.size() && data_.frames[next].position == i) {
+        out.angles_rad[i] = state_.angle[next];
+        out.angle_sigma_rad[i] = next == 0 ? 0.0 : angle_sigma(next);
+        continue;
+      }
+      out.angles_rad[i] = between(next, infos[i].time_s);
+    }
+    out.angles_found =
+        motion_.turn_observable ? "motion of each frame" : "the law of the motor alone";
+    if (!motion_.turn_observable) out.undetermined.emplace_back("angles");
+  }
+
+  /// As for the axis: what silhouettes shift, a few hundredths of a pixel.
+  double angle_sigma(std::size_t i) const {
+    return std::hypot(solution_.angle_sigma[i],
+                      motion_.turn_observable ? 0.03 * data_.spacing_m / data_.extent_m : 0.0);
+  }
+
+  double between(std::size_t next, double time_s) const {
+    const auto& frames = data_.frames;
+    if (frames.size() < 2) return 0.0;
+    const std::size_t b = std::clamp<std::size_t>(next, 1, frames.size() - 1), a = b - 1;
+    const double span = frames[b].time_s - frames[a].time_s;
+    const double share =
+        std::isfinite(time_s) && span > 0.0 ? (time_s - frames[a].time_s) / span : 0.5;
+    return state_.angle[a] + share * (state_.angle[b] - state_.angle[a]);
+  }
+
+  /// The steady speed: the slope of the angles over time once the table runs, and the moment at
+  /// which that line left the angle that the table stood at.
+  void set_speed(Calibration& out) const {
+    const auto& frames = data_.frames;
+    const std::size_t n = frames.size();
+    const auto slope = [&](std::size_t a, std::size_t b) {
+      return (state_.angle[b] - state_.angle[a]) / (frames[b].time_s - frames[a].time_s);
+    };
+    const double middle = slope(n / 4, 3 * n / 4);
+    // Runs: from where a stretch of a twentieth goes at nearly the steady speed.
+    const std::size_t stretch = std::max<std::size_t>(1, n / 20);
+    std::size_t first = 0, last = n - 1;
+    while (first + stretch < n / 4 && slope(first, first + stretch) / middle < 0.93) ++first;
+    while (last > stretch + 3 * n / 4 && slope(last - stretch, last) / middle < 0.93) --last;
+    double t = 0.0, y = 0.0, tt = 0.0, ty = 0.0, count = 0.0;
+    for (std::size_t i = first; i <= last; ++i)
+      t += frames[i].time_s, y += state_.angle[i], ++count;
+    t /= count, y /= count;
+    for (std::size_t i = first; i <= last; ++i) {
+      tt += std::pow(frames[i].time_s - t, 2);
+      ty += (frames[i].time_s - t) * (state_.angle[i] - y);
+    }
+    const double speed = ty / tt;
+    out.table.speed_rad_s = speed;
+    const double span = frames[last].time_s - frames[first].time_s;
+    double sigma = 0.0;
+    for (std::size_t i = first; i <= last; ++i) sigma = std::max(sigma, solution_.angle_sigma[i]);
+    out.speed_sigma_rad_s = sigma / span;
+    out.speed_found = motion_.turn_observable ? "slope of the angles over time" : "stated";
+    if (!motion_.turn_observable) {
+      out.undetermined.emplace_back("speed");
+      out.speed_sigma_rad_s = std::nan("");
+    }
+    const double start = t - y / speed;  // where the line meets angle 0
+    out.start_s = first == 0 ? frames.front().time_s : start;
+  }
+
+  const MotionData& data_;
+  const RefinedMotion& motion_;
+  const MotionSolution& solution_;
+  const MotionState& state_;
+  const FrameSequence& sequence_;
+  const FromMotionOptions& options_;
+};
+
+/// At most about max_samples, evenly spread over the samples of all frames, turned back to angle 0.
+std::vector<SurfaceSample> samples_at_zero(const MotionData& data, const MotionState& state,
+                                           const Pose& T_table_sensor, std::size_t max_samples) {
+  std::vector<SurfaceSample> out;
+  std::size_t all = 0;
+  for (const MotionFrame& frame : data.frames) all += frame.samples.size();
+  const std::size_t stride = std::max<std::size_t>(1, all / max_samples);
+  std::size_t next = stride / 2;
+  for (std::size_t i = 0; i < data.frames.size(); ++i) {
+    const auto& samples = data.frames[i].samples;
+    const Pose T = rotation_about_y(-state.angle[i]) * T_table_sensor;
+    for (; next < samples.size(); next += stride) {
+      SurfaceSample s = samples[next];
+      s.p = (T * s.p.cast<double>()).cast<float>();
+      s.n = (T.linear() * s.n.cast<double>()).cast<float>();
+      out.push_back(s);
+    }
+    next -= samples.size();
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Calibration> publish_motion(const MotionData& data, const RefinedMotion& motion,
+                                   const FrameSequence& sequence,
+                                   const FromMotionOptions& options) {
+  return Publication(data, motion, sequence, options).run();
+}
+
+Result<SensorMotion> with_model(Calibration calibration, const MotionData& data,
+                                const MotionState& state, std::size_t max_samples) {
+  SensorMotion out;
+  out.noise_m = data.noise_m;
+  out.spacing_m = data.spacing_m;
+  out.platter = data.platter.has_value();
+  if (max_samples > 0) {
+    TURNSCAN_ASSIGN(const Pose T_table_sensor, table_from_sensor(calibration.table));
+    out.model = samples_at_zero(data, state, T_table_sensor, max_samples);
+  }
+  out.calibration = std::move(calibration);
+  return out;
+}
+
+}  // namespace turnscan::motion

@@ -1,0 +1,35 @@
+#pragma once
+// From a raw depth image to the surface of the object in it.
+
+#include <turnscan/turntable/motion_input/foreground.hpp>
+
+namespace turnscan::motion {
+
+/// The foreground of a depth image and the positions of its pixels in z, ascending.
+struct DepthForeground {
+  FrameSurface surface;
+  std::vector<std::int32_t> pixels;
+};
+
+/// Pixels of the foreground, in metres. All are empty when the image is not of the camera's size.
+DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& sensor,
+                                   const CameraIntrinsics& camera, const RayTable& rays,
+                                   const Foreground& foreground);
+
+/// Drops pixels that lie well behind a neighbour: they may be mixed of two surfaces.
+void drop_mixed_pixels(DepthForeground& depth, double fx, double noise_m);
+
+/// Noise moves points sideways in the other frames' images, where every convex surface then seems
+/// to lie deeper. A quadratic surface through 5 x 5 pixels (Savitzky and Golay 1964) takes most of
+/// it away and leaves curvature alone. Where the window is not whole the pixel stays.
+void smooth_depth(DepthForeground& depth, double fx, double noise_m);
+
+/// Between pixels find_correspondence() follows chords, which lie behind a convex surface: by a
+/// twelfth of the second difference in the mean, in each direction. The pixels move by as much the
+/// other way. Second differences are those of the quadratic surface through 5 x 5 pixels.
+void correct_chord_sag(DepthForeground& depth, double fx, double noise_m);
+
+/// The surface without margins that show nothing.
+FrameSurface trimmed(const DepthForeground& depth);
+
+}  // namespace turnscan::motion

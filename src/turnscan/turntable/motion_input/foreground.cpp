@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <turnscan/turntable/motion_input/foreground.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+constexpr std::size_t kMeanFrames = 36;  ///< that the search averages
+
+class ForegroundSearch {
+ public:
+  ForegroundSearch(const FrameSequence& sequence, const MotionDataOptions& options,
+                   MotionData& data, const RunContext& context)
+      : sequence_(sequence), options_(options), data_(data), context_(context) {}
+
+  Result<Foreground> run() {
+    AverageOptions average;
+    average.min_share = 0.3;
+    std::vector<std::size_t> positions;
+    const std::size_t n = data_.frames.size(), count = std::min(kMeanFrames, n);
+    for (std::size_t k = 0; k < count; ++k)
+      positions.push_back(data_.frames[k * n / count].position);
+    TURNSCAN_ASSIGN(const AveragedScan scan,
+                    average_frames(sequence_, positions, average, context_));
+    data_.noise_m =
+        std::max(scan.typical_noise_m(), sequence_.header().sensors[0].depth_unit_m * 0.3);
+    const auto platter = detect_platter(scan, options_.detect, context_);
+    if (!platter && platter.error().code == ErrorCode::kCancelled)
+      return tl::unexpected<Error>(platter.error());
+    if (platter) {
+      data_.platter = *platter;
+      crop_to(platter->axis, platter->center_m, platter->radius_m, platter->plane_rms_m);
+    } else if (options_.hint) {
+      crop_to(options_.hint->axis.normalized(), options_.hint->center_m,
+              options_.hint->radius_m.value_or(0.3), 0.002);
+    } else {
+      data_.notes.push_back(
+          "no platter was seen: what turns was told from what stands still by "
+          "its motion");
+      TURNSCAN_TRY(find_moving(scan));
+    }
+    return std::move(foreground_);
+  }
+
+ private:
+  void crop_to(const Vec3d& axis, const Vec3d& center, double radius, double spread) {
+    foreground_.plane = detection::Plane{axis, axis.dot(center)};
+    foreground_.center = center;
+    foreground_.radius_m = radius;
+    foreground_.margin_m = std::max({0.003, 4.0 * data_.noise_m, std::min(4.0 * spread, 0.01)});
+    foreground_.left = foreground_.top = 0;
+    foreground_.right = data_.camera.width;
+    foreground_.bottom = data_.camera.height;
+    // The cylinder above the platter, half as high again as wide, in the image.
+    const Pose T = frame_of(axis, center);
+    Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+    for (int k = 0; k < 72; ++k) {
+      const double a = 0.0872664626 * k;
+      for (const double h : {0.0, 3.0 * radius}) {
+        const Vec3d p = T * Vec3d(radius * std::cos(a), h, radius * std::sin(a));
+        if (p.z() < 0.05) return;
+        const Eigen::Vector2d uv = data_.camera.project(p);
+        low = low.cwiseMin(uv);
+        high = high.cwiseMax(uv);
+      }
+    }
+    foreground_.left = std::clamp(int(low.x()) - 2, 0, data_.camera.width - 1);
+    foreground_.top = std::clamp(int(low.y()) - 2, 0, data_.camera.height - 1);
+    foreground_.right = std::clamp(int(high.x()) + 3, foreground_.left + 1, data_.camera.width);
+    foreground_.bottom = std::clamp(int(high.y()) + 3, foreground_.top + 1, data_.camera.height);
+  }
+
+  static Pose frame_of(const Vec3d& axis, const Vec3d& center) {
+    Pose T = Pose::Identity();
+    const Vec3d x = (std::abs(axis.x()) < 0.9 ? Vec3d::UnitX() : Vec3d::UnitZ()).cross(axis);
+    T.linear().col(0) = x.normalized();
+    T.linear().col(1) = axis;
+    T.linear().col(2) = x.normalized().cross(axis);
+    T.translation() = center;
+    return T;
+  }
+
+  /// Pixels between others that flicker, row by row and column by column.
+  Result<> find_moving(const AveragedScan& scan) {
+    const int w = scan.depth_m.width, h = scan.depth_m.height;
+    const double limit = std::max(4.0 * data_.noise_m, 0.003);
+    std::vector<std::uint8_t> moving(std::size_t(w) * std::size_t(h), 0);
+    std::vector<double> depths;
+    const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(w) + std::size_t(x); };
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const bool partly = scan.count.pixels[i] > 0 && scan.count.pixels[i] < scan.frames;
+      moving[i] = scan.noise_m.pixels[i] > limit || (partly && scan.depth_m.pixels[i] > 0.0f);
+      if (moving[i] && scan.depth_m.pixels[i] > 0.0f) depths.push_back(scan.depth_m.pixels[i]);
+    }
+    if (depths.size() < 100)
+      return fail(ErrorCode::kTooFewPoints,
+                  "motion: nothing turns in the recording, or nothing that can be seen to turn");
+    const auto far = depths.begin() + std::ptrdiff_t(depths.size() * 9 / 10);
+    std::nth_element(depths.begin(), far, depths.end());
+    foreground_.farthest_m = float(*far + 0.03);
+    std::vector<std::uint8_t> rows(moving.size(), 0), columns(moving.size(), 0);
+    fill_between(w, h, at, moving, rows, false);
+    fill_between(w, h, at, moving, columns, true);
+    for (std::size_t i = 0; i < moving.size(); ++i) rows[i] = rows[i] && columns[i] ? 1 : 0;
+    foreground_.mask = std::move(rows);
+    foreground_.left = w, foreground_.top = h;
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        if (!foreground_.mask[at(x, y)]) continue;
+        foreground_.left = std::min(foreground_.left, x);
+        foreground_.right = std::max(foreground_.right, x + 1);
+        foreground_.top = std::min(foreground_.top, y);
+        foreground_.bottom = std::max(foreground_.bottom, y + 1);
+      }
+    }
+    return {};
+  }
+
+  template <class At>
+  static void fill_between(int w, int h, const At& at, const std::vector<std::uint8_t>& in,
+                           std::vector<std::uint8_t>& out, bool columns) {
+    const int lines = columns ? w : h, length = columns ? h : w;
+    for (int line = 0; line < lines; ++line) {
+      const auto index = [&](int k) { return columns ? at(line, k) : at(k, line); };
+      int first = -1, last = -1;
+      for (int k = 0; k < length; ++k) {
+        if (!in[index(k)]) continue;
+        if (first < 0) first = k;
+        last = k;
+      }
+      for (int k = first; first >= 0 && k <= last; ++k) out[index(k)] = 1;
+    }
+  }
+
+  const FrameSequence& sequence_;
+  const MotionDataOptions& options_;
+  MotionData& data_;
+  const RunContext& context_;
+  Foreground foreground_;
+};
+
+}  // namespace
+
+bool Foreground::contains(std::size_t pixel, const Vec3f& p) const {
+  if (!plane) return mask[pixel] != 0 && p.z() < farthest_m;
+  const Vec3d d = p.cast<double>() - center;
+  const double h = plane->normal.dot(d);
+  return h > margin_m && h < 3.0 * radius_m + 0.1 &&
+         (d - h * plane->normal).squaredNorm() < radius_m * radius_m;
+}
+
+Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,
+                                   MotionData& data, const RunContext& context) {
+  return ForegroundSearch(sequence, options, data, context).run();
+}
+
+}  // namespace turnscan::motion

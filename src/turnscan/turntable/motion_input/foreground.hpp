@@ -1,0 +1,31 @@
+#pragma once
+// Which pixels of a depth image show the turning object.
+
+#include <optional>
+#include <turnscan/turntable/detection/plane_fit.hpp>
+#include <turnscan/turntable/motion_input/frame_data.hpp>
+
+namespace turnscan::motion {
+
+/// The cylinder above the platter, or without a platter the pixels that move.
+struct Foreground {
+  std::optional<detection::Plane>
+      plane;  ///< keep what is above it by the margin, within radius of center
+  Vec3d center = Vec3d::Zero();
+  double margin_m = 0.0, radius_m = 0.0;
+  std::vector<std::uint8_t> mask;  ///< without a plane: pixels, and the largest depth
+  float farthest_m = 0.0f;
+  int left = 0, top = 0, right = 0, bottom = 0;  ///< bounding box in the image
+
+  /// Whether a pixel (its position in the image) that sees p (sensor frame) belongs to the object.
+  bool contains(std::size_t pixel, const Vec3f& p) const;
+};
+
+/// From the mean of up to 36 frames spread over the recording: the platter, else options.hint, else
+/// what moves. Also sets the platter and the noise in data, and adds a note where neither platter
+/// nor hint is used. Fails with kTooFewPoints when nothing moves, kCancelled, and what reading
+/// fails with.
+Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,
+                                   MotionData& data, const RunContext& context);
+
+}  // namespace turnscan::motion

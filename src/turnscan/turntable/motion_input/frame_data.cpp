@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <array>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/turntable/motion_input/point_sampling.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+constexpr std::uint64_t kSamplingSeed = 0x6d6f74696f6eULL;
+
+class FrameLoader {
+ public:
+  FrameLoader(const FrameSequence& sequence, const MotionDataOptions& options,
+              const RunContext& context)
+      : sequence_(sequence), options_(options), context_(context) {}
+
+  Result<MotionData> run() {
+    TURNSCAN_TRY(choose_frames());
+    const SensorInfo& sensor = sequence_.header().sensors.front();
+    data_.projective = sensor.kind == SensorKind::kDepthCamera;
+    data_.camera = sensor.intrinsics;
+    if (data_.projective) {
+      rays_ = RayTable(sensor.intrinsics);
+      TURNSCAN_ASSIGN(foreground_, find_foreground(sequence_, options_, data_, context_));
+    }
+    TURNSCAN_TRY(read_all());
+    return finish();
+  }
+
+ private:
+  Result<> choose_frames() {
+    if (sequence_.header().sensors.empty())
+      return fail(ErrorCode::kMissingData, "the recording has no sensor");
+    const auto& infos = sequence_.frames();
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      if (infos[i].status != FrameStatus::kOk || infos[i].sensor != 0) continue;
+      MotionFrame frame;
+      frame.position = i;
+      frame.time_s = infos[i].time_s;
+      frame.nominal_rad = infos[i].angle_rad;
+      frame.pass = infos[i].pass;
+      data_.frames.push_back(std::move(frame));
+    }
+    const std::size_t n = data_.frames.size(), keys = std::min(n, options_.max_keys);
+    if (n < 3)
+      return fail(ErrorCode::kTooFewPoints,
+                  "motion: the recording has {} usable frames of its first sensor; 3 are needed",
+                  n);
+    for (std::size_t k = 0; k < keys; ++k)
+      data_.keys.push_back(keys == 1 ? 0 : k * (n - 1) / (keys - 1));
+    return {};
+  }
+
+  std::size_t samples_per_frame(bool key) const {
+    const std::size_t n = data_.frames.size();
+    // More say little: noise is smoothed over 25 pixels, so that near samples share theirs.
+    return std::clamp<std::size_t>(150000 / n, key ? 400 : 350, n > 24 ? 1500 : 4000);
+  }
+
+  Result<> read_all() {
+    context_.begin_phase("read frames", data_.frames.size());
+    std::vector<std::uint8_t> is_key(data_.frames.size(), 0);
+    for (const std::size_t k : data_.keys) is_key[k] = 1;
+    std::vector<Result<>> results(data_.frames.size());
+    std::vector<std::vector<Vec3f>> clouds(data_.frames.size());
+    parallel_for(data_.frames.size(), 1, [&](std::size_t i) {
+      if (context_.cancelled()) return;
+      results[i] = read_one(data_.frames[i], is_key[i] != 0, clouds[i]);
+      context_.advance();
+    });
+    TURNSCAN_TRY(context_.check());
+    for (auto& result : results) TURNSCAN_TRY(result);
+    for (const auto& cloud : clouds)
+      data_.cloud.insert(data_.cloud.end(), cloud.begin(), cloud.end());
+    return {};
+  }
+
+  Result<> read_one(MotionFrame& frame, bool key, std::vector<Vec3f>& cloud) const {
+    TURNSCAN_ASSIGN(const Frame raw, sequence_.read(frame.position));
+    const auto seed = hash_key(kSamplingSeed, frame.position);
+    if (data_.projective) {
+      take_depth(raw, key, seed, frame, cloud);
+      return {};
+    }
+    return take_points(raw, key, seed, frame, cloud);
+  }
+
+  void take_depth(const Frame& raw, bool key, std::uint64_t seed, MotionFrame& frame,
+                  std::vector<Vec3f>& cloud) const {
+    const double fx = data_.camera.fx, noise = data_.noise_m;
+    DepthForeground depth = extract_foreground(raw.depth, sequence_.header().sensors.front(),
+                                               data_.camera, rays_, foreground_);
+    drop_mixed_pixels(depth, fx, noise);
+    frame.raw_surface = trimmed(depth);
+    smooth_depth(depth, fx, noise);
+    sample_depth(data_, rays_, depth, seed, samples_per_frame(key), frame, cloud);
+    if (!key) return;
+    correct_chord_sag(depth, fx, noise);
+    frame.surface = trimmed(depth);
+  }
+
+  Result<> take_points(const Frame& raw, bool key, std::uint64_t seed, MotionFrame& frame,
+                       std::vector<Vec3f>& cloud) const {
+    const SensorInfo& sensor = sequence_.header().sensors.front();
+    TURNSCAN_ASSIGN(const FramePoints points, points_of(raw, sensor, RayTable()));
+    if (points.cloud.points.size() < 50) return {};
+    FrameSurface surface;
+    surface.points = points.cloud.points;
+    surface.tree = KdTree(surface.points);
+    sample_points(surface, points.viewpoint, seed, samples_per_frame(key), frame, cloud);
+    if (key) frame.surface = std::move(surface);
+    return {};
+  }
+
+  Result<MotionData> finish() {
+    std::size_t with = 0;
+    for (const MotionFrame& frame : data_.frames) with += frame.samples.size() >= 30 ? 1 : 0;
+    if (with < 3)
+      return fail(ErrorCode::kTooFewPoints,
+                  "motion: {} of {} frames show enough of an object; check that something stands "
+                  "on the platter",
+                  with, data_.frames.size());
+    double count = 0.0, spacing = 0.0;
+    for (const Vec3f& p : data_.cloud) {
+      data_.middle += p.cast<double>();
+      spacing += p.z();
+      count += 1.0;
+    }
+    data_.middle /= count;
+    double squares = 0.0;
+    for (const Vec3f& p : data_.cloud) squares += (p.cast<double>() - data_.middle).squaredNorm();
+    data_.extent_m = std::max(0.005, 2.0 * std::sqrt(squares / count));
+    data_.to_sensor = sequence_.header().sensors.front().viewpoint.direction_from(data_.middle);
+    if (data_.projective) {
+      data_.spacing_m = spacing / count / data_.camera.fx;
+    } else {
+      measure_points();
+    }
+    return std::move(data_);
+  }
+
+  /// Spacing and noise of scans of points, from the neighbours of some of them.
+  void measure_points() {
+    std::vector<double> distances;
+    for (const std::size_t k : data_.keys) {
+      const FrameSurface& surface = data_.frames[k].surface;
+      for (std::size_t s = 0; s < data_.frames[k].samples.size(); s += 20) {
+        std::array<std::uint32_t, 2> index{};
+        std::array<float, 2> squared{};
+        if (surface.tree.knn(data_.frames[k].samples[s].p, 2, index.data(), squared.data()) == 2)
+          distances.push_back(std::sqrt(double(squared[1])));
+      }
+    }
+    data_.spacing_m = median(distances);
+    data_.noise_m = std::max(0.1 * data_.spacing_m, 1e-5);
+  }
+
+  const FrameSequence& sequence_;
+  const MotionDataOptions& options_;
+  const RunContext& context_;
+  RayTable rays_;
+  Foreground foreground_;
+  MotionData data_;
+};
+
+}  // namespace
+
+bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p, double reach_m,
+                                     Vec3d& found) const {
+  if (!projective) {
+    std::uint32_t index = 0;
+    float squared = 0.0f;
+    if (surface.tree.knn(p.cast<float>(), 1, &index, &squared) == 0) return false;
+    if (squared > reach_m * reach_m) return false;
+    found = surface.points[index].cast<double>();
+    return true;
+  }
+  if (!(p.z() > 0.0)) return false;
+  Eigen::Vector2d uv;
+  if (camera.distorted()) {
+    uv = camera.project(p);
+  } else {
+    uv = {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
+  }
+  const double fx = uv.x() - surface.left, fy = uv.y() - surface.top;
+  if (!(fx >= 0.0 && fy >= 0.0 && fx < surface.width - 1 && fy < surface.height - 1)) return false;
+  const int x = int(fx), y = int(fy);
+  const float* row = &surface.z[std::size_t(y) * std::size_t(surface.width) + std::size_t(x)];
+  const float a = row[0], b = row[1], c = row[surface.width], d = row[surface.width + 1];
+  const float low = std::min(std::min(a, b), std::min(c, d)),
+              high = std::max(std::max(a, b), std::max(c, d));
+  if (!(low > 0.0f) || high - low > 3.0 * spacing_m + 5.0 * noise_m) return false;
+  const double u = fx - x, v = fy - y;
+  const double z = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
+  if (std::abs(z - p.z()) > reach_m) return false;
+  found = p * (z / p.z());
+  return true;
+}
+
+Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,
+                               const RunContext& context) {
+  return FrameLoader(sequence, options, context).run();
+}
+
+std::vector<std::size_t> spread_subset(std::vector<std::size_t> list, std::size_t most) {
+  const std::size_t n = list.size();
+  if (n <= most) return list;
+  for (std::size_t k = 0; k < most; ++k) list[k] = list[k * (n - 1) / (most - 1)];
+  list.resize(most);
+  return list;
+}
+
+}  // namespace turnscan::motion

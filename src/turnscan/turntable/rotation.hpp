@@ -1,0 +1,40 @@
+#pragma once
+// Where each frame of a sequence was seen from, with the platter's turn taken out.
+
+#include <optional>
+#include <turnscan/core/frame.hpp>
+
+namespace turnscan {
+
+/// How the poses were found.
+enum class PoseSource { kPoses, kAngles, kTimesAndSpeed };
+
+struct FramePoses {
+  std::vector<Pose> T_table_sensor;  ///< one per frame, in order; includes the turn back
+  PoseSource source = PoseSource::kPoses;
+};
+
+/// T_table_sensor of every frame: its own pose if it has one; else Ry(-angle) * the sensor's pose,
+/// with the frame's angle, or with angle = speed * (t - t0) (thesis eq. 3.8), t0 being the time of
+/// the first frame. A speed_rad_s given here takes precedence over recorded angles and speed
+/// where the frame has a time.
+/// Fails with kMissingData, naming the frame and what would help, when none of these is there.
+Result<FramePoses> frame_poses(const SequenceHeader& header, const std::vector<FrameInfo>& frames,
+                               std::optional<double> speed_rad_s);
+
+/// The same for frames as they come; t0 is the time of the first one asked for.
+class FramePoser {
+ public:
+  /// header must outlive it.
+  FramePoser(const SequenceHeader& header, std::optional<double> speed_rad_s);
+  Result<Pose> operator()(const FrameInfo& frame);
+  PoseSource source() const { return source_; }
+
+ private:
+  const SequenceHeader* header_;
+  std::optional<double> speed_rad_s_, t0_;
+  std::vector<std::optional<Pose>> sensors_;
+  PoseSource source_ = PoseSource::kPoses;
+};
+
+}  // namespace turnscan

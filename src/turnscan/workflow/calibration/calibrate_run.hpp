@@ -1,0 +1,44 @@
+#pragma once
+// A calibration as a command, a window or a script runs it: first the sensors' cameras and depth,
+// where something is known of them, then the turntable.
+
+#include <string>
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/turntable/depth/gauge_ball.hpp>
+#include <turnscan/turntable/detection/average.hpp>
+#include <turnscan/turntable/detection/detect.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+#include <vector>
+
+namespace turnscan {
+
+enum class CalibrationWay {
+  kAuto,     ///< from motion; where nothing can be seen of a turn, from the platter
+  kPoints,   ///< from points that somebody picked on the platter's rim
+  kPlatter,  ///< from the platter in the averaged frames; no speed but a stated one
+  kMotion    ///< from the motion of what stands on the platter
+};
+
+struct CalibrateRequest {
+  CalibrationWay way = CalibrationWay::kAuto;
+  std::string points;  ///< CSV file of the picked points, see docs/calibration.md
+  /// Folders of iai_kinect2 calibrations (see read_iai_kinect2), of sensors 0, 1, ...
+  std::vector<std::string> iai_folders;
+  /// Find the offset of each sensor's depth from ball.diameter_m, or else from detect.radius_m.
+  bool depth_bias = false;
+  std::string depth_also;  ///< recording of the same at another distance: tells the scale, too
+  AverageOptions average;
+  DetectOptions detect;
+  BallOptions ball;
+  FromMotionOptions motion;
+};
+
+/// The calibration as its file gives it back (see write_calibration()). Fails with kInvalidOption
+/// (depth_bias without a known size, more folders than sensors, a depth_also of other sensors),
+/// kFormat (the file of points), kMissingData (no way finds the turntable), kCancelled, and as the
+/// frames do.
+Result<Calibration> run_calibration(const FrameSequence& sequence, const CalibrateRequest& request,
+                                    const RunContext& context);
+
+}  // namespace turnscan

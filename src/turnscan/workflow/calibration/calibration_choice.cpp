@@ -1,0 +1,134 @@
+#include <turnscan/workflow/calibration/calibration_choice.hpp>
+
+#include <algorithm>
+#include <map>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/sequence_views.hpp>
+#include <turnscan/turntable/checks/check.hpp>
+#include <turnscan/turntable/motion/free_motion.hpp>
+#include <turnscan/turntable/rotation.hpp>
+
+namespace turnscan {
+
+namespace {
+
+struct FreeWay {
+  FreeMethod method;
+  FreeScheme scheme;
+};
+
+const std::map<std::string, FreeWay>& free_ways() {
+  static const std::map<std::string, FreeWay> ways{
+      {"icp-consecutive", {FreeMethod::kIcp, FreeScheme::kConsecutive}},
+      {"icp-global", {FreeMethod::kIcp, FreeScheme::kGlobal}},
+      {"gicp-consecutive", {FreeMethod::kGicp, FreeScheme::kConsecutive}},
+      {"gicp-global", {FreeMethod::kGicp, FreeScheme::kGlobal}}};
+  return ways;
+}
+
+Result<CalibrationChoice> by_free_registration(const FrameSequence& sequence,
+                                               const CalibrationRequest& request,
+                                               const FreeWay& way, const RunContext& context) {
+  TURNSCAN_ASSIGN(const FramePoses start,
+                  frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s));
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(out.poses, register_frames_freely(sequence, start.T_table_sensor, way.method,
+                                                    way.scheme, context));
+  out.note =
+      fmt::format("frames placed by free registration ({}), for comparison only", request.mode);
+  return out;
+}
+
+Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
+                                      const CalibrationRequest& request, const std::string& why,
+                                      const RunContext& context) {
+  FromMotionOptions options;
+  options.speed_rad_s = request.speed_rad_s;
+  TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(sequence, options, {}, context));
+  CalibrationChoice out;
+  out.note = fmt::format(
+      "{}, so the turntable was found from motion: axis to {:.2f} deg, centre to {:.2f} mm", why,
+      found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
+  if (!found.undetermined.empty())
+    out.note += fmt::format("; not determined: {}", fmt::join(found.undetermined, ", "));
+  out.calibration = std::move(found);
+  return out;
+}
+
+bool has_poses(const FrameSequence& sequence) {
+  const auto& frames = sequence.frames();
+  return std::all_of(frames.begin(), frames.end(),
+                     [](const FrameInfo& f) { return f.T_table_sensor.has_value(); });
+}
+
+/// nullopt: nothing speaks against the recording's calibration.
+Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const RunContext& context) {
+  const auto closure = measure_closure(sequence, context);
+  if (!closure) {
+    if (closure.error().code == ErrorCode::kMissingData) return std::nullopt;
+    return tl::unexpected<Error>(closure.error());
+  }
+  if (!*closure || !(*closure)->bad()) return std::nullopt;
+  return fmt::format(
+      "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
+      "turn",
+      (*closure)->shift_m * 1e3, (*closure)->turn_rad * kDegreesPerRadian);
+}
+
+Result<CalibrationChoice> automatic(const FrameSequence& sequence,
+                                    const CalibrationRequest& request, const RunContext& context) {
+  if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
+  const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
+  if (!poses) {
+    auto found = from_motion(sequence, request, "the recording has no calibration", context);
+    if (found || found.error().code == ErrorCode::kCancelled) return found;
+    return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
+                found.error().message);
+  }
+  if (request.table_given || request.speed_rad_s) return CalibrationChoice();
+  TURNSCAN_ASSIGN(const auto why, doubt(sequence, context));
+  if (!why) return CalibrationChoice();
+  auto found = from_motion(sequence, request, *why, context);
+  if (!found && found.error().code == ErrorCode::kCancelled) return found;
+  std::string failure = found ? "" : found.error().message;
+  if (found) {
+    // A calibration takes precedence over the recording's only if it closes where that one does
+    // not.
+    TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
+    TURNSCAN_ASSIGN(const auto still, doubt(*better, context));
+    if (!still) return found;
+    failure = "the one from motion does not close either";
+  }
+  CalibrationChoice out;
+  out.note = fmt::format("{}, but no better one was found ({})", *why, failure);
+  return out;
+}
+
+}  // namespace
+
+Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
+                                             const CalibrationRequest& request,
+                                             const RunContext& context) {
+  if (request.mode == "recorded") return CalibrationChoice();
+  if (request.mode == "motion")
+    return from_motion(sequence, request, "--calibration motion was given", context);
+  if (request.mode == "auto") return automatic(sequence, request, context);
+  if (const auto way = free_ways().find(request.mode); way != free_ways().end())
+    return by_free_registration(sequence, request, way->second, context);
+  return fail(ErrorCode::kInvalidOption,
+              "--calibration {}: there is no such way; use auto, recorded, motion or a "
+              "free registration",
+              request.mode);
+}
+
+Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
+                                                   const CalibrationChoice& choice) {
+  if (choice.calibration) return with_calibration(sequence, *choice.calibration);
+  std::vector<FrameInfo> frames = sequence.frames();
+  for (std::size_t i = 0; i < choice.poses.size(); ++i) frames[i].T_table_sensor = choice.poses[i];
+  auto out = std::make_unique<SequenceView>(sequence);
+  out->set_frames(std::move(frames));
+  return out;
+}
+
+}  // namespace turnscan

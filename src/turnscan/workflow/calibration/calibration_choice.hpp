@@ -1,0 +1,41 @@
+#pragma once
+// Which calibration a reconstruction uses.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <turnscan/core/calibration.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct CalibrationChoice {
+  std::optional<Calibration> calibration;  ///< nullopt: the recording's own
+  std::vector<Pose> poses;                 ///< T_table_sensor by free registration; else empty
+  std::string note;                        ///< one sentence for people; empty: nothing to say
+};
+
+struct CalibrationRequest {
+  /// "recorded" keeps the recording's calibration; "motion" makes one from the object's motion;
+  /// "auto" does that where the recording has none, or one whose closure error is bad
+  /// (turntable/checks/check.hpp). icp-consecutive, icp-global, gicp-consecutive and gicp-global
+  /// start from the recording's and register the frames freely (turntable/motion/free_motion.hpp).
+  std::string mode = "auto";
+  std::optional<double> speed_rad_s;  ///< that somebody stated; it is not questioned
+  bool table_given = false;           ///< by somebody, for this recording; it is not questioned
+};
+
+/// Fails with kInvalidOption for another mode, with kMissingData when there is no calibration and
+/// none can be made, with kCancelled, and as the sequence's frames do. That "auto" finds nothing
+/// better is no failure, but the note says it.
+Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
+                                             const CalibrationRequest& request,
+                                             const RunContext& context);
+
+/// The sequence as the choice places its frames; it must outlive the result. Fails as
+/// with_calibration().
+Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
+                                                   const CalibrationChoice& choice);
+
+}  // namespace turnscan

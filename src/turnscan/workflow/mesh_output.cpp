@@ -1,0 +1,45 @@
+#include <turnscan/workflow/mesh_output.hpp>
+
+#include <turnscan/io/mesh/mesh_io.hpp>
+
+#include <turnscan/workflow/output_file.hpp>
+
+namespace turnscan {
+
+Result<> check_mesh_file(const std::string& path) {
+  auto good = check_mesh_output(path);
+  if (good) return good;
+  Error error = std::move(good).error();
+  if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kInvalidOption;
+  return tl::unexpected<Error>(std::move(error));
+}
+
+Result<> check_watertight(const Reconstruction& r) {
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    if (r.objects[i].check.watertight()) continue;
+    return fail(ErrorCode::kLibrary,
+                "object {}: the mesh is not watertight ({}); allow the repair, or take it as it is "
+                "with --allow-open",
+                i + 1, r.objects[i].check.text());
+  }
+  return {};
+}
+
+Result<std::vector<std::string>> write_objects(const std::string& path, const Reconstruction& r) {
+  const std::string ending = ending_of(path);
+  std::vector<TriangleMesh> meshes;
+  for (const ObjectResult& object : r.objects) meshes.push_back(object.mesh);
+  if (meshes.size() == 1 || ending == ".3mf" || ending == ".glb") {
+    TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence)
+                                    : write_meshes(path, meshes));
+    return std::vector<std::string>{path};
+  }
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    files.push_back(with_suffix(path, fmt::format("-{}", i + 1)));
+    TURNSCAN_TRY(write_mesh(files.back(), meshes[i], r.objects[i].confidence));
+  }
+  return files;
+}
+
+}  // namespace turnscan

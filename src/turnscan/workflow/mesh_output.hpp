@@ -1,0 +1,24 @@
+#pragma once
+// Checks that the meshes of a reconstruction are what they claim to be, and writes them.
+
+#include <string>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// Succeeds when a mesh can be written under this name. Fails with kInvalidOption for an ending
+/// that is no mesh format's, else as check_mesh_output().
+Result<> check_mesh_file(const std::string& path);
+
+/// Succeeds when every mesh is closed, 2-manifold and consistently outward. Fails with kLibrary,
+/// naming the first object that is not and why.
+Result<> check_watertight(const Reconstruction& reconstruction);
+
+/// Writes the meshes: all objects into one 3MF or GLB file, else one file an object, numbered -1,
+/// -2, ... before the ending when there are several. Returns the names of the files. Fails as
+/// write_mesh() does; files that were written before stay.
+Result<std::vector<std::string>> write_objects(const std::string& path,
+                                               const Reconstruction& reconstruction);
+
+}  // namespace turnscan

@@ -1,0 +1,72 @@
+#pragma once
+// A reconstruction as a command, a window or a script runs it: which calibration, which stages are
+// kept, which files are written.
+//
+//   TURNSCAN_TRY(check_outputs(files));
+//   TURNSCAN_ASSIGN(const Input input, open_input("doll.recording"));
+//   TURNSCAN_ASSIGN(const ReconstructRun run, run_reconstruction(*input.frames, request, context));
+//   TURNSCAN_ASSIGN(const auto written, write_outputs(files, run, request.options));
+
+#include <map>
+#include <set>
+#include <string>
+#include <turnscan/core/point_cloud.hpp>
+#include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/workflow/calibration/calibration_choice.hpp>
+#include <vector>
+
+namespace turnscan {
+
+struct ReconstructRequest {
+  ReconstructOptions options;
+  std::string calibration = "auto";  ///< CalibrationRequest::mode
+  std::string turntable;             ///< see with_turntable(); empty: the recording's
+  std::set<std::string> stages;      ///< names of saveable_stages() whose clouds are wanted
+  bool allow_open = false;           ///< a mesh that is not watertight is no failure
+};
+
+struct ReconstructRun {
+  Reconstruction reconstruction;  ///< its notes begin with the choice's
+  CalibrationChoice choice;
+  std::map<std::string, PointCloud> stages;  ///< those that were asked for and made; table frame
+};
+
+/// The frames as a choice of calibration places them, with the options that go with it: where the
+/// calibration has angles, a given speed is in them already.
+struct CalibratedFrames {
+  CalibrationChoice choice;
+  std::unique_ptr<FrameSequence> frames;  ///< refers to the sequence it was made of
+  ReconstructOptions options;
+};
+
+/// choose_calibration() with the options' speed, applied. table_given: see CalibrationRequest.
+/// Fails as choose_calibration() and with_choice().
+Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const std::string& mode,
+                                          bool table_given, const ReconstructOptions& options,
+                                          const RunContext& context);
+
+/// Calibrates and reconstructs; writes nothing. Fails as with_turntable(), choose_calibration(),
+/// reconstruct() and, unless allow_open is set, check_watertight(); with kCancelled.
+Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
+                                          const ReconstructRequest& request,
+                                          const RunContext& context);
+
+/// Names of files; an empty one is not written.
+struct ReconstructFiles {
+  std::string mesh;                           ///< required; see write_objects()
+  std::string report;                         ///< .json
+  std::map<std::string, std::string> stages;  ///< .ply, by stage
+};
+
+/// Whether they can be written, to be asked before the work begins. Fails as check_mesh_file() and
+/// check_output_file().
+Result<> check_outputs(const ReconstructFiles& files);
+
+/// Writes the meshes, the stages' clouds and the report; returns the names of the files in that
+/// order. options: as they were asked for. Fails as write_objects(), write_cloud() and
+/// write_file_atomically(); a stage that the run did not keep is left out.
+Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
+                                               const ReconstructRun& run,
+                                               const ReconstructOptions& options);
+
+}  // namespace turnscan

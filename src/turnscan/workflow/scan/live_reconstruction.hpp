@@ -1,0 +1,39 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <turnscan/reconstruction/stream.hpp>
+
+namespace turnscan::workflow {
+
+/// Adds frames to a reconstruction on a thread of its own, so that the sensor is not held up.
+class LiveReconstruction {
+ public:
+  explicit LiveReconstruction(ReconstructionStream stream);
+  ~LiveReconstruction() { close(); }
+  LiveReconstruction(const LiveReconstruction&) = delete;
+  LiveReconstruction& operator=(const LiveReconstruction&) = delete;
+
+  /// From any thread, before finish().
+  void add(const Frame& frame);
+
+  /// Waits for all frames that were added. Fails as ReconstructionStream::add() did and finish()
+  /// does.
+  Result<Reconstruction> finish(const RunContext& context);
+
+ private:
+  void close();
+  void run();
+
+  ReconstructionStream stream_;
+  Result<> added_;  ///< of the thread, until it has ended
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Frame> waiting_;
+  bool closing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace turnscan::workflow

@@ -1,0 +1,163 @@
+#include <turnscan/workflow/scan/scan_ahead.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <numeric>
+#include <optional>
+#include <thread>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/sequence_views.hpp>
+#include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/turntable/checks/check.hpp>
+#include <turnscan/turntable/motion/continue_motion.hpp>
+
+namespace turnscan {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kBatch = 64;
+/// The views one turn apart disagree by their noise, too: a tenth of that of one depth value.
+constexpr double kClosureShare = 0.25;
+constexpr double kLeastLimit_m = 2e-4;
+
+SequenceView first_frames(const FrameSequence& sequence, std::size_t count) {
+  std::vector<std::size_t> positions(count);
+  std::iota(positions.begin(), positions.end(), std::size_t{0});
+  return SequenceView(sequence, std::move(positions));
+}
+
+Result<> add_frames(ReconstructionStream& stream, const FrameSequence& sequence, std::size_t begin,
+                    const RunContext& context) {
+  const auto& frames = sequence.frames();
+  context.begin_phase("read frames", frames.size() - begin);
+  for (; begin < frames.size(); begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, frames.size());
+    const std::vector<FrameInfo> infos(frames.begin() + std::ptrdiff_t(begin),
+                                       frames.begin() + std::ptrdiff_t(end));
+    TURNSCAN_TRY(stream.add(
+        infos, [&](std::size_t i) { return sequence.read(begin + i); }, context));
+  }
+  return {};
+}
+
+/// What the thread leaves.
+struct Begun {
+  Calibration calibration;
+  ReconstructionStream stream;
+};
+
+}  // namespace
+
+struct ScanAhead::Parts {
+  std::string folder;
+  ReconstructOptions options;
+  double share;
+  std::size_t came = 0, first = 0;
+  RunContext quiet;  ///< of the thread: it is not the phase that people are told about
+  std::future<Result<Begun>> begun;
+
+  /// Waits until the frames are in the recording.
+  Result<Recording> open_first() const {
+    for (;;) {
+      TURNSCAN_TRY(quiet.check());
+      TURNSCAN_ASSIGN(Recording recording, Recording::open(folder));
+      if (recording.frames().size() >= first) return recording;
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+
+  Result<Begun> begin() const {
+    TURNSCAN_ASSIGN(const Recording recording, open_first());
+    const SequenceView frames = first_frames(recording, first);
+    TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(frames, {}, {}, quiet));
+    if (!found.undetermined.empty())
+      return fail(ErrorCode::kMissingData, "they do not determine {}",
+                  fmt::join(found.undetermined, ", "));
+    TURNSCAN_ASSIGN(const auto calibrated, with_calibration(frames, found));
+    TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(calibrated->header(), options));
+    TURNSCAN_TRY(add_frames(stream, *calibrated, 0, quiet));
+    return Begun{std::move(found), std::move(stream)};
+  }
+
+  Result<Begun> wait(const RunContext& context) {
+    context.begin_phase("find the motion", 0);
+    while (begun.wait_for(20ms) != std::future_status::ready) TURNSCAN_TRY(context.check());
+    return begun.get();
+  }
+
+  /// Calibration and stream go on to the end of the recording, if they fit it.
+  Result<> complete(Begun& ahead, Outcome& out, const RunContext& context) const {
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
+    TURNSCAN_ASSIGN(ContinuedMotion all,
+                    continue_motion(recording, ahead.calibration, {}, context));
+    TURNSCAN_ASSIGN(const auto calibrated, with_calibration(recording, all.calibration));
+    TURNSCAN_ASSIGN(const auto closure, measure_closure(*calibrated, context));
+    if (!closure)
+      return fail(ErrorCode::kMissingData, "no view of the object comes back after one turn");
+    out.closure_m = closure->shift_m;
+    out.closure_limit_m = std::max(kLeastLimit_m, kClosureShare * all.noise_m);
+    if (!(out.closure_m <= out.closure_limit_m))
+      return fail(ErrorCode::kMissingData,
+                  "one turn later the object would lie {:.2f} mm off, more than {:.2f} mm",
+                  out.closure_m * 1e3, out.closure_limit_m * 1e3);
+    TURNSCAN_TRY(add_frames(ahead.stream, *calibrated, first, context));
+    out.calibration = std::move(all.calibration);
+    return {};
+  }
+};
+
+ScanAhead::ScanAhead(std::string recording, const ReconstructOptions& options, double share)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->folder = std::move(recording);
+  parts_->options = options;
+  parts_->options.merge.speed_rad_s.reset();  // it is in the angles
+  parts_->share = share;
+}
+
+ScanAhead::~ScanAhead() {
+  parts_->quiet.cancel();
+  if (parts_->begun.valid()) parts_->begun.wait();
+}
+
+void ScanAhead::frame_came() { ++parts_->came; }
+
+void ScanAhead::progress(double fraction) {
+  if (parts_->first > 0 || !(fraction >= parts_->share)) return;
+  parts_->first = parts_->came;
+  parts_->begun = std::async(std::launch::async, [parts = parts_.get()] { return parts->begin(); });
+}
+
+Result<ScanAhead::Outcome> ScanAhead::finish(const RunContext& context) {
+  Outcome out;
+  out.frames_ahead = parts_->first;
+  if (out.frames_ahead == 0) return out;
+  auto ahead = parts_->wait(context);
+  TURNSCAN_TRY(context.check());
+  const Result<> good = ahead ? parts_->complete(*ahead, out, context)
+                              : Result<>(tl::unexpected<Error>(ahead.error()));
+  if (!good && good.error().code == ErrorCode::kCancelled)
+    return tl::unexpected<Error>(good.error());
+  if (!good) {
+    out.note = fmt::format(
+        "the first {} frames were calibrated and added up while the others "
+        "were recorded, but that was not kept: {}",
+        out.frames_ahead, good.error().message);
+    return out;
+  }
+  TURNSCAN_ASSIGN(out.reconstruction, ahead->stream.finish({}, context));
+  out.kept = true;
+  out.note = fmt::format(
+      "the turntable was found from motion, in the first {} frames while the others were recorded: "
+      "axis to {:.2f} deg, centre to {:.2f} mm; one turn later the object lies {:.2f} mm off "
+      "(noise "
+      "included; up to {:.2f} mm is good)",
+      out.frames_ahead, out.calibration.axis_sigma_rad * kDegreesPerRadian,
+      out.calibration.center_sigma_m * 1e3, out.closure_m * 1e3, out.closure_limit_m * 1e3);
+  return out;
+}
+
+}  // namespace turnscan

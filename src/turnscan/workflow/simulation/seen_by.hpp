@@ -1,0 +1,14 @@
+#pragma once
+
+#include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/simulator/scene/scene.hpp>
+
+namespace turnscan {
+
+/// For evaluate(): whether any frame of the sequence sees a point of the scene's surface
+/// (seen_mask()). It refers to its arguments, which must outlive it.
+SeenTest seen_by(const Scene& scene, const FrameSequence& sequence, const RunContext& context);
+
+}  // namespace turnscan

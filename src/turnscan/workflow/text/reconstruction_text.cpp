@@ -1,0 +1,66 @@
+#include <turnscan/workflow/text/reconstruction_text.hpp>
+
+#include <turnscan/workflow/text/mesh_text.hpp>
+#include <turnscan/workflow/text/text_table.hpp>
+
+namespace turnscan {
+
+namespace {
+
+std::string objects_text(const Reconstruction& r) {
+  workflow::TextTable table({});
+  table.add({"object", "points", "candidates", "vertices", "triangles", "size", "volume",
+             "invented", "watertight"});
+  int number = 0;
+  for (const ObjectResult& o : r.objects) {
+    table.add(
+        {std::to_string(++number), std::to_string(o.points), std::to_string(o.candidates),
+         std::to_string(o.check.vertices), std::to_string(o.check.triangles),
+         size_text(bounds(o.mesh.vertices)), fmt::format("{:.1f} cm3", o.check.volume_m3 * 1e6),
+         fmt::format("{:.1f} cm2", o.invented_area_m2 * 1e4), o.check.watertight() ? "yes" : "no"});
+  }
+  return table.text();
+}
+
+std::string choices_text(const Reconstruction& r) {
+  workflow::TextTable table({0, 1, 2});
+  table.add({"option", "value", "why"});
+  for (const Choice& choice : r.choices) {
+    const std::string of = choice.object < 0 || r.objects.size() < 2
+                               ? ""
+                               : fmt::format(" (object {})", choice.object + 1);
+    table.add({choice.option + of, choice.value, choice.reason});
+  }
+  return table.text();
+}
+
+std::string times_text(const Reconstruction& r) {
+  std::string text;
+  double total = 0.0;
+  for (const StageTime& stage : r.stages) {
+    total += stage.seconds;
+    if (stage.seconds >= 0.05)
+      text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", stage.stage, stage.seconds);
+  }
+  return fmt::format("{:.1f} s{}{}{}\n", total, text.empty() ? "" : " (", text,
+                     text.empty() ? "" : ")");
+}
+
+}  // namespace
+
+std::string reconstruction_text(const Reconstruction& r) {
+  std::string text = fmt::format("{} frames, {} returns, {} inside the crop, {} after the filter\n",
+                                 r.frames, r.returns, r.inside_crop, r.points);
+  if (r.dropped_frames > 0) text += fmt::format("{} frames were dropped\n", r.dropped_frames);
+  text += fmt::format("\n{}", objects_text(r));
+  if (!r.choices.empty()) text += fmt::format("\n{}", choices_text(r));
+  text += fmt::format("\n{}", times_text(r));
+  for (const std::string& note : r.notes) text += fmt::format("Note: {}\n", note);
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    for (const std::string& note : r.objects[i].notes)
+      text += fmt::format("Note on object {}: {}\n", i + 1, note);
+  }
+  return text;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,385 @@
+// The layouts of depth images.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/io/import/foreign_data.hpp"
+
+namespace turnscan {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using testing::frame_of;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::open;
+using testing::put_color;
+using testing::put_depth;
+using testing::refusal;
+using testing::TempFolder;
+
+constexpr const char* kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
+
+ImportOptions with_depth_unit() {
+  ImportOptions options;
+  options.depth_unit_m = 1e-3;
+  return options;
+}
+
+/// Two frames with poses: the second one stands 1 m to the right, turned by 90 degrees about y.
+void put_frame_pose(const TempFolder& folder) {
+  put_depth(folder, "frame-000007.depth.png", 700);
+  put_depth(folder, "frame-000010.depth.png", 1000);
+  put_color(folder, "frame-000010.color.png");
+  folder.put("frame-000007.pose.txt", kIdentity);
+  folder.put("frame-000010.pose.txt", " 0 0 1e+000 1\n 0 1 0 0\n -1 0 0 0\n 0 0 0 1\n");
+  folder.put("camera-intrinsics.txt", " 5.85e+02\t 0 2\n0 585.5 1\n0 0 1\n");
+}
+
+TEST(FramePose, ReadsDepthColourPosesAndIntrinsics) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  const auto sequence = open(folder.path(), with_depth_unit());
+  const SensorInfo& sensor = sequence->header().sensors[0];
+  EXPECT_EQ(sensor.intrinsics.fx, 585.0);
+  EXPECT_EQ(sensor.intrinsics.fy, 585.5);
+  EXPECT_EQ(sensor.intrinsics.cx, 2.0);
+  EXPECT_EQ(sensor.intrinsics.cy, 1.0);
+  EXPECT_EQ(sensor.intrinsics.width, 4);
+  EXPECT_EQ(sensor.intrinsics.height, 3);
+  EXPECT_EQ(sensor.depth_unit_m, 1e-3);
+  ASSERT_EQ(sequence->frames().size(), 2u);
+  EXPECT_EQ(sequence->frames()[0].index, 7u);
+  EXPECT_EQ(sequence->frames()[1].index, 10u);
+  EXPECT_LT((*sequence->frames()[1].T_table_sensor * Vec3d(0, 0, 2) - Vec3d(3, 0, 0)).norm(),
+            1e-12);
+  EXPECT_TRUE(frame_of(*sequence, 0).color.empty());
+  EXPECT_EQ(frame_of(*sequence, 1).color.at(1, 1), (Rgb{1, 2, 3}));
+}
+
+TEST(FramePose, TakesCamerasAndOffsetOfAKinect2Calibration) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  fs::create_directory(folder.path() / "k");
+  folder.put("k/calib_depth.yaml", "depthShift: -20\n");
+  ImportOptions options = with_depth_unit();
+  options.iai_kinect2 = (folder.path() / "k").string();
+  const auto sequence = open(folder.path(), options);
+  EXPECT_DOUBLE_EQ(sequence->header().sensors[0].depth_bias_m, -0.02);
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.fx, 585.0);
+  // Images of another size than a Kinect v2's.
+  folder.put("k/calib_ir.yaml",
+             "cameraMatrix: [ 365, 0, 250, 0, 365, 200, 0, 0, 1 ]\n"
+             "distortionCoefficients: [ 0, 0, 0, 0, 0 ]\n");
+  const Error error = refusal(folder.path(), options);
+  EXPECT_EQ(error.code, ErrorCode::kInvalidOption);
+  EXPECT_THAT(error.message, HasSubstr("512 x 424"));
+}
+
+TEST(FramePose, MissingDepthIsNoReturnWhicheverWayItIsMarked) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  const Frame frame = frame_of(*open(folder.path(), with_depth_unit()), 0);
+  EXPECT_EQ(frame.depth.at(0, 0), kNoReturn);
+  EXPECT_EQ(frame.depth.at(3, 2), kNoReturn);
+  EXPECT_EQ(frame.depth.at(1, 1), 700);
+}
+
+TEST(FramePose, AsksForTheDepthUnit) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  const Error error = refusal(folder.path());
+  EXPECT_EQ(error.code, ErrorCode::kMissingData);
+  EXPECT_THAT(error.message, HasSubstr("--depth-unit"));
+}
+
+TEST(FramePose, PosesMayBeWorldToCamera) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  ImportOptions options = with_depth_unit();
+  options.pose_direction = PoseDirection::kWorldToCamera;
+  const auto sequence = open(folder.path(), options);
+  EXPECT_LT((*sequence->frames()[1].T_table_sensor * Vec3d(3, 0, 0) - Vec3d(0, 0, 2)).norm(),
+            1e-12);
+}
+
+TEST(FramePose, LostTrackingDropsTheFrameWithANote) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  folder.put("frame-000007.pose.txt", "nan nan nan nan nan nan nan nan -inf 0 0 0 0 0 0 1");
+  const auto sequence = open(folder.path(), with_depth_unit());
+  EXPECT_EQ(sequence->frames()[0].status, FrameStatus::kDropped);
+  EXPECT_EQ(sequence->frames()[1].status, FrameStatus::kOk);
+  EXPECT_FALSE(sequence->read(0));
+  EXPECT_THAT(sequence->header().source, HasSubstr("1 of 2 frames"));
+}
+
+TEST(FramePose, WrongPosesAndNumbersAreNamed) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  for (const char* bad : {"", "1 0 0", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 x",
+                          "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "nan 1"}) {
+    folder.put("frame-000007.pose.txt", bad);
+    EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(),
+                HasSubstr("frame-000007.pose.txt"))
+        << bad;
+  }
+  folder.put("frame-000007.pose.txt", kIdentity);
+  put_depth(folder, "frame-7.depth.png", 1);
+  EXPECT_THAT(refusal(folder.path(), with_depth_unit()).message, HasSubstr("same number"));
+  fs::rename(folder / "frame-7.depth.png", folder / "frame-x.depth.png");
+  EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(), HasSubstr("frame-x.depth.png"));
+}
+
+TEST(FramePose, IntrinsicsCanBeStated) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  fs::remove(folder / "camera-intrinsics.txt");
+  ImportOptions options = with_depth_unit();
+  EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("--intrinsics"));
+  options.intrinsics = "500, 501, 2, 1.5";
+  EXPECT_EQ(open(folder.path(), options)->header().sensors[0].intrinsics.fy, 501.0);
+  options.intrinsics = folder.put("k.txt", "400 0 2 0 401 1 0 0 1");
+  EXPECT_EQ(open(folder.path(), options)->header().sensors[0].intrinsics.fy, 401.0);
+  options.intrinsics = "500,501,2";
+  EXPECT_EQ(refusal(folder.path(), options).code, ErrorCode::kInvalidOption);
+  options.intrinsics = "-500,501,2,1";
+  EXPECT_EQ(refusal(folder.path(), options).code, ErrorCode::kFormat);
+}
+
+TEST(FramePose, ColourOfAnotherSizeIsLeftOutWithANote) {
+  const TempFolder folder;
+  put_frame_pose(folder);
+  put_color(folder, "frame-000010.color.png", 9);
+  const auto sequence = open(folder.path(), with_depth_unit());
+  EXPECT_TRUE(frame_of(*sequence, 1).color.empty());
+  EXPECT_THAT(sequence->header().source, HasSubstr("not registered"));
+}
+
+/// Depth at 1.0, 1.1, 1.2 s; colour near the first two; poses that move along x with time.
+void put_tum(const TempFolder& folder) {
+  fs::create_directory(folder / "depth");
+  fs::create_directory(folder / "rgb");
+  for (const char* name : {"depth/a.png", "depth/b.png", "depth/c.png"})
+    put_depth(folder, name, 5000);
+  put_color(folder, "rgb/a.png");
+  put_color(folder, "rgb/b.png");
+  folder.put("depth.txt", "# depth maps\n1.2 depth/c.png\n1.0 depth/a.png\n1.1 depth/b.png\n");
+  folder.put("rgb.txt", "1.015 rgb/a.png\n1.125 rgb/b.png\n");
+  folder.put("groundtruth.txt",
+             "0.99 0.99 0 0 0 0 0 1\n1.01 1.01 0 0 0 0 0 1\n1.115 1.115 0 0 0 0 0 1\n");
+}
+
+ImportOptions with_intrinsics() {
+  ImportOptions options;
+  options.intrinsics = "525,525,2,1";
+  return options;
+}
+
+TEST(Tum, DepthHas5000StepsAMetreAndItSaysSo) {
+  const TempFolder folder;
+  put_tum(folder);
+  const auto sequence = open(folder.path(), with_intrinsics());
+  EXPECT_DOUBLE_EQ(sequence->header().sensors[0].depth_unit_m, 0.0002);
+  EXPECT_THAT(sequence->header().source, HasSubstr("5000 steps"));
+  ImportOptions stated = with_intrinsics();
+  stated.depth_unit_m = 1e-3;
+  EXPECT_DOUBLE_EQ(open(folder.path(), stated)->header().sensors[0].depth_unit_m, 0.001);
+}
+
+TEST(Tum, FramesAreInTheOrderOfTimeWithTheColourNearest) {
+  const TempFolder folder;
+  put_tum(folder);
+  const auto sequence = open(folder.path(), with_intrinsics());
+  ASSERT_EQ(sequence->frames().size(), 3u);
+  EXPECT_EQ(sequence->frames()[0].time_s, 1.0);
+  EXPECT_EQ(sequence->frames()[2].file, "depth/c.png");
+  EXPECT_FALSE(frame_of(*sequence, 0).color.empty());
+  EXPECT_TRUE(frame_of(*sequence, 1).color.empty());  // 25 ms away
+}
+
+TEST(Tum, PosesAreInterpolatedOrTakenFromTheNearestWithin20Milliseconds) {
+  const TempFolder folder;
+  put_tum(folder);
+  const auto sequence = open(folder.path(), with_intrinsics());
+  EXPECT_NEAR(sequence->frames()[0].T_table_sensor->translation().x(), 1.0, 1e-12);
+  EXPECT_NEAR(sequence->frames()[1].T_table_sensor->translation().x(), 1.115, 1e-12);
+  EXPECT_FALSE(sequence->frames()[2].T_table_sensor);
+  EXPECT_EQ(sequence->frames()[2].status, FrameStatus::kDropped);
+  EXPECT_THAT(sequence->header().source, HasSubstr("1 of 3 frames have no pose within 20 ms"));
+}
+
+TEST(Tum, WithoutGroundTruthFramesHaveTimesOnly) {
+  const TempFolder folder;
+  put_tum(folder);
+  fs::remove(folder / "groundtruth.txt");
+  fs::remove(folder / "rgb.txt");
+  const auto sequence = open(folder.path(), with_intrinsics());
+  EXPECT_EQ(sequence->frames()[2].status, FrameStatus::kOk);
+  EXPECT_FALSE(sequence->frames()[0].T_table_sensor);
+}
+
+TEST(Tum, IntrinsicsAreKnownByTheFoldersName) {
+  const TempFolder parent;
+  const fs::path folder = parent / "rgbd_dataset_freiburg2_desk";
+  {
+    const TempFolder data;
+    put_tum(data);
+    fs::copy(data.path(), folder, fs::copy_options::recursive);
+    EXPECT_THAT(refusal(data.path()).message, HasSubstr("--intrinsics"));
+  }
+  const auto sequence = open(folder);
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.fx, 525.0);
+  EXPECT_THAT(sequence->header().source, HasSubstr("319.5"));
+}
+
+TEST(Tum, WrongLinesAreNamed) {
+  const TempFolder folder;
+  put_tum(folder);
+  folder.put("groundtruth.txt", "# t x y z\n1.0 0 0 0 0 0 0 0\n");
+  EXPECT_THAT(refusal(folder.path(), with_intrinsics()).text(),
+              HasSubstr("groundtruth.txt: line 2: pose"));
+  folder.put("groundtruth.txt", "1.0 0 0 0 0 0 0\n");
+  EXPECT_THAT(refusal(folder.path(), with_intrinsics()).text(), HasSubstr("line 1: there are 7"));
+  fs::remove(folder / "groundtruth.txt");
+  folder.put("depth.txt", "nan depth/a.png\n");
+  EXPECT_THAT(refusal(folder.path(), with_intrinsics()).text(), HasSubstr("line 1: 'nan'"));
+  folder.put("depth.txt", "1.0 depth/z.png\n");
+  EXPECT_EQ(refusal(folder.path(), with_intrinsics()).code, ErrorCode::kNotFound);
+  folder.put("depth.txt", "# nothing\n");
+  EXPECT_FALSE(open_foreign(folder.path(), with_intrinsics()));
+}
+
+constexpr const char* kCamera =
+    R"("intrinsics": {"fx": 600, "fy": 601, "cx": 2, "cy": 1, "width": 4, "height": 3,
+       "depth_unit_m": 0.001})";
+
+void put_views(const TempFolder& folder, const std::string& more) {
+  put_depth(folder, "depth_0.png", 400);
+  put_depth(folder, "depth_1.png", 401);
+  put_color(folder, "color_1.png");
+  folder.put("views.json", std::string("{") + kCamera + ", " + more + "}");
+}
+
+TEST(JsonPng, ReadsAnglesAndTheAxis) {
+  const TempFolder folder;
+  put_views(folder, R"("axis_dir": [0, -2, 0], "axis_point": [0, 0.1, 0.4],
+                       "angle_rad": [0, 9], "angle_rad_closed": [0, -0.5])");
+  const auto sequence = open(folder.path());
+  ASSERT_EQ(sequence->frames().size(), 2u);
+  EXPECT_EQ(*sequence->frames()[1].angle_rad, -0.5);
+  EXPECT_EQ(sequence->header().turntable->axis, Vec3d(0, -1, 0));
+  EXPECT_EQ(sequence->header().turntable->center_m, Vec3d(0, 0.1, 0.4));
+  EXPECT_THAT(sequence->header().source,
+              AllOf(HasSubstr("angle_rad_closed was taken"), HasSubstr("--platter-height")));
+  EXPECT_TRUE(frame_of(*sequence, 0).color.empty());
+  EXPECT_FALSE(frame_of(*sequence, 1).color.empty());
+}
+
+TEST(JsonPng, PlatterHeightMovesTheCentreAlongTheAxis) {
+  const TempFolder folder;
+  put_views(folder, R"("axis_dir": [0, -1, 0], "axis_point": [0, 0.1, 0.4], "angle_deg": [0, 45])");
+  ImportOptions options;
+  options.platter_height_m = 0.02;
+  const auto sequence = open(folder.path(), options);
+  EXPECT_LT((sequence->header().turntable->center_m - Vec3d(0, 0.08, 0.4)).norm(), 1e-12);
+  EXPECT_THAT(sequence->header().source, HasSubstr("20mm above"));
+  EXPECT_THAT(sequence->header().source, Not(HasSubstr("--platter-height")));
+}
+
+TEST(JsonPng, FileMaySayThePlattersHeightAndRadius) {
+  const TempFolder folder;
+  put_views(folder, R"("axis_dir": [0, -1, 0], "axis_point": [0, 0.1, 0.4], "radius_m": 0.12,
+                       "platter_height_m": -0.01, "speed_rad_s": 0.2, "times_s": [0, 1.5])");
+  const auto sequence = open(folder.path());
+  const TurntableInfo& table = *sequence->header().turntable;
+  EXPECT_LT((table.center_m - Vec3d(0, 0.11, 0.4)).norm(), 1e-12);
+  EXPECT_EQ(*table.radius_m, 0.12);
+  EXPECT_EQ(*table.speed_rad_s, 0.2);
+  EXPECT_EQ(sequence->frames()[1].time_s, 1.5);
+  EXPECT_FALSE(sequence->frames()[1].angle_rad);
+  EXPECT_THAT(sequence->header().source, Not(HasSubstr("--platter-height")));
+}
+
+TEST(JsonPng, AxisThatPointsDownIsTurnedRoundWithTheAngles) {
+  const TempFolder folder;
+  put_views(folder, R"("axis_dir": [0, 0.8, 0.6], "axis_point": [0, 0.1, 0.4],
+                       "platter_height_m": 0.01, "speed_rad_s": 0.2, "angle_rad": [0, 0.5])");
+  const auto sequence = open(folder.path());
+  const TurntableInfo& table = *sequence->header().turntable;
+  EXPECT_LT((table.axis - Vec3d(0, -0.8, -0.6)).norm(), 1e-12);
+  EXPECT_LT((table.center_m - Vec3d(0, 0.092, 0.394)).norm(), 1e-12);
+  EXPECT_EQ(*table.speed_rad_s, -0.2);
+  EXPECT_EQ(*sequence->frames()[1].angle_rad, -0.5);
+  EXPECT_THAT(sequence->header().source, HasSubstr("turned round"));
+}
+
+TEST(JsonPng, LevelAxisIsLeftAloneWithANote) {
+  const TempFolder folder;
+  put_views(folder, R"("axis_dir": [1, 0.01, 0], "axis_point": [0, 0, 0.4], "angle_rad": [0, 1])");
+  const auto sequence = open(folder.path());
+  EXPECT_GT(sequence->header().turntable->axis.x(), 0.9);
+  EXPECT_THAT(sequence->header().source, HasSubstr("not checked"));
+}
+
+TEST(JsonPng, ListsOfFilesPosesPassesAndColourCamera) {
+  const TempFolder folder;
+  put_depth(folder, "near.png", 400);
+  put_color(folder, "near-color.png", 9);
+  folder.put("v.json", std::string("{") + kCamera + R"(, "depth_files": ["near.png"],
+    "color_files": ["near-color.png"], "passes": [3], "model": "d435", "depth_bias_m": 0.002,
+    "poses": [[[1,0,0,0.5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]],
+    "color_intrinsics": {"fx": 900, "fy": 900, "cx": 4, "cy": 1, "width": 9, "height": 3},
+    "T_color_sensor": [1,0,0,0.015, 0,1,0,0, 0,0,1,0, 0,0,0,1]})");
+  const auto sequence = open(folder / "v.json");
+  EXPECT_EQ(sequence->frames()[0].pass, 3u);
+  EXPECT_EQ(sequence->frames()[0].T_table_sensor->translation(), Vec3d(0.5, 0, 0));
+  const SensorInfo& sensor = sequence->header().sensors[0];
+  EXPECT_EQ(sensor.model, "d435");
+  EXPECT_EQ(sensor.depth_bias_m, 0.002);
+  EXPECT_EQ(sensor.color_intrinsics->fx, 900);
+  EXPECT_EQ(sensor.T_color_sensor.translation(), Vec3d(0.015, 0, 0));
+  EXPECT_EQ(frame_of(*sequence, 0).color.width, 9);
+}
+
+TEST(JsonPng, DepthUnitIsAskedForWhenTheFileDoesNotSayIt) {
+  const TempFolder folder;
+  put_views(folder, R"("angle_rad": [0, 1])");
+  std::string text = testing::content_of(folder / "views.json");
+  text.replace(text.find("depth_unit_m"), 12, "depth_unit_x");
+  folder.put("views.json", text);
+  EXPECT_EQ(refusal(folder.path()).code, ErrorCode::kMissingData);
+  EXPECT_EQ(open(folder.path(), with_depth_unit())->header().sensors[0].depth_unit_m, 1e-3);
+}
+
+TEST(JsonPng, WrongFilesAreNamed) {
+  const TempFolder folder;
+  const auto message = [&](const std::string& more) {
+    put_views(folder, more);
+    return refusal(folder.path()).text();
+  };
+  EXPECT_THAT(message(R"("angle_rad": [0, 1, 2])"), HasSubstr("depth_2.png"));
+  EXPECT_THAT(message(R"("angle_rad": [0, 1], "times_s": [0])"), HasSubstr("times_s has 1"));
+  EXPECT_THAT(message(R"("angle_rad": [0, null])"), HasSubstr("angle_rad[1] is not a number"));
+  EXPECT_THAT(message(R"("mood": 1)"), HasSubstr("none of the lists"));
+  EXPECT_THAT(message(R"("angle_rad": [0, 1], "axis_dir": [0,0,0], "axis_point": [0,0,0])"),
+              HasSubstr("axis_dir"));
+  EXPECT_THAT(message(R"("angle_rad": [0, 1], "axis_dir": [0,1,0])"), HasSubstr("axis_point"));
+  EXPECT_THAT(message(R"("depth_files": ["../depth_0.png"])"), HasSubstr("inside"));
+  EXPECT_THAT(message(R"("poses": [[1,2,3]])"), HasSubstr("poses[0]"));
+  EXPECT_THAT(message(R"("angle_rad": [0, 1], "passes": [0.5, 1])"), HasSubstr("passes"));
+  EXPECT_THAT(message(R"("angle_rad": [0, 1)"), HasSubstr("not valid JSON"));
+}
+
+TEST(JsonPng, ImageOfAnotherSizeIsAnErrorWhenItIsRead) {
+  const TempFolder folder;
+  put_views(folder, R"("angle_rad": [0, 1])");
+  ASSERT_TRUE(write_depth_png(folder / "depth_1.png", DepthImage(5, 3, 100)));
+  const auto sequence = open(folder.path());
+  EXPECT_TRUE(sequence->read(0));
+  EXPECT_EQ(sequence->read(1).error().code, ErrorCode::kFormat);
+}
+
+}  // namespace
+}  // namespace turnscan

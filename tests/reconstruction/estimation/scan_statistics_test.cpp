@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tests/support/synthetic_cloud.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/estimation/scan_statistics.hpp>
+
+namespace turnscan::estimation {
+namespace {
+
+TEST(FrameStatistics, FindTheNoiseAndSpacingOfADepthImage) {
+  FramePoints points;
+  points.width = 200;
+  points.height = 100;
+  for (int v = 0; v < 100; ++v)
+    for (int u = 0; u < 200; ++u) {
+      const float z = 0.9f + 0.001f * float(u) +
+                      float(0.0015 * standard_normal(hash_key(8, std::uint64_t(v * 200 + u))));
+      points.cloud.points.emplace_back(0.002f * float(u), 0.002f * float(v), z);
+      points.cell.push_back(v * 200 + u);
+    }
+  const FrameStatistics s = frame_statistics(points);
+  EXPECT_NEAR(s.noise_m, 0.0015, 0.00005);
+  EXPECT_GT(s.spacing_m, 0.002);
+  EXPECT_LT(s.spacing_m, 0.0045);
+}
+
+TEST(CloudStatistics, FindThicknessAndDensity) {
+  const points::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
+  const CloudStatistics s = cloud_statistics(merged, 0.002);
+  EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);  // two of three sensors look at 32 degrees
+  EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
+}
+
+TEST(CloudStatistics, OfCellsAreThoseOfTheirPoints) {
+  const points::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
+  const CloudStatistics s = cloud_statistics(testing::measured(merged, 0.001), 0.002);
+  EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);
+  EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
+}
+
+/// Lines along X of points 0.5 mm apart, one a frame and 4 mm beside the last.
+points::MergedCloud lines(std::uint32_t frames) {
+  points::MergedCloud merged;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    for (int i = 0; i < 400; ++i) {
+      merged.cloud.points.emplace_back(0.0005f * float(i), 0.0f, 0.004f * float(f));
+      merged.cloud.frame.push_back(f);
+    }
+  }
+  return merged;
+}
+
+TEST(CloudStatistics, DensityOfLinesIsThatOfTheSurface) {
+  EXPECT_NEAR(cloud_statistics(lines(60), 0.0015).spacing_m, std::sqrt(0.0005 * 0.004), 0.0003);
+}
+
+TEST(CloudStatistics, FramesOfALineScannerLieApart) {
+  EXPECT_NEAR(frames_apart(lines(60), 0.0005), 0.004, 1e-6);
+  EXPECT_EQ(frames_apart(lines(1), 0.0005), 0.0);
+  EXPECT_LT(frames_apart(testing::noisy_plane(20000, 0.05, 0.001), 0.001), 0.003);
+}
+
+}  // namespace
+}  // namespace turnscan::estimation

@@ -1,0 +1,365 @@
+// The filter's contract: PCL's kept set, options, errors, the same result everywhere.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/outliers/outliers.hpp>
+
+#include "tests/reconstruction/outliers/depth_frames.hpp"
+#include "tests/reconstruction/outliers/pcl_outliers.hpp"
+
+namespace turnscan::outliers {
+namespace {
+
+using testing::Defects;
+using ::testing::HasSubstr;
+using testing::NamedFrame;
+
+OutlierOptions options(int k = 10, double lambda = 1.0) { return {true, k, lambda}; }
+
+std::vector<std::uint8_t> mask(const FramePoints& frame, const OutlierOptions& o = options()) {
+  return statistical_outlier_mask(frame, o).value();
+}
+
+std::size_t dropped(const std::vector<std::uint8_t>& mask) {
+  return std::size_t(std::count(mask.begin(), mask.end(), 0));
+}
+
+/// Both ways of searching keep what PCL keeps.
+void expect_pcl(const FramePoints& frame, int k = 10, double lambda = 1.0) {
+  const std::vector<std::uint8_t> expected =
+      testing::pcl_outlier_mask(frame.cloud.points, k, lambda);
+  const OutlierOptions o = options(k, lambda);
+  EXPECT_EQ(mask(frame, o), expected) << "grid, k " << k << ", lambda " << lambda;
+  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, o).value(), expected)
+      << "tree, k " << k << ", lambda " << lambda;
+}
+
+CameraIntrinsics small_camera(int width, int height, double f = 100.0) {
+  CameraIntrinsics camera;
+  camera.width = width, camera.height = height;
+  camera.fx = camera.fy = f;
+  camera.cx = width / 2.0, camera.cy = height / 2.0;
+  return camera;
+}
+
+// --- the kept set -------------------------------------------------------------------------------
+
+TEST(OutliersLikePcl, ObjectWithNoiseHolesAndFlyingPixels) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Defects defects;
+    defects.seed = seed;
+    const FramePoints frame = testing::object_frame(testing::kinect_v2(), defects);
+    ASSERT_GT(frame.cloud.size(), 5000u);
+    expect_pcl(frame);
+    EXPECT_GT(dropped(mask(frame)), 50u);
+  }
+}
+
+TEST(OutliersLikePcl, FullFrameOfARoom) { expect_pcl(testing::room_frame(testing::kinect_v2())); }
+
+TEST(OutliersLikePcl, FullFrameThroughADistortingLens) {
+  expect_pcl(testing::room_frame(testing::distorted_kinect_v2()));
+}
+
+TEST(OutliersLikePcl, AnyNumberOfNeighbours) {
+  const FramePoints frame = testing::object_frame(small_camera(200, 160, 180.0));
+  ASSERT_GT(frame.cloud.size(), 1001u);
+  for (const int k : {1, 2, 3, 4, 9, 11, 20, 50, 128, 129, 249, 250, 251, 1000})
+    expect_pcl(frame, k);
+}
+
+TEST(OutliersLikePcl, AnyLambda) {
+  const FramePoints frame = testing::object_frame(testing::kinect_v2());
+  for (const double lambda : {0.0, 0.1, 0.5, 2.0, 3.7, 100.0}) expect_pcl(frame, 10, lambda);
+}
+
+TEST(OutliersLikePcl, FrontalPlaneWhereNearlyAllDistancesTie) {
+  const FramePoints frame =
+      testing::render(small_camera(90, 70), [](int, int, double, double) { return 1.0; });
+  for (const int k : {1, 4, 8, 10, 12, 24}) expect_pcl(frame, k);
+}
+
+TEST(OutliersLikePcl, NoiseOfSeveralPixelSpacings) {
+  for (const double noise : {0.0, 0.0001, 0.01, 0.05}) {
+    Defects defects;
+    defects.noise_m = noise;
+    defects.holes = 0.3;
+    expect_pcl(testing::object_frame(testing::kinect_v2(), defects));
+  }
+}
+
+TEST(OutliersLikePcl, PixelsOfRandomDepth) {
+  const auto random = [](int column, int row, double, double) {
+    return 0.3 + 4.0 * uniform01(hash_key(7, std::uint64_t(column), std::uint64_t(row)));
+  };
+  for (const int k : {1, 10, 30}) expect_pcl(testing::render(small_camera(120, 90), random), k);
+}
+
+TEST(OutliersLikePcl, MostPixelsEmpty) {
+  for (const double holes : {0.9, 0.99}) {
+    Defects defects;
+    defects.holes = holes;
+    expect_pcl(testing::room_frame(testing::kinect_v2(), defects));
+  }
+}
+
+TEST(OutliersLikePcl, StepsSeenAlmostEdgeOn) {
+  const auto stairs = [](int column, int row, double x, double) {
+    return column % 9 < 2 ? 2.0 + 0.3 * (row % 5) : 0.5 / (1.0 - 1.9 * x);
+  };
+  expect_pcl(testing::render(small_camera(100, 60), stairs));
+}
+
+TEST(OutliersLikePcl, SingleRowsAndColumns) {
+  const auto slope = [](int column, int row, double, double) {
+    return 1.0 + 0.001 * ((column * 7 + row * 5) % 11);
+  };
+  for (const auto& [width, height] : {std::pair(200, 1), std::pair(1, 200), std::pair(12, 1)})
+    expect_pcl(testing::render(small_camera(width, height), slope));
+}
+
+TEST(OutliersLikePcl, FewPoints) {
+  const auto slope = [](int column, int row, double, double) {
+    return 1.0 + 0.01 * ((column * 7 + row * 3) % 5);
+  };
+  for (int count = 1; count <= 24; ++count)
+    for (const int k : {1, 5, 10, 20})
+      expect_pcl(testing::render(small_camera(count, 1), slope), k);
+}
+
+TEST(OutliersLikePcl, TheSamePointSeveralTimes) {
+  FramePoints frame = testing::object_frame(testing::kinect_v2());
+  for (std::size_t i = 0; i + 40 < frame.cloud.size(); i += 40)
+    for (std::size_t j = 1; j < 1 + i % 17; ++j) frame.cloud.points[i + j] = frame.cloud.points[i];
+  expect_pcl(frame);
+}
+
+TEST(OutliersLikePcl, AllPointsInOnePlace) {
+  FramePoints frame =
+      testing::render(small_camera(30, 20), [](int, int, double, double) { return 1.0; });
+  for (Vec3f& p : frame.cloud.points) p = Vec3f(0.25f, 0.5f, 1.0f);
+  expect_pcl(frame);
+}
+
+TEST(OutliersLikePcl, PointsInAnyOrder) {
+  expect_pcl(testing::shuffled(testing::object_frame(testing::kinect_v2()), 3));
+}
+
+TEST(OutliersLikePcl, SeveralPointsInACell) {
+  FramePoints frame = testing::object_frame(testing::kinect_v2());
+  for (std::size_t i = 1; i < frame.cell.size(); i += 2) frame.cell[i] = frame.cell[i - 1];
+  expect_pcl(frame);
+}
+
+TEST(OutliersLikePcl, FrameMovedAwayFromItsSensor) {
+  FramePoints frame = testing::room_frame(small_camera(160, 120, 150.0));
+  const Pose T = Eigen::Translation3d(1.0, -2.0, 0.3) *
+                 Eigen::AngleAxisd(2.1, Vec3d(1.0, 2.0, -1.0).normalized());
+  for (Vec3f& p : frame.cloud.points) p = (T * p.cast<double>()).cast<float>();
+  const FramePoints without_viewpoint = frame;
+  frame.viewpoint = frame.viewpoint.transformed(T);
+  expect_pcl(frame);
+  expect_pcl(without_viewpoint);
+}
+
+TEST(OutliersLikePcl, ParallelRays) {
+  FramePoints frame;
+  frame.width = 80, frame.height = 60;
+  frame.viewpoint = {Vec3d::UnitZ(), true};
+  for (int cell = 0; cell < 80 * 60; ++cell) {
+    const double noise = standard_normal(hash_key(5, std::uint64_t(cell)));
+    const double x = 0.0005 * (cell % 80), y = -0.0005 * (cell / 80);
+    frame.cell.push_back(cell);
+    frame.cloud.points.emplace_back(float(x), float(y), float(2.0 * x + 0.0003 * noise));
+  }
+  expect_pcl(frame);
+}
+
+TEST(OutliersLikePcl, RealDepthImages) {
+  const std::vector<NamedFrame> frames = testing::real_depth_frames(25);
+  if (frames.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
+  for (const NamedFrame& frame : frames) {
+    SCOPED_TRACE(frame.name);
+    ASSERT_GT(frame.points.cloud.size(), 1000u);
+    EXPECT_EQ(mask(frame.points), testing::pcl_outlier_mask(frame.points.cloud.points, 10, 1.0));
+  }
+}
+
+TEST(OutliersLikePcl, RealRangeScans) {
+  const std::vector<NamedFrame> scans = testing::real_range_scans();
+  if (scans.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
+  for (const NamedFrame& scan : scans) {
+    SCOPED_TRACE(scan.name);
+    ASSERT_GT(scan.points.cloud.size(), 1000u);
+    expect_pcl(scan.points);
+  }
+}
+
+// --- what else is promised ----------------------------------------------------------------------
+
+TEST(Outliers, DropsThePointFarFromAllOthers) {
+  FramePoints frame = testing::render(
+      small_camera(40, 30),
+      [](int column, int row, double, double) { return column == 20 && row == 15 ? 1.2 : 1.0; });
+  const std::vector<std::uint8_t> kept = mask(frame, options(10, 5.0));
+  EXPECT_EQ(dropped(kept), 1u);
+  EXPECT_EQ(kept[15 * 40 + 20], 0);
+}
+
+TEST(Outliers, StatisticsAreThoseOfTheMeanDistances) {
+  // Four points on a line at 0, 1, 3, 6; nearest neighbours at 1, 1, 2, 3.
+  const std::vector<Vec3f> line = {{0, 0, 1}, {1, 0, 1}, {3, 0, 1}, {6, 0, 1}};
+  OutlierStatistics s;
+  const auto kept = statistical_outlier_mask(line, options(1, 1.0), {}, &s).value();
+  EXPECT_DOUBLE_EQ(s.mean_m, 1.75);
+  EXPECT_DOUBLE_EQ(s.sd_m, std::sqrt(2.75 / 3.0));
+  EXPECT_DOUBLE_EQ(s.threshold_m, s.mean_m + s.sd_m);
+  EXPECT_EQ(kept, (std::vector<std::uint8_t>{1, 1, 1, 0}));
+}
+
+TEST(Outliers, GridAndTreeGiveTheSameStatistics) {
+  const FramePoints frame = testing::room_frame(testing::kinect_v2());
+  OutlierStatistics grid, tree;
+  ASSERT_TRUE(statistical_outlier_mask(frame, options(), &grid));
+  ASSERT_TRUE(statistical_outlier_mask(frame.cloud.points, options(), {}, &tree));
+  EXPECT_EQ(grid.mean_m, tree.mean_m);
+  EXPECT_EQ(grid.sd_m, tree.sd_m);
+  EXPECT_EQ(grid.threshold_m, tree.threshold_m);
+}
+
+TEST(Outliers, SwitchedOffKeepsEverything) {
+  const FramePoints frame = testing::object_frame(testing::kinect_v2());
+  OutlierStatistics s;
+  EXPECT_EQ(statistical_outlier_mask(frame, {false, 10, 1.0}, &s).value(),
+            std::vector<std::uint8_t>(frame.cloud.size(), 1));
+  EXPECT_TRUE(std::isnan(s.threshold_m));
+}
+
+TEST(Outliers, NoPointsGiveAnEmptyMask) {
+  FramePoints frame;
+  frame.width = 4, frame.height = 3;
+  EXPECT_TRUE(mask(frame).empty());
+}
+
+TEST(Outliers, TheSameMaskForAnyNumberOfThreads) {
+  const FramePoints frame = testing::room_frame(testing::kinect_v2());
+  set_thread_count(1);
+  const auto grid = mask(frame);
+  const auto tree = statistical_outlier_mask(frame.cloud.points, options()).value();
+  set_thread_count(2);
+  EXPECT_EQ(mask(frame), grid);
+  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, options()).value(), tree);
+  set_thread_count(0);
+  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, options()).value(), tree);
+}
+
+TEST(Outliers, ManyFramesAtOnceAreEachFilteredAsAlone) {
+  std::vector<FramePoints> frames;
+  std::vector<std::vector<std::uint8_t>> alone;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Defects defects;
+    defects.seed = seed;
+    const CameraIntrinsics camera = small_camera(160 + 7 * int(seed % 5), 120, 140.0);
+    frames.push_back(seed % 2 ? testing::room_frame(camera, defects)
+                              : testing::object_frame(camera, defects));
+    alone.push_back(mask(frames.back()));
+  }
+  std::vector<std::vector<std::uint8_t>> together(frames.size());
+  set_thread_count(4);
+  parallel_for(frames.size(), 1, [&](std::size_t i) { together[i] = mask(frames[i]); });
+  set_thread_count(0);
+  EXPECT_EQ(together, alone);
+}
+
+TEST(Outliers, CancelledRunSaysSo) {
+  const RunContext context;
+  context.cancel();
+  const FramePoints frame = testing::object_frame(testing::kinect_v2());
+  const auto result = statistical_outlier_mask(frame.cloud.points, options(), context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+// --- bad input ----------------------------------------------------------------------------------
+
+void expect_refused(const OutlierOptions& o, const std::string& field) {
+  const std::vector<Vec3f> points(20, Vec3f(0, 0, 1));
+  FramePoints frame =
+      testing::render(small_camera(20, 1), [](int, int, double, double) { return 1.0; });
+  for (const auto& result :
+       {statistical_outlier_mask(points, o), statistical_outlier_mask(frame, o)}) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kInvalidOption);
+    EXPECT_THAT(result.error().message, HasSubstr(field));
+  }
+}
+
+TEST(OutlierOptions, NeighboursAreFrom1To1000) {
+  expect_refused(options(0), "outlier-k");
+  expect_refused(options(-3), "outlier-k");
+  expect_refused(options(1001), "outlier-k");
+}
+
+TEST(OutlierOptions, LambdaIsFrom0To100) {
+  expect_refused(options(10, -0.1), "outlier-lambda");
+  expect_refused(options(10, 100.1), "outlier-lambda");
+}
+
+TEST(OutlierOptions, LambdaIsANumber) {
+  expect_refused(options(10, std::numeric_limits<double>::quiet_NaN()), "outlier-lambda");
+}
+
+TEST(OutlierOptions, AreSetByName) {
+  OutlierOptions o;
+  const OptionTable table = describe(o);
+  ASSERT_TRUE(table.set("outliers", "false"));
+  ASSERT_TRUE(table.set("outlier-k", "25"));
+  ASSERT_TRUE(table.set("outlier-lambda", "2.5"));
+  EXPECT_FALSE(o.enabled);
+  EXPECT_EQ(o.neighbours, 25);
+  EXPECT_EQ(o.lambda, 2.5);
+}
+
+TEST(Outliers, CoordinatesThatAreNotFiniteAreRefused) {
+  for (const float bad : {NAN, INFINITY, -INFINITY, 2e9f}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      FramePoints frame = testing::object_frame(testing::kinect_v2());
+      frame.cloud.points[17][axis] = bad;
+      const auto result = statistical_outlier_mask(frame, options());
+      ASSERT_FALSE(result);
+      EXPECT_EQ(result.error().code, ErrorCode::kFormat);
+      EXPECT_THAT(result.error().message, HasSubstr("point 17"));
+    }
+  }
+}
+
+TEST(Outliers, CellsThatDoNotFitAreABrokenPrecondition) {
+  const FramePoints good = testing::object_frame(testing::kinect_v2());
+  FramePoints outside = good, missing = good, no_grid = good;
+  outside.cell[5] = outside.width * outside.height;
+  missing.cell.pop_back();
+  no_grid.width = 0;
+  EXPECT_THROW((void)mask(outside), std::invalid_argument);
+  outside.cell[5] = -1;
+  EXPECT_THROW((void)mask(outside), std::invalid_argument);
+  EXPECT_THROW((void)mask(missing), std::invalid_argument);
+  EXPECT_THROW((void)mask(no_grid), std::invalid_argument);
+}
+
+TEST(Outliers, AHugeGridWithFewPointsTakesNoMemory) {
+  FramePoints frame;
+  frame.width = 46000, frame.height = 46000;
+  for (int i = 0; i < 20; ++i) {
+    frame.cell.push_back(i * 105000000);
+    frame.cloud.points.emplace_back(0.1f * float(i), 0.0f, 1.0f);
+  }
+  expect_pcl(frame);
+}
+
+}  // namespace
+}  // namespace turnscan::outliers

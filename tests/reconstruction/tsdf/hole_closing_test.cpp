@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/tsdf/volume.hpp>
+
+namespace turnscan::tsdf {
+namespace {
+
+constexpr int kBricks = 3, kSize = 8 * kBricks;
+
+std::size_t sample(const Volume& volume, int i, int j, int k) {
+  const auto slot = std::size_t(volume.slot[volume.bricks.at({i / 8, j / 8, k / 8})]);
+  return slot * 512 + std::size_t(i % 8 + 8 * (j % 8) + 64 * (k % 8));
+}
+
+/// All samples known; `share` of them free, at random, and winding passages between them.
+Volume sponge(double share, std::uint64_t seed) {
+  Volume volume;
+  volume.cell_m = 1.0;
+  volume.truncation_m = 3.0;
+  volume.set_bricks({kBricks, kBricks, kBricks});
+  for (std::size_t b = 0; b < volume.slot.size(); ++b) volume.allocate(b, 0.0f);
+  for (std::size_t s = 0; s < volume.value.size(); ++s) {
+    volume.value[s] = uniform01(hash_key(seed, s, 0)) < share ? 1.0f : -1.0f;
+    volume.weight[s] = 1.0f;
+  }
+  return volume;
+}
+
+/// Which free samples a walk from the rim reaches, one by one.
+std::vector<bool> walked(const Volume& volume) {
+  std::vector<bool> reached(volume.value.size(), false);
+  std::vector<std::array<int, 3>> stack;
+  const auto visit = [&](int i, int j, int k) {
+    if (i < 0 || j < 0 || k < 0 || i >= kSize || j >= kSize || k >= kSize) return;
+    const std::size_t s = sample(volume, i, j, k);
+    if (reached[s] || volume.value[s] < 0.0f) return;
+    reached[s] = true;
+    stack.push_back({i, j, k});
+  };
+  for (int a = 0; a < kSize; ++a) {
+    for (int b = 0; b < kSize; ++b) {
+      for (const int end : {0, kSize - 1}) {
+        visit(end, a, b);
+        visit(a, end, b);
+        visit(a, b, end);
+      }
+    }
+  }
+  while (!stack.empty()) {
+    const auto [i, j, k] = stack.back();
+    stack.pop_back();
+    visit(i - 1, j, k), visit(i + 1, j, k);
+    visit(i, j - 1, k), visit(i, j + 1, k);
+    visit(i, j, k - 1), visit(i, j, k + 1);
+  }
+  return reached;
+}
+
+TEST(CloseHoles, FillsWhatAWalkFromBeyondDoesNotReach) {
+  // Where a third is free, passages just begin to lead through.
+  for (const double share : {0.2, 0.3, 0.35, 0.5}) {
+    Volume volume = sponge(share, std::uint64_t(1000.0 * share));
+    const std::vector<bool> reached = walked(volume);
+    VolumeScale scale;
+    scale.cell_m = 1.0, scale.truncation_m = 3.0;
+    ASSERT_TRUE(close_holes(volume, scale, RunContext()));
+    std::size_t wrong = 0;
+    for (std::size_t s = 0; s < reached.size(); ++s)
+      wrong += (volume.value[s] >= 0.0f) != reached[s] ? 1 : 0;
+    EXPECT_EQ(wrong, 0u) << share;
+  }
+}
+
+/// Where the surface lies on the +x axis of a ball of 15 cells of which a cap towards +x, 35
+/// degrees wide, was never seen, nor what lies before it. Distances are known `inside` cells deep.
+double cap_height(double inside) {
+  constexpr int kAcross = 6, kHalf = 4 * kAcross;
+  Volume volume;
+  volume.cell_m = 1.0;
+  volume.truncation_m = 3.0;
+  volume.origin_m = Vec3d::Constant(-kHalf);
+  volume.set_bricks({kAcross, kAcross, kAcross});
+  for (std::size_t b = 0; b < volume.slot.size(); ++b) volume.allocate(b, 0.0f);
+  const auto at = [&](int i, int j, int k) {
+    const auto slot = std::size_t(volume.slot[volume.bricks.at({i / 8, j / 8, k / 8})]);
+    return slot * 512 + std::size_t(i % 8 + 8 * (j % 8) + 64 * (k % 8));
+  };
+  for (int k = 0; k < 2 * kHalf; ++k) {
+    for (int j = 0; j < 2 * kHalf; ++j) {
+      for (int i = 0; i < 2 * kHalf; ++i) {
+        const Vec3d p = volume.position(i, j, k);
+        const double d = p.norm() - 15.0;
+        const bool cap = p.x() > std::cos(35.0 * std::numbers::pi / 180.0) * p.norm();
+        if (cap || d < -inside) continue;
+        volume.value[at(i, j, k)] = float(std::min(d, 3.0));
+        volume.weight[at(i, j, k)] = 1.0f;
+      }
+    }
+  }
+  VolumeScale scale;
+  scale.cell_m = 1.0, scale.truncation_m = 3.0;
+  EXPECT_TRUE(close_holes(volume, scale, RunContext()));
+  int i = kHalf;
+  while (i + 1 < 2 * kHalf && volume.value[at(i, kHalf, kHalf)] < 0.0f) ++i;
+  return volume.position(i, 0, 0).x() - 0.5;
+}
+
+TEST(CloseHoles, WhatWasNotSeenNeitherSinksInNorBulges) {
+  const double flat = 15.0 * std::cos(35.0 * std::numbers::pi / 180.0);
+  for (const double inside : {1.0, 2.0, 3.0}) {
+    EXPECT_GT(cap_height(inside), flat - 2.0) << inside;
+    EXPECT_LT(cap_height(inside), 16.5) << inside;
+  }
+}
+
+TEST(CloseHoles, StopsWhenItIsCancelled) {
+  Volume volume = sponge(0.3, 1);
+  std::fill(volume.weight.begin(), volume.weight.begin() + 4096, 0.0f);
+  const VolumeScale scale;
+  RunContext before;
+  before.cancel();
+  EXPECT_EQ(close_holes(volume, scale, before).error().code, ErrorCode::kCancelled);
+  RunContext within;  // after its phase began
+  within.set_listener([&](const Progress& progress) {
+    if (progress.phase == "closing") within.cancel();
+  });
+  EXPECT_EQ(close_holes(volume, scale, within).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan::tsdf

@@ -1,0 +1,353 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <tests/reconstruction/turning_scan.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/geometry/search/closest_point.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
+#include <turnscan/reconstruction/tsdf/volumetric.hpp>
+
+namespace turnscan::tsdf {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace turnscan::testing;
+
+TEST(Volumetric, IsFarBelowTheNoiseOfTheSensor) {
+  const auto result = reconstruct(scan(ball, {60, 0.001}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.00025);
+}
+
+TEST(Volumetric, FlyingPixelsLeaveNothingBehind) {
+  const auto result = reconstruct(scan(ball, {40, 0.001, 0.5}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  for (const Vec3f& v : result->objects[0].mesh.vertices)
+    EXPECT_LT((v.cast<double>() - kCenter).norm(), 0.056);  // the stand's corners are at 0.0543
+}
+
+TEST(Volumetric, StandsFlatOnThePlatter) {
+  const auto result = reconstruct(scan(ball, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const TriangleMesh& mesh = result->objects[0].mesh;
+  EXPECT_NEAR(bounds(mesh.vertices).min.y(), 0.0, 1e-6);
+  double flat = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3f &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    if (std::max({a.y(), b.y(), c.y()}) < 1e-6f) flat += 0.5 * (b - a).cross(c - a).norm();
+  }
+  EXPECT_NEAR(flat, 0.03 * 0.03, 0.25 * 0.03 * 0.03);  // the rim is a voxel wide
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
+}
+
+TEST(Volumetric, BothSidesOfAThinPlateSurvive) {
+  for (const double thickness : {0.003, 0.005}) {  // pixels lie 2.3 mm apart
+    const double half = 0.5 * thickness;
+    const auto plate = [&](const Vec3d& o, const Vec3d& d) {
+      return to_box(o, d, Vec3d(-0.03, 0, -half), Vec3d(0.03, 0.07, half));
+    };
+    const auto result = reconstruct(scan(plate, {60, 0.001}), volumetric(), {}, RunContext());
+    ASSERT_TRUE(result) << result.error().text();
+    double sum = 0.0;
+    std::size_t n = 0;
+    for (const Vec3f& v : result->objects[0].mesh.vertices) {
+      if (std::abs(v.x()) > 0.022f || v.y() < 0.01f || v.y() > 0.06f) continue;
+      sum += std::abs(double(v.z()));
+      ++n;
+    }
+    ASSERT_GT(n, 100u);
+    EXPECT_NEAR(2.0 * sum / double(n), thickness, 0.0005);
+  }
+}
+
+TEST(Volumetric, AnArmTwoPixelsWideSurvives) {
+  const auto post_with_arm = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(to_box(o, d, Vec3d(-0.015, 0, -0.015), Vec3d(0.015, 0.08, 0.015)),
+                  to_box(o, d, Vec3d(0.015, 0.05, -0.0025), Vec3d(0.06, 0.055, 0.0025)));
+  };
+  const auto result = reconstruct(scan(post_with_arm, {60, 0.001}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  Box middle, whole = bounds(result->objects[0].mesh.vertices);
+  for (const Vec3f& v : result->objects[0].mesh.vertices) {
+    if (v.x() > 0.025f && v.x() < 0.05f) middle.add(v.cast<double>());
+  }
+  EXPECT_NEAR(whole.max.x(), 0.06, 0.0015);
+  EXPECT_NEAR(middle.size().z(), 0.005, 0.002);  // each side within 1 mm
+  EXPECT_NEAR(middle.max.y(), 0.055, 0.001);
+}
+
+TEST(Volumetric, MakesASolidOfTheProfilesOfALineScanner) {
+  const auto result = reconstruct(line_scan(ball), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.0001);
+}
+
+TEST(Volumetric, WhatHangsInTheAirBelongsToWhatStandsBelow) {
+  const auto with_balloon = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(ball(o, d), to_ball(o, d, Vec3d(0.06, 0.08, 0.0), 0.015));
+  };
+  const auto result = reconstruct(scan(with_balloon, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+  EXPECT_EQ(result->objects[0].check.components, 2u);
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("hangs in the air")));
+}
+
+/// Value of an automatic choice, metres.
+double chosen(const Reconstruction& result, const std::string& option) {
+  for (const Choice& choice : result.choices) {
+    if (choice.option == option)
+      return parse_quantity(choice.value, Quantity::kLength).value_or(0.0);
+  }
+  ADD_FAILURE() << option;
+  return 0.0;
+}
+
+TEST(Volumetric, IsMadeAgainWhenLaterFramesDisagreeMoreThanTheFirst) {
+  Rig rig{64, 0.0005};
+  rig.platter = false;
+  MemorySequence sequence = scan(ball, rig), first = sequence;
+  first.infos.resize(32);
+  // From the first look's frames on, frames lie up to 4 mm too near or too far.
+  for (std::size_t f = 32; f < sequence.data.size(); ++f) {
+    for (std::uint16_t& raw : sequence.data[f].depth.pixels) {
+      if (raw > 0) raw = std::uint16_t(raw + 20 * (int(f % 5) - 2));
+    }
+  }
+  const auto again = ::testing::Contains(HasSubstr("made again"));
+  const auto of_first = reconstruct(first, volumetric(), {}, RunContext());
+  ASSERT_TRUE(of_first) << of_first.error().text();
+  EXPECT_THAT(of_first->notes, ::testing::Not(again));
+  const auto of_all = reconstruct(sequence, volumetric(), {}, RunContext());
+  ASSERT_TRUE(of_all) << of_all.error().text();
+  EXPECT_THAT(of_all->notes, again);
+  EXPECT_GT(chosen(*of_all, "truncation"), 1.2 * chosen(*of_first, "truncation"));
+  ASSERT_FALSE(of_all->objects.empty());
+  EXPECT_TRUE(is_solid(of_all->objects[0].mesh));
+  ReconstructOptions given = volumetric();
+  given.volumetric.truncation_m = 0.004;  // then it does not depend on the noise
+  const auto once = reconstruct(sequence, given, {}, RunContext());
+  ASSERT_TRUE(once) << once.error().text();
+  EXPECT_THAT(once->notes, ::testing::Not(again));
+}
+
+TEST(Volumetric, IsSolidWhateverWasRecorded) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const auto random = [&](int k) { return uniform01(hash_key(seed, std::uint64_t(k), 5)); };
+    std::vector<std::pair<Vec3d, double>> balls;
+    for (int b = 0; b < 1 + int(4 * random(0)); ++b)
+      balls.emplace_back(Vec3d(0.1 * random(10 + b) - 0.05, 0.01 + 0.05 * random(20 + b),
+                               0.1 * random(30 + b) - 0.05),
+                         0.006 + 0.025 * random(40 + b));
+    const auto things = [&](const Vec3d& o, const Vec3d& d) {
+      double t = 0.0;
+      for (const auto& [center, radius] : balls) t = nearer(to_ball(o, d, center, radius), t);
+      return t;
+    };
+    const Rig rig{2 + int(20 * random(1)), 0.002 * random(2), random(3), 0.5 * random(4), seed,
+                  random(5) < 0.7};
+    const auto result = reconstruct(scan(things, rig), volumetric(), {}, RunContext());
+    if (!result) {
+      EXPECT_EQ(result.error().code, ErrorCode::kTooFewPoints) << result.error().text();
+      continue;
+    }
+    for (const ObjectResult& object : result->objects)
+      EXPECT_TRUE(is_solid(object.mesh)) << "seed " << seed;
+  }
+}
+
+TEST(Volumetric, TheSameForAnyNumberOfThreads) {
+  const MemorySequence sequence = scan(ball, {16, 0.001, 0.3});
+  set_thread_count(1);
+  const auto one = reconstruct(sequence, volumetric(), {}, RunContext());
+  set_thread_count(3);
+  const auto three = reconstruct(sequence, volumetric(), {}, RunContext());
+  set_thread_count(0);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->objects[0].mesh.vertices, three->objects[0].mesh.vertices);
+  EXPECT_EQ(one->objects[0].mesh.triangles, three->objects[0].mesh.triangles);
+}
+
+TEST(Volumetric, TakesAsFewTrianglesAsAskedFor) {
+  ReconstructOptions options = volumetric();
+  options.volumetric.triangles = 500;
+  const auto result = reconstruct(scan(ball, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  EXPECT_LE(result->objects[0].mesh.triangles.size(), 550u);  // mending may add a few
+  EXPECT_TRUE(is_solid(result->objects[0].mesh));
+}
+
+TEST(Volumetric, MaxErrorBoundsHowFarFewerTrianglesStray) {
+  const MemorySequence sequence = scan(ball, {});
+  const auto full = reconstruct(sequence, volumetric(), {}, RunContext());
+  ReconstructOptions options = volumetric();
+  options.volumetric.max_error_m = 0.0003;
+  const auto fewer = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(full && fewer);
+  const TriangleMesh &a = full->objects[0].mesh, &b = fewer->objects[0].mesh;
+  EXPECT_LT(b.triangles.size(), a.triangles.size() / 2);
+  EXPECT_TRUE(is_solid(b));
+  const MeshDistance distance(b);
+  double farthest = 0.0;
+  for (const Vec3f& v : a.vertices)
+    farthest = std::max(farthest, distance.closest(v.cast<double>()).distance);
+  EXPECT_LE(farthest, 0.0003);
+  // Whichever ends sooner.
+  options.volumetric.triangles = int(a.triangles.size() / 2);
+  const auto both = reconstruct(sequence, options, {}, RunContext());
+  EXPECT_GT(both->objects[0].mesh.triangles.size(), b.triangles.size());
+}
+
+/// The ball's frames with images in which it is red on the side of +x (in the table frame) and
+/// green on the other.
+MemorySequence two_colors(const Rig& rig) {
+  MemorySequence sequence = scan(ball, rig);
+  const SensorInfo& sensor = sequence.header().sensors[0];
+  for (Frame& frame : sequence.data) {
+    const Pose pose = rotation_about_y(-*frame.info.angle_rad) * *sensor.T_table_sensor;
+    frame.color = ColorImage(160, 120);
+    for (int i = 0; i < 160 * 120; ++i) {
+      const double z = frame.depth.pixels[std::size_t(i)] * 1e-4;
+      const Vec3d p = pose * Vec3d(z * sensor.intrinsics.ray(i % 160, i / 160));
+      frame.color.pixels[std::size_t(i)] =
+          p.x() > kCenter.x() ? Rgb{200, 20, 10} : Rgb{10, 180, 20};
+    }
+  }
+  return sequence;
+}
+
+TEST(Volumetric, CarriesTheColoursOfTheFrames) {
+  ReconstructOptions options = volumetric();
+  options.color = true;
+  const auto result = reconstruct(two_colors({}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const TriangleMesh& mesh = result->objects[0].mesh;
+  ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+  std::size_t right = 0, looked = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double x = double(mesh.vertices[v].x()) - kCenter.x();
+    if (std::abs(x) < 0.003) continue;
+    ++looked;
+    right += (mesh.colors[v].r > mesh.colors[v].g) == (x > 0.0) ? 1 : 0;
+  }
+  EXPECT_GT(double(right), 0.98 * double(looked));
+  const auto plain = reconstruct(two_colors({}), volumetric(), {}, RunContext());
+  EXPECT_TRUE(plain->objects[0].mesh.colors.empty());
+  EXPECT_EQ(plain->objects[0].mesh.vertices, mesh.vertices);
+}
+
+TEST(Volumetric, SaysThatARecordingHasNoColour) {
+  ReconstructOptions options = volumetric();
+  options.color = true;
+  const auto result = reconstruct(scan(ball, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  EXPECT_TRUE(result->objects[0].mesh.colors.empty());
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("no colour")));
+}
+
+TEST(Volumetric, ConfidenceIsLowWhereNothingWasMeasured) {
+  const auto result = reconstruct(scan(ball, {}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const ObjectResult& object = result->objects[0];
+  ASSERT_EQ(object.confidence.size(), object.mesh.vertices.size());
+  double top = 0.0, base = 0.0;
+  std::size_t at_top = 0, at_base = 0;
+  for (std::size_t v = 0; v < object.confidence.size(); ++v) {
+    EXPECT_GE(object.confidence[v], 0.0f);
+    EXPECT_LE(object.confidence[v], 1.0f);
+    const double y = object.mesh.vertices[v].y();
+    if (y > kCenter.y() + 0.01) top += double(object.confidence[v]), ++at_top;
+    if (y < 1e-5) base += double(object.confidence[v]), ++at_base;
+  }
+  ASSERT_GT(at_base, 0u);
+  EXPECT_GT(top / double(at_top), 0.5);
+  EXPECT_EQ(base, 0.0);
+}
+
+TEST(Volumetric, MarksWhatItInvented) {
+  ReconstructOptions options = volumetric();
+  options.volumetric.mark_invented = true;
+  // A ball that floats: from above its underside is not seen.
+  const auto floating = [](const Vec3d& o, const Vec3d& d) {
+    return to_ball(o, d, kCenter, kRadius);
+  };
+  const auto result = reconstruct(scan(floating, {}), options, {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  const ObjectResult& object = result->objects[0];
+  ASSERT_EQ(object.mesh.colors.size(), object.mesh.vertices.size());
+  double area = 0.0;
+  for (const auto& t : object.mesh.triangles) {
+    const auto& p = object.mesh.vertices;
+    if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+          return object.mesh.colors[v] == mesh_refinement::kInventedColor;
+        }))
+      area += 0.5 * double((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm());
+  }
+  EXPECT_GT(object.invented_area_m2, 1e-4);
+  EXPECT_GE(area, 0.999 * object.invented_area_m2);
+  EXPECT_LT(area, 1.3 * object.invented_area_m2);
+}
+
+TEST(Volumetric, KeepsAsManyObjectsAsAskedFor) {
+  const auto pair = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(to_ball(o, d, Vec3d(-0.05, 0.025, 0), 0.025),
+                  to_ball(o, d, Vec3d(0.05, 0.02, 0), 0.02));
+  };
+  ReconstructOptions options = volumetric();
+  EXPECT_EQ(reconstruct(scan(pair, {}), options, {}, RunContext())->objects.size(), 2u);
+  options.components.keep = "largest";
+  const auto one = reconstruct(scan(pair, {}), options, {}, RunContext());
+  ASSERT_EQ(one->objects.size(), 1u);
+  EXPECT_LT(bounds(one->objects[0].mesh.vertices).center().x(), 0.0);
+}
+
+TEST(Volumetric, RefusesWhatItCannotDo) {
+  const auto nothing = [](const Vec3d&, const Vec3d&) { return 0.0; };
+  EXPECT_EQ(reconstruct(scan(nothing, {}), volumetric(), {}, RunContext()).error().code,
+            ErrorCode::kTooFewPoints);
+  RunContext cancelled;
+  cancelled.cancel();
+  EXPECT_EQ(reconstruct(scan(ball, {}), volumetric(), {}, cancelled).error().code,
+            ErrorCode::kCancelled);
+}
+
+TEST(Volumetric, FewViewsGetLargerSamplesAndALongerReach) {
+  VolumetricInput input;
+  input.noise_m = 0.0005, input.spacing_m = 0.0006;
+  const Box box{Vec3d::Zero(), Vec3d::Constant(0.12)};
+  const auto scale = [&](std::size_t views) {
+    input.views.resize(views);
+    return choose_scale(input, {}, box).volume;
+  };
+  const VolumeScale few = scale(8), more = scale(20), many = scale(24);
+  EXPECT_GT(few.cell_m, more.cell_m);
+  EXPECT_GT(more.cell_m, many.cell_m);
+  EXPECT_GT(few.truncation_m, more.truncation_m);
+  EXPECT_GT(more.truncation_m, many.truncation_m);
+  EXPECT_DOUBLE_EQ(many.cell_m, scale(900).cell_m);
+  EXPECT_DOUBLE_EQ(many.truncation_m, 3.0 * input.noise_m);
+  input.cell_m = 0.0004;
+  EXPECT_DOUBLE_EQ(scale(8).cell_m, 0.0004);
+}
+
+TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
+  for (const char* name : {"truncation", "fit-reach", "fit-iterations", "triangles", "max-error"}) {
+    VolumetricOptions options;
+    const auto wrong = describe(options).set(name, "-1");
+    const auto checked = wrong ? describe(options).check() : wrong;
+    ASSERT_FALSE(checked) << name;
+    EXPECT_THAT(checked.error().message, HasSubstr(name));
+  }
+}
+
+}  // namespace
+}  // namespace turnscan::tsdf

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tests/support/synthetic_cloud.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/voxels/point_sums.hpp>
+#include <turnscan/reconstruction/voxels/sub_voxel_line.hpp>
+
+namespace turnscan::points {
+namespace {
+
+constexpr double kVoxel = 0.002;
+
+CandidateOptions sub_voxels() {
+  CandidateOptions options;
+  options.method = CandidateMethod::kSubVoxel;
+  return options;
+}
+
+void expect_same(const MeasuredCells& a, const MeasuredCells& b) {
+  EXPECT_EQ(a.columns, b.columns);
+  EXPECT_EQ(a.colors, b.colors);
+  EXPECT_EQ(a.peak_points, b.peak_points);
+  ASSERT_EQ(a.grid.voxels().size(), b.grid.voxels().size());
+  for (std::size_t v = 0; v < a.grid.voxels().size(); ++v) {
+    EXPECT_EQ(a.grid.voxels()[v].index, b.grid.voxels()[v].index);
+    EXPECT_EQ(a.grid.voxels()[v].points, b.grid.voxels()[v].points);
+  }
+}
+
+TEST(PointSums, CountAndAverageLikeAMapFromCellsToPoints) {
+  const MergedCloud merged = testing::noisy_plane(20000, 0.01, 0.001);
+  struct Sum {
+    Vec3d place = Vec3d::Zero(), towards = Vec3d::Zero();
+    int count = 0;
+  };
+  std::map<std::array<int, 3>, Sum> oracle;
+  for (std::size_t i = 0; i < merged.cloud.size(); ++i) {
+    const Vec3d p = merged.cloud.points[i].cast<double>();
+    const Vec3d cell = (p / (0.5 * kVoxel)).array().floor();
+    Sum& sum = oracle[{int(cell.x()), int(cell.y()), int(cell.z())}];
+    sum.place += p;
+    sum.towards += merged.towards_sensor(i).cast<double>();
+    ++sum.count;
+  }
+  const MeasuredCells m = testing::measured(merged, kVoxel);
+  ASSERT_EQ(m.size(), oracle.size());
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    const Vec3d cell = (m.point(i).cast<double>() / (0.5 * kVoxel)).array().floor();
+    const auto found = oracle.find({int(cell.x()), int(cell.y()), int(cell.z())});
+    ASSERT_NE(found, oracle.end());
+    const Sum& sum = found->second;
+    EXPECT_EQ(m.count(i), float(sum.count));
+    EXPECT_LT((m.point(i).cast<double>() - sum.place / sum.count).norm(), 2.5e-7);
+    EXPECT_LT((m.towards_sensor(i).cast<double>() - sum.towards / sum.count).norm(), 5e-4);
+  }
+}
+
+TEST(PointSums, VoxelsAreThoseOfTheGridOfAllPoints) {
+  const MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  const auto grid = VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
+  const MeasuredCells m = testing::measured(merged, kVoxel);
+  ASSERT_EQ(m.grid.voxels().size(), grid->voxels().size());
+  for (std::size_t v = 0; v < m.grid.voxels().size(); ++v) {
+    const VoxelGrid::Voxel& voxel = m.grid.voxels()[v];
+    EXPECT_EQ(voxel.index, grid->voxels()[v].index);
+    EXPECT_EQ(voxel.count(), grid->voxels()[v].count());
+    double count = 0.0;
+    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i) count += m.count(i);
+    EXPECT_EQ(count, voxel.count());
+  }
+}
+
+TEST(PointSums, DependNeitherOnTheOrderOfFramesNorOnCallsNorOnThreads) {
+  MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  for (std::size_t i = 0; i < merged.cloud.size(); ++i)
+    merged.cloud.colors.push_back({std::uint8_t(i), std::uint8_t(i / 3), 7});
+  const MeasuredCells once = testing::measured(merged, kVoxel, sub_voxels());
+  EXPECT_FALSE(once.colors.empty());
+  const testing::Frames frames(merged);
+  const std::vector<PointsSeen> seen = frames.seen();
+  for (const int threads : {1, 2, 8}) {
+    set_thread_count(threads);
+    PointSums sums(kVoxel, sub_voxels());
+    for (std::size_t f = seen.size(); f-- > 0;) ASSERT_TRUE(sums.add({&seen[f], 1}));
+    const auto again = sums.collect(1, RunContext());
+    ASSERT_TRUE(again);
+    expect_same(once, *again);
+  }
+  set_thread_count(0);
+}
+
+TEST(PointSums, JoinedVoxelsAreThoseOfThatSize) {
+  const MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  const testing::Frames frames(merged);
+  PointSums sums(kVoxel, {});
+  ASSERT_TRUE(sums.add(frames.seen()));
+  const auto joined = sums.collect(3, RunContext());
+  ASSERT_TRUE(joined);
+  EXPECT_DOUBLE_EQ(joined->grid.size_m(), 3 * kVoxel);
+  const auto grid = VoxelGrid::build(merged.cloud.points, 3 * kVoxel, RunContext());
+  ASSERT_EQ(joined->grid.voxels().size(), grid->voxels().size());
+  for (std::size_t v = 0; v < grid->voxels().size(); ++v) {
+    EXPECT_EQ(joined->grid.voxels()[v].index, grid->voxels()[v].index);
+    EXPECT_EQ(joined->grid.voxels()[v].count(), grid->voxels()[v].count());
+  }
+}
+
+TEST(PointSums, PeaksAreTheSubVoxelsThatMostRaysMeet) {
+  const MergedCloud merged = testing::noisy_plane(3000, 0.008, 0.001);
+  const MeasuredCells m = testing::measured(merged, kVoxel, sub_voxels());
+  const auto grid = VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
+  ASSERT_EQ(m.peaks.size(), grid->voxels().size());
+  std::size_t same = 0;
+  for (std::size_t v = 0; v < m.peaks.size(); ++v) {
+    const VoxelGrid::Voxel& voxel = grid->voxels()[v];
+    std::vector<int> counts(64, 0);
+    for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
+      const std::uint32_t i = grid->order()[k];
+      const Vec3d p =
+          (merged.cloud.points[i].cast<double>() - voxel.index.cast<double>() * kVoxel) *
+          (4.0 / kVoxel);
+      walk_sub_voxels(p, merged.towards_sensor(i).cast<double>(), 4, true,
+                      [&](int x, int y, int z) { ++counts[std::size_t((z * 4 + y) * 4 + x)]; });
+    }
+    const int highest = *std::max_element(counts.begin(), counts.end());
+    const auto tied = std::count(counts.begin(), counts.end(), highest);
+    same += tied == m.peaks[v].end - m.peaks[v].begin ? 1 : 0;
+  }
+  // Places and directions are rounded: a ray through an edge may count on its other side.
+  EXPECT_GT(double(same), 0.97 * double(m.peaks.size()));
+}
+
+TEST(PointSums, TakeNoMoreMemoryForMoreFrames) {
+  const MergedCloud merged = testing::noisy_plane(20000, 0.02, 0.0);
+  const testing::Frames frames(merged);
+  PointSums sums(kVoxel, {});
+  ASSERT_TRUE(sums.add(frames.seen()));
+  const std::size_t bytes = sums.bytes();
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(sums.add(frames.seen()));
+  EXPECT_EQ(sums.bytes(), bytes);
+  EXPECT_EQ(sums.points(), 6 * merged.cloud.size());
+}
+
+TEST(PointSums, RefusePointsFarAwayAndKeepWhatTheyHad) {
+  PointSums sums(kVoxel, {});
+  const std::vector<Vec3f> near{Vec3f(0.1f, 0.2f, 0.3f)}, far{Vec3f(0, 0, 0), Vec3f(1e5f, 0, 0)},
+      none{Vec3f(std::nanf(""), 0, 0)};
+  const std::vector<PointsSeen> good{{near, {}, {}}};
+  ASSERT_TRUE(sums.add(good));
+  for (const auto& bad : {far, none}) {
+    const std::vector<PointsSeen> seen{{bad, {}, {}}};
+    EXPECT_EQ(sums.add(seen).error().code, ErrorCode::kInvalidOption);
+  }
+  EXPECT_EQ(sums.points(), 1u);
+  EXPECT_EQ(sums.collect(1, RunContext())->size(), 1u);
+}
+
+TEST(PointSums, GiveNothingWhenEmptyOrCancelled) {
+  PointSums sums(kVoxel, {});
+  EXPECT_EQ(sums.collect(1, RunContext()).error().code, ErrorCode::kTooFewPoints);
+  const std::vector<Vec3f> points{Vec3f::Zero()};
+  const std::vector<PointsSeen> seen{{points, {}, {}}};
+  ASSERT_TRUE(sums.add(seen));
+  const RunContext context;
+  context.cancel();
+  EXPECT_EQ(sums.collect(1, context).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan::points

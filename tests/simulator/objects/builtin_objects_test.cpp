@@ -1,0 +1,178 @@
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/simulator/objects/implicit_mesh.hpp>
+
+#include "tests/simulator/shapes.hpp"
+
+namespace turnscan {
+namespace {
+
+using test::kPi;
+
+TriangleMesh object(std::string_view name) {
+  auto mesh = builtin_object(name);
+  EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().text());
+  return mesh ? *mesh : TriangleMesh();
+}
+
+void expect_box(const TriangleMesh& mesh, const Vec3d& low, const Vec3d& high, double tolerance) {
+  const Box box = bounds(mesh.vertices);
+  EXPECT_LE((box.min - low).cwiseAbs().maxCoeff(), tolerance) << box.min.transpose();
+  EXPECT_LE((box.max - high).cwiseAbs().maxCoeff(), tolerance) << box.max.transpose();
+}
+
+TEST(BuiltinObjects, AreClosedTwoManifoldAndOutward) {
+  for (const std::string& name : builtin_object_names()) {
+    const TriangleMesh mesh = object(name);
+    EXPECT_TRUE(test::closed_and_oriented(mesh)) << name;
+    EXPECT_TRUE(test::one_ring_each(mesh)) << name;
+    EXPECT_GT(test::volume_of(mesh), 0.0) << name;
+  }
+}
+
+TEST(BuiltinObjects, StandOnThePlatterWithColoursAndAName) {
+  for (const std::string& name : builtin_object_names()) {
+    const TriangleMesh mesh = object(name);
+    EXPECT_NEAR(bounds(mesh.vertices).min.y(), 0.0, 1e-6) << name;
+    EXPECT_EQ(mesh.colors.size(), mesh.vertices.size()) << name;
+    EXPECT_EQ(mesh.name, name);
+  }
+}
+
+TEST(BuiltinObjects, NamesTheKnownOnesWhenAskedForAnother) {
+  const auto mesh = builtin_object("teapot");
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().code, ErrorCode::kNotFound);
+  EXPECT_NE(mesh.error().message.find("letter-a, cylinder, doll"), std::string::npos);
+}
+
+TEST(LetterA, HasTheSizeOfTheWoodenOne) {
+  expect_box(object("letter-a"), {-0.087, 0.0, -0.008}, {0.087, 0.194, 0.008}, 1e-7);
+}
+
+TEST(LetterA, HasTheVolumeOfItsOutline) {
+  // Trapezium less the gap and the counter, in cm.
+  const double lean = (8.7 - 1.9) / 19.4, gap_top = 4.9 - lean * 5.0, base = 4.9 - lean * 8.2;
+  const double area = (8.7 + 1.9) * 19.4 - (4.9 + gap_top) * 5.0 - base * (4.9 / lean - 8.2);
+  EXPECT_NEAR(test::volume_of(object("letter-a")) * 1e6, area * 1.6, 1e-4);
+}
+
+TEST(LetterA, HasOneHandle) {
+  const TriangleMesh mesh = object("letter-a");
+  const auto euler =
+      static_cast<long>(mesh.vertices.size()) - static_cast<long>(mesh.triangles.size()) / 2;
+  EXPECT_EQ(euler, 0);
+}
+
+TEST(Cylinder, HasItsDiameterHeightAndVolume) {
+  const TriangleMesh mesh = object("cylinder");
+  expect_box(mesh, {-0.04, 0.0, -0.04}, {0.04, 0.16, 0.04}, 1e-7);
+  const double n = SolidCylinder::segments;
+  const double polygon = 0.5 * n * std::sin(2.0 * kPi / n) * 0.04 * 0.04;
+  EXPECT_NEAR(test::volume_of(mesh), polygon * 0.16, 1e-9);
+}
+
+TEST(Doll, IsAsTallAsItSays) {
+  const Box box = bounds(object("doll").vertices);
+  EXPECT_NEAR(box.max.y(), Doll::height_m, 5e-5);
+  EXPECT_LT(box.size().x(), 0.16);
+  EXPECT_LT(box.size().z(), 0.12);
+}
+
+TEST(Doll, HasOneHandleInTheBagsLoop) {
+  const TriangleMesh mesh = object("doll");
+  const auto euler =
+      static_cast<long>(mesh.vertices.size()) - static_cast<long>(mesh.triangles.size()) / 2;
+  EXPECT_EQ(euler, 0);
+}
+
+TEST(Doll, HasNoSlivers) {
+  const TriangleMesh mesh = object("doll");
+  for (const auto& t : mesh.triangles) {
+    const Vec3d a = mesh.vertices[t[0]].cast<double>(), b = mesh.vertices[t[1]].cast<double>(),
+                c = mesh.vertices[t[2]].cast<double>();
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    ASSERT_GT((b - a).cross(c - a).norm() / longest, 0.05 * Doll::cell_m);
+    ASSERT_LT(longest, 2.0 * Doll::cell_m);
+  }
+}
+
+TEST(Doll, IsTheSameForEveryNumberOfThreads) {
+  set_thread_count(1);
+  const TriangleMesh one = object("doll");
+  set_thread_count(4);
+  const TriangleMesh four = object("doll");
+  set_thread_count(0);
+  EXPECT_EQ(one.vertices, four.vertices);
+  EXPECT_EQ(one.triangles, four.triangles);
+  EXPECT_EQ(one.colors, four.colors);
+}
+
+TEST(Placing, TurnsCounterClockwiseSeenFromAboveThenMoves) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0f, 1.0f, 1.0f}};
+  mesh.normals = {{0.0f, 0.0f, 1.0f}};
+  mesh = place(mesh, 10.0, 20.0, kPi / 2);
+  EXPECT_LT((mesh.vertices[0] - Vec3f(11, 1, 20)).norm(), 1e-6f);
+  EXPECT_LT((mesh.normals[0] - Vec3f(1, 0, 0)).norm(), 1e-6f);
+}
+
+TEST(Standing, PutsTheFootOnThePlatterAndScalesToTheHeight) {
+  const TriangleMesh mesh =
+      stand_on_platter(test::box_mesh({1.0, 2.0, 3.0}, {2.0, 6.0, 5.0}), 0.25);
+  expect_box(mesh, {-0.03125, 0.0, -0.0625}, {0.03125, 0.25, 0.0625}, 1e-7);
+}
+
+TEST(Standing, LeavesAMeshWithoutVerticesAlone) {
+  EXPECT_TRUE(stand_on_platter(TriangleMesh(), 0.25).vertices.empty());
+}
+
+// A field of random signs meets every case of the table beside every other.
+TEST(ImplicitMesh, IsManifoldForAFieldOfRandomSigns) {
+  static constexpr float kCell = 0.001f;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const objects::SignedDistance field = [seed](const Vec3f& p) {
+      const Vec3f q = p / kCell;
+      float value = 0.0f;
+      for (int c = 0; c < 8; ++c) {
+        const Vec3f corner(std::floor(q.x()) + (c & 1), std::floor(q.y()) + (c >> 1 & 1),
+                           std::floor(q.z()) + (c >> 2));
+        const Vec3f w = Vec3f::Ones() - (q - corner).cwiseAbs();
+        const bool border = corner.minCoeff() < 1.5f || corner.maxCoeff() > 22.5f;
+        const auto key = hash_key(seed, std::uint64_t(corner.x()), std::uint64_t(corner.y()),
+                                  std::uint64_t(corner.z()));
+        const double at = border ? 1.0 : uniform01(key) - 0.5;
+        value += w.x() * w.y() * w.z() * kCell * float(at);
+      }
+      return value;
+    };
+    const TriangleMesh mesh =
+        objects::mesh_of(field, {Vec3f::Zero(), Vec3f::Constant(24 * kCell), kCell, 0});
+    ASSERT_GT(mesh.triangles.size(), 10000u);
+    EXPECT_TRUE(test::closed_and_oriented(mesh)) << seed;
+    EXPECT_TRUE(test::one_ring_each(mesh)) << seed;
+    EXPECT_GT(test::volume_of(mesh), 0.0) << seed;
+  }
+}
+
+TEST(ImplicitMesh, HasItsVerticesOnTheSurface) {
+  const objects::SignedDistance ball = [](const Vec3f& p) { return p.norm() - 0.02f; };
+  const TriangleMesh mesh =
+      objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 3});
+  ASSERT_FALSE(mesh.empty());
+  for (const Vec3f& p : mesh.vertices) ASSERT_NEAR(p.norm(), 0.02f, 1e-7f);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    ASSERT_GT(mesh.normals[i].dot(mesh.vertices[i].normalized()), 0.999f);
+}
+
+TEST(ImplicitMesh, IsOnTheSurfaceBeforeItIsSmoothed) {
+  const objects::SignedDistance ball = [](const Vec3f& p) { return p.norm() - 0.02f; };
+  const TriangleMesh mesh =
+      objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 0});
+  // No vertex comes nearer to a corner of the grid than 0.5 % of a cell.
+  for (const Vec3f& p : mesh.vertices) ASSERT_NEAR(p.norm(), 0.02f, 6e-6f);
+}
+
+}  // namespace
+}  // namespace turnscan

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/recording/recording.hpp>
+#include <turnscan/workflow/input.hpp>
+#include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/simulation/simulate.hpp>
+
+#include "tests/support/temp_folder.hpp"
+#include "tests/workflow/scenes.hpp"
+
+namespace turnscan {
+namespace {
+
+using testing::TempFolder;
+
+class ReconstructRunOf : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scan = new Simulation(*prepare_simulation(testing::cylinder_scene(30), RunContext()));
+  }
+  static void TearDownTestSuite() {
+    delete scan;
+    scan = nullptr;
+  }
+  ReconstructRunOf() { request.options.surface.method = SurfaceMethod::kVolumetric; }
+
+  static Simulation* scan;
+  TempFolder folder;
+  ReconstructRequest request;
+};
+Simulation* ReconstructRunOf::scan = nullptr;
+
+TEST_F(ReconstructRunOf, AScanWritesWhatIsAskedFor) {
+  ReconstructFiles files;
+  files.mesh = (folder / "mesh.ply").string();
+  files.report = (folder / "report.json").string();
+  files.stages["fitted"] = (folder / "fitted.ply").string();
+  request.stages = {"fitted"};
+  ASSERT_TRUE(check_outputs(files));
+  const auto run = run_reconstruction(scan->scan, request, RunContext());
+  ASSERT_TRUE(run) << run.error().text();
+  EXPECT_TRUE(run->reconstruction.objects.at(0).check.watertight());
+  EXPECT_FALSE(run->choice.calibration) << "the recording's own is good";
+  const auto written = write_outputs(files, *run, request.options);
+  ASSERT_TRUE(written) << written.error().text();
+  EXPECT_EQ(*written, (std::vector<std::string>{files.mesh, files.stages["fitted"], files.report}));
+  EXPECT_EQ(read_mesh(files.mesh, {}, RunContext())->triangles.size(),
+            run->reconstruction.objects[0].mesh.triangles.size());
+  EXPECT_EQ(read_cloud(files.stages["fitted"])->cloud.size(), run->stages.at("fitted").size());
+  EXPECT_NE(testing::content_of(files.report).find("\"watertight\""), std::string::npos);
+}
+
+TEST_F(ReconstructRunOf, AScanKeepsNoStageThatNobodyWants) {
+  const auto run = run_reconstruction(scan->scan, request, RunContext());
+  ASSERT_TRUE(run) << run.error().text();
+  EXPECT_TRUE(run->stages.empty());
+}
+
+TEST_F(ReconstructRunOf, AnUnknownWayToCalibrateFails) {
+  request.calibration = "guess";
+  const auto run = run_reconstruction(scan->scan, request, RunContext());
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ErrorCode::kInvalidOption);
+}
+
+TEST_F(ReconstructRunOf, ACancelledContextIsCancelled) {
+  const RunContext context;
+  context.cancel();
+  const auto run = run_reconstruction(scan->scan, request, context);
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, ErrorCode::kCancelled);
+}
+
+TEST_F(ReconstructRunOf, OutputsAreCheckedBeforeTheWork) {
+  ReconstructFiles files;
+  files.mesh = (folder / "mesh.doc").string();
+  EXPECT_EQ(check_outputs(files).error().code, ErrorCode::kInvalidOption);
+  files.mesh = (folder / "mesh.ply").string();
+  files.stages["fitted"] = (folder / "fitted.stl").string();
+  EXPECT_EQ(check_outputs(files).error().code, ErrorCode::kInvalidOption);
+}
+
+}  // namespace
+}  // namespace turnscan
