@@ -12,22 +12,38 @@ target_link_libraries(turnscan_test_precompiled PRIVATE Eigen3::Eigen fmt::fmt t
 turnscan_precompile(turnscan_test_precompiled ${TURNSCAN_COMMON_HEADERS} <gtest/gtest.h>
                     <gmock/gmock.h>)
 
+# turnscan_use_test_precompiled(PROGRAM)
+function(turnscan_use_test_precompiled target)
+  target_precompile_headers(${target} REUSE_FROM turnscan_test_precompiled)
+  target_link_libraries(${target} PRIVATE GTest::gmock)
+  # GCC 12 sees overlong copies in "string + literal" (GCC bug 105329), and forgets that headers are
+  # the system's when they are precompiled.
+  target_compile_options(${target} PRIVATE
+                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
+endfunction()
+
 # turnscan_test(NAME SOURCES a.cpp ... [USES targets]): a GoogleTest program; each of its tests is
-# one CTest test named FLOOR.Suite.Sentence, with the label unit.
+# one CTest test named FLOOR.Suite.Sentence, with the label unit. With a sanitizer, CTest knows parts
+# of programs only.
 function(turnscan_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${TEST_SOURCES})
   target_link_libraries(${target} PRIVATE ${TEST_USES} turnscan_test_main turnscan_test_data
-                                          GTest::gmock
                                           turnscan_settings turnscan_warnings)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
-  # GCC 12 sees overlong copies in "string + literal" (GCC bug 105329), and forgets that headers are
-  # the system's when they are precompiled.
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
-  target_precompile_headers(${target} REUSE_FROM turnscan_test_precompiled)
+  turnscan_use_test_precompiled(${target})
   turnscan_unity(${target})
   add_dependencies(unit_tests ${target})
+  if(TURNSCAN_SANITIZE)
+    # The start of a program takes longer than most of its tests: eight runs of it share them.
+    foreach(shard RANGE 7)
+      add_test(NAME ${name}.part_${shard} COMMAND ${target})
+      set_tests_properties(${name}.part_${shard} PROPERTIES TIMEOUT 1200 LABELS unit
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+    return()
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX "${name}." PROPERTIES TIMEOUT 600 LABELS unit
                        DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST)
 endfunction()

@@ -5,7 +5,7 @@
 # within a room. A build without (the preset dev) compiles less after a small change.
 option(TURNSCAN_UNITY "Compile the sources of a room together" OFF)
 
-# turnscan_unity(TARGET [MOST n]): groups the sources of each folder, at most n (default 6) together.
+# turnscan_unity(TARGET [MOST n]): groups the sources of each folder, at most n (default 10) together.
 # Sources with options of their own stay alone.
 function(turnscan_unity target)
   if(NOT TURNSCAN_UNITY)
@@ -13,7 +13,7 @@ function(turnscan_unity target)
   endif()
   cmake_parse_arguments(UNITY "" "MOST" "" ${ARGN})
   if(NOT UNITY_MOST)
-    set(UNITY_MOST 6)
+    set(UNITY_MOST 10)
   endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")

@@ -24,6 +24,7 @@ HANG_S = 300  # a run that takes longer hangs
 
 FAILED, USAGE, CANCELLED = 1, 2, 130
 FAST = ("--voxel-size", "6mm", "--poisson-depth", "5")  # where the mesh itself does not matter
+SMALL_PICTURE = ("--picture-size", "96")  # a large one takes longer than all else that a demo does
 
 
 def _default_signals():
@@ -95,7 +96,8 @@ def shared_demo(name, frames):
     """Folder of a demo with a built-in object, made once per process. Not to be changed."""
     parent = pathlib.Path(tempfile.mkdtemp(prefix="turnscan-e2e-demo-"))
     atexit.register(remove, parent)
-    result = run("demo", "--object", name, "--frames", frames, "--quiet", "--out", parent / "demo")
+    result = run("demo", "--object", name, "--frames", frames, *SMALL_PICTURE, "--quiet", "--out",
+                 parent / "demo")
     if result.returncode != 0:
         raise AssertionError(f"demo of {name}: {result.stderr}")
     return parent / "demo" / name

@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, HANG_S, ROOT, ply_cube, shared_recording, start
+from harness import CANCELLED, HANG_S, ROOT, SMALL_PICTURE, ply_cube, shared_recording, start
 
 STOP_S = 5.0  # a second is promised; the rest is for machines that are busy with other things
 
@@ -67,7 +67,7 @@ class Cancel(harness.TestCase):
                           "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"])
 
     def test_demo(self):
-        self.every_phase(("demo", "--object", "cylinder", "--frames", "60", "--out", "d"),
+        self.every_phase(("demo", "--object", "cylinder", "--frames", "60", *SMALL_PICTURE, "--out", "d"),
                          made=["d"])
 
     def test_render(self):
@@ -115,20 +115,21 @@ class Cancel(harness.TestCase):
 
 class Progress(harness.TestCase):
     def test_lines_without_a_terminal(self):
-        err = self.ok("demo", "--object", "cylinder", "--frames", "24", "--out", "d").stderr
+        err = self.ok("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out", "d").stderr
         self.assertGreater(len(phases_of(err)), 3)
         self.assertNotIn("\r", err)
         self.assertNotIn("\033", err)
 
     def test_quiet_says_nothing(self):
-        result = self.ok("demo", "--object", "cylinder", "--frames", "24", "--out", "d", "--quiet")
+        result = self.ok("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out", "d",
+                         "--quiet")
         self.assertEqual(result.stderr, "")
 
     def test_a_bar_with_a_percentage_on_a_terminal(self):
         import pty
         master, slave = pty.openpty()
-        process = start("demo", "--object", "cylinder", "--frames", "60", "--out", "d",
-                        cwd=self.dir, stderr=slave)
+        process = start("demo", "--object", "cylinder", "--frames", "60", *SMALL_PICTURE, "--out",
+                        "d", cwd=self.dir, stderr=slave)
         os.close(slave)
         shown = b""
         while True:

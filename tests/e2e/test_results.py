@@ -7,7 +7,7 @@ import struct
 import zipfile
 
 import harness
-from harness import FAILED, USAGE, ply_cube, shared_demo, shared_recording
+from harness import FAILED, SMALL_PICTURE, USAGE, ply_cube, shared_demo, shared_recording
 
 
 def stl_size_mm(path):
@@ -184,10 +184,12 @@ class Demo(harness.TestCase):
         self.assertEqual([f["object"] for f in figures], ["cylinder"])
         self.assertTrue(figures[0]["watertight"])
         self.assertGreater(figures[0]["f_at_1mm"], 0.9)
+        size = struct.unpack(">II", (folder / "cylinder.png").read_bytes()[16:24])
+        self.assertEqual(size, (3 * int(SMALL_PICTURE[1]), int(SMALL_PICTURE[1])))
 
     def test_a_second_demo_takes_the_next_free_folder(self):
         (self.dir / "turnscan-demo").mkdir()
-        out = self.ok("demo", "--object", "cylinder", "--frames", "24").stdout
+        out = self.ok("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE).stdout
         self.assertIn("turnscan-demo-2", out)
         self.assertEqual(list((self.dir / "turnscan-demo").iterdir()), [])
 

@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/checks.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(calibration_file) {
   using namespace turnscan;
   const auto read = parse_calibration(fuzz::text_of(data, size));
   if (!read) return 0;

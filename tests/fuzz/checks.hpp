@@ -9,6 +9,8 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <vector>
 
+#include "tests/fuzz/fuzz_target.hpp"
+
 namespace turnscan::fuzz {
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/checks.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(depth_png) {
   const auto read = turnscan::decode_depth_png(turnscan::fuzz::text_of(data, size));
   if (read)
     turnscan::fuzz::require(

@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/scratch_folder.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(importer_conf) {
   using namespace turnscan;
   static const fuzz::ScratchFolder folder;
   static const bool laid_out = (folder.put_scan("a.ply"), true);

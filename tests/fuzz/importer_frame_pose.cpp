@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/scratch_folder.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(importer_frame_pose) {
   using namespace turnscan;
   static const fuzz::ScratchFolder folder;
   static const bool laid_out = (folder.put_depth("frame-000001.depth.png"), true);

@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/checks.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(off) {
   const auto read = turnscan::mesh_io::decode_off(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(*read);
   return 0;

@@ -19,7 +19,7 @@ turnscan::AveragedScan small_scan() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(pick_file) {
   using namespace turnscan;
   static const fuzz::ScratchFolder folder;
   static const AveragedScan scan = small_scan();

@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/checks.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(ply_cloud) {
   const auto read = turnscan::decode_cloud(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(*read);
   return 0;

@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/scratch_folder.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(recording_file) {
   using namespace turnscan;
   static const fuzz::ScratchFolder folder;
   folder.put("a.ply", fuzz::text_of(data, size));

@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/checks.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(recording_json) {
   using namespace turnscan;
   using namespace turnscan::recording_format;
   const auto read = parse_recording_json(fuzz::text_of(data, size));

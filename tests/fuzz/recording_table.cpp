@@ -27,7 +27,7 @@ bool lay_out(const std::filesystem::path& path) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(recording_table) {
   using namespace turnscan;
   static const fuzz::ScratchFolder folder;
   static const bool laid_out = lay_out(folder / "r");

@@ -4,7 +4,9 @@
 #include <string_view>
 #include <turnscan/capture/source/source_uri.hpp>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+#include "tests/fuzz/fuzz_target.hpp"
+
+TURNSCAN_FUZZ_TARGET(source_uri) {
   using namespace turnscan;
   const auto uri = parse_source_uri({reinterpret_cast<const char*>(data), size});
   if (!uri) {

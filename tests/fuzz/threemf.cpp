@@ -7,7 +7,7 @@
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libzip.so"; }
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TURNSCAN_FUZZ_TARGET(threemf) {
   const auto read = turnscan::mesh_io::decode_3mf(turnscan::fuzz::text_of(data, size));
   if (read) turnscan::fuzz::check(read->meshes);
   return 0;

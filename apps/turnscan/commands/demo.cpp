@@ -18,16 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct DemoOptions {
-  std::string object = "doll";
-};
-
-OptionTable describe(DemoOptions& o) {
+OptionTable describe(std::string& object, int& picture_size_px) {
   OptionTable table;
-  table.text("object", o.object,
-             fmt::format("What stands on the turntable: {}, pair (letter-a and doll together), or "
-                         "all of these one after the other",
-                         fmt::join(builtin_object_names(), ", ")));
+  table
+      .text("object", object,
+            fmt::format("What stands on the turntable: {}, pair (letter-a and doll together), or "
+                        "all of these one after the other",
+                        fmt::join(builtin_object_names(), ", ")))
+      .number("picture-size", picture_size_px, {16, 4096},
+              "Width and height of each of the picture's three views in pixels");
   return table;
 }
 
@@ -37,7 +36,7 @@ class DemoCommand : public Command {
     line.option("-o,--out", "FOLDER", out_,
                 "Folder to make; without it ./turnscan-demo, or the next free number");
     line.allow_config();
-    line.group("demo", "Demo", describe(options_));
+    line.group("demo", "Demo", describe(object_, scene_.picture_size_px));
     line.group("virtual-scan", "Virtual camera", describe(scene_.scan));
     for (StageOptions& stage : describe_stages(scene_.reconstruct))
       line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
@@ -48,7 +47,7 @@ class DemoCommand : public Command {
     // "1.5mm" is short for "gaussian:1.5mm".
     std::string& noise = scene_.scan.measure.noise;
     if (parse_quantity(noise, Quantity::kLength)) noise = "gaussian:" + noise;
-    TURNSCAN_ASSIGN(const std::vector<std::string> scenes, scene_names(options_.object));
+    TURNSCAN_ASSIGN(const std::vector<std::string> scenes, scene_names(object_));
     const fs::path folder = out_.empty() ? free_folder() : fs::path(out_);
     TURNSCAN_TRY(check_output_folder(folder.string()));
     Result<> result = run_scenes(scenes, folder, session);
@@ -103,7 +102,7 @@ class DemoCommand : public Command {
   }
 
   std::string out_;
-  DemoOptions options_;
+  std::string object_ = "doll";
   DemoSceneOptions scene_;
 };
 

@@ -66,9 +66,10 @@ void distribute(const Reconstruction& result, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i].mesh = join_meshes(parts[i]);
 }
 
-Result<ColorImage> draw(const Piece& piece, const TriangleMesh& errors, const RunContext& context) {
+Result<ColorImage> draw(const Piece& piece, const TriangleMesh& errors, int size_px,
+                        const RunContext& context) {
   PictureOptions options;
-  options.width = options.height = 560;
+  options.width = options.height = size_px;
   options.ambient_samples = 8;
   options.use_colors = false;
   std::vector<ColorImage> views;
@@ -80,11 +81,12 @@ Result<ColorImage> draw(const Piece& piece, const TriangleMesh& errors, const Ru
   return side_by_side(views, options.background);
 }
 
-Result<> write_piece(const Piece& piece, const fs::path& folder, const RunContext& context) {
+Result<> write_piece(const Piece& piece, const fs::path& folder, int picture_size_px,
+                     const RunContext& context) {
   const auto file = [&](const std::string& ending) { return folder / (piece.name + ending); };
   TURNSCAN_ASSIGN(const TriangleMesh errors,
                   color_by_error(piece.mesh, piece.truth, kErrorScale_m, context));
-  TURNSCAN_ASSIGN(const ColorImage picture, draw(piece, errors, context));
+  TURNSCAN_ASSIGN(const ColorImage picture, draw(piece, errors, picture_size_px, context));
   TURNSCAN_TRY(write_mesh(file(".ply"), piece.mesh));
   TURNSCAN_TRY(write_mesh(file(".stl"), piece.mesh));
   TURNSCAN_TRY(write_mesh(file("-reference.ply"), piece.truth));
@@ -176,7 +178,7 @@ Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name, const f
   std::vector<DemoFigures> figures;
   for (const Piece& piece : pieces) {
     TURNSCAN_ASSIGN(Evaluation evaluation, judge(piece, scan, options.evaluate, context));
-    TURNSCAN_TRY(write_piece(piece, folder, context));
+    TURNSCAN_TRY(write_piece(piece, folder, options.picture_size_px, context));
     const double f = f_at_1mm(evaluation);
     figures.push_back({name, piece.name, scan.frames().size(), check_mesh(piece.mesh),
                        std::move(evaluation), f, seconds});

@@ -28,6 +28,7 @@ struct DemoSceneOptions {
   DemoScanOptions scan;
   ReconstructOptions reconstruct;
   EvaluateOptions evaluate;
+  int picture_size_px = 560;  ///< of each of the picture's three views
 };
 
 struct DemoFigures {

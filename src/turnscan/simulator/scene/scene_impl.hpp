@@ -17,10 +17,10 @@ namespace turnscan {
 
 struct Scene::Impl {
   struct DeviceDeleter {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCDevice released) const { rtcReleaseDevice(released); }
   };
   struct SceneDeleter {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCScene released) const { rtcReleaseScene(released); }
   };
 
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
