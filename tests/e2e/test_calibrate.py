@@ -80,6 +80,27 @@ class Calibrate(harness.TestCase):
         self.refused(FAILED, "reconstruct", "bare", "-o", "n.ply", "--calibration", "recorded")
         self.refused(USAGE, "reconstruct", "bare", "-o", "n.ply", "--calibration", "magic")
 
+    def test_a_table_that_has_moved_since_it_was_calibrated_is_noticed_and_found_anew(self):
+        scene = ("simulate", "builtin:doll", "--height", "160mm", "--frames", "60", "--fps", "6",
+                 "--turns", "1.1", "--calibration", "nominal")
+        self.ok(*scene, "--table-x", "5mm", "--table-tilt", "1deg", "-o", "moved")
+        out = self.ok("reconstruct", "moved", "-o", "m.ply", "--voxel-size", "2mm").stdout
+        self.assertIn("beside the one about which the object turns", out)
+        self.assertIn("found from motion", out)
+        self.ok("evaluate", "m.ply", "--reference", "moved/truth/object.ply", "--align", "icp",
+                "--samples", "20000", "--json", "e.json")
+        self.assertLess(json.loads((self.dir / "e.json").read_text())["accuracy"]["median_m"], 3e-4)
+        # What somebody gives is used, but not without a word.
+        table = json.loads((self.dir / "moved" / "recording.json").read_text())["turntable"]
+        (self.dir / "t.json").write_text(json.dumps(table))
+        for given in (("--turntable", "t.json"), ("--speed", "45deg/s")):
+            out = self.ok("reconstruct", "moved", "-o", "m.ply", *given, *harness.FAST).stdout
+            self.assertIn("given, --calibration motion makes another", out)
+        # A table that stands where it should is not doubted.
+        self.ok(*scene, "-o", "right")
+        out = self.ok("reconstruct", "right", "-o", "m.ply", *harness.FAST).stdout
+        self.assertNotIn("the object turns", out)
+
     def test_free_registration_is_there_to_compare_with(self):
         out = self.ok("reconstruct", self.rec, "-o", "m.ply", "--calibration", "gicp-global",
                       *harness.FAST).stdout

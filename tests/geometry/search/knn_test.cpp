@@ -27,10 +27,11 @@ Neighbours all_by_distance(const std::vector<Vec3f>& points, const Vec3f& q) {
   return all;
 }
 
-Neighbours nearest_by_tree(const KdTree& tree, const Vec3f& q, std::size_t k) {
+Neighbours nearest_by_tree(const KdTree& tree, const Vec3f& q, std::size_t k,
+                           float reach_m = std::numeric_limits<float>::infinity()) {
   std::vector<std::uint32_t> index(k);
   std::vector<float> distance(k);
-  const std::size_t found = tree.knn(q, k, index.data(), distance.data());
+  const std::size_t found = tree.knn(q, k, index.data(), distance.data(), reach_m);
   Neighbours result;
   for (std::size_t i = 0; i < found; ++i) result.emplace_back(index[i], distance[i]);
   return result;
@@ -126,6 +127,9 @@ TEST(Knn, FindsThePointsWithinARadiusLikeBruteForce) {
         std::erase_if(expected, [&](const auto& n) { return n.second > radius * radius; });
         tree.radius(q, radius, found);
         ASSERT_EQ(found, expected) << distribution.name << ", radius " << radius;
+        expected.resize(std::min<std::size_t>(3, expected.size()));
+        ASSERT_EQ(nearest_by_tree(tree, q, 3, radius), expected)
+            << distribution.name << ", the three nearest within " << radius;
       }
     }
   }

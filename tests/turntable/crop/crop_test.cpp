@@ -82,6 +82,25 @@ TEST(MeasurePlatter, SaysNothingWithoutReturns) {
   EXPECT_EQ(measure_platter(std::vector<Vec3f>(100, Vec3f::Zero()), 0.2).count, 0u);
 }
 
+TEST(MeasurePlatter, TakesFeetAndWallsForNoPlatter) {
+  for (const double lowest_m : {-0.015, -0.005, 0.0}) {
+    std::vector<Vec3f> walls;
+    for (std::uint64_t i = 0; i < 5000; ++i)
+      walls.emplace_back(0.05f, float(lowest_m + 0.08 * uniform01(hash_key(11, i))), 0.0f);
+    const PlatterReturns returns = measure_platter(walls, 0.2);
+    EXPECT_GT(returns.count, 0u);
+    EXPECT_FALSE(returns.plane()) << returns.dense_share;
+    EXPECT_FALSE(find_platter_radius(walls, returns));
+  }
+}
+
+TEST(MeasurePlatter, TakesANoisyPlatterForAPlane) {
+  std::vector<Vec3f> points;
+  for (std::uint64_t i = 0; i < 5000; ++i)
+    points.emplace_back(0.05f, float(0.003 * standard_normal(hash_key(12, i))), 0.0f);
+  EXPECT_TRUE(measure_platter(points, 0.2).plane());
+}
+
 /// A platter of 12 cm on a table that lies 2 cm lower.
 std::vector<Vec3f> platter_on_a_table() {
   std::vector<Vec3f> points;

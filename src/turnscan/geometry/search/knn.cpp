@@ -35,18 +35,19 @@ float loosened(float squared_distance) {
   return std::max(squared_distance * kBoundSlack, std::numeric_limits<float>::min());
 }
 
-/// The k smallest (distance, id) seen so far, in order, in the caller's arrays.
+/// The k smallest (distance, id) seen so far that are within reach, in order, in the caller's
+/// arrays.
 class NearestSet {
  public:
-  NearestSet(const PointStore& store, std::size_t k, std::uint32_t* index, float* distance)
-      : store_(store), k_(k), index_(index), distance_(distance) {}
+  NearestSet(const PointStore& store, std::size_t k, std::uint32_t* index, float* distance,
+             float squared_reach)
+      : store_(store), k_(k), index_(index), distance_(distance), squared_reach_(squared_reach) {}
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == k_; }
-  float worstDist() const {
-    return full() ? loosened(distance_[k_ - 1]) : std::numeric_limits<float>::infinity();
-  }
+  float worstDist() const { return loosened(full() ? distance_[k_ - 1] : squared_reach_); }
   bool addPoint(float distance, std::uint32_t position) {
+    if (!(distance <= squared_reach_)) return true;
     const std::uint32_t id = store_.ids[position];
     const auto before = [&](std::size_t i) {
       return distance < distance_[i] || (distance == distance_[i] && id < index_[i]);
@@ -67,6 +68,7 @@ class NearestSet {
   std::size_t k_, count_ = 0;
   std::uint32_t* index_;
   float* distance_;
+  float squared_reach_;
 };
 
 class WithinRadius {
@@ -139,9 +141,9 @@ KdTree::KdTree(std::span<const Vec3f> points) {
 std::size_t KdTree::size() const { return impl_ ? impl_->store.points.size() : 0; }
 
 std::size_t KdTree::knn(const Vec3f& query, std::size_t k, std::uint32_t* index,
-                        float* squared_distance) const {
-  if (size() == 0 || k == 0 || !query.allFinite()) return 0;
-  NearestSet nearest(impl_->store, k, index, squared_distance);
+                        float* squared_distance, float reach_m) const {
+  if (size() == 0 || k == 0 || !query.allFinite() || !(reach_m >= 0.0f)) return 0;
+  NearestSet nearest(impl_->store, k, index, squared_distance, reach_m * reach_m);
   impl_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
   return nearest.size();
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <turnscan/core/pose.hpp>
@@ -28,10 +29,11 @@ class KdTree {
   std::size_t size() const;
 
   /// The k nearest points of query, nearest first, in index[0..k) and squared_distance[0..k)
-  /// (metres squared). Returns how many were found: min(k, size()), 0 for a query that is not
-  /// finite. A query that is one of the points finds itself, too.
-  std::size_t knn(const Vec3f& query, std::size_t k, std::uint32_t* index,
-                  float* squared_distance) const;
+  /// (metres squared). Returns how many were found: min(k, size()), fewer where reach_m bounds
+  /// their distance, 0 for a query that is not finite. A query that is one of the points finds
+  /// itself, too. A bound near what is sought makes the search faster.
+  std::size_t knn(const Vec3f& query, std::size_t k, std::uint32_t* index, float* squared_distance,
+                  float reach_m = std::numeric_limits<float>::infinity()) const;
 
   /// All points with squared distance <= radius * radius, nearest first, as (index, squared
   /// distance); replaces what out held. Nothing for a radius that is negative or not finite.

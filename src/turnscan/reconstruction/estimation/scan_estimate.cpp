@@ -49,10 +49,14 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   cylinder.radius_m = found.value_or(1e3);
   double margin = std::max(0.002, 4.0 * estimate.noise_m);
   std::string reason = fmt::format("4 times the sensor's noise of {}", mm(estimate.noise_m));
-  if (platter.count > 0) {
+  // A calibration that knows the radius has seen a platter.
+  if (platter.count > 0 && (known || platter.plane())) {
     margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
     reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
                          mm(platter.height_m), mm(platter.sigma_m));
+  } else if (platter.count > 0) {
+    margin = -std::max(0.005, 4.0 * estimate.noise_m);
+    reason = "no platter is seen, so that nothing is cropped below";
   }
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(

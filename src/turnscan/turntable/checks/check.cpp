@@ -49,7 +49,7 @@ class RecordingCheck {
     if (!closure) {
       if (closure.error().code != ErrorCode::kMissingData)
         return tl::unexpected<Error>(closure.error());
-      say(false, "Closure: {}.", closure.error().message);
+      say(true, "Closure: {}, so that nothing can be said.", closure.error().message);
       return {};
     }
     if (!*closure) {
@@ -102,7 +102,7 @@ class RecordingCheck {
   void check_place(const Calibration& found) {
     const auto& table = sequence_.header().turntable;
     if (!table) {
-      say(false, "Place: the recording does not say where the turntable is; its motion does.");
+      say(true, "Place: the recording does not say where the turntable is; its motion does.");
       return;
     }
     const Vec3d a = table->axis.normalized(), b = found.table.axis;

@@ -64,6 +64,7 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
   }
   PlatterReturns out;
   out.count = heights.size();
+  out.dense_share = double(best) / double(heights.size());
   out.height_m = middle;
   std::nth_element(below.begin(), below.begin() + std::ptrdiff_t(below.size() / 2), below.end());
   out.sigma_m = 1.4826 * below[below.size() / 2];
@@ -75,7 +76,7 @@ std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
   constexpr double kRing = 0.004;
   constexpr std::size_t kRings = 150;
   constexpr double kLeastDensity = 2e4;  // returns per square metre: one in 50 mm^2
-  if (platter.count == 0) return std::nullopt;
+  if (!platter.plane()) return std::nullopt;
   std::vector<double> density(kRings, 0.0);
   const double band = std::max(4.0 * platter.sigma_m, 0.001);
   for (const Vec3f& p : p_table) {

@@ -46,9 +46,13 @@ FramePoints crop(const FramePoints& points, const SensorCrop& crop);
 
 /// How far the platter's own returns lie from y = 0.
 struct PlatterReturns {
-  std::size_t count = 0;  ///< returns within 15 mm of the plane, inside the radius
-  double height_m = 0.0;  ///< their median height
-  double sigma_m = 0.0;   ///< robust standard deviation of their height
+  std::size_t count = 0;     ///< returns within 15 mm of the plane, inside the radius
+  double height_m = 0.0;     ///< their median height
+  double sigma_m = 0.0;      ///< robust standard deviation of their height
+  double dense_share = 0.0;  ///< of the returns that lie in the 3 mm that hold most of them
+  /// Whether they lie in a plane. Without a platter, what is seen at its height are the object's
+  /// own feet and walls: of what is spread evenly over 15 mm or more, 3 mm hold a fifth at most.
+  bool plane() const { return dense_share > 0.25; }
 };
 
 /// Measures them on points in the table frame. The lower half of their distribution decides, so
@@ -58,7 +62,7 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
 /// Radius at which the platter's returns end: outwards from the ring (of 4 mm) in which they lie
 /// densest, the first ring with less than 0.3 times that density. p_table must hold whole frames
 /// (not cropped), spread over a turn. nullopt where they do not end within 0.6 m, e.g. on a plane
-/// that goes on beyond the platter, or where there are too few.
+/// that goes on beyond the platter, where there are too few, or where they lie in no plane.
 std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
                                           const PlatterReturns& platter);
 

@@ -2,6 +2,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 
@@ -105,7 +106,9 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
   }
   // Upright for the sensor: y down for a camera, y up for scans of points; the sensor looks down.
   const Vec3d up = data.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
-  const Vec3d right = up.cross(data.to_sensor).normalized();
+  const Vec3d across = up.cross(data.to_sensor);
+  // From right above there is no direction towards the sensor: any will do.
+  const Vec3d right = across.norm() > 0.05 ? Vec3d(across.normalized()) : tangent_basis(up).first;
   for (const double tilt : {0.0, 20.0, 40.0, 60.0}) {
     for (const double roll : {0.0, 15.0, -15.0}) {
       if (roll != 0.0 && tilt > 50.0) continue;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/initialisation.hpp>
@@ -12,6 +11,9 @@ namespace turnscan::motion {
 
 namespace {
 
+constexpr std::size_t kMostStarts = 6;    ///< that are solved with care
+constexpr std::size_t kSieveStride = 12;  ///< of the samples that the others are judged by
+
 class Initialisation {
  public:
   Initialisation(const MotionData& data, const SequenceHeader& header,
@@ -21,22 +23,23 @@ class Initialisation {
   }
 
   Result<InitialMotion> run() {
-    InitialMotion best;
-    best.source = source_;
-    double least = 2.0;
-    for (MotionState& state : candidate_axes(data_, table_)) {
+    std::vector<Start> starts;
+    std::optional<Error> failure;  // of the first axis that nothing can be said about
+    for (const MotionState& axis : candidate_axes(data_, table_)) {
       TURNSCAN_TRY(context_.check());
-      TURNSCAN_TRY(start_angles(state));
-      TURNSCAN_ASSIGN(const MotionSolution rough, solve_roughly(state));
-      const double cost = mean_pair_cost(data_, rough.state);
-      if (cost < least) {
-        least = cost;
-        best.state = rough.state;
-        best.prior = prior_;
-      }
+      auto begun = start_angles(axis, starts);
+      if (!begun && !failure) failure = std::move(begun).error();
     }
-    best.turn_observable = turn_observable_;
-    return best;
+    if (starts.empty()) return tl::unexpected<Error>(*failure);
+    TURNSCAN_TRY(keep_promising(starts));
+    const Start* best = nullptr;
+    double least = 1e300;
+    for (Start& start : starts) {
+      TURNSCAN_TRY(solve_roughly(start, coarse_stride(data_, 6), 6));
+      const double cost = cost_of(start);
+      if (cost < least) least = cost, best = &start;
+    }
+    return InitialMotion{best->state, best->prior, source_, best->turn_observable};
   }
 
  private:
@@ -50,38 +53,78 @@ class Initialisation {
     return AngleSource::kNothing;
   }
 
-  Result<MotionSolution> solve_roughly(const MotionState& state) {
+  /// An axis to start from, with angles.
+  struct Start {
+    MotionState state;
+    AnglePrior prior;
+    bool turn_observable = true;
+  };
+
+  /// Moves the start's axis and angles; leaves them where no equation helps.
+  Result<> solve_roughly(Start& start, std::size_t stride, int iterations) const {
     SolveOptions options;
-    options.iterations = 6;
+    options.iterations = iterations;
     options.reach_m = 0.03;
     options.floor_m = 0.004;
-    options.stride = coarse_stride(data_, 6);
-    options.hold_angles = !turn_observable_;
-    auto rough = solve_pairwise(data_, state, select_pairs(data_, state.angle, false), prior_,
-                                options, context_);
-    if (rough || rough.error().code == ErrorCode::kCancelled) return rough;
-    MotionSolution none;
-    none.state = state;
-    return none;
-  }
-
-  /// Sets the prior and the angles of a candidate axis.
-  Result<> start_angles(MotionState& state) {
-    prior_ = {};
-    turn_observable_ =
-        source_ == AngleSource::kNothing || turn_information(data_, state) > kLeastTurnInformation;
-    if (source_ == AngleSource::kTimes) return start_from_times(state);
-    if (source_ == AngleSource::kAngles) {
-      start_from_angles(state);
-    } else {
-      search_turns(data_, state);
+    options.stride = stride;
+    options.hold_angles = !start.turn_observable;
+    auto rough = solve_pairwise(data_, start.state, select_pairs(data_, start.state.angle, false),
+                                start.prior, options, context_);
+    if (rough) {
+      start.state = std::move(rough->state);
+    } else if (rough.error().code == ErrorCode::kCancelled) {
+      return tl::unexpected<Error>(rough.error());
     }
     return {};
   }
 
-  Result<> start_from_times(MotionState& state) {
-    double speed = guess_speed(data_, state);
-    if (!turn_observable_) {
+  /// The angles' own sign takes precedence where the other fits hardly better.
+  double cost_of(const Start& start) const {
+    return mean_pair_cost(data_, start.state) * (start.prior.nominal_sign < 0.0 ? 1.25 : 1.0);
+  }
+
+  /// Of many starts those that fit best after a quick look.
+  Result<> keep_promising(std::vector<Start>& starts) const {
+    if (starts.size() <= kMostStarts) return {};
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      Start quick = starts[i];
+      TURNSCAN_TRY(solve_roughly(quick, kSieveStride, 3));
+      order.emplace_back(cost_of(quick), i);
+      starts[i].state = std::move(quick.state);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Start> kept;
+    for (std::size_t k = 0; k < kMostStarts; ++k)
+      kept.push_back(std::move(starts[order[k].second]));
+    starts = std::move(kept);
+    return {};
+  }
+
+  /// Adds the starts about an axis. Fails with kMissingData where it shows no turn and none is known.
+  Result<> start_angles(const MotionState& axis, std::vector<Start>& starts) const {
+    const bool observable =
+        source_ == AngleSource::kNothing || turn_information(data_, axis) > kLeastTurnInformation;
+    const Start start{axis, {}, observable};
+    if (source_ == AngleSource::kTimes) return start_from_times(start, starts);
+    if (source_ == AngleSource::kAngles) {
+      start_from_angles(start, starts);
+      return {};
+    }
+    starts.push_back(start);
+    search_turns(data_, starts.back().state);
+    return {};
+  }
+
+  Result<> start_from_times(Start start, std::vector<Start>& starts) const {
+    double speed = 0.0;
+    if (start.turn_observable) {
+      speed = guess_speed(data_, start.state);
+      if (speed == 0.0)
+        return fail(ErrorCode::kMissingData,
+                    "motion: no speed was found at which the frames fit; check that the table "
+                    "turned and that the frames' times increase, or give --speed");
+    } else {
       std::optional<double> known = options_.speed_rad_s;
       if (!known && table_) known = table_->speed_rad_s;
       if (!known)
@@ -89,33 +132,29 @@ class Initialisation {
                     "motion: the object looks the same from all sides, so that its speed cannot be "
                     "seen; give --speed");
       speed = *known;
-      prior_.stated_rad_s = known;
+      start.prior.stated_rad_s = known;
     }
-    prior_.timed = true;
-    prior_.speed_rad_s = speed;
+    start.prior.timed = true;
+    start.prior.speed_rad_s = speed;
     const double t0 = data_.frames.front().time_s;
-    for (std::size_t i = 0; i < state.angle.size(); ++i)
-      state.angle[i] = speed * (data_.frames[i].time_s - t0);
-    if (turn_observable_) track_angles(data_, state, 0.3);
+    for (std::size_t i = 0; i < start.state.angle.size(); ++i)
+      start.state.angle[i] = speed * (data_.frames[i].time_s - t0);
+    if (start.turn_observable) track_angles(data_, start.state, 0.3);
+    starts.push_back(std::move(start));
     return {};
   }
 
-  /// The list of angles may count the other way round.
-  void start_from_angles(MotionState& state) {
-    prior_.nominal_sigma_rad = options_.angle_sigma_rad;
-    std::array<double, 2> cost{};
-    std::array<MotionState, 2> states{state, state};
-    for (const int k : {0, 1}) {
-      prior_.nominal_sign = k == 0 ? 1.0 : -1.0;
-      const double zero = *data_.frames[0].nominal_rad;
-      for (std::size_t i = 0; i < state.angle.size(); ++i)
-        states[std::size_t(k)].angle[i] =
-            prior_.nominal_sign * (*data_.frames[i].nominal_rad - zero);
-      cost[std::size_t(k)] = mean_pair_cost(data_, states[std::size_t(k)]);
+  /// The list of angles may count the other way round; about a rough axis that cannot be told yet.
+  void start_from_angles(const Start& start, std::vector<Start>& starts) const {
+    const double zero = *data_.frames[0].nominal_rad;
+    for (const double sign : {1.0, -1.0}) {
+      Start one = start;
+      one.prior.nominal_sigma_rad = options_.angle_sigma_rad;
+      one.prior.nominal_sign = sign;
+      for (std::size_t i = 0; i < one.state.angle.size(); ++i)
+        one.state.angle[i] = sign * (*data_.frames[i].nominal_rad - zero);
+      starts.push_back(std::move(one));
     }
-    const int best = cost[1] < 0.8 * cost[0] ? 1 : 0;
-    prior_.nominal_sign = best == 0 ? 1.0 : -1.0;
-    state = states[std::size_t(best)];
   }
 
   const MotionData& data_;
@@ -123,8 +162,6 @@ class Initialisation {
   const RunContext& context_;
   std::optional<TurntableInfo> table_;  ///< the recording's, where it is to be used
   AngleSource source_;
-  AnglePrior prior_;
-  bool turn_observable_ = true;
 };
 
 }  // namespace

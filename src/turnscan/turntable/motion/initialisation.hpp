@@ -11,18 +11,18 @@ namespace turnscan::motion {
 enum class AngleSource { kTimes, kAngles, kNothing };
 
 struct InitialMotion {
-  AngleSource source = AngleSource::kTimes;
   MotionState state;
   AnglePrior prior;
-  /// Whether the object's shape shows its turn; else the angles are those of the prior. Judged with
-  /// the last of the candidate axes.
+  AngleSource source = AngleSource::kTimes;
+  /// Whether the object's shape shows its turn about the axis that it starts from; else the angles
+  /// are those of the prior.
   bool turn_observable = true;
 };
 
 /// The candidate axis (candidate_axes) about which the frames fit best after a coarse solution,
-/// with angles from the frames' own, from their times or from trying all turns. header: turntable
-/// whose speed is used where the shape does not show one and options state none. Fails with
-/// kMissingData when there is none either, kCancelled.
+/// with angles from the frames' own (of either sign), from their times or from trying all turns.
+/// header: turntable whose speed is used where the shape does not show one and options state none.
+/// Fails with kMissingData when about no axis a speed is seen or known, kCancelled.
 Result<InitialMotion> initialise_motion(const MotionData& data, const SequenceHeader& header,
                                         const FromMotionOptions& options,
                                         const RunContext& context);

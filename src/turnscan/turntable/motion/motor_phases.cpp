@@ -19,7 +19,10 @@ bool find_transients(const MotionData& data, const MotionState& state, AnglePrio
   for (std::size_t k = 0, a = 0, b = 0; k < keys.size(); ++k) {
     while (time(k) - time(a) > half) ++a;
     while (b + 1 < keys.size() && time(b) - time(k) < half) ++b;
-    speed[k] = (state.angle[keys[b]] - state.angle[keys[a]]) / (time(b) - time(a));
+    // Across a gap in the frames at least the neighbours.
+    const std::size_t from = a < b || k == 0 ? a : k - 1;
+    const std::size_t to = a < b ? b : std::min(k + 1, keys.size() - 1);
+    speed[k] = (state.angle[keys[to]] - state.angle[keys[from]]) / (time(to) - time(from));
   }
   std::vector<double> sorted = speed;
   std::sort(sorted.begin(), sorted.end());

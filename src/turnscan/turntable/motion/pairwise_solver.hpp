@@ -40,9 +40,9 @@ Result<MotionSolution> solve_pairwise(const MotionData& data, const MotionState&
                                       const std::vector<FramePair>& pairs, const AnglePrior& prior,
                                       const SolveOptions& options, const RunContext& context);
 
-/// Every how manyth sample a coarse solution uses: few frames have no samples to spare.
+/// Every how manyth sample a coarse solution uses: few depth images have no samples to spare.
 inline std::size_t coarse_stride(const MotionData& data, std::size_t wanted) {
-  return data.keys.size() > 24 ? wanted : 1;
+  return data.keys.size() > 24 || !data.projective ? wanted : 1;
 }
 
 }  // namespace turnscan::motion

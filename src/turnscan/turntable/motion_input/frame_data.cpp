@@ -57,7 +57,9 @@ class FrameLoader {
   std::size_t samples_per_frame(bool key) const {
     const std::size_t n = data_.frames.size();
     // More say little: noise is smoothed over 25 pixels, so that near samples share theirs.
-    return std::clamp<std::size_t>(150000 / n, key ? 400 : 350, n > 24 ? 1500 : 4000);
+    // The nearest point of a scan costs more to find than that of a depth image, and says more.
+    const std::size_t most = n > 24 ? 1500 : data_.projective ? 4000 : 2000;
+    return std::clamp<std::size_t>(150000 / n, key ? 400 : 350, most);
   }
 
   Result<> read_all() {
@@ -173,8 +175,7 @@ bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p
   if (!projective) {
     std::uint32_t index = 0;
     float squared = 0.0f;
-    if (surface.tree.knn(p.cast<float>(), 1, &index, &squared) == 0) return false;
-    if (squared > reach_m * reach_m) return false;
+    if (surface.tree.knn(p.cast<float>(), 1, &index, &squared, float(reach_m)) == 0) return false;
     found = surface.points[index].cast<double>();
     return true;
   }

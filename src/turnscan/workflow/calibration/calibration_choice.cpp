@@ -1,9 +1,11 @@
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/check.hpp>
 #include <turnscan/turntable/motion/free_motion.hpp>
 #include <turnscan/turntable/rotation.hpp>
@@ -61,8 +63,9 @@ bool has_poses(const FrameSequence& sequence) {
                      [](const FrameInfo& f) { return f.T_table_sensor.has_value(); });
 }
 
-/// nullopt: nothing speaks against the recording's calibration.
-Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const RunContext& context) {
+/// Why the closure after a turn speaks against the calibration; nullopt: it does not.
+Result<std::optional<std::string>> closure_doubt(const FrameSequence& sequence,
+                                                 const RunContext& context) {
   const auto closure = measure_closure(sequence, context);
   if (!closure) {
     if (closure.error().code == ErrorCode::kMissingData) return std::nullopt;
@@ -75,6 +78,55 @@ Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const Ru
       (*closure)->shift_m * 1e3, (*closure)->turn_rad * kDegreesPerRadian);
 }
 
+/// The same of the axis about which the frames fit.
+Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence,
+                                              const RunContext& context) {
+  const auto offset = measure_axis_offset(sequence, context);
+  if (!offset) {
+    if (offset.error().code == ErrorCode::kMissingData) return std::nullopt;
+    return tl::unexpected<Error>(offset.error());
+  }
+  if (!*offset || !(*offset)->bad()) return std::nullopt;
+  return fmt::format(
+      "the recording's axis lies {:.1f} mm beside the one about which the object turns, and leans "
+      "by {:.1f} deg",
+      (*offset)->shift_m * 1e3, (*offset)->tilt_rad * kDegreesPerRadian);
+}
+
+/// nullopt: nothing speaks against the recording's calibration.
+Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const RunContext& context) {
+  TURNSCAN_ASSIGN(auto why, closure_doubt(sequence, context));
+  if (why) return why;
+  return axis_doubt(sequence, context);
+}
+
+/// The sequence with the angles of a stated speed in place of its own.
+SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) {
+  SequenceView out(sequence);
+  SequenceHeader header = sequence.header();
+  if (header.turntable) header.turntable->speed_rad_s = speed_rad_s;
+  out.set_header(std::move(header));
+  std::vector<FrameInfo> frames = sequence.frames();
+  for (FrameInfo& frame : frames)
+    if (std::isfinite(frame.time_s)) frame.angle_rad.reset();
+  out.set_frames(std::move(frames));
+  return out;
+}
+
+/// What was given by somebody is used, and a doubt about it is said.
+Result<CalibrationChoice> as_given(const FrameSequence& sequence, const CalibrationRequest& request,
+                                   const RunContext& context) {
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(const auto why,
+                  request.speed_rad_s
+                      ? doubt(at_stated_speed(sequence, *request.speed_rad_s), context)
+                      : doubt(sequence, context));
+  if (why)
+    out.note = fmt::format("{}; it was used because {} given, --calibration motion makes another",
+                           *why, request.speed_rad_s ? "the speed was" : "it was");
+  return out;
+}
+
 Result<CalibrationChoice> automatic(const FrameSequence& sequence,
                                     const CalibrationRequest& request, const RunContext& context) {
   if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
@@ -85,19 +137,18 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
     return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
                 found.error().message);
   }
-  if (request.table_given || request.speed_rad_s) return CalibrationChoice();
+  if (request.table_given || request.speed_rad_s) return as_given(sequence, request, context);
   TURNSCAN_ASSIGN(const auto why, doubt(sequence, context));
   if (!why) return CalibrationChoice();
   auto found = from_motion(sequence, request, *why, context);
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
   if (found) {
-    // A calibration takes precedence over the recording's only if it closes where that one does
-    // not.
+    // A calibration takes precedence over the recording's only if nothing speaks against it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
     TURNSCAN_ASSIGN(const auto still, doubt(*better, context));
     if (!still) return found;
-    failure = "the one from motion does not close either";
+    failure = "the one from motion does not fit either";
   }
   CalibrationChoice out;
   out.note = fmt::format("{}, but no better one was found ({})", *why, failure);

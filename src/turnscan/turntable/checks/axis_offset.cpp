@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/sequence_views.hpp>
+#include <turnscan/turntable/checks/axis_offset.hpp>
+#include <turnscan/turntable/checks/recorded_angles.hpp>
+#include <turnscan/turntable/motion/axis_fit.hpp>
+
+namespace turnscan::checks {
+
+namespace {
+
+constexpr std::size_t kMostFrames = 36, kLeastFrames = 4;
+constexpr double kLeastTurn = kTurn / 8.0;
+// What a mesh does not forgive, and what noise that is not Gaussian makes of a right axis.
+constexpr double kLargestShift_m = 0.0015;
+constexpr double kLargestTilt = 0.5 * kRadiansPerDegree;
+constexpr double kSigmas = 4.0;
+
+/// Frames that were told an angle, evenly spread.
+std::vector<std::size_t> placed_frames(const std::vector<double>& angle) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < angle.size(); ++i)
+    if (std::isfinite(angle[i])) out.push_back(i);
+  return motion::spread_subset(std::move(out), kMostFrames);
+}
+
+AxisOffset offset_between(const TurntableInfo& recorded, const motion::AxisFit& fit) {
+  const Vec3d axis = recorded.axis.normalized();
+  const Vec3d off = fit.center_m - recorded.center_m;
+  AxisOffset out;
+  out.tilt_rad = std::atan2(axis.cross(fit.axis).norm(), axis.dot(fit.axis));
+  out.shift_m = (off - off.dot(axis) * axis).norm();
+  out.tilt_sigma_rad = fit.axis_sigma_rad;
+  out.shift_sigma_m = fit.center_sigma_m;
+  return out;
+}
+
+}  // namespace
+
+}  // namespace turnscan::checks
+
+namespace turnscan {
+
+bool AxisOffset::bad() const {
+  const auto beyond = [](double value, double limit, double sigma) {
+    return value > std::max(limit, checks::kSigmas * sigma);
+  };
+  return beyond(tilt_rad, checks::kLargestTilt, tilt_sigma_rad) ||
+         beyond(shift_m, checks::kLargestShift_m, shift_sigma_m);
+}
+
+Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
+                                                      const RunContext& context) {
+  const auto& table = sequence.header().turntable;
+  if (!table)
+    return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
+  const auto angle = checks::recorded_angles(sequence);
+  const auto positions = checks::placed_frames(angle);
+  if (positions.empty())
+    return fail(ErrorCode::kMissingData, "the recording has neither angles nor a speed");
+  std::vector<double> placed;
+  for (const std::size_t i : positions) placed.push_back(angle[i]);
+  const auto [least, most] = std::minmax_element(placed.begin(), placed.end());
+  if (placed.size() < checks::kLeastFrames || *most - *least < checks::kLeastTurn)
+    return std::nullopt;
+  motion::MotionDataOptions loading;
+  loading.hint = table;
+  const auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
+  const auto nothing_if_unseen = [](const Error& error) -> Result<std::optional<AxisOffset>> {
+    if (error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary)
+      return std::nullopt;
+    return tl::unexpected<Error>(error);
+  };
+  if (!data) return nothing_if_unseen(data.error());
+  const auto fit = motion::fit_axis(*data, *table, placed, context);
+  if (!fit) return nothing_if_unseen(fit.error());
+  AxisOffset out = checks::offset_between(*table, *fit);
+  out.frames = positions.size();
+  return out;
+}
+
+}  // namespace turnscan

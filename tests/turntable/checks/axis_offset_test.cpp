@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/sequence_views.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/turntable/checks/axis_offset.hpp>
+#include <turnscan/turntable/checks/closure.hpp>
+
+#include "tests/support/rig.hpp"
+
+namespace turnscan {
+namespace {
+
+constexpr double kFrames = 60, kTurns = 1.1;
+
+/// The letter over 1.1 turns, with the true turntable.
+SequenceView letter_on(const testing::Rig& rig) {
+  SequenceView out(rig);
+  SequenceHeader header = rig.header();
+  header.turntable = rig.truth();
+  header.turntable->speed_rad_s = kTurns * kTurn / kFrames;
+  out.set_header(std::move(header));
+  return out;
+}
+
+testing::Rig turning_rig(std::uint64_t seed = 1) {
+  testing::RigOptions o;
+  o.shrink = 2;
+  o.noise_m = 0.001;
+  o.distance_m = 0.6;
+  o.elevation_rad = 0.45;
+  o.aim_height_m = 0.07;
+  o.frames = int(kFrames);
+  o.fps = 1.0;
+  o.seed = seed;
+  o.objects = {*builtin_object("letter-a")};
+  o.angle = [](double t) { return kTurns * kTurn / kFrames * t; };
+  return testing::Rig(o);
+}
+
+void move_table(SequenceView& sequence, double shift_m, double tilt_rad) {
+  SequenceHeader header = sequence.header();
+  header.turntable->center_m.x() += shift_m;
+  header.turntable->axis = Eigen::AngleAxisd(tilt_rad, Vec3d::UnitZ()) * header.turntable->axis;
+  sequence.set_header(std::move(header));
+}
+
+TEST(MeasureAxisOffset, IsSmallWhereTheRecordingIsRight) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const testing::Rig rig = turning_rig(seed);
+    const auto offset = measure_axis_offset(letter_on(rig), {});
+    ASSERT_TRUE(offset && *offset);
+    EXPECT_FALSE((*offset)->bad());
+    EXPECT_LT((*offset)->shift_m, 0.0005);
+    EXPECT_LT((*offset)->tilt_rad, 0.2 * kRadiansPerDegree);
+  }
+}
+
+TEST(MeasureAxisOffset, ShowsATableThatWasMovedThoughItsTurnCloses) {
+  const testing::Rig rig = turning_rig();
+  SequenceView sequence = letter_on(rig);
+  move_table(sequence, 0.005, kRadiansPerDegree);
+  const auto closure = measure_closure(sequence, {});
+  ASSERT_TRUE(closure && *closure);
+  EXPECT_FALSE((*closure)->bad());
+  const auto offset = measure_axis_offset(sequence, {});
+  ASSERT_TRUE(offset && *offset);
+  EXPECT_TRUE((*offset)->bad());
+  EXPECT_NEAR((*offset)->tilt_rad, kRadiansPerDegree, 0.2 * kRadiansPerDegree);
+  EXPECT_NEAR((*offset)->shift_m, 0.005, 0.002);  // measured beside the object, above the platter
+}
+
+TEST(MeasureAxisOffset, SaysNothingOfALittleTurn) {
+  const testing::Rig rig = turning_rig();
+  const SequenceView all = letter_on(rig);
+  const SequenceView begin(all, {0, 1, 2, 3, 4, 5});
+  const auto offset = measure_axis_offset(begin, {});
+  ASSERT_TRUE(offset);
+  EXPECT_FALSE(offset->has_value());
+}
+
+TEST(MeasureAxisOffset, NeedsATurntableAndAngles) {
+  const testing::Rig rig = turning_rig();
+  EXPECT_EQ(measure_axis_offset(rig, {}).error().code, ErrorCode::kMissingData);
+  SequenceView sequence = letter_on(rig);
+  SequenceHeader header = sequence.header();
+  header.turntable->speed_rad_s.reset();
+  sequence.set_header(header);
+  EXPECT_EQ(measure_axis_offset(sequence, {}).error().code, ErrorCode::kMissingData);
+}
+
+TEST(MeasureAxisOffset, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
+  const testing::Rig rig = turning_rig();
+  const SequenceView sequence = letter_on(rig);
+  std::vector<AxisOffset> found;
+  for (const int threads : {1, 2, 5}) {
+    set_thread_count(threads);
+    const auto offset = measure_axis_offset(sequence, {});
+    set_thread_count(0);
+    ASSERT_TRUE(offset && *offset);
+    found.push_back(**offset);
+    EXPECT_EQ(found.back().shift_m, found.front().shift_m);
+    EXPECT_EQ(found.back().tilt_rad, found.front().tilt_rad);
+  }
+  const RunContext context;
+  context.cancel();
+  EXPECT_EQ(measure_axis_offset(sequence, context).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan
