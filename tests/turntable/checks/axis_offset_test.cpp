@@ -81,6 +81,17 @@ TEST(MeasureAxisOffset, SaysNothingOfALittleTurn) {
   EXPECT_FALSE(offset->has_value());
 }
 
+TEST(MeasureAxisOffset, SaysNothingOfALineScannersProfiles) {
+  const testing::Rig rig = turning_rig();
+  SequenceView sequence = letter_on(rig);
+  SequenceHeader header = sequence.header();
+  header.sensors.front().kind = SensorKind::kPointScanner;
+  sequence.set_header(header);
+  const auto offset = measure_axis_offset(sequence, {});
+  ASSERT_TRUE(offset);
+  EXPECT_FALSE(offset->has_value());
+}
+
 TEST(MeasureAxisOffset, NeedsATurntableAndAngles) {
   const testing::Rig rig = turning_rig();
   EXPECT_EQ(measure_axis_offset(rig, {}).error().code, ErrorCode::kMissingData);
