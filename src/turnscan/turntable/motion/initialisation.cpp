@@ -101,7 +101,8 @@ class Initialisation {
     return {};
   }
 
-  /// Adds the starts about an axis. Fails with kMissingData where it shows no turn and none is known.
+  /// Adds the starts about an axis. Fails with kMissingData where it shows no turn and none is
+  /// known.
   Result<> start_angles(const MotionState& axis, std::vector<Start>& starts) const {
     const bool observable =
         source_ == AngleSource::kNothing || turn_information(data_, axis) > kLeastTurnInformation;

@@ -18,9 +18,10 @@ struct CalibrationChoice {
 
 struct CalibrationRequest {
   /// "recorded" keeps the recording's calibration; "motion" makes one from the object's motion;
-  /// "auto" does that where the recording has none, or one whose closure error or axis offset is bad
-  /// (turntable/checks/closure.hpp, axis_offset.hpp). icp-consecutive, icp-global, gicp-consecutive and gicp-global
-  /// start from the recording's and register the frames freely (turntable/motion/free_motion.hpp).
+  /// "auto" does that where the recording has none, or one whose closure error or axis offset is
+  /// bad (turntable/checks/closure.hpp, axis_offset.hpp). icp-consecutive, icp-global,
+  /// gicp-consecutive and gicp-global start from the recording's and register the frames freely
+  /// (turntable/motion/free_motion.hpp).
   std::string mode = "auto";
   std::optional<double> speed_rad_s;  ///< that somebody stated; a doubt about it is a note
   bool table_given = false;           ///< by somebody, for this recording; a doubt is a note
