@@ -5,15 +5,11 @@
 # within a room. A build without (the preset dev) compiles less after a small change.
 option(TURNSCAN_UNITY "Compile the sources of a room together" OFF)
 
-# turnscan_unity(TARGET [MOST n]): groups the sources of each folder, at most n (default 10) together.
+# turnscan_unity(TARGET): groups the sources of each folder, at most ten together.
 # Sources with options of their own stay alone.
 function(turnscan_unity target)
   if(NOT TURNSCAN_UNITY)
     return()
-  endif()
-  cmake_parse_arguments(UNITY "" "MOST" "" ${ARGN})
-  if(NOT UNITY_MOST)
-    set(UNITY_MOST 10)
   endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")
@@ -27,7 +23,7 @@ function(turnscan_unity target)
     if(NOT DEFINED count_${room})
       set(count_${room} 0)
     endif()
-    math(EXPR group "${count_${room}} / ${UNITY_MOST}")
+    math(EXPR group "${count_${room}} / 10")
     math(EXPR count_${room} "${count_${room}} + 1")
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${room}_${group}")
   endforeach()

@@ -253,16 +253,16 @@ TEST(ReconstructOptions, ThatTheMethodDoesNotUseAreNamed) {
 TEST(ReconstructOptions, AreEachUsedByAMethodAndNamedByNoneThatHasThemNot) {
   ReconstructOptions options;
   std::set<std::string> stages, names, used;
-  for (const StageOptions& stage : describe_stages(options)) {
-    stages.insert(stage.stage);
+  for (const OptionGroup& stage : describe_stages(options)) {
+    stages.insert(stage.name);
     for (const OptionField& field : stage.table.fields()) names.insert(field.name);
   }
   for (const MethodEntry& method : methods()) {
     for (const std::string& stage : method.option_stages) EXPECT_TRUE(stages.count(stage)) << stage;
     for (const std::string& name : method.options) EXPECT_TRUE(names.count(name)) << name;
-    for (const StageOptions& stage : describe_stages(options)) {
+    for (const OptionGroup& stage : describe_stages(options)) {
       const auto& whole = method.option_stages;
-      const bool all = std::find(whole.begin(), whole.end(), stage.stage) != whole.end();
+      const bool all = std::find(whole.begin(), whole.end(), stage.name) != whole.end();
       for (const OptionField& field : stage.table.fields())
         if (all) used.insert(field.name);
     }

@@ -73,8 +73,8 @@ void StagePanel::build() {
   top->addLayout(make_preset_buttons());
   top->addWidget(error_);
   layout->addLayout(top);
-  for (StageOptions& stage : describe_stages(*options_))
-    layout->addWidget(make_section(stage.stage, std::move(stage.table)));
+  for (OptionGroup& stage : describe_stages(*options_))
+    layout->addWidget(make_section(stage.name, std::move(stage.table)));
 }
 
 QLayout* StagePanel::make_preset_buttons() {
@@ -172,8 +172,7 @@ std::string StagePanel::preset_text() const {
 Result<> StagePanel::load_preset(const std::string& path) {
   ReconstructOptions fresh;
   std::deque<OptionGroup> groups;
-  for (StageOptions& stage : describe_stages(fresh))
-    groups.push_back({stage.stage, std::move(stage.table)});
+  for (OptionGroup& stage : describe_stages(fresh)) groups.push_back(std::move(stage));
   TURNSCAN_TRY(read_config_file(path, groups));
   *options_ = fresh;
   for (const auto& [stage, form] : forms_) form->refresh();

@@ -38,8 +38,8 @@ class DemoCommand : public Command {
     line.allow_config();
     line.group("demo", "Demo", describe(object_, scene_.picture_size_px));
     line.group("virtual-scan", "Virtual camera", describe(scene_.scan));
-    for (StageOptions& stage : describe_stages(scene_.reconstruct))
-      line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
+    for (OptionGroup& stage : describe_stages(scene_.reconstruct))
+      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
     line.group("evaluation", "Evaluation", describe(scene_.evaluate));
   }
 

@@ -38,8 +38,8 @@ class ReconstructCommand : public Command {
         "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
-    for (StageOptions& stage : describe_stages(request_.options))
-      line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
+    for (OptionGroup& stage : describe_stages(request_.options))
+      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
   }
 
   Result<> run(Session& session) override {

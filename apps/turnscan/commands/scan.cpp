@@ -25,8 +25,8 @@ class ScanCommand : public Command {
     declare_capture(line, request_.setup);
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Work while frames come", describe(request_.ahead));
-    for (StageOptions& stage : describe_stages(request_.reconstruct))
-      line.group(stage.stage, "Stage " + stage.stage, std::move(stage.table));
+    for (OptionGroup& stage : describe_stages(request_.reconstruct))
+      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
   }
 
   Result<> run(Session& session) override {

@@ -12,7 +12,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::vector<StageOptions> describe_stages(ReconstructOptions& o) {
+std::vector<OptionGroup> describe_stages(ReconstructOptions& o) {
   OptionTable merge = describe(o.merge);
   merge.flag("colour", o.color, "Carry colour to the vertices when the recording has any");
   return {{"crop", describe(o.crop)},
@@ -30,7 +30,7 @@ std::vector<StageOptions> describe_stages(ReconstructOptions& o) {
 
 OptionTable describe(ReconstructOptions& options) {
   OptionTable table;
-  for (StageOptions& stage : describe_stages(options)) table.append(std::move(stage.table));
+  for (OptionGroup& stage : describe_stages(options)) table.append(std::move(stage.table));
   return table;
 }
 
@@ -40,7 +40,7 @@ std::vector<std::string> unused_options(const ReconstructOptions& options) {
   const auto stages = describe_stages(given), defaults = describe_stages(standard);
   std::vector<std::string> names;
   for (std::size_t s = 0; s < stages.size(); ++s) {
-    if (contains(method.option_stages, stages[s].stage)) continue;
+    if (contains(method.option_stages, stages[s].name)) continue;
     for (std::size_t f = 0; f < stages[s].table.fields().size(); ++f) {
       const OptionField& field = stages[s].table.fields()[f];
       if (!contains(method.options, field.name) &&

@@ -30,12 +30,8 @@ struct ReconstructOptions {
   bool keep_points = false;
 };
 
-/// The options of one stage, for the command line, a TOML table and a page of the manual.
-struct StageOptions {
-  std::string stage;  ///< e.g. "voxels"
-  OptionTable table;
-};
-std::vector<StageOptions> describe_stages(ReconstructOptions& options);
+/// A group for each stage, e.g. "voxels": for the command line, a TOML file and the manual.
+std::vector<OptionGroup> describe_stages(ReconstructOptions& options);
 OptionTable describe(ReconstructOptions& options);
 
 /// Names of the options that are not at their defaults although the method does not use them.

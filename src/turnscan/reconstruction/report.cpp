@@ -64,9 +64,9 @@ std::string report_json(const Reconstruction& r, const ReconstructOptions& optio
   for (const ObjectResult& o : r.objects) objects.push_back(object_json(o));
   ReconstructOptions copy = options;
   Json given = Json::object();
-  for (const StageOptions& stage : describe_stages(copy)) {
+  for (const OptionGroup& stage : describe_stages(copy)) {
     for (const OptionField& field : stage.table.fields())
-      given[stage.stage][field.name] = field.get();
+      given[stage.name][field.name] = field.get();
   }
   const Json report = {{"software", "turnscan"},
                        {"version", version()},

@@ -137,15 +137,7 @@ text::OrderedJson viewpoint_json(const Viewpoint& viewpoint) {
 }
 
 text::OrderedJson sensor_json(const SensorInfo& sensor) {
-  const bool camera = sensor.kind == SensorKind::kDepthCamera;
-  text::OrderedJson out;
-  out["kind"] = camera ? "depth-camera" : "point-scanner";
-  out["model"] = sensor.model;
-  if (camera) {
-    out["intrinsics"] = text::json_of(sensor.intrinsics);
-    out["depth_unit_m"] = sensor.depth_unit_m;
-    out["depth_bias_m"] = sensor.depth_bias_m;
-  }
+  text::OrderedJson out = sensor_kind_json(sensor);
   if (sensor.T_table_sensor) out["T_table_sensor"] = text::json_of(*sensor.T_table_sensor);
   out["viewpoint"] = viewpoint_json(sensor.viewpoint);
   out["color"]["registered"] = !sensor.color_intrinsics;
@@ -199,6 +191,19 @@ std::string defect_of(const TurntableInfo& table) {
 }
 
 }  // namespace
+
+text::OrderedJson sensor_kind_json(const SensorInfo& sensor) {
+  const bool camera = sensor.kind == SensorKind::kDepthCamera;
+  text::OrderedJson out;
+  out["kind"] = camera ? "depth-camera" : "point-scanner";
+  out["model"] = sensor.model;
+  if (camera) {
+    out["intrinsics"] = text::json_of(sensor.intrinsics);
+    out["depth_unit_m"] = sensor.depth_unit_m;
+    out["depth_bias_m"] = sensor.depth_bias_m;
+  }
+  return out;
+}
 
 text::OrderedJson turntable_json(const TurntableInfo& table) {
   text::OrderedJson out;

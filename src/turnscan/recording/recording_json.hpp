@@ -26,6 +26,10 @@ Result<RecordingDescription> parse_recording_json(std::string_view text);
 
 std::string recording_json(const RecordingDescription& description);
 
+/// What every description of a sensor begins with: kind, model, and a camera's intrinsics and
+/// depth.
+text::OrderedJson sensor_kind_json(const SensorInfo& sensor);
+
 /// The object "turntable", SI units.
 text::OrderedJson turntable_json(const TurntableInfo& table);
 

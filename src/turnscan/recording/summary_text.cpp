@@ -90,15 +90,8 @@ text::OrderedJson span_json(const ValueSpan& span) {
 
 text::OrderedJson sensor_json(const SensorSummary& sensor) {
   const SensorInfo& info = sensor.info;
-  const bool camera = info.kind == SensorKind::kDepthCamera;
-  text::OrderedJson out;
-  out["kind"] = camera ? "depth-camera" : "point-scanner";
-  out["model"] = info.model;
-  if (camera) {
-    out["intrinsics"] = text::json_of(info.intrinsics);
-    out["depth_unit_m"] = info.depth_unit_m;
-    out["depth_bias_m"] = info.depth_bias_m;
-  } else {
+  text::OrderedJson out = sensor_kind_json(info);
+  if (info.kind != SensorKind::kDepthCamera) {
     out[info.viewpoint.parallel ? "parallel_direction" : "position_m"] =
         text::json_of(info.viewpoint.value);
   }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/sequence_views.hpp>
@@ -56,6 +57,23 @@ TEST(MeasureAxisOffset, IsSmallWhereTheRecordingIsRight) {
     EXPECT_LT((*offset)->shift_m, 0.0005);
     EXPECT_LT((*offset)->tilt_rad, 0.2 * kRadiansPerDegree);
   }
+}
+
+TEST(MeasureAxisOffset, HasErrorsAsLargeAsItsDeviationsSay) {
+  double tilt = 0.0, shift = 0.0;
+  constexpr int kRigs = 10;
+  for (std::uint64_t seed = 11; seed < 11 + kRigs; ++seed) {
+    const testing::Rig rig = turning_rig(seed);
+    const auto offset = measure_axis_offset(letter_on(rig), {});
+    ASSERT_TRUE(offset && *offset);
+    tilt += std::pow((*offset)->tilt_rad / (*offset)->tilt_sigma_rad, 2) / kRigs;
+    shift += std::pow((*offset)->shift_m / (*offset)->shift_sigma_m, 2) / kRigs;
+  }
+  // The rms of ten rigs' errors over their deviations,.
+  EXPECT_GT(std::sqrt(tilt), 0.5);
+  EXPECT_LT(std::sqrt(tilt), 2.0);
+  EXPECT_GT(std::sqrt(shift), 0.5);
+  EXPECT_LT(std::sqrt(shift), 2.0);
 }
 
 TEST(MeasureAxisOffset, ShowsATableThatWasMovedThoughItsTurnCloses) {

@@ -42,29 +42,4 @@ class EdgeTable {
   std::vector<std::uint32_t> first_;
 };
 
-/// Sets of numbers [0, n) that merge (union by the smaller root, so that a set's root is its
-/// smallest member).
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = std::uint32_t(i);
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace turnscan::mesh

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <vector>
@@ -8,7 +9,6 @@
 namespace turnscan {
 namespace {
 
-using mesh::DisjointSets;
 using mesh::EdgeTable;
 using mesh::next_in_triangle;
 using mesh::Triangle;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
@@ -50,7 +51,7 @@ void join_near(const std::vector<Vec3f>& points, double distance_m,
     ids.push_back(v);
   }
   const KdTree tree(distinct);
-  mesh::DisjointSets sets(points.size());
+  DisjointSets sets(points.size());
   std::vector<std::pair<std::uint32_t, float>> near;
   for (std::size_t i = 0; i < distinct.size(); ++i) {
     tree.radius(distinct[i], float(distance_m), near);
@@ -120,7 +121,7 @@ Result<TriangleMesh> remove_degenerate(const TriangleMesh& mesh) {
 
 Result<std::vector<TriangleMesh>> split_components(const TriangleMesh& mesh) {
   TURNSCAN_TRY(validate_mesh(mesh));
-  mesh::DisjointSets sets(mesh.vertices.size());
+  DisjointSets sets(mesh.vertices.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     sets.join(a, b);
     sets.join(a, c);

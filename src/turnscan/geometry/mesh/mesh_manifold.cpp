@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_edit.hpp>
@@ -151,7 +152,7 @@ class ManifoldCutter {
 
   /// Gives every fan of glued triangles its own vertex.
   bool separate_fans() {
-    mesh::DisjointSets fans(glued_.size());
+    DisjointSets fans(glued_.size());
     for (std::uint32_t h = 0; h < glued_.size(); ++h) {
       if (glued_[h] == kNone || glued_[h] < h) continue;
       fans.join(h, next_in_triangle(glued_[h]));

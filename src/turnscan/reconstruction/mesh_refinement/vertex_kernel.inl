@@ -16,7 +16,7 @@ struct Row {
   float x[kRow], y[kRow], z[kRow];  // position
   float a[kRow], b[kRow];           // x / z and y / z
   float du[kRow], dv[kRow];         // from the exact image point to the pixel's centre
-  float raw[kRow], past[kRow], edge[kRow];
+  float raw[kRow], edge[kRow];
 };
 
 /// Perspective as arithmetic: parallel rays divide by one.
@@ -59,7 +59,6 @@ TURNSCAN_INLINE void look_up(const VertexKernelView& f, const Perspective& persp
   for (std::size_t i = 0; i < kRow; ++i) word[i] = pixels[at[i]];
   for (std::size_t i = 0; i < kRow; ++i) {
     row.raw[i] = static_cast<float>(static_cast<int>(word[i] & 0xffffu));
-    row.past[i] = static_cast<float>(static_cast<int>(word[i] >> 17 << 1));
     row.edge[i] = static_cast<float>(static_cast<int>(word[i] >> 16 & 1u));
   }
 }

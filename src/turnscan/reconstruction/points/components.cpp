@@ -1,31 +1,11 @@
 #include <algorithm>
-#include <numeric>
+#include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/reconstruction/points/components.hpp>
 #include <turnscan/reconstruction/surface/detached_components.hpp>
 
 namespace turnscan::points {
 
 namespace {
-
-/// Disjoint sets with path halving; the smaller position is the root, so that the result does not
-/// depend on the order of unions.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Joins what lies in one cell of `side` voxels or in cells that touch. Half of the neighbours of a
 /// cell are enough, the other half meets it from the other side.

@@ -56,7 +56,8 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   if (!table)
     return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
   // Profiles of a line scanner have nothing in common when the table has turned.
-  if (sequence.header().sensors.front().kind != SensorKind::kDepthCamera) return std::nullopt;
+  const auto& sensors = sequence.header().sensors;
+  if (sensors.empty() || sensors.front().kind != SensorKind::kDepthCamera) return std::nullopt;
   const auto angle = checks::recorded_angles(sequence);
   const auto positions = checks::placed_frames(angle);
   if (positions.empty())

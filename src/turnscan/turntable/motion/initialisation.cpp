@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/initialisation.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
@@ -32,8 +33,8 @@ class Initialisation {
     }
     if (starts.empty()) return tl::unexpected<Error>(*failure);
     TURNSCAN_TRY(keep_promising(starts));
-    const Start* best = nullptr;
-    double least = 1e300;
+    const Start* best = &starts.front();
+    double least = std::numeric_limits<double>::infinity();
     for (Start& start : starts) {
       TURNSCAN_TRY(solve_roughly(start, coarse_stride(data_, 6), 6));
       const double cost = cost_of(start);
@@ -88,10 +89,8 @@ class Initialisation {
     if (starts.size() <= kMostStarts) return {};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      Start quick = starts[i];
-      TURNSCAN_TRY(solve_roughly(quick, kSieveStride, 3));
-      order.emplace_back(cost_of(quick), i);
-      starts[i].state = std::move(quick.state);
+      TURNSCAN_TRY(solve_roughly(starts[i], kSieveStride, 3));
+      order.emplace_back(cost_of(starts[i]), i);
     }
     std::sort(order.begin(), order.end());
     std::vector<Start> kept;

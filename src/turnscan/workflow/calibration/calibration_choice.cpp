@@ -63,34 +63,33 @@ bool has_poses(const FrameSequence& sequence) {
                      [](const FrameInfo& f) { return f.T_table_sensor.has_value(); });
 }
 
+/// Nothing, too, where the recording lacks what is needed to measure it.
+template <class Measure>
+Result<std::optional<Measure>> if_measurable(Result<std::optional<Measure>> measured) {
+  if (!measured && measured.error().code == ErrorCode::kMissingData) return std::nullopt;
+  return measured;
+}
+
 /// Why the closure after a turn speaks against the calibration; nullopt: it does not.
 Result<std::optional<std::string>> closure_doubt(const FrameSequence& sequence,
                                                  const RunContext& context) {
-  const auto closure = measure_closure(sequence, context);
-  if (!closure) {
-    if (closure.error().code == ErrorCode::kMissingData) return std::nullopt;
-    return tl::unexpected<Error>(closure.error());
-  }
-  if (!*closure || !(*closure)->bad()) return std::nullopt;
+  TURNSCAN_ASSIGN(const auto closure, if_measurable(measure_closure(sequence, context)));
+  if (!closure || !closure->bad()) return std::nullopt;
   return fmt::format(
       "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
       "turn",
-      (*closure)->shift_m * 1e3, (*closure)->turn_rad * kDegreesPerRadian);
+      closure->shift_m * 1e3, closure->turn_rad * kDegreesPerRadian);
 }
 
 /// The same of the axis about which the frames fit.
 Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence,
                                               const RunContext& context) {
-  const auto offset = measure_axis_offset(sequence, context);
-  if (!offset) {
-    if (offset.error().code == ErrorCode::kMissingData) return std::nullopt;
-    return tl::unexpected<Error>(offset.error());
-  }
-  if (!*offset || !(*offset)->bad()) return std::nullopt;
+  TURNSCAN_ASSIGN(const auto offset, if_measurable(measure_axis_offset(sequence, context)));
+  if (!offset || !offset->bad()) return std::nullopt;
   return fmt::format(
       "the recording's axis lies {:.1f} mm beside the one about which the object turns, and leans "
       "by {:.1f} deg",
-      (*offset)->shift_m * 1e3, (*offset)->tilt_rad * kDegreesPerRadian);
+      offset->shift_m * 1e3, offset->tilt_rad * kDegreesPerRadian);
 }
 
 /// nullopt: nothing speaks against the recording's calibration.
