@@ -13,9 +13,15 @@ std::pair<Vec3d, Vec3d> tangent_basis(const Vec3d& n);
 /// Moves axis and centre by tilts and shifts about tangent_basis(axis). Returns the size of both.
 std::pair<double, double> move_axis(const Eigen::Vector4d& step, Vec3d& axis, Vec3d& center);
 
-/// Where the axis roughly is: the platter, where one was seen; it may wobble. Adds to the normal
+/// How well a platter tells axis and centre of its turn (standard deviations in each direction): as
+/// it was measured, and how square and central a platter is.
+double platter_axis_sigma_rad(const DetectedPlatter& platter);
+double platter_center_sigma_m(const DetectedPlatter& platter);
+
+/// Where the axis is by the platter; nullptr: roughly before the sensor. Adds to the normal
 /// equations of two tilts and two shifts about tangent_basis(axis); unit: weight of one.
-void add_axis_prior(const MotionData& data, const Vec3d& axis, const Vec3d& center, double unit,
-                    Eigen::Ref<Eigen::Matrix4d> normal, Eigen::Ref<Eigen::Vector4d> right);
+void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec3d& center,
+                    double unit, Eigen::Ref<Eigen::Matrix4d> normal,
+                    Eigen::Ref<Eigen::Vector4d> right);
 
 }  // namespace turnscan::motion

@@ -46,15 +46,15 @@ class BundleAdjustment {
     double reach = kFirstReach_m;
     for (int i = 0; i < options_.iterations; ++i) {
       TURNSCAN_TRY(context.check());
-      observations_.observe(data_, now_.motion, frames_, now_.surfels, reach);
+      observations_.observe(data_, now_.motion, frames_, now_.surfels, reach, options_.axis_only);
       if (!observations_.weigh()) return std::move(out_);
       system_.accumulate(now_, frames_, observations_);
       out_.residuals = system_.residuals();
       out_.rms_m = system_.rms_m();
       out_.scale_m = observations_.scale_m();
       out_.variance_m2 = system_.variance_m2();
-      choose_speed_walk();
-      TURNSCAN_TRY(system_.solve(now_, prior_));
+      if (!options_.axis_only) choose_speed_walk();
+      TURNSCAN_TRY(system_.solve(now_, prior_, options_.axis_only));
       if (apply() < kStationary) break;
       reach = std::max(kLeastReach_m, 8.0 * observations_.scale_m());
     }
@@ -101,7 +101,7 @@ class BundleAdjustment {
     const Eigen::MatrixXd inverse = system_.inverse();
     const double variance = system_.variance_m2();
     out_.covariance = variance * inverse.bottomRightCorner<4, 4>();
-    for (std::size_t f = 0; f < out_.angle_sigma.size(); ++f) {
+    for (std::size_t f = 0; f < out_.angle_sigma.size() && !options_.axis_only; ++f) {
       const auto [a, share] = knots_.between(f);
       const double low = inverse(a, a), high = inverse(a + 1, a + 1);
       out_.angle_sigma[f] = std::sqrt(variance * std::max(0.0, low + share * (high - low)));

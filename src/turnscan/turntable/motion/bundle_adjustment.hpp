@@ -10,6 +10,8 @@ struct BundleOptions {
   std::size_t max_knots = 232;     ///< between which corrections of the angles are interpolated
   std::size_t max_surfels = 3200;  ///< about
   int iterations = 6;
+  /// Only axis and heights, from pixels within the outlines, which mixed pixels do not shift.
+  bool axis_only = false;
 };
 
 /// Refines a solution of solve_pairwise(), of depth images. The model is surfels of the object's

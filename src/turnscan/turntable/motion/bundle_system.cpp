@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kHeldSigma_rad = 1e-7;
 constexpr std::size_t kBlocks = 64;  // of frames, whose errors are compared
 
 /// Errors that neighbouring pixels and frames share do not average out: what a block of frames
@@ -142,8 +143,8 @@ BundleSystem::Dense BundleSystem::with_prior(const BundleState& at, const AngleP
     }
   };
   add_angle_prior(data_, knots_.frames(), at.knot_angle, prior, add);
-  add_axis_prior(data_, at.motion.axis, at.motion.center, variance_,
-                 out.matrix.bottomRightCorner<4, 4>(), out.right.tail<4>());
+  add_axis_prior(data_.platter ? &*data_.platter : nullptr, at.motion.axis, at.motion.center,
+                 variance_, out.matrix.bottomRightCorner<4, 4>(), out.right.tail<4>());
   return out;
 }
 
@@ -160,8 +161,12 @@ double BundleSystem::minus_2_log_evidence(const BundleState& at, const AnglePrio
          (factors.vectorD().array() / variance_).log().sum();
 }
 
-Result<> BundleSystem::solve(const BundleState& at, const AnglePrior& prior) {
-  const Dense system = with_prior(at, prior);
+Result<> BundleSystem::solve(const BundleState& at, const AnglePrior& prior, bool hold_angles) {
+  Dense system = with_prior(at, prior);
+  for (Index k = 0; k < knots_.size() && hold_angles; ++k) {
+    system.matrix(k, k) += variance_ / (kHeldSigma_rad * kHeldSigma_rad);
+    system.right[k] = 0.0;
+  }
   factors_.compute(system.matrix);
   step_ = factors_.solve(system.right);
   if (factors_.info() != Eigen::Success || !step_.allFinite())

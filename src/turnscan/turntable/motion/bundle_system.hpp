@@ -49,8 +49,9 @@ class BundleSystem {
   /// prior lose by the best step, and how narrow the prior and the data make the angles.
   double minus_2_log_evidence(const BundleState& at, const AnglePrior& prior) const;
 
-  /// The step with a prior. Fails with kLibrary when the system cannot be solved.
-  Result<> solve(const BundleState& at, const AnglePrior& prior);
+  /// The step with a prior; with hold_angles they stay as they are. Fails with kLibrary when the
+  /// system cannot be solved.
+  Result<> solve(const BundleState& at, const AnglePrior& prior, bool hold_angles);
 
   /// After solve(): knots' angles, then two tilts and two shifts of the axis.
   const Eigen::VectorXd& step() const { return step_; }

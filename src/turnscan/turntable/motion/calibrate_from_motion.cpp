@@ -1,7 +1,41 @@
+#include <cmath>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+#include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/publication.hpp>
 
 namespace turnscan::motion {
+
+namespace {
+
+/// An axis that is known no better is none.
+constexpr double kLargestAxisSigma = 1.0 * kRadiansPerDegree;
+
+struct Attempt {
+  MotionData data;
+  RefinedMotion refined;
+};
+
+Result<Attempt> attempt(const FrameSequence& sequence, const FromMotionOptions& options,
+                        const MotionDataOptions& loading, const RunContext& context) {
+  Attempt out;
+  TURNSCAN_ASSIGN(out.data, load_motion(sequence, loading, context));
+  context.begin_phase("find the motion", 4);
+  TURNSCAN_ASSIGN(InitialMotion start,
+                  initialise_motion(out.data, sequence.header(), options, context));
+  context.advance();
+  TURNSCAN_ASSIGN(out.refined, refine_motion(out.data, std::move(start), context));
+  return out;
+}
+
+bool fits_better(const Attempt& a, const Attempt& b) {
+  const auto& c = a.refined.solution.covariance;
+  return std::sqrt(c(0, 0) + c(1, 1)) < kLargestAxisSigma &&
+         mean_pair_cost(a.data, a.refined.solution.state) <
+             mean_pair_cost(b.data, b.refined.solution.state);
+}
+
+}  // namespace
 
 Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
                                       const FromMotionOptions& options, const DetectOptions& detect,
@@ -10,15 +44,22 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
   loading.detect = detect;
   loading.max_keys = std::size_t(options.key_frames);
   if (options.use_table) loading.hint = sequence.header().turntable;
-  TURNSCAN_ASSIGN(const MotionData data, load_motion(sequence, loading, context));
-  context.begin_phase("find the motion", 4);
-  TURNSCAN_ASSIGN(InitialMotion start,
-                  initialise_motion(data, sequence.header(), options, context));
-  context.advance();
-  TURNSCAN_ASSIGN(const RefinedMotion refined,
-                  refine_motion(data, std::move(start), options, context));
-  TURNSCAN_ASSIGN(Calibration found, publish_motion(data, refined, sequence, options));
-  return with_model(std::move(found), data, refined.solution.state, max_samples);
+  TURNSCAN_ASSIGN(Attempt found, attempt(sequence, options, loading, context));
+  if (!found.refined.platter_fits) {
+    loading.use_platter = false;
+    auto again = attempt(sequence, options, loading, context);
+    if (!again && again.error().code == ErrorCode::kCancelled)
+      return tl::unexpected<Error>(again.error());
+    const bool better = again && fits_better(*again, found);
+    if (better) found = std::move(*again);
+    found.data.notes.emplace_back(
+        better ? "a round surface was seen, but the object turns about another axis than its: it "
+                 "was not taken for the platter"
+               : "the object does not turn square to the platter, or wobbles");
+  }
+  TURNSCAN_ASSIGN(Calibration calibration,
+                  publish_motion(found.data, found.refined, sequence, options));
+  return with_model(std::move(calibration), found.data, found.refined.solution.state, max_samples);
 }
 
 }  // namespace turnscan::motion

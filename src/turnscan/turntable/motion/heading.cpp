@@ -19,6 +19,8 @@ constexpr double kSeparate =
 constexpr double kAmbiguousRatio = 1.1;  // of costs, below which two headings are equally good
 /// Samples of near places share their errors, from frame to frame: so many count as one.
 constexpr double kCorrelatedSamples = 30.0;
+/// Of normals, as a multiple of what their noise alone would show: less says nothing of the turn.
+constexpr double kLeastSignal = 2.0;
 
 Vec3d point_of(const SurfaceSample& s) { return s.p.cast<double>(); }
 Vec3d normal_of(const SurfaceSample& s) { return s.n.cast<double>(); }
@@ -180,7 +182,7 @@ class HeadingSearch {
       signal += std::pow(normal_of(s).dot(sweep), 2);
       noise += sweep.squaredNorm() * std::pow(double(s.normal_sigma), 2);
     }
-    return signal > kLeastTurnInformation * noise;
+    return signal > kLeastSignal * noise;
   }
 
   const std::vector<SurfaceSample>& first_;

@@ -125,18 +125,6 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
   return out;
 }
 
-double turn_information(const MotionData& data, const MotionState& axis) {
-  double signal = 0.0, noise = 0.0;
-  for (const std::size_t k : data.keys) {
-    for (const SurfaceSample& sample : data.frames[k].samples) {
-      const Vec3d sweep = axis.axis.cross(sample.p.cast<double>() - axis.center);
-      signal += std::pow(sample.n.cast<double>().dot(sweep), 2);
-      noise += sweep.squaredNorm() * std::pow(double(sample.normal_sigma), 2);
-    }
-  }
-  return signal / std::max(noise, 1e-12);
-}
-
 double guess_speed(const MotionData& data, const MotionState& axis) {
   std::vector<double> steps;
   for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)

@@ -12,11 +12,6 @@ namespace turnscan::motion {
 std::vector<MotionState> candidate_axes(const MotionData& data,
                                         const std::optional<TurntableInfo>& hint);
 
-/// How much the shape says about its turn: the sum of the squared speeds at which the samples'
-/// planes would move along their normals, over what noisy normals alone would make of it. About 1
-/// or less for a round object.
-double turn_information(const MotionData& data, const MotionState& axis);
-
 /// The constant speed at which pairs of key frames fit best, rad/s; 0 where times do not increase:
 /// pairs next to each other first, over all speeds up to 60 degrees between them, then pairs twice
 /// as far apart, near the best so far.

@@ -6,7 +6,6 @@
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/pairwise_solver.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
 
 namespace turnscan::motion {
 
@@ -21,6 +20,8 @@ class Initialisation {
                  const FromMotionOptions& options, const RunContext& context)
       : data_(data), options_(options), context_(context), source_(source_of_angles()) {
     if (options.use_table) table_ = header.turntable;
+    known_speed_ = options.speed_rad_s;
+    if (!known_speed_ && table_) known_speed_ = table_->speed_rad_s;
   }
 
   Result<InitialMotion> run() {
@@ -40,10 +41,21 @@ class Initialisation {
       const double cost = cost_of(start);
       if (cost < least) least = cost, best = &start;
     }
-    return InitialMotion{best->state, best->prior, source_, best->turn_observable};
+    return upright(InitialMotion{best->state, best->prior, source_, known_speed_});
   }
 
  private:
+  /// An axis that points down turns the other way.
+  InitialMotion upright(InitialMotion motion) const {
+    const Vec3d up = data_.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
+    if (data_.platter || table_ || motion.state.axis.dot(up) >= 0.0) return motion;
+    motion.state.axis = -motion.state.axis;
+    for (double& angle : motion.state.angle) angle = -angle;
+    motion.prior.speed_rad_s = -motion.prior.speed_rad_s;
+    motion.prior.nominal_sign = -motion.prior.nominal_sign;
+    return motion;
+  }
+
   AngleSource source_of_angles() const {
     const auto has_angle = [](const MotionFrame& f) { return f.nominal_rad.has_value(); };
     const auto has_time = [](const MotionFrame& f) { return std::isfinite(f.time_s); };
@@ -58,7 +70,6 @@ class Initialisation {
   struct Start {
     MotionState state;
     AnglePrior prior;
-    bool turn_observable = true;
   };
 
   /// Moves the start's axis and angles; leaves them where no equation helps.
@@ -68,7 +79,6 @@ class Initialisation {
     options.reach_m = 0.03;
     options.floor_m = 0.004;
     options.stride = stride;
-    options.hold_angles = !start.turn_observable;
     auto rough = solve_pairwise(data_, start.state, select_pairs(data_, start.state.angle, false),
                                 start.prior, options, context_);
     if (rough) {
@@ -100,12 +110,10 @@ class Initialisation {
     return {};
   }
 
-  /// Adds the starts about an axis. Fails with kMissingData where it shows no turn and none is
+  /// Adds the starts about an axis. Fails with kMissingData where no speed is seen and none is
   /// known.
   Result<> start_angles(const MotionState& axis, std::vector<Start>& starts) const {
-    const bool observable =
-        source_ == AngleSource::kNothing || turn_information(data_, axis) > kLeastTurnInformation;
-    const Start start{axis, {}, observable};
+    const Start start{axis, {}};
     if (source_ == AngleSource::kTimes) return start_from_times(start, starts);
     if (source_ == AngleSource::kAngles) {
       start_from_angles(start, starts);
@@ -117,29 +125,18 @@ class Initialisation {
   }
 
   Result<> start_from_times(Start start, std::vector<Start>& starts) const {
-    double speed = 0.0;
-    if (start.turn_observable) {
-      speed = guess_speed(data_, start.state);
-      if (speed == 0.0)
-        return fail(ErrorCode::kMissingData,
-                    "motion: no speed was found at which the frames fit; check that the table "
-                    "turned and that the frames' times increase, or give --speed");
-    } else {
-      std::optional<double> known = options_.speed_rad_s;
-      if (!known && table_) known = table_->speed_rad_s;
-      if (!known)
-        return fail(ErrorCode::kMissingData,
-                    "motion: the object looks the same from all sides, so that its speed cannot be "
-                    "seen; give --speed");
-      speed = *known;
-      start.prior.stated_rad_s = known;
-    }
+    const double seen = guess_speed(data_, start.state);
+    const double speed = seen != 0.0 ? seen : known_speed_.value_or(0.0);
+    if (speed == 0.0)
+      return fail(ErrorCode::kMissingData,
+                  "motion: no speed was found at which the frames fit; check that the table "
+                  "turned and that the frames' times increase, or give --speed");
     start.prior.timed = true;
     start.prior.speed_rad_s = speed;
     const double t0 = data_.frames.front().time_s;
     for (std::size_t i = 0; i < start.state.angle.size(); ++i)
       start.state.angle[i] = speed * (data_.frames[i].time_s - t0);
-    if (start.turn_observable) track_angles(data_, start.state, 0.3);
+    if (seen != 0.0) track_angles(data_, start.state, 0.3);
     starts.push_back(std::move(start));
     return {};
   }
@@ -161,6 +158,7 @@ class Initialisation {
   const FromMotionOptions& options_;
   const RunContext& context_;
   std::optional<TurntableInfo> table_;  ///< the recording's, where it is to be used
+  std::optional<double> known_speed_;
   AngleSource source_;
 };
 

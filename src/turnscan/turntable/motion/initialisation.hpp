@@ -14,14 +14,13 @@ struct InitialMotion {
   MotionState state;
   AnglePrior prior;
   AngleSource source = AngleSource::kTimes;
-  /// Whether the object's shape shows its turn about the axis that it starts from; else the angles
-  /// are those of the prior.
-  bool turn_observable = true;
+  /// Of somebody or the recording's turntable, for where the object does not show its turn.
+  std::optional<double> known_speed_rad_s;
 };
 
 /// The candidate axis (candidate_axes) about which the frames fit best after a coarse solution,
 /// with angles from the frames' own (of either sign), from their times or from trying all turns.
-/// header: turntable whose speed is used where the shape does not show one and options state none.
+/// header: turntable whose speed is known.
 /// Fails with kMissingData when about no axis a speed is seen or known, kCancelled.
 Result<InitialMotion> initialise_motion(const MotionData& data, const SequenceHeader& header,
                                         const FromMotionOptions& options,

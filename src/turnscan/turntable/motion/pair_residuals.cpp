@@ -10,6 +10,20 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kObliquityFloor = 0.6;  // added to the squared cosines of both views
+constexpr double kContrastTurn = 8.0 * kRadiansPerDegree;
+
+/// Mean pair_cost with all pairs turned apart by an angle.
+double mean_cost_beside(const MotionData& data, const MotionState& state, double turn_rad) {
+  const auto pairs = select_pairs(data, state.angle, false);
+  const double gate = data.inlier_gate_m();
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); k += 1 + pairs.size() / 400) {
+    const double apart = state.angle[pairs[k].to] - state.angle[pairs[k].from];
+    sum += pair_cost(data, state, pairs[k], apart + turn_rad, gate, 200);
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 1.0;
+}
 
 }  // namespace
 
@@ -92,15 +106,13 @@ double pair_cost(const MotionData& data, const MotionState& state, const FramePa
 }
 
 double mean_pair_cost(const MotionData& data, const MotionState& state) {
-  const auto pairs = select_pairs(data, state.angle, false);
-  const double gate = data.inlier_gate_m();
-  double sum = 0.0, count = 0.0;
-  for (std::size_t k = 0; k < pairs.size(); k += 1 + pairs.size() / 400) {
-    sum += pair_cost(data, state, pairs[k], state.angle[pairs[k].to] - state.angle[pairs[k].from],
-                     gate, 200);
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 1.0;
+  return mean_cost_beside(data, state, 0.0);
+}
+
+double turn_contrast(const MotionData& data, const MotionState& state) {
+  const double beside = 0.5 * (mean_cost_beside(data, state, kContrastTurn) +
+                               mean_cost_beside(data, state, -kContrastTurn));
+  return beside - mean_cost_beside(data, state, 0.0);
 }
 
 }  // namespace turnscan::motion

@@ -179,7 +179,9 @@ class PairwiseSolver {
     add_prior();
     const int first = int(n_);
     SharedMatrix shared = shared_;
-    add_axis_prior(data_, out_.state.axis, out_.state.center, variance_,
+    const DetectedPlatter* platter =
+        options_.use_platter && data_.platter ? &*data_.platter : nullptr;
+    add_axis_prior(platter, out_.state.axis, out_.state.center, variance_,
                    shared.topLeftCorner<4, 4>(), right_.segment<4>(first));
     for (int k = 0; k < 4 && options_.hold_axis; ++k)
       shared(k, k) += variance_ / (kHeldSigma * kHeldSigma);

@@ -14,6 +14,7 @@ struct SolveOptions {
   std::size_t stride = 1;    ///< use every stride-th sample
   bool hold_angles = false;  ///< leave the angles to the prior
   bool hold_axis = false;    ///< axis and centre stay as they are
+  bool use_platter = true;   ///< for the axis, where one was seen
   bool covariance = false;
   std::optional<double> scale_m;      ///< of the residuals, where it is known
   std::optional<double> variance_m2;  ///< as in MotionSolution, where it is known

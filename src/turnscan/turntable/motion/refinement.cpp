@@ -1,11 +1,13 @@
 #include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_adjustment.hpp>
 #include <turnscan/turntable/motion/evidence.hpp>
-#include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/motor_phases.hpp>
+#include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/refinement.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
 
 namespace turnscan::motion {
 
@@ -13,15 +15,19 @@ namespace {
 
 /// Fewer views, far apart, have too little in common for a model of the surface.
 constexpr std::size_t kLeastBundleFrames = 24;
+/// turn_contrast() below which the object looks the same from all sides.
+constexpr double kLeastTurnContrast = 0.02;
+/// What a platter is believed with, and from how many standard deviations on it is not.
+constexpr double kLargestLean = 0.5 * kRadiansPerDegree, kLargestShift_m = 0.003;
+constexpr double kDisagreement = 6.0;
 constexpr std::size_t kLeastPhaseFrames = 24, kLeastEvidenceFrames = 12;
 
 class Refinement {
  public:
-  Refinement(const MotionData& data, InitialMotion start, const FromMotionOptions& options,
-             const RunContext& context)
-      : data_(data), options_(options), context_(context), state_(std::move(start.state)) {
+  Refinement(const MotionData& data, InitialMotion start, const RunContext& context)
+      : data_(data), context_(context), state_(std::move(start.state)) {
     out_.source = start.source;
-    out_.turn_observable = start.turn_observable;
+    known_speed_rad_s_ = start.known_speed_rad_s;
     out_.prior = std::move(start.prior);
   }
 
@@ -32,6 +38,7 @@ class Refinement {
     options.iterations = 8;
     options.stride = coarse_stride(data_, 4);
     TURNSCAN_TRY(solve(options, false));
+    TURNSCAN_TRY(judge_platter(options));
     TURNSCAN_TRY(judge_turn(options));
     TURNSCAN_TRY(fit_motor(options));
     options.stride = 1;
@@ -45,12 +52,26 @@ class Refinement {
     TURNSCAN_TRY(solve(options, true));
     // Where the angles are the prior's, pairs of views do not drift.
     if (data_.projective && out_.turn_observable && data_.keys.size() >= kLeastBundleFrames) {
-      TURNSCAN_ASSIGN(out_.solution, adjust_bundle(data_, out_.solution, out_.prior, {}, context_));
+      TURNSCAN_TRY(adjust());
     }
     return std::move(out_);
   }
 
  private:
+  /// Outlines show the turn best, and shift the axis: it is found once more without them.
+  Result<> adjust() {
+    TURNSCAN_ASSIGN(out_.solution, adjust_bundle(data_, out_.solution, out_.prior, {}, context_));
+    BundleOptions inner;
+    inner.axis_only = true;
+    const Eigen::Matrix4d with_angles = out_.solution.covariance;
+    TURNSCAN_ASSIGN(out_.solution,
+                    adjust_bundle(data_, out_.solution, out_.prior, inner, context_));
+    // With angles held the axis seems surer than it is.
+    if (with_angles.trace() > out_.solution.covariance.trace())
+      out_.solution.covariance = with_angles;
+    return {};
+  }
+
   Result<> solve(SolveOptions options, bool all_frames) {
     options.hold_angles = !out_.turn_observable;
     const auto pairs = select_pairs(data_, state_.angle, all_frames);
@@ -61,29 +82,64 @@ class Refinement {
     return {};
   }
 
-  /// Whether the turn can be seen, now that the axis is known better.
+  /// Compares the platter with the axis that the frames show without it.
+  Result<> judge_platter(SolveOptions options) {
+    if (!data_.platter) return {};
+    options.use_platter = false;
+    options.covariance = true;
+    const auto free = solve_pairwise(data_, state_, select_pairs(data_, state_.angle, false),
+                                     out_.prior, options, context_);
+    if (!free && free.error().code == ErrorCode::kCancelled)
+      return tl::unexpected<Error>(free.error());
+    if (free) out_.platter_fits = agrees(*data_.platter, *free);
+    return {};
+  }
+
+  static bool agrees(const DetectedPlatter& platter, const MotionSolution& free) {
+    const Vec3d &axis = free.state.axis, &center = free.state.center;
+    const double lean = std::atan2(axis.cross(platter.axis).norm(), axis.dot(platter.axis));
+    const Vec3d off = platter.center_m - center;
+    const double shift = (off - off.dot(platter.axis) * platter.axis).norm();
+    const auto& c = free.covariance;
+    const double lean_sigma =
+        std::sqrt(c(0, 0) + c(1, 1) + 2.0 * std::pow(platter_axis_sigma_rad(platter), 2));
+    const double height = off.dot(platter.axis);
+    const double shift_sigma =
+        std::sqrt(c(2, 2) + c(3, 3) + 2.0 * std::pow(platter_center_sigma_m(platter), 2) +
+                  std::pow(height * platter.axis_sigma_rad, 2));
+    return lean < std::max(kLargestLean, kDisagreement * lean_sigma) &&
+           shift < std::max(kLargestShift_m, kDisagreement * shift_sigma);
+  }
+
+  /// Whether the turn can be seen. What a round object's angles were fitted to is its noise: they
+  /// are those of the prior then.
   Result<> judge_turn(const SolveOptions& options) {
-    const bool was_observable = out_.turn_observable;
-    out_.turn_observable = out_.source == AngleSource::kNothing ||
-                           turn_information(data_, state_) > kLeastTurnInformation;
-    if (!was_observable || out_.turn_observable) return {};
-    reset_to_prior();
+    out_.turn_observable =
+        out_.source == AngleSource::kNothing || turn_contrast(data_, state_) > kLeastTurnContrast;
+    if (out_.turn_observable) return {};
+    TURNSCAN_TRY(reset_to_prior());
     return solve(options, false);
   }
 
-  /// The shape says nothing about the turn: back to what times or angles say.
-  void reset_to_prior() {
+  /// Back to what times or angles say.
+  Result<> reset_to_prior() {
     AnglePrior& prior = out_.prior;
-    const double t0 = data_.frames.front().time_s;
-    for (std::size_t i = 0; i < state_.angle.size(); ++i) {
-      if (out_.source == AngleSource::kTimes)
-        state_.angle[i] =
-            options_.speed_rad_s.value_or(prior.speed_rad_s) * (data_.frames[i].time_s - t0);
-      if (out_.source == AngleSource::kAngles)
+    if (out_.source == AngleSource::kAngles) {
+      for (std::size_t i = 0; i < state_.angle.size(); ++i)
         state_.angle[i] =
             prior.nominal_sign * (*data_.frames[i].nominal_rad - *data_.frames[0].nominal_rad);
+      return {};
     }
-    if (options_.speed_rad_s) prior.stated_rad_s = options_.speed_rad_s;
+    if (!known_speed_rad_s_)
+      return fail(ErrorCode::kMissingData,
+                  "motion: the object looks the same from all sides, so that its speed cannot be "
+                  "seen; give --speed");
+    prior.speed_rad_s = *known_speed_rad_s_;
+    prior.stated_rad_s = known_speed_rad_s_;
+    const double t0 = data_.frames.front().time_s;
+    for (std::size_t i = 0; i < state_.angle.size(); ++i)
+      state_.angle[i] = *known_speed_rad_s_ * (data_.frames[i].time_s - t0);
+    return {};
   }
 
   /// The motor's phases and how evenly it turns, where the frames have times and show the turn.
@@ -100,17 +156,17 @@ class Refinement {
   }
 
   const MotionData& data_;
-  const FromMotionOptions& options_;
   const RunContext& context_;
   MotionState state_;
+  std::optional<double> known_speed_rad_s_;
   RefinedMotion out_;
 };
 
 }  // namespace
 
 Result<RefinedMotion> refine_motion(const MotionData& data, InitialMotion start,
-                                    const FromMotionOptions& options, const RunContext& context) {
-  return Refinement(data, std::move(start), options, context).run();
+                                    const RunContext& context) {
+  return Refinement(data, std::move(start), context).run();
 }
 
 }  // namespace turnscan::motion

@@ -9,7 +9,5 @@ inline constexpr double kHuber = 1.5;
 inline constexpr double kMedianToSigma = 1.4826;
 /// Median of the square of a standard normal variable.
 inline constexpr double kMedianOfSquare = 0.455;
-/// turn_information() below which the object's shape does not show its turn.
-inline constexpr double kLeastTurnInformation = 2.0;
 
 }  // namespace turnscan::motion

@@ -87,7 +87,8 @@ std::vector<Surfel> make_surfels(const MotionData& data, const MotionState& stat
 
 void SurfelObservations::observe(const MotionData& data, const MotionState& state,
                                  const std::vector<std::size_t>& frames,
-                                 const std::vector<Surfel>& surfels, double reach_m) {
+                                 const std::vector<Surfel>& surfels, double reach_m,
+                                 bool inner_only) {
   height_.assign(surfels.size(), 0.0);
   observed_.assign(frames.size(), {});
   parallel_for(frames.size(), 4, [&](std::size_t k) {
@@ -100,6 +101,7 @@ void SurfelObservations::observe(const MotionData& data, const MotionState& stat
       const double cosine = -m.dot(q) / q.norm();
       Vec3d found;
       if (cosine < kLowCosine || !data.find_correspondence(surface, q, reach_m, found)) continue;
+      if (inner_only && !data.within_outline(surface, q)) continue;
       const double full = (cosine - kLowCosine) / (kFullCosine - kLowCosine);
       observed_[k].push_back(
           {std::uint32_t(s), float(m.dot(found - q)), float(std::clamp(full, 0.02, 1.0)), 0.0f});

@@ -27,10 +27,11 @@ struct SurfelObservation {
 class SurfelObservations {
  public:
   /// Where the rays of these frames (positions in data.frames) through the surfels, moved to the
-  /// frame's angle, meet its surface within reach_m. Weights are 0.
+  /// frame's angle, meet its surface within reach_m; inner_only: within its outline.
+  /// Weights are 0.
   void observe(const MotionData& data, const MotionState& state,
                const std::vector<std::size_t>& frames, const std::vector<Surfel>& surfels,
-               double reach_m);
+               double reach_m, bool inner_only);
 
   /// Finds the mean heights of the surfels, robustly, and the weights with that. False when too
   /// little is seen.

@@ -25,6 +25,31 @@ std::optional<double> window_sum(const FrameSurface& surface, const std::vector<
   return sum;
 }
 
+/// A second row of the outline is left out where this share of the pixels remains.
+constexpr double kLeastShareWithin = 0.5;
+
+/// The pixels of `in` whose eight neighbours are all in it, and on the same surface.
+std::vector<std::uint8_t> without_outline(const FrameSurface& surface,
+                                          const std::vector<std::uint8_t>& in, double fx,
+                                          double noise_m) {
+  const int w = surface.width, h = surface.height;
+  std::vector<std::uint8_t> out(in.size(), 0);
+  for (int y = 1; y + 1 < h; ++y) {
+    for (int x = 1; x + 1 < w; ++x) {
+      const auto i = std::size_t(y) * std::size_t(w) + std::size_t(x);
+      const float here = surface.z[i];
+      const auto limit = float(3.0 * here / fx + 4.5 * noise_m);
+      bool inner = in[i] != 0;
+      for (int k = 0; k < 9 && inner; ++k) {
+        const auto there = std::size_t(int(i) + (k / 3 - 1) * w + k % 3 - 1);
+        inner = in[there] != 0 && std::abs(surface.z[there] - here) <= limit;
+      }
+      out[i] = inner ? 1 : 0;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& sensor,
@@ -111,6 +136,16 @@ FrameSurface trimmed(const DepthForeground& depth) {
     out.z.insert(out.z.end(), row + left, row + right);
   }
   return out;
+}
+
+void mark_inner(FrameSurface& surface, double fx, double noise_m) {
+  std::vector<std::uint8_t> all(surface.z.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = surface.z[i] > 0.0f ? 1 : 0;
+  const auto inner = without_outline(surface, all, fx, noise_m);
+  auto innermost = without_outline(surface, inner, fx, noise_m);
+  const auto count = [](const auto& in) { return double(std::count(in.begin(), in.end(), 1)); };
+  surface.inner =
+      count(innermost) < kLeastShareWithin * count(inner) ? inner : std::move(innermost);
 }
 
 }  // namespace turnscan::motion

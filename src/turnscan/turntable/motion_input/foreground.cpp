@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/turntable/motion_input/background.hpp>
 #include <turnscan/turntable/motion_input/foreground.hpp>
 
 namespace turnscan::motion {
@@ -6,6 +7,8 @@ namespace turnscan::motion {
 namespace {
 
 constexpr std::size_t kMeanFrames = 36;  ///< that the search averages
+/// From this ratio of noise in time to noise between pixels on, nothing stands still.
+constexpr double kMovingNoise = 3.0;
 
 class ForegroundSearch {
  public:
@@ -22,13 +25,14 @@ class ForegroundSearch {
       positions.push_back(data_.frames[k * n / count].position);
     TURNSCAN_ASSIGN(const AveragedScan scan,
                     average_frames(sequence_, positions, average, context_));
-    data_.noise_m =
-        std::max(scan.typical_noise_m(), sequence_.header().sensors[0].depth_unit_m * 0.3);
-    const auto platter = detect_platter(scan, options_.detect, context_);
-    if (!platter && platter.error().code == ErrorCode::kCancelled)
-      return tl::unexpected<Error>(platter.error());
-    if (platter) {
-      data_.platter = *platter;
+    TURNSCAN_ASSIGN(const bool still, find_noise(scan, positions));
+    if (options_.use_platter && still) {
+      const auto platter = detect_platter(scan, options_.detect, context_);
+      if (!platter && platter.error().code == ErrorCode::kCancelled)
+        return tl::unexpected<Error>(platter.error());
+      if (platter) data_.platter = *platter;
+    }
+    if (const auto& platter = data_.platter) {
       crop_to(platter->axis, platter->center_m, platter->radius_m, platter->plane_rms_m);
     } else if (options_.hint) {
       crop_to(options_.hint->axis.normalized(), options_.hint->center_m,
@@ -37,12 +41,26 @@ class ForegroundSearch {
       data_.notes.push_back(
           "no platter was seen: what turns was told from what stands still by "
           "its motion");
-      TURNSCAN_TRY(find_moving(scan));
+      TURNSCAN_TRY(find_moving(positions));
     }
     return std::move(foreground_);
   }
 
  private:
+  /// Sets the noise. Returns whether something stands still, a platter perhaps: else the pixels
+  /// change by more than noise all over the image.
+  Result<bool> find_noise(const AveragedScan& scan, const std::vector<std::size_t>& positions) {
+    const std::vector<std::size_t> some(
+        positions.begin(),
+        positions.begin() + std::ptrdiff_t(std::min<std::size_t>(4, positions.size())));
+    TURNSCAN_ASSIGN(const double spatial, spatial_noise(sequence_, some, context_));
+    const double temporal = scan.typical_noise_m();
+    const bool still = !(spatial > 0.0 && temporal > kMovingNoise * spatial);
+    data_.noise_m =
+        std::max(still ? temporal : spatial, sequence_.header().sensors[0].depth_unit_m * 0.3);
+    return still;
+  }
+
   void crop_to(const Vec3d& axis, const Vec3d& center, double radius, double spread) {
     foreground_.plane = detection::Plane{axis, axis.dot(center)};
     foreground_.center = center;
@@ -80,33 +98,17 @@ class ForegroundSearch {
     return T;
   }
 
-  /// Pixels between others that flicker, row by row and column by column.
-  Result<> find_moving(const AveragedScan& scan) {
-    const int w = scan.depth_m.width, h = scan.depth_m.height;
-    const double limit = std::max(4.0 * data_.noise_m, 0.003);
-    std::vector<std::uint8_t> moving(std::size_t(w) * std::size_t(h), 0);
-    std::vector<double> depths;
-    const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(w) + std::size_t(x); };
-    for (std::size_t i = 0; i < moving.size(); ++i) {
-      const bool partly = scan.count.pixels[i] > 0 && scan.count.pixels[i] < scan.frames;
-      moving[i] = scan.noise_m.pixels[i] > limit || (partly && scan.depth_m.pixels[i] > 0.0f);
-      if (moving[i] && scan.depth_m.pixels[i] > 0.0f) depths.push_back(scan.depth_m.pixels[i]);
-    }
-    if (depths.size() < 100)
-      return fail(ErrorCode::kTooFewPoints,
-                  "motion: nothing turns in the recording, or nothing that can be seen to turn");
-    const auto far = depths.begin() + std::ptrdiff_t(depths.size() * 9 / 10);
-    std::nth_element(depths.begin(), far, depths.end());
-    foreground_.farthest_m = float(*far + 0.03);
-    std::vector<std::uint8_t> rows(moving.size(), 0), columns(moving.size(), 0);
-    fill_between(w, h, at, moving, rows, false);
-    fill_between(w, h, at, moving, columns, true);
-    for (std::size_t i = 0; i < moving.size(); ++i) rows[i] = rows[i] && columns[i] ? 1 : 0;
-    foreground_.mask = std::move(rows);
+  Result<> find_moving(const std::vector<std::size_t>& positions) {
+    TURNSCAN_ASSIGN(Background background,
+                    find_background(sequence_, positions, data_.noise_m, context_));
+    data_.noise_m = std::max(background.noise_m, sequence_.header().sensors[0].depth_unit_m * 0.3);
+    const int w = background.width, h = background.height;
+    foreground_.nearer_than = std::move(background.nearer_than);
     foreground_.left = w, foreground_.top = h;
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
-        if (!foreground_.mask[at(x, y)]) continue;
+        if (!(foreground_.nearer_than[std::size_t(y) * std::size_t(w) + std::size_t(x)] > 0.0f))
+          continue;
         foreground_.left = std::min(foreground_.left, x);
         foreground_.right = std::max(foreground_.right, x + 1);
         foreground_.top = std::min(foreground_.top, y);
@@ -114,22 +116,6 @@ class ForegroundSearch {
       }
     }
     return {};
-  }
-
-  template <class At>
-  static void fill_between(int w, int h, const At& at, const std::vector<std::uint8_t>& in,
-                           std::vector<std::uint8_t>& out, bool columns) {
-    const int lines = columns ? w : h, length = columns ? h : w;
-    for (int line = 0; line < lines; ++line) {
-      const auto index = [&](int k) { return columns ? at(line, k) : at(k, line); };
-      int first = -1, last = -1;
-      for (int k = 0; k < length; ++k) {
-        if (!in[index(k)]) continue;
-        if (first < 0) first = k;
-        last = k;
-      }
-      for (int k = first; first >= 0 && k <= last; ++k) out[index(k)] = 1;
-    }
   }
 
   const FrameSequence& sequence_;
@@ -142,7 +128,7 @@ class ForegroundSearch {
 }  // namespace
 
 bool Foreground::contains(std::size_t pixel, const Vec3f& p) const {
-  if (!plane) return mask[pixel] != 0 && p.z() < farthest_m;
+  if (!plane) return p.z() < nearer_than[pixel];
   const Vec3d d = p.cast<double>() - center;
   const double h = plane->normal.dot(d);
   return h > margin_m && h < 3.0 * radius_m + 0.1 &&

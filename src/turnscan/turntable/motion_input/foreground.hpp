@@ -13,8 +13,7 @@ struct Foreground {
       plane;  ///< keep what is above it by the margin, within radius of center
   Vec3d center = Vec3d::Zero();
   double margin_m = 0.0, radius_m = 0.0;
-  std::vector<std::uint8_t> mask;  ///< without a plane: pixels, and the largest depth
-  float farthest_m = 0.0f;
+  std::vector<float> nearer_than;                ///< without a plane: see Background
   int left = 0, top = 0, right = 0, bottom = 0;  ///< bounding box in the image
 
   /// Whether a pixel (its position in the image) that sees p (sensor frame) belongs to the object.

@@ -97,6 +97,7 @@ class FrameLoader {
                                                data_.camera, rays_, foreground_);
     drop_mixed_pixels(depth, fx, noise);
     frame.raw_surface = trimmed(depth);
+    mark_inner(frame.raw_surface, fx, noise);
     smooth_depth(depth, fx, noise);
     sample_depth(data_, rays_, depth, seed, samples_per_frame(key), frame, cloud);
     if (!key) return;
@@ -168,6 +169,11 @@ class FrameLoader {
   MotionData data_;
 };
 
+Eigen::Vector2d pixel_of(const CameraIntrinsics& camera, const Vec3d& p) {
+  if (camera.distorted()) return camera.project(p);
+  return {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
+}
+
 }  // namespace
 
 bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p, double reach_m,
@@ -180,12 +186,7 @@ bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p
     return true;
   }
   if (!(p.z() > 0.0)) return false;
-  Eigen::Vector2d uv;
-  if (camera.distorted()) {
-    uv = camera.project(p);
-  } else {
-    uv = {camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy};
-  }
+  const Eigen::Vector2d uv = pixel_of(camera, p);
   const double fx = uv.x() - surface.left, fy = uv.y() - surface.top;
   if (!(fx >= 0.0 && fy >= 0.0 && fx < surface.width - 1 && fy < surface.height - 1)) return false;
   const int x = int(fx), y = int(fy);
@@ -199,6 +200,14 @@ bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p
   if (std::abs(z - p.z()) > reach_m) return false;
   found = p * (z / p.z());
   return true;
+}
+
+bool MotionData::within_outline(const FrameSurface& surface, const Vec3d& p) const {
+  const Eigen::Vector2d uv = pixel_of(camera, p);
+  const auto x = std::size_t(uv.x() - surface.left), y = std::size_t(uv.y() - surface.top);
+  const std::size_t i = y * std::size_t(surface.width) + x, below = i + std::size_t(surface.width);
+  return surface.inner[i] != 0 && surface.inner[i + 1] != 0 && surface.inner[below] != 0 &&
+         surface.inner[below + 1] != 0;
 }
 
 Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,

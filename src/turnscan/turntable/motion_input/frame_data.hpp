@@ -22,6 +22,7 @@ struct SurfaceSample {
 struct FrameSurface {
   int left = 0, top = 0, width = 0, height = 0;  ///< pixels
   std::vector<float> z;                          ///< metres; 0 where there is no foreground
+  std::vector<std::uint8_t> inner;               ///< pixels within outlines; of raw surfaces only
   KdTree tree;
   std::vector<Vec3f> points;
 
@@ -61,12 +62,16 @@ struct MotionData {
   /// within reach_m.
   bool find_correspondence(const FrameSurface& surface, const Vec3d& p, double reach_m,
                            Vec3d& found) const;
+  /// Whether all pixels that find_correspondence uses for p, which it finds, are inner ones.
+  /// Precondition: surface.inner is set.
+  bool within_outline(const FrameSurface& surface, const Vec3d& p) const;
 };
 
 struct MotionDataOptions {
   DetectOptions detect;
   std::size_t max_keys = 160;
   std::optional<TurntableInfo> hint;  ///< used where no platter is seen
+  bool use_platter = true;            ///< false: do not look for one
 };
 
 /// Reads the frames. Fails with kTooFewPoints when fewer than 3 frames can be used or nothing

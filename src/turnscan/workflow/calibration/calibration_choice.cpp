@@ -47,6 +47,14 @@ Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
   FromMotionOptions options;
   options.speed_rad_s = request.speed_rad_s;
   TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(sequence, options, {}, context));
+  for (const char* needed : {"axis", "centre"}) {
+    const auto& unknown = found.undetermined;
+    if (std::find(unknown.begin(), unknown.end(), needed) != unknown.end())
+      return fail(ErrorCode::kMissingData,
+                  "the motion does not determine the turntable's {}: axis to {:.1f} deg, centre to "
+                  "{:.1f} mm; let the sensor see the platter, or take more of a turn",
+                  needed, found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
+  }
   CalibrationChoice out;
   out.note = fmt::format(
       "{}, so the turntable was found from motion: axis to {:.2f} deg, centre to {:.2f} mm", why,

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion_input/background.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+/// A patch that flickers, where a mixed pixel jumps between two surfaces at rest, is smaller than
+/// what turns.
+constexpr double kLeastShareOfLargest = 0.15;
+constexpr std::size_t kLeastMovingPixels = 100;
+/// Standard deviations between the tenths at both ends of a pixel's depths: 2.6 of normal noise.
+constexpr double kMovingSigmas = 4.0;
+constexpr double kLeastMove_m = 0.003;
+
+/// The depths of every pixel, frame after frame; 0: none.
+class DepthStack {
+ public:
+  static Result<DepthStack> read(const FrameSequence& sequence,
+                                 const std::vector<std::size_t>& positions,
+                                 const RunContext& context) {
+    DepthStack out;
+    const SensorInfo& sensor = sequence.header().sensors.front();
+    out.width_ = sensor.intrinsics.width, out.height_ = sensor.intrinsics.height;
+    out.images_.assign(positions.size(), {});
+    std::vector<Result<>> results(positions.size());
+    parallel_for(positions.size(), 1, [&](std::size_t k) {
+      results[k] = context.check();
+      if (results[k]) results[k] = out.read_one(sequence, positions[k], sensor, out.images_[k]);
+    });
+    for (auto& result : results) TURNSCAN_TRY(result);
+    return out;
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::size_t frames() const { return images_.size(); }
+  const std::vector<float>& image(std::size_t k) const { return images_[k]; }
+
+  /// A pixel's depths, ascending.
+  void depths(std::size_t pixel, std::vector<float>& out) const {
+    out.clear();
+    for (const auto& image : images_)
+      if (image[pixel] > 0.0f) out.push_back(image[pixel]);
+    std::sort(out.begin(), out.end());
+  }
+
+ private:
+  Result<> read_one(const FrameSequence& sequence, std::size_t position, const SensorInfo& sensor,
+                    std::vector<float>& out) const {
+    out.assign(std::size_t(width_) * std::size_t(height_), 0.0f);
+    TURNSCAN_ASSIGN(const Frame frame, sequence.read(position));
+    if (frame.depth.pixels.size() != out.size()) return {};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::uint16_t value = frame.depth.pixels[i];
+      if (value != kNoReturn && value != kOutsideCrop)
+        out[i] = float(value * sensor.depth_unit_m + sensor.depth_bias_m);
+    }
+    return {};
+  }
+
+  int width_ = 0, height_ = 0;
+  std::vector<std::vector<float>> images_;
+};
+
+/// Second difference of a row over every second pixel, since neighbours share some of their noise;
+/// NaN where it cannot be told.
+float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width) {
+  const std::size_t x = i % width;
+  if (x < 2 || x + 2 >= width) return std::numeric_limits<float>::quiet_NaN();
+  if (!(z[i - 2] > 0.0f && z[i] > 0.0f && z[i + 2] > 0.0f))
+    return std::numeric_limits<float>::quiet_NaN();
+  return std::abs(z[i - 2] - 2.0f * z[i] + z[i + 2]);
+}
+
+/// Standard deviation of a depth from sizes of second differences. On edges and bends these are
+/// larger; most are on neither.
+double noise_from(std::vector<float> differences) {
+  return 1.4826 * double(median(differences)) / std::sqrt(6.0);
+}
+
+class BackgroundSearch {
+ public:
+  BackgroundSearch(const DepthStack& stack, double noise_m)
+      : stack_(stack), w_(stack.width()), h_(stack.height()), noise_m_(noise_m) {}
+
+  Result<Background> run() {
+    find_moving();
+    keep_large_patches();
+    const auto moving = std::size_t(std::count(moving_.begin(), moving_.end(), 1));
+    if (moving < kLeastMovingPixels)
+      return fail(ErrorCode::kTooFewPoints,
+                  "motion: nothing turns in the recording, or nothing that can be seen to turn");
+    Background out{w_, h_, std::vector<float>(moving_.size(), 0.0f), noise_m_};
+    if (const double within = noise_where_moving(); within > 0.0) out.noise_m = within;
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+      if (moving_[i] != 0) out.nearer_than[i] = limit_[i];
+    return out;
+  }
+
+ private:
+  /// What a pixel's depth changes by without motion. Noise is larger far away and at low angles,
+  /// as it then is between neighbours.
+  double still_range(std::size_t pixel) const {
+    thread_local std::vector<float> differences;
+    differences.clear();
+    for (std::size_t k = 0; k < stack_.frames(); ++k) {
+      const float size = second_difference(stack_.image(k), pixel, std::size_t(w_));
+      if (std::isfinite(size)) differences.push_back(size);
+    }
+    const double noise = differences.size() < 4 ? noise_m_ : noise_from(differences);
+    return std::max(kMovingSigmas * std::max(noise, noise_m_), kLeastMove_m);
+  }
+
+  double noise_where_moving() const {
+    std::vector<float> differences;
+    for (std::size_t k = 0; k < stack_.frames(); k += 4) {
+      for (std::size_t i = 0; i < moving_.size(); i += 3) {
+        if (moving_[i] == 0) continue;
+        const float size = second_difference(stack_.image(k), i, std::size_t(w_));
+        if (std::isfinite(size)) differences.push_back(size);
+      }
+    }
+    return noise_from(std::move(differences));
+  }
+
+  void find_moving() {
+    const std::size_t n = moving_.size();
+    parallel_for(n, 4096, [&](std::size_t i) {
+      thread_local std::vector<float> depths;
+      stack_.depths(i, depths);
+      judge(i, depths);
+    });
+  }
+
+  void judge(std::size_t i, const std::vector<float>& depths) {
+    const std::size_t frames = stack_.frames(), valid = depths.size();
+    if (valid == 0) return;
+    const std::size_t tenth = valid / 10;
+    const double range = double(depths[valid - 1 - tenth] - depths[tenth]);
+    const double still = still_range(i);
+    const bool comes_and_goes = 10 * valid < 9 * frames && 10 * valid > frames;
+    if (range <= still && !comes_and_goes) return;
+    moving_[i] = 1;
+    // The farthest depth is what stands still if it is seen again; else the object hides it always.
+    const bool seen_again = valid >= 4 && double(depths[valid - 1] - depths[valid - 3]) < still;
+    if (seen_again) limit_[i] = float(double(depths[valid - 2]) - still);
+  }
+
+  /// Patches of what moves, without lines one or two pixels wide; then as wide again.
+  void keep_large_patches() {
+    std::vector<std::uint8_t> core = eroded(moving_);
+    std::vector<std::int32_t> label(core.size(), 0);
+    std::vector<std::size_t> sizes{0};
+    for (std::size_t i = 0; i < core.size(); ++i) {
+      if (core[i] == 0 || label[i] != 0) continue;
+      sizes.push_back(fill(core, label, i, std::int32_t(sizes.size())));
+    }
+    const std::size_t largest = *std::max_element(sizes.begin(), sizes.end());
+    for (std::size_t i = 0; i < core.size(); ++i)
+      core[i] = core[i] != 0 &&
+                double(sizes[std::size_t(label[i])]) >= kLeastShareOfLargest * double(largest);
+    const auto wide = dilated(dilated(core));
+    for (std::size_t i = 0; i < core.size(); ++i) moving_[i] = moving_[i] != 0 && wide[i] != 0;
+  }
+
+  template <class Use>
+  void around(std::size_t i, const Use& use) const {
+    const int x = int(i) % w_, y = int(i) / w_;
+    for (int v = std::max(0, y - 1); v <= std::min(h_ - 1, y + 1); ++v)
+      for (int u = std::max(0, x - 1); u <= std::min(w_ - 1, x + 1); ++u)
+        use(std::size_t(v) * std::size_t(w_) + std::size_t(u));
+  }
+
+  std::vector<std::uint8_t> eroded(const std::vector<std::uint8_t>& in) const {
+    std::vector<std::uint8_t> out(in);
+    for (std::size_t i = 0; i < in.size(); ++i)
+      if (in[i] == 0) around(i, [&](std::size_t k) { out[k] = 0; });
+    return out;
+  }
+  std::vector<std::uint8_t> dilated(const std::vector<std::uint8_t>& in) const {
+    std::vector<std::uint8_t> out(in);
+    for (std::size_t i = 0; i < in.size(); ++i)
+      if (in[i] != 0) around(i, [&](std::size_t k) { out[k] = 1; });
+    return out;
+  }
+
+  /// Labels the patch of a pixel; returns its size.
+  std::size_t fill(const std::vector<std::uint8_t>& in, std::vector<std::int32_t>& label,
+                   std::size_t start, std::int32_t name) const {
+    std::vector<std::size_t> open{start};
+    label[start] = name;
+    std::size_t size = 0;
+    while (!open.empty()) {
+      const std::size_t i = open.back();
+      open.pop_back();
+      ++size;
+      around(i, [&](std::size_t k) {
+        if (in[k] == 0 || label[k] != 0) return;
+        label[k] = name;
+        open.push_back(k);
+      });
+    }
+    return size;
+  }
+
+  const DepthStack& stack_;
+  int w_, h_;
+  double noise_m_;
+  std::vector<std::uint8_t> moving_ =
+      std::vector<std::uint8_t>(std::size_t(w_) * std::size_t(h_), 0);
+  std::vector<float> limit_ =
+      std::vector<float>(std::size_t(w_) * std::size_t(h_), std::numeric_limits<float>::infinity());
+};
+
+}  // namespace
+
+Result<double> spatial_noise(const FrameSequence& sequence,
+                             const std::vector<std::size_t>& positions, const RunContext& context) {
+  TURNSCAN_ASSIGN(const DepthStack stack, DepthStack::read(sequence, positions, context));
+  std::vector<float> differences;
+  for (std::size_t k = 0; k < stack.frames(); ++k) {
+    const auto& image = stack.image(k);
+    for (std::size_t i = 0; i < image.size(); i += 3) {
+      const float size = second_difference(image, i, std::size_t(stack.width()));
+      if (std::isfinite(size)) differences.push_back(size);
+    }
+  }
+  return noise_from(std::move(differences));
+}
+
+Result<Background> find_background(const FrameSequence& sequence,
+                                   const std::vector<std::size_t>& positions, double noise_m,
+                                   const RunContext& context) {
+  TURNSCAN_ASSIGN(const DepthStack stack, DepthStack::read(sequence, positions, context));
+  return BackgroundSearch(stack, noise_m).run();
+}
+
+}  // namespace turnscan::motion
