@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/publication.hpp>
+#include <turnscan/turntable/motion_input/object_base.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan::motion {
@@ -31,7 +33,7 @@ class Publication {
     out.residual_rms_m = solution_.rms_m;
     out.notes = data_.notes;
     set_axis(out);
-    set_height(out);
+    TURNSCAN_TRY(set_height(out));
     set_angles(out);
     if (motion_.source == AngleSource::kTimes) set_speed(out);
     if (motion_.prior.nominal_sign < 0.0)
@@ -45,8 +47,12 @@ class Publication {
   void set_axis(Calibration& out) const {
     out.table.axis = state_.axis;
     // Besides noise: what smoothing and mixed pixels at silhouettes shift, a few hundredths of a
-    // pixel, and over the size of what turns still a hundredth.
-    const double shift = 0.03 * data_.spacing_m, tilt = 0.01 * data_.spacing_m / data_.extent_m;
+    // pixel, and over the size of what turns still a hundredth. A sensor that filters over its
+    // pixels mixes those beside the outline, too (random_rigs: ten times as much).
+    const double filtered = data_.correlated_noise ? 1.0 : 0.0;
+    const double shift = (0.03 + 0.09 * filtered) * data_.spacing_m;
+    double tilt = (0.01 + 0.09 * filtered) * data_.spacing_m / data_.extent_m;
+    if (data_.platter) tilt = std::min(tilt, platter_axis_sigma_rad(*data_.platter));
     const auto& c = solution_.covariance;
     out.axis_sigma_rad = std::sqrt(c(0, 0) + c(1, 1) + tilt * tilt);
     out.center_sigma_m = std::sqrt(c(2, 2) + c(3, 3) + shift * shift);
@@ -58,7 +64,7 @@ class Publication {
   }
 
   /// The axis meets the platter's surface, or else ends at the object's lowest points.
-  void set_height(Calibration& out) const {
+  Result<> set_height(Calibration& out) const {
     const Vec3d a = state_.axis;
     if (data_.platter) {
       const DetectedPlatter& p = *data_.platter;
@@ -71,20 +77,24 @@ class Publication {
       out.confidence = p.confidence;
       out.height_found = "the platter's surface";
       out.radius_found = "the platter's rim";
-      return;
+      return {};
     }
     std::vector<double> heights;
     for (const Vec3f& p : data_.cloud) heights.push_back(a.dot(p.cast<double>() - state_.center));
     const auto low = heights.begin() + std::ptrdiff_t(heights.size() / 200);
     std::nth_element(heights.begin(), low, heights.end());
-    out.table.center_m = state_.center + *low * a;
-    out.height_sigma_m = std::max(0.002, 2.0 * data_.noise_m);
+    TurntableInfo axis;
+    axis.axis = a, axis.center_m = state_.center;
+    TURNSCAN_ASSIGN(const double base, find_base(data_, axis, sequence_, *low));
+    out.table.center_m = state_.center + base * a;
+    out.height_sigma_m = std::max(0.004, 3.0 * data_.noise_m);
     out.height_found = "the lowest points of what turns";
     const auto& table = sequence_.header().turntable;
     if (table && options_.use_table && table->radius_m) {
       out.table.radius_m = table->radius_m;
       out.radius_found = "the recording's";
     }
+    return {};
   }
 
   /// Frames of other sensors and dropped ones get theirs by time, or from their neighbours.

@@ -61,6 +61,7 @@ class Refinement {
   /// Outlines show the turn best, and shift the axis: it is found once more without them.
   Result<> adjust() {
     TURNSCAN_ASSIGN(out_.solution, adjust_bundle(data_, out_.solution, out_.prior, {}, context_));
+    if (data_.correlated_noise) return {};  // there are no outlines
     BundleOptions inner;
     inner.axis_only = true;
     const Eigen::Matrix4d with_angles = out_.solution.covariance;

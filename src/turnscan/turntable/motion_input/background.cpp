@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <turnscan/core/median.hpp>
@@ -67,14 +68,15 @@ class DepthStack {
   std::vector<std::vector<float>> images_;
 };
 
-/// Second difference of a row over every second pixel, since neighbours share some of their noise;
-/// NaN where it cannot be told.
-float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width) {
+/// Second difference of a row over every step-th pixel; NaN where it cannot be told. Every second
+/// one: neighbours may share some of their noise.
+float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width,
+                        std::size_t step = 2) {
   const std::size_t x = i % width;
-  if (x < 2 || x + 2 >= width) return std::numeric_limits<float>::quiet_NaN();
-  if (!(z[i - 2] > 0.0f && z[i] > 0.0f && z[i + 2] > 0.0f))
+  if (x < step || x + step >= width) return std::numeric_limits<float>::quiet_NaN();
+  if (!(z[i - step] > 0.0f && z[i] > 0.0f && z[i + step] > 0.0f))
     return std::numeric_limits<float>::quiet_NaN();
-  return std::abs(z[i - 2] - 2.0f * z[i] + z[i + 2]);
+  return std::abs(z[i - step] - 2.0f * z[i] + z[i + step]);
 }
 
 /// Standard deviation of a depth from sizes of second differences. On edges and bends these are
@@ -219,18 +221,21 @@ class BackgroundSearch {
 
 }  // namespace
 
-Result<double> spatial_noise(const FrameSequence& sequence,
-                             const std::vector<std::size_t>& positions, const RunContext& context) {
+Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
+                                   const std::vector<std::size_t>& positions,
+                                   const RunContext& context) {
   TURNSCAN_ASSIGN(const DepthStack stack, DepthStack::read(sequence, positions, context));
-  std::vector<float> differences;
+  std::array<std::vector<float>, 2> differences;
   for (std::size_t k = 0; k < stack.frames(); ++k) {
     const auto& image = stack.image(k);
     for (std::size_t i = 0; i < image.size(); i += 3) {
-      const float size = second_difference(image, i, std::size_t(stack.width()));
-      if (std::isfinite(size)) differences.push_back(size);
+      for (const std::size_t step : {1U, 2U}) {
+        const float size = second_difference(image, i, std::size_t(stack.width()), step);
+        if (std::isfinite(size)) differences[step - 1].push_back(size);
+      }
     }
   }
-  return noise_from(std::move(differences));
+  return SpatialNoise{noise_from(std::move(differences[1])), noise_from(std::move(differences[0]))};
 }
 
 Result<Background> find_background(const FrameSequence& sequence,

@@ -16,11 +16,19 @@ struct Background {
   double noise_m = 0.0;  ///< standard deviation of a depth value on what moves
 };
 
-/// Standard deviation of a depth value from differences between neighbouring pixels of these frames
-/// (positions): also where nothing stands still. 0 where it cannot be told. Fails with kCancelled,
-/// and what reading fails with.
-Result<double> spatial_noise(const FrameSequence& sequence,
-                             const std::vector<std::size_t>& positions, const RunContext& context);
+/// Noise as differences between pixels show it, metres; 0 where it cannot be told.
+struct SpatialNoise {
+  double sigma_m = 0.0;       ///< of a depth value
+  double neighbours_m = 0.0;  ///< the same from pixels side by side: less where these share noise
+  /// As behind a filter over neighbouring pixels, which time-of-flight cameras and stereo have.
+  bool correlated() const { return neighbours_m < 0.85 * sigma_m; }
+};
+
+/// Of these frames (positions), also where nothing stands still. Fails with kCancelled, and what
+/// reading fails with.
+Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
+                                   const std::vector<std::size_t>& positions,
+                                   const RunContext& context);
 
 /// From these frames (positions) of a depth camera. A pixel shows something that moves when its
 /// depth changes by more than noise, or comes and goes; what stands still behind it is the farthest

@@ -98,6 +98,14 @@ void drop_mixed_pixels(DepthForeground& depth, double fx, double noise_m) {
   });
 }
 
+void drop_outline(DepthForeground& depth, double fx, double noise_m) {
+  FrameSurface& surface = depth.surface;
+  mark_inner(surface, fx, noise_m);
+  std::erase_if(depth.pixels, [&](std::int32_t i) { return surface.inner[std::size_t(i)] == 0; });
+  for (std::size_t i = 0; i < surface.z.size(); ++i)
+    if (surface.inner[i] == 0) surface.z[i] = 0.0f;
+}
+
 void smooth_depth(DepthForeground& depth, double fx, double noise_m) {
   static constexpr std::array<int, 25> kWeights{-13, 2, 7, 2,  -13, 2,  17, 22,  17, 2, 7, 22, 27,
                                                 22,  7, 2, 17, 22,  17, 2,  -13, 2,  7, 2, -13};

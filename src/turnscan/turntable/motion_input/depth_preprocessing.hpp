@@ -38,4 +38,7 @@ FrameSurface trimmed(const DepthForeground& depth);
 /// is left out where enough remain.
 void mark_inner(FrameSurface& surface, double fx, double noise_m);
 
+/// Drops the pixels that are not inner ones.
+void drop_outline(DepthForeground& depth, double fx, double noise_m);
+
 }  // namespace turnscan::motion

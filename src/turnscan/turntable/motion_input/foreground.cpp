@@ -53,7 +53,9 @@ class ForegroundSearch {
     const std::vector<std::size_t> some(
         positions.begin(),
         positions.begin() + std::ptrdiff_t(std::min<std::size_t>(4, positions.size())));
-    TURNSCAN_ASSIGN(const double spatial, spatial_noise(sequence_, some, context_));
+    TURNSCAN_ASSIGN(const SpatialNoise near, spatial_noise(sequence_, some, context_));
+    data_.correlated_noise = near.correlated();
+    const double spatial = near.sigma_m;
     const double temporal = scan.typical_noise_m();
     const bool still = !(spatial > 0.0 && temporal > kMovingNoise * spatial);
     data_.noise_m =

@@ -96,8 +96,9 @@ class FrameLoader {
     DepthForeground depth = extract_foreground(raw.depth, sequence_.header().sensors.front(),
                                                data_.camera, rays_, foreground_);
     drop_mixed_pixels(depth, fx, noise);
+    if (data_.correlated_noise) drop_outline(depth, fx, noise);
     frame.raw_surface = trimmed(depth);
-    mark_inner(frame.raw_surface, fx, noise);
+    if (!data_.correlated_noise) mark_inner(frame.raw_surface, fx, noise);
     smooth_depth(depth, fx, noise);
     sample_depth(data_, rays_, depth, seed, samples_per_frame(key), frame, cloud);
     if (!key) return;

@@ -22,7 +22,8 @@ struct SurfaceSample {
 struct FrameSurface {
   int left = 0, top = 0, width = 0, height = 0;  ///< pixels
   std::vector<float> z;                          ///< metres; 0 where there is no foreground
-  std::vector<std::uint8_t> inner;               ///< pixels within outlines; of raw surfaces only
+  /// Pixels within outlines; of raw surfaces that have outlines.
+  std::vector<std::uint8_t> inner;
   KdTree tree;
   std::vector<Vec3f> points;
 
@@ -45,7 +46,10 @@ struct MotionData {
   std::vector<MotionFrame> frames;  ///< usable ones of sensor 0, in order
   std::vector<std::size_t> keys;    ///< positions in frames
   double noise_m = 0.0;             ///< standard deviation of one depth value
-  double spacing_m = 0.0;           ///< between neighbouring pixels on the object
+  /// Neighbouring pixels share noise (SpatialNoise): surfaces have no outlines then, where such a
+  /// sensor mixes what it sees.
+  bool correlated_noise = false;
+  double spacing_m = 0.0;  ///< between neighbouring pixels on the object
   std::optional<DetectedPlatter> platter;
   Vec3d middle = Vec3d::Zero();       ///< of the foreground's points
   double extent_m = 0.1;              ///< twice the root mean square distance from the middle
