@@ -208,6 +208,7 @@ std::vector<SceneTable> describe(SceneDescription& scene) {
   table.append(describe(scene.table));
   tables.push_back({"table", "Turntable", std::move(table)});
   tables.push_back({"room", "Room", describe(scene.room)});
+  tables.push_back({"events", "What happens meanwhile", describe(scene.object_move)});
   tables.push_back({"noise", "Noise", describe(scene.measure)});
   tables.push_back({"recording", "Recording", describe(scene.record)});
   return tables;
@@ -261,6 +262,7 @@ Result<VirtualScanOptions> scan_options(const SceneDescription& scene) {
   options.platter = scene.platter;
   options.table = scene.table;
   options.room = scene.room;
+  options.object_move = scene.object_move;
   options.measure = scene.measure;
   options.record = scene.record;
   return options;

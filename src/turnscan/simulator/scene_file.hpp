@@ -41,6 +41,7 @@ struct SceneDescription {
   PlatterOptions platter;  ///< 12 mm thick unless told otherwise
   TablePlacement table;
   RoomOptions room;
+  ObjectMove object_move;
   MeasureOptions measure;
   RecordOptions record;
 };

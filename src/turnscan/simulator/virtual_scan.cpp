@@ -6,13 +6,12 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/scan_image.hpp>
+#include <turnscan/simulator/virtual_bench.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
 namespace turnscan {
 
 namespace {
-
-constexpr std::size_t kMostScanners = 64;  // that a recording holds
 
 TurntableInfo turntable_of(const Pose& T_table_sensor) {
   const Pose T_sensor_table = T_table_sensor.inverse();
@@ -20,44 +19,6 @@ TurntableInfo turntable_of(const Pose& T_table_sensor) {
   table.axis = T_sensor_table.linear() * Vec3d::UnitY();
   table.center_m = T_sensor_table.translation();
   return table;
-}
-
-/// Half the height that the objects reach above the platter.
-double middle_of(const std::vector<TriangleMesh>& objects) {
-  double top = 0.0;
-  for (const TriangleMesh& mesh : objects)
-    for (const auto& t : mesh.triangles)
-      for (const std::uint32_t v : t)
-        if (v < mesh.vertices.size()) top = std::max(top, double(mesh.vertices[v].y()));
-  return std::isfinite(top) ? 0.5 * top : 0.0;
-}
-
-void turn(TriangleMesh& mesh, double yaw_rad) {
-  if (yaw_rad == 0.0) return;
-  const Eigen::Matrix3d R = rotation_about_y(yaw_rad).linear();
-  for (Vec3f& p : mesh.vertices) p = (R * p.cast<double>()).cast<float>();
-  for (Vec3f& n : mesh.normals) n = (R * n.cast<double>()).cast<float>();
-}
-
-template <class Options>
-Result<> check(const Options& options) {
-  Options copy = options;
-  return describe(copy).check();
-}
-
-Result<> check_options(const VirtualScanOptions& o) {
-  if (o.scanners.empty() || o.scanners.size() > kMostScanners)
-    return fail(ErrorCode::kInvalidOption, "there are {} scanners; give 1 to {}", o.scanners.size(),
-                kMostScanners);
-  for (const VirtualScanner& scanner : o.scanners) {
-    TURNSCAN_TRY(scanner.model.check());
-    TURNSCAN_TRY(check(scanner.placement));
-  }
-  TURNSCAN_TRY(check(o.platter));
-  TURNSCAN_TRY(check(o.table));
-  TURNSCAN_TRY(check(o.room));
-  TURNSCAN_TRY(check(o.measure));
-  return check(o.record);
 }
 
 Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
@@ -89,54 +50,11 @@ struct Workspace {
 
 }  // namespace
 
-OptionTable describe(PlatterOptions& o) {
-  OptionTable table;
-  table.flag("platter", o.visible, "Whether there is a platter to be seen.")
-      .number("platter-radius", o.radius_m, Quantity::kLength, {1e-3, 10.0},
-              "Radius of the platter.")
-      .number("platter-thickness", o.thickness_m, Quantity::kLength, {0.0, 1.0},
-              "Thickness of the platter; 0: a disc.");
-  return table;
-}
-
-OptionTable describe(MeasureOptions& o) {
-  OptionTable table;
-  table
-      .text("noise", o.noise,
-            "Depth noise: none, gaussian:SIGMA (e.g. gaussian:1.5mm), model (the formulae of the "
-            "scanner's file) or physics (the sensor's own measuring, where the file names it).")
-      .number("mixed-pixels", o.mixed_pixels, Quantity::kNone, {0.0, 1.0},
-              "With gaussian noise: share of the silhouette's pixels that return a depth between "
-              "edge and background. The other kinds mix what a pixel really sees.")
-      .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
-              "How far behind the edge such a pixel may lie.")
-      .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
-  return table;
-}
-
-OptionTable describe(RecordOptions& o) {
-  OptionTable table;
-  table
-      .choice("calibration", o.calibration, {"true", "nominal", "none"},
-              "What the recording says of the turntable: where it is; where it was meant to be "
-              "(without the table's offset and tilt); or nothing.")
-      .flag("angles", o.angles, "Whether the recording says how far the platter has turned.")
-      .flag("scan-colour", o.color, "Also record colours.")
-      .number("pass", o.pass, {0, 1000000}, "Number of the way in which the object lies.");
-  return table;
-}
-
 struct VirtualScan::Impl {
   VirtualScanOptions options;
   NoiseOptions noise;
-  double aim_height_m = 0.0;
-  double yaw_rad = 0.0;
   std::vector<PlatterState> states;
-  Pose T_world_table = Pose::Identity();
-  std::vector<TriangleMesh> turning;  ///< objects, then the platter's body; table frame
-  std::size_t object_count = 0;
-  std::vector<TriangleMesh> standing;  ///< the room; empty without
-  std::optional<Scene> scene, room;
+  VirtualBench bench;
   std::vector<SampleTracer> tracers;
   std::vector<SensorNoise> noises;
   Albedo albedo;  ///< none where no noise asks for it
@@ -147,8 +65,9 @@ struct VirtualScan::Impl {
   mutable std::mutex mutex;
   mutable std::vector<std::unique_ptr<Workspace>> spare;  ///< guarded by mutex
 
-  Impl(const VirtualScanOptions& o, const NoiseOptions& n, std::vector<PlatterState> s)
-      : options(o), noise(n), states(std::move(s)) {}
+  Impl(const VirtualScanOptions& o, const NoiseOptions& n, std::vector<PlatterState> s,
+       VirtualBench b)
+      : options(o), noise(n), states(std::move(s)), bench(std::move(b)) {}
 
   std::size_t scanner_count() const { return options.scanners.size(); }
   std::size_t scanner_of(std::size_t position) const { return position % scanner_count(); }
@@ -160,49 +79,10 @@ struct VirtualScan::Impl {
     return options.first_instant + static_cast<std::uint32_t>(position / scanner_count());
   }
 
-  Pose T_world_sensor(std::size_t scanner, double travel) const {
-    return scanner_pose(options.scanners[scanner].placement, aim_height_m, travel,
-                        T_world_table.linear().col(1));
-  }
-
-  Pose T_world_platter(double angle_rad) const {
-    Pose wobble = Pose::Identity();
-    wobble.linear() = axis_wobble(options.motion, angle_rad);
-    return T_world_table * wobble * rotation_about_y(angle_rad);
-  }
-
   Pose T_table_sensor(std::size_t position) const {
     const PlatterState& state = state_of(position);
-    return T_world_platter(state.angle_rad).inverse() *
-           T_world_sensor(scanner_of(position), state.travel);
-  }
-
-  void place(std::vector<TriangleMesh> given) {
-    aim_height_m = middle_of(given);
-    const Pose T = table_pose(options.table);
-    T_world_table = T;  // the travel of scanner 0 may follow its axis
-    yaw_rad = canonical_yaw(T, T_world_sensor(0, states.front().travel));
-    T_world_table = T * rotation_about_y(yaw_rad);
-    for (TriangleMesh& mesh : given) turn(mesh, -yaw_rad);
-    turning = std::move(given);
-    object_count = turning.size();
-  }
-
-  Result<> build_scenes() {
-    const PlatterOptions& platter = options.platter;
-    if (platter.visible && platter.thickness_m > 0.0)
-      turning.push_back(platter_body(platter.radius_m, platter.thickness_m));
-    TURNSCAN_ASSIGN(scene, Scene::create(turning, platter.visible ? std::optional(platter.radius_m)
-                                                                  : std::nullopt));
-    if (options.room.kind == RoomKind::kNone) return {};
-    std::vector<Vec3d> places;
-    for (std::size_t k = 0; k < scanner_count(); ++k)
-      places.push_back(T_world_sensor(k, 0.5).translation());
-    standing.push_back(make_room(options.room, T_world_table.translation(), platter.radius_m,
-                                 platter.thickness_m, places,
-                                 static_cast<std::uint64_t>(options.measure.seed)));
-    TURNSCAN_ASSIGN(room, Scene::create(standing));
-    return {};
+    return bench.T_world_objects(state).inverse() *
+           bench.T_world_sensor(scanner_of(position), state);
   }
 
   Result<> make_scanners() {
@@ -216,7 +96,7 @@ struct VirtualScan::Impl {
       noises.push_back(std::move(sensor_noise));
     }
     if (noise.kind == NoiseKind::kModel || noise.kind == NoiseKind::kPhysics)
-      albedo = sampling::albedo_of({turning, standing});
+      albedo = sampling::albedo_of(bench.meshes());
     tallies = std::vector<Tally>(scanner_count());
     return {};
   }
@@ -235,13 +115,14 @@ struct VirtualScan::Impl {
 
   /// Where the table is, as the recording has it.
   Pose recorded_table() const {
-    if (options.record.calibration == RecordedCalibration::kTrue) return T_world_table;
-    const Pose T = table_pose({});
-    return T * rotation_about_y(canonical_yaw(T, T_world_sensor(0, states.front().travel)));
+    return options.record.calibration == RecordedCalibration::kTrue ? bench.T_world_table()
+                                                                    : bench.T_world_meant_table();
   }
 
   void make_header() {
-    turntable = turntable_of(T_world_table.inverse() * T_world_sensor(0, states.front().travel));
+    const double travel = states.front().travel;
+    turntable =
+        turntable_of(bench.T_world_table().inverse() * bench.T_world_meant_sensor(0, travel));
     turntable.radius_m = options.platter.radius_m;
     if (states.size() > 1)
       turntable.speed_rad_s = (states.back().angle_rad - states.front().angle_rad) /
@@ -250,13 +131,13 @@ struct VirtualScan::Impl {
       header.sensors.push_back(sensor_info(scanner));
     header.software = std::string("turnscan ") + version();
     header.source = "virtual scan";
-    for (std::size_t i = 0; i < object_count; ++i)
-      header.source += (i == 0 ? " of " : ", ") +
-                       (turning[i].name.empty() ? std::string("object") : turning[i].name);
+    for (const TriangleMesh& mesh : bench.objects())
+      header.source += (&mesh == bench.objects().data() ? " of " : ", ") +
+                       (mesh.name.empty() ? std::string("object") : mesh.name);
     if (options.record.calibration == RecordedCalibration::kNone) return;
     const Pose T_table_world = recorded_table().inverse();
     for (std::size_t k = 0; k < scanner_count(); ++k)
-      header.sensors[k].T_table_sensor = T_table_world * T_world_sensor(k, states.front().travel);
+      header.sensors[k].T_table_sensor = T_table_world * bench.T_world_meant_sensor(k, travel);
     header.turntable = turntable_of(*header.sensors[0].T_table_sensor);
     header.turntable->radius_m = turntable.radius_m;
     header.turntable->speed_rad_s = turntable.speed_rad_s;
@@ -280,18 +161,12 @@ struct VirtualScan::Impl {
       // A scanner that travels has a pose of its own in each frame.
       if (options.scanners[k].placement.travel_m != 0.0 &&
           options.record.calibration != RecordedCalibration::kNone)
-        frame.T_table_sensor =
-            rotation_about_y(-state.angle_rad) * T_table_world * T_world_sensor(k, state.travel);
+        frame.T_table_sensor = rotation_about_y(-state.angle_rad) * T_table_world *
+                               bench.T_world_meant_sensor(k, state.travel);
       if (frame_dropped(options.motion, static_cast<std::uint64_t>(options.measure.seed),
                         instant_of(i), frame.sensor))
         frame.status = FrameStatus::kDropped;
     }
-  }
-
-  std::vector<Body> bodies_at(double angle_rad) const {
-    std::vector<Body> bodies{{&*scene, T_world_platter(angle_rad)}};
-    if (room) bodies.push_back({&*room, Pose::Identity()});
-    return bodies;
   }
 
   std::unique_ptr<Workspace> take_workspace() const {
@@ -310,10 +185,11 @@ struct VirtualScan::Impl {
   TrueSamples true_samples(std::size_t position) const {
     const std::size_t k = scanner_of(position);
     const PlatterState& state = state_of(position);
-    const Pose T = T_world_sensor(k, state.travel);
-    const std::vector<Body> bodies = bodies_at(state.angle_rad);
+    const Pose T = bench.T_world_sensor(k, state);
+    const std::vector<Body> bodies = bench.bodies_at(state);
     TrueSamples out;
     out.scanner = static_cast<std::uint32_t>(k);
+    out.bodies = bench.kinds();
     tracers[k].trace(bodies, T, out.exact);
     noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, out.exact,
                     instant_of(position), out.measured);
@@ -333,13 +209,13 @@ struct VirtualScan::Impl {
   Frame render(std::size_t position, Workspace& space) const {
     const std::size_t k = scanner_of(position);
     const PlatterState& state = state_of(position);
-    const Pose T = T_world_sensor(k, state.travel);
-    const std::vector<Body> bodies = bodies_at(state.angle_rad);
+    const Pose T = bench.T_world_sensor(k, state);
+    const std::vector<Body> bodies = bench.bodies_at(state);
     tracers[k].trace(bodies, T, space.exact);
     noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, space.exact,
                     instant_of(position), space.measured);
     tallies[k].add(space.exact, space.measured);
-    const sampling::Paint paint({turning, standing});
+    const sampling::Paint paint(bench.meshes());
     const bool color = options.record.color;
     Frame frame;
     frame.info = frames[position];
@@ -362,12 +238,13 @@ VirtualScan::~VirtualScan() = default;
 
 Result<VirtualScan> VirtualScan::create(std::vector<TriangleMesh> objects,
                                         const VirtualScanOptions& options) {
-  TURNSCAN_TRY(check_options(options));
+  TURNSCAN_TRY(check(options));
   TURNSCAN_ASSIGN(const NoiseOptions noise, noise_options(options.measure));
   TURNSCAN_ASSIGN(std::vector<PlatterState> states, platter_states(options.motion));
-  auto impl = std::make_unique<Impl>(options, noise, std::move(states));
-  impl->place(std::move(objects));
-  TURNSCAN_TRY(impl->build_scenes());
+  TURNSCAN_TRY(check_moments(options, states.back().time_s + 1.0 / options.motion.fps));
+  TURNSCAN_ASSIGN(VirtualBench bench,
+                  VirtualBench::create(std::move(objects), options, states.front()));
+  auto impl = std::make_unique<Impl>(options, noise, std::move(states), std::move(bench));
   TURNSCAN_TRY(impl->make_scanners());
   impl->make_header();
   impl->make_frames();
@@ -383,21 +260,19 @@ std::array<std::uint64_t, kMissCount> VirtualScan::tally(std::size_t scanner) co
   return counts;
 }
 
-std::span<const TriangleMesh> VirtualScan::objects() const {
-  return std::span(impl_->turning).first(impl_->object_count);
-}
-const Scene& VirtualScan::scene() const { return *impl_->scene; }
-const Scene* VirtualScan::room() const { return impl_->room ? &*impl_->room : nullptr; }
-double VirtualScan::aim_height_m() const { return impl_->aim_height_m; }
+std::span<const TriangleMesh> VirtualScan::objects() const { return impl_->bench.objects(); }
+const Scene& VirtualScan::scene() const { return impl_->bench.scene(); }
+const Scene* VirtualScan::room() const { return impl_->bench.room(); }
+double VirtualScan::aim_height_m() const { return impl_->bench.aim_height_m(); }
 const TurntableInfo& VirtualScan::turntable() const { return impl_->turntable; }
-Pose VirtualScan::T_table_given() const { return rotation_about_y(-impl_->yaw_rad); }
+Pose VirtualScan::T_table_given() const { return impl_->bench.T_table_given(); }
 
 Pose VirtualScan::T_table_sensor(std::size_t position) const {
   return impl_->T_table_sensor(position);
 }
 
 Pose VirtualScan::T_table_world(std::size_t position) const {
-  return impl_->T_world_platter(impl_->state_of(position).angle_rad).inverse();
+  return impl_->bench.T_world_objects(impl_->state_of(position)).inverse();
 }
 
 double VirtualScan::angle_rad(std::size_t position) const {

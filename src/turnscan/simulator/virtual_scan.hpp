@@ -6,89 +6,45 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <turnscan/core/frame.hpp>
-#include <turnscan/core/option_table.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
-#include <turnscan/simulator/scene/rig.hpp>
-#include <turnscan/simulator/scene/room.hpp>
 #include <turnscan/simulator/scene/scene.hpp>
-#include <turnscan/simulator/scene/turntable_motion.hpp>
+#include <turnscan/simulator/virtual_scan_options.hpp>
 #include <vector>
 
 namespace turnscan {
 
-struct VirtualScanner {
-  ScannerModel model;
-  ScannerPlacement placement;
-};
-
-struct PlatterOptions {
-  bool visible = true;
-  double radius_m = 0.15;
-  double thickness_m = 0.0;  ///< 0: a disc
-};
-
-OptionTable describe(PlatterOptions& options);
-
-struct MeasureOptions {
-  std::string noise = "gaussian:1.5mm";  ///< see parse_noise_options
-  double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
-  double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
-  int seed = 1;
-};
-
-OptionTable describe(MeasureOptions& options);
-
-enum class RecordedCalibration {
-  kTrue,     ///< where the turntable is
-  kNominal,  ///< where it was meant to be: without TablePlacement
-  kNone      ///< neither turntable nor poses
-};
-
-/// What the recording says beside the frames.
-struct RecordOptions {
-  RecordedCalibration calibration = RecordedCalibration::kTrue;
-  bool angles = true;
-  bool color = false;  ///< a colour image with each depth image, registered to it
-  int pass = 0;
-};
-
-OptionTable describe(RecordOptions& options);
-
-struct VirtualScanOptions {
-  std::vector<VirtualScanner> scanners;
-  MotionOptions motion;
-  PlatterOptions platter;
-  TablePlacement table;
-  RoomOptions room;
-  MeasureOptions measure;
-  RecordOptions record;
-  std::uint32_t first_instant = 0;  ///< of the random numbers; see VirtualPasses
+/// What a body of TrueSamples is, and the frame of the points on it.
+enum class BodyKind : std::uint8_t {
+  kObjects,      ///< and the platter, unless the objects move on it; the table's frame at angle 0
+  kRoom,         ///< the world's frame
+  kPlatterAlone  ///< the table's frame at angle 0
 };
 
 /// All about one frame that the recording does not say. Of the arrays of exact, hits has the same
-/// places; it says something where exact.hit(). A hit's p_body and normal_body are in the table's
-/// frame at angle 0 for body 0 (objects and platter), in the world's for body 1 (the room).
+/// places; it says something where exact.hit(). p_body and normal_body of a hit are in the frame
+/// of its body.
 struct TrueSamples {
   std::uint32_t scanner = 0;
-  SampleGrid exact;       ///< without noise
-  MeasuredGrid measured;  ///< what is recorded (before it is rounded), or why nothing is
+  std::vector<BodyKind> bodies;  ///< by exact.body()
+  SampleGrid exact;              ///< without noise
+  MeasuredGrid measured;         ///< what is recorded (before it is rounded), or why nothing is
   std::vector<SampleHit> hits;
 };
 
 /// All scanners take a frame at each instant; in the sequence the frames of one instant follow each
 /// other in the order of the scanners. The object and the platter turn, scanners and room stay
-/// (but for a scanner's travel): at the angle a of a frame
-///   p_world = T_world_table * wobble(a) * Ry(a) * p_table.
+/// (but for a scanner's travel and a knock): at the angle a of a frame
+///   p_world = T_world_table * wobble(a) * Ry(a) * p_table,
+/// wobble with the runout. Objects that move on the platter are taken back to where they stood at
+/// first: p_table of their points stays what it was.
 ///
 /// The table's frame is the one that the turntable's axis and centre give to scanner 0 at the first
-/// frame (thesis eq. 3.10), so that a calibration finds it again: scanner 0 is at x = 0 on the side
-/// of -Z. The objects stand as given while it is there with azimuth and aim 0 and the table in
-/// its place; else they are turned with it.
+/// frame (thesis eq. 3.10), so that a calibration finds it again: scanner 0, not yet knocked, is at
+/// x = 0 on the side of -Z. The objects stand as given while it is there with azimuth and aim 0 and
+/// the table in its place; else they are turned with it.
 ///
 /// Depth is along z in steps of the scanner's depth unit, rounded, 0 where no sample counts. Line
 /// scanners give points. Each value is a function of (seed, scanner, frame, sample) alone.
@@ -118,13 +74,15 @@ class VirtualScan : public FrameSequence {
   std::span<const TriangleMesh> objects() const;
   /// Objects, then the body of the platter if it has a thickness; table frame.
   const Scene& scene() const;
-  /// Takes the points of a frame to the table's frame at angle 0: everything included.
+  /// Takes the points of a frame, those on the objects, to the table's frame at angle 0: everything
+  /// included. The recording itself knows of no knock and no move.
   Pose T_table_sensor(std::size_t position) const;
   double angle_rad(std::size_t position) const;
-  /// In the frame of scanner 0 at the first frame.
+  /// In the frame of scanner 0 at the first frame, before it is knocked.
   const TurntableInfo& turntable() const;
   /// What does not turn, in the world's frame; nullptr without a room.
   const Scene* room() const;
+  /// The table's frame as T_table_sensor has it.
   Pose T_table_world(std::size_t position) const;
   /// Height of the point that scanners without one of their own look at; world.
   double aim_height_m() const;

@@ -123,5 +123,37 @@ TEST(RigOptions, RefuseValuesOutsideTheirRange) {
   EXPECT_FALSE(describe(t).check());
 }
 
+TEST(ScannerKnock, PushesAndTurnsAsTheScannerSeesIt) {
+  ScannerKnock knock;
+  EXPECT_FALSE(knock.happens());
+  EXPECT_TRUE(knock_pose(knock).isApprox(Pose::Identity(), 0.0));
+  knock.shift_m = 0.01;
+  expect_near(knock_pose(knock).translation(), {0.01, 0, 0});
+  knock.direction_rad = 90.0 * kRadiansPerDegree;  // up is -y
+  expect_near(knock_pose(knock).translation(), {0, -0.01, 0});
+  knock.pan_rad = 0.1;
+  expect_near(knock_pose(knock).linear().col(2), {std::sin(0.1), 0, std::cos(0.1)});
+  knock.pan_rad = 0.0;
+  knock.tilt_rad = 0.1;
+  expect_near(knock_pose(knock).linear().col(2), {0, -std::sin(0.1), std::cos(0.1)});
+}
+
+TEST(ScannerKnock, RefusesValuesOutsideTheirRange) {
+  const auto refused = [](double ScannerKnock::*field, double value, const std::string& name) {
+    ScannerPlacement p;
+    p.knock.*field = value;
+    const auto checked = describe(p).check();
+    ASSERT_FALSE(checked) << name;
+    EXPECT_EQ(checked.error().message.find(name + " = "), 0u) << checked.error().message;
+  };
+  for (const double bad : {-2.0, std::nan("")}) {
+    refused(&ScannerKnock::at_s, bad, "knock-at");
+    refused(&ScannerKnock::shift_m, bad, "knock");
+    refused(&ScannerKnock::direction_rad, 4.0 * bad, "knock-direction");
+    refused(&ScannerKnock::pan_rad, bad, "knock-pan");
+    refused(&ScannerKnock::tilt_rad, bad, "knock-tilt");
+  }
+}
+
 }  // namespace
 }  // namespace turnscan

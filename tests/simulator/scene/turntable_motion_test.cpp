@@ -129,6 +129,18 @@ TEST(TurntableMotion, LeansItsAxisByTheWobbleAndNoMore) {
   EXPECT_NEAR(std::hypot(mean.x(), mean.z()), 0.0, 1e-12);
 }
 
+TEST(TurntableMotion, RunsOutByTheRadiusAndNoMore) {
+  MotionOptions o;
+  EXPECT_EQ(axis_runout(o, 1.0), Vec3d::Zero());
+  o.runout_m = 0.002;
+  // A point of the platter itself: it goes round with it, counter-clockwise seen from above.
+  const double quarter = 90.0 * kRadiansPerDegree;
+  EXPECT_LT((axis_runout(o, 0.0) - Vec3d(0.002, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((axis_runout(o, quarter) - Vec3d(0, 0, -0.002)).norm(), 1e-12);
+  o.runout_cycles = 2.0;
+  EXPECT_LT((axis_runout(o, quarter) - Vec3d(-0.002, 0, 0)).norm(), 1e-12);
+}
+
 TEST(TurntableMotion, DropsTheShareOfFramesAskedForWithoutRhyme) {
   MotionOptions o;
   int lost = 0, both = 0;
@@ -160,6 +172,14 @@ TEST(TurntableMotion, RefusesWhatCannotBe) {
   o = {};
   o.wobble_rad = std::nan("");
   expect_refused(o, "wobble");
+  o = {};
+  o.runout_m = 0.2;
+  expect_refused(o, "runout = 200mm");
+  o.runout_m = std::nan("");
+  expect_refused(o, "runout");
+  o = {};
+  o.runout_cycles = -1.0;
+  expect_refused(o, "runout-cycles = -1");
   o = {};
   o.frames = 30;
   o.start_ramp_s = 0.6;

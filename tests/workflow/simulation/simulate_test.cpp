@@ -95,6 +95,24 @@ TEST(Simulate, TheObjectLiesAsEachPassSays) {
             bounds((*placed)[1].mesh.vertices).size().y());
 }
 
+TEST(Simulate, AScannerThatIsKnockedStaysSoInLaterPasses) {
+  SceneDescription scene = testing::cylinder_scene(4);
+  scene.motion.fps = 1.0;
+  scene.next_passes = {{{"yaw", "0deg"}}};
+  const auto still = prepare_simulation(scene, RunContext());
+  scene.placement.knock.at_s = 2.0;
+  scene.placement.knock.shift_m = 0.01;
+  const auto knocked = prepare_simulation(scene, RunContext());
+  ASSERT_TRUE(still && knocked);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto eye = [&](const Simulation& made) {
+      const auto [pass, there] = made.scan.place_of(i);
+      return Vec3d(made.scan.pass(pass).T_table_sensor(there).translation());
+    };
+    EXPECT_NEAR((eye(*still) - eye(*knocked)).norm(), i < 2 ? 0.0 : 0.01, 1e-12) << i;
+  }
+}
+
 TEST(Simulate, AnEmptyTableHasNoObject) {
   SceneDescription scene = testing::cylinder_scene(2);
   scene.object = "builtin:empty";

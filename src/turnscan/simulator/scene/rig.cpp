@@ -8,6 +8,23 @@ namespace {
 
 constexpr double kRightAngle = kTurn / 4;
 
+/// Of the scanner's table, which lists placement and knock.
+void add_knock(OptionTable& table, ScannerKnock& k) {
+  table
+      .number(
+          "knock-at", k.at_s, Quantity::kTime, {0.0, 1e5},
+          "When somebody runs into the scanner, if knock, knock-pan or knock-tilt is given. The "
+          "recorded calibration is from before.")
+      .number("knock", k.shift_m, Quantity::kLength, {0.0, 1.0},
+              "How far it is pushed then, across its view; it stays there.")
+      .number("knock-direction", k.direction_rad, Quantity::kAngle, {-kTurn, kTurn},
+              "To where it is pushed: 0deg to its own right, 90deg up.")
+      .number("knock-pan", k.pan_rad, Quantity::kAngle, {-kRightAngle, kRightAngle},
+              "By how much it turns to its right then.")
+      .number("knock-tilt", k.tilt_rad, Quantity::kAngle, {-kRightAngle, kRightAngle},
+              "By how much it turns up then.");
+}
+
 }  // namespace
 
 OptionTable describe(ScannerPlacement& p) {
@@ -35,6 +52,7 @@ OptionTable describe(ScannerPlacement& p) {
               "it is where the other options put it.")
       .choice("travel-along", p.travel_along, {"axis", "across"},
               "Where it travels: up along the turntable's axis, or across to its own right.");
+  add_knock(table, p.knock);
   return table;
 }
 
@@ -69,6 +87,16 @@ Pose scanner_pose(const ScannerPlacement& p, double aim_height_m, double travell
   T.linear() = look;
   if (p.roll_rad != 0.0)
     T.linear() = look * Eigen::AngleAxisd(p.roll_rad, Vec3d::UnitZ()).toRotationMatrix();
+  return T;
+}
+
+Pose knock_pose(const ScannerKnock& knock) {
+  Pose T = Pose::Identity();
+  T.translation() =
+      knock.shift_m * Vec3d(std::cos(knock.direction_rad), -std::sin(knock.direction_rad), 0.0);
+  T.linear() = (Eigen::AngleAxisd(knock.pan_rad, Vec3d::UnitY()) *
+                Eigen::AngleAxisd(knock.tilt_rad, Vec3d::UnitX()))
+                   .toRotationMatrix();
   return T;
 }
 

@@ -12,6 +12,17 @@ enum class TravelAlong {
   kAcross  ///< sideways, to the scanner's right while it is not rolled
 };
 
+/// Somebody runs into a scanner, and it stays as it is then.
+struct ScannerKnock {
+  double at_s = 0.0;           ///< since the first frame
+  double shift_m = 0.0;        ///< across its view
+  double direction_rad = 0.0;  ///< of the shift: 0 to its right, 90 deg up
+  double pan_rad = 0.0;        ///< to its right
+  double tilt_rad = 0.0;       ///< up
+
+  bool happens() const { return shift_m != 0.0 || pan_rad != 0.0 || tilt_rad != 0.0; }
+};
+
 struct ScannerPlacement {
   double distance_m = 0.9;                     ///< to the point that it looks at
   double elevation_rad = 0.29670597283903605;  ///< 17 deg above the horizontal
@@ -21,6 +32,7 @@ struct ScannerPlacement {
   double roll_rad = 0.0;                ///< about the viewing axis, clockwise seen from behind
   double travel_m = 0.0;                ///< from its first to its last frame
   TravelAlong travel_along = TravelAlong::kAxis;
+  ScannerKnock knock;
 };
 
 OptionTable describe(ScannerPlacement& placement);
@@ -38,6 +50,10 @@ OptionTable describe(TablePlacement& placement);
 /// aim_height_m stands for the placement's own where that has none.
 Pose scanner_pose(const ScannerPlacement& placement, double aim_height_m, double travelled,
                   const Vec3d& axis);
+
+/// Takes points from a knocked scanner to where it was before. It pans about its own y axis after
+/// it has tilted about its x axis.
+Pose knock_pose(const ScannerKnock& knock);
 
 /// T_world_table with the axis at rest, its X and Z as near to the world's as the tilt allows.
 Pose table_pose(const TablePlacement& placement);

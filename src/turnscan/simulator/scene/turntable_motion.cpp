@@ -49,14 +49,6 @@ Result<int> frame_count(const MotionOptions& o) {
   return std::max(1, static_cast<int>(frames));
 }
 
-/// Something that happens has to happen within the recording.
-Result<> check_moment(const char* name, bool happens, double moment_s, double end_s) {
-  if (!happens || moment_s < end_s) return {};
-  return fail(ErrorCode::kInvalidOption, "{} = {} is not within the recording, which takes {}",
-              name, format_quantity(moment_s, Quantity::kTime),
-              format_quantity(end_s, Quantity::kTime));
-}
-
 Result<double> full_speed(const MotionOptions& o, const SpeedProfile& profile) {
   if (profile.delay_s + profile.up_s + profile.down_s > profile.end_s * (1.0 + 1e-12))
     return fail(ErrorCode::kInvalidOption,
@@ -111,7 +103,13 @@ OptionTable describe(MotionOptions& o, const std::string& speed_name) {
       .number("wobble", o.wobble_rad, Quantity::kAngle, {0.0, 0.2},
               "By how much the axis leans to the side while it turns.")
       .number("wobble-cycles", o.wobble_cycles, Quantity::kNone, {0.0, 1000.0},
-              "How often it goes round its mean in one turn.")
+              "How often it goes round its mean in one turn; 1: the platter lies obliquely on a "
+              "true axis.")
+      .number("runout", o.runout_m, Quantity::kLength, {0.0, 0.1},
+              "By how much the platter's centre is off the axis while it turns.")
+      .number("runout-cycles", o.runout_cycles, Quantity::kNone, {0.0, 1000.0},
+              "How often the centre goes round the axis in one turn; 1: the platter lies off the "
+              "centre of a true axis.")
       .number("dropped", o.dropped, Quantity::kNone, {0.0, 1.0},
               "Share of the frames that are lost.");
   return table;
@@ -148,6 +146,18 @@ Eigen::Matrix3d axis_wobble(const MotionOptions& options, double angle_rad) {
   const double way = options.wobble_cycles * angle_rad;
   const Vec3d about(std::cos(way), 0.0, -std::sin(way));
   return Eigen::AngleAxisd(options.wobble_rad, about).toRotationMatrix();
+}
+
+Vec3d axis_runout(const MotionOptions& options, double angle_rad) {
+  const double way = options.runout_cycles * angle_rad;
+  return options.runout_m * Vec3d(std::cos(way), 0.0, -std::sin(way));
+}
+
+Result<> check_moment(const char* name, bool happens, double moment_s, double end_s) {
+  if (!happens || moment_s < end_s) return {};
+  return fail(ErrorCode::kInvalidOption, "{} = {} is not within the recording, which takes {}",
+              name, format_quantity(moment_s, Quantity::kTime),
+              format_quantity(end_s, Quantity::kTime));
 }
 
 bool frame_dropped(const MotionOptions& options, std::uint64_t seed, std::uint32_t frame,

@@ -30,6 +30,8 @@ struct MotionOptions {
   double ripple_cycles = 7.0;  ///< of the ripple in one turn
   double wobble_rad = 0.0;     ///< angle between the axis and its mean
   double wobble_cycles = 2.0;  ///< of the axis about its mean in one turn
+  double runout_m = 0.0;       ///< distance of the platter's centre from its mean
+  double runout_cycles = 1.0;  ///< of the centre about its mean in one turn
   double dropped = 0.0;        ///< share of the frames that are lost, chosen at random
 };
 
@@ -55,9 +57,16 @@ struct PlatterState {
 Result<std::vector<PlatterState>> platter_states(const MotionOptions& options);
 
 /// Where the axis of the platter points at this angle: the rotation that takes its mean (+Y) there.
-/// It goes round a cone wobble_cycles times a turn. (Once a turn would be a platter that lies
-/// obliquely on a true axis.)
+/// It goes round a cone wobble_cycles times a turn. Once a turn is a platter that lies obliquely on
+/// a true axis.
 Eigen::Matrix3d axis_wobble(const MotionOptions& options, double angle_rad);
+
+/// Where the platter's centre is at this angle, from its mean: on a circle that it goes round
+/// runout_cycles times a turn. Once a turn is a platter that lies off the centre of a true axis.
+Vec3d axis_runout(const MotionOptions& options, double angle_rad);
+
+/// Something that happens has to happen within the recording. Fails with kInvalidOption.
+Result<> check_moment(const char* name, bool happens, double moment_s, double end_s);
 
 /// Whether a frame of a scanner is lost: a function of its arguments alone.
 bool frame_dropped(const MotionOptions& options, std::uint64_t seed, std::uint32_t frame,

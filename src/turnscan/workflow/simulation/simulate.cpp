@@ -53,8 +53,10 @@ Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
     std::vector<TriangleMesh> meshes;
     if (!placed.empty()) meshes.push_back(placed[k].mesh);
     TURNSCAN_ASSIGN(VirtualScan scan, VirtualScan::create(std::move(meshes), options));
-    for (VirtualScanner& scanner : options.scanners)
+    for (VirtualScanner& scanner : options.scanners) {
       if (!scanner.placement.aim_height_m) scanner.placement.aim_height_m = scan.aim_height_m();
+      scanner.placement.knock.at_s = 0.0;  // it stays as it is
+    }
     ++options.record.pass;
     options.first_instant +=
         static_cast<std::uint32_t>(scan.frames().size() / options.scanners.size());

@@ -1,5 +1,6 @@
 #include <turnscan/workflow/simulation/true_samples.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <turnscan/core/parallel.hpp>
@@ -21,6 +22,7 @@ constexpr std::string_view kSamplesHeader =
     "comment x y z nx ny nz: table frame at angle 0 (body 0), or the room's (body 1)\n"
     "comment depth: along the optical axis; measured: the same with noise, 0 without a return\n"
     "comment object 4294967294: the platter\n"
+    "{}"
     "comment reason: {}\n"
     "element vertex {}\n"
     "property float x\nproperty float y\nproperty float z\n"
@@ -29,6 +31,18 @@ constexpr std::string_view kSamplesHeader =
     "property ushort column\nproperty ushort row\nproperty uchar scanner\nproperty uchar body\n"
     "property uint object\nproperty uint face\nproperty uchar reason\nend_header\n";
 
+constexpr std::string_view kPlatterComment =
+    "comment body 2: the platter by itself, table frame at angle 0; body 0 where it stood at "
+    "first\n";
+
+/// Of bodies that there are only in some scans.
+std::string_view more_bodies(const TrueSamples& samples) {
+  const auto& kinds = samples.bodies;
+  const bool platter =
+      std::find(kinds.begin(), kinds.end(), BodyKind::kPlatterAlone) != kinds.end();
+  return platter ? kPlatterComment : std::string_view();
+}
+
 Result<> write_frame(const fs::path& path, const TrueSamples& samples) {
   const SampleGrid& grid = samples.exact;
   std::size_t count = 0;
@@ -36,8 +50,8 @@ Result<> write_frame(const fs::path& path, const TrueSamples& samples) {
   return write_file_atomically(
       path,
       [&](FileSink& sink) -> Result<> {
-        TURNSCAN_TRY(sink.write(
-            std::string_view(fmt::format(kSamplesHeader, workflow::reason_list(), count))));
+        TURNSCAN_TRY(sink.write(std::string_view(
+            fmt::format(kSamplesHeader, more_bodies(samples), workflow::reason_list(), count))));
         for (int row = grid.rect.top; row < grid.rect.bottom; ++row) {
           for (int column = grid.rect.left; column < grid.rect.right; ++column) {
             const std::size_t i = grid.index(column, row);
@@ -48,8 +62,9 @@ Result<> write_frame(const fs::path& path, const TrueSamples& samples) {
                 workflow::PlyRow(
                     p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), grid.z[i], samples.measured.z[i],
                     float(hit.incidence_rad / kRadiansPerDegree), std::uint16_t(column),
-                    std::uint16_t(row), std::uint8_t(samples.scanner), std::uint8_t(grid.body(i)),
-                    grid.object(i), grid.triangle[i], std::uint8_t(samples.measured.miss[i]))
+                    std::uint16_t(row), std::uint8_t(samples.scanner),
+                    std::uint8_t(samples.bodies[grid.body(i)]), grid.object(i), grid.triangle[i],
+                    std::uint8_t(samples.measured.miss[i]))
                     .bytes()));
           }
         }

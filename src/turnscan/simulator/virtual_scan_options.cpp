@@ -1,0 +1,77 @@
+#include <turnscan/simulator/virtual_scan_options.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::size_t kMostScanners = 64;  // that a recording holds
+
+template <class Options>
+Result<> check_fields(const Options& options) {
+  Options copy = options;
+  return describe(copy).check();
+}
+
+}  // namespace
+
+OptionTable describe(PlatterOptions& o) {
+  OptionTable table;
+  table.flag("platter", o.visible, "Whether there is a platter to be seen.")
+      .number("platter-radius", o.radius_m, Quantity::kLength, {1e-3, 10.0},
+              "Radius of the platter.")
+      .number("platter-thickness", o.thickness_m, Quantity::kLength, {0.0, 1.0},
+              "Thickness of the platter; 0: a disc.");
+  return table;
+}
+
+OptionTable describe(MeasureOptions& o) {
+  OptionTable table;
+  table
+      .text("noise", o.noise,
+            "Depth noise: none, gaussian:SIGMA (e.g. gaussian:1.5mm), model (the formulae of the "
+            "scanner's file) or physics (the sensor's own measuring, where the file names it).")
+      .number("mixed-pixels", o.mixed_pixels, Quantity::kNone, {0.0, 1.0},
+              "With gaussian noise: share of the silhouette's pixels that return a depth between "
+              "edge and background. The other kinds mix what a pixel really sees.")
+      .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
+              "How far behind the edge such a pixel may lie.")
+      .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
+  return table;
+}
+
+OptionTable describe(RecordOptions& o) {
+  OptionTable table;
+  table
+      .choice("calibration", o.calibration, {"true", "nominal", "none"},
+              "What the recording says of the turntable: where it is; where it was meant to be "
+              "(without the table's offset and tilt); or nothing.")
+      .flag("angles", o.angles, "Whether the recording says how far the platter has turned.")
+      .flag("scan-colour", o.color, "Also record colours.")
+      .number("pass", o.pass, {0, 1000000}, "Number of the way in which the object lies.");
+  return table;
+}
+
+Result<> check(const VirtualScanOptions& o) {
+  if (o.scanners.empty() || o.scanners.size() > kMostScanners)
+    return fail(ErrorCode::kInvalidOption, "there are {} scanners; give 1 to {}", o.scanners.size(),
+                kMostScanners);
+  for (const VirtualScanner& scanner : o.scanners) {
+    TURNSCAN_TRY(scanner.model.check());
+    TURNSCAN_TRY(check_fields(scanner.placement));
+  }
+  TURNSCAN_TRY(check_fields(o.platter));
+  TURNSCAN_TRY(check_fields(o.table));
+  TURNSCAN_TRY(check_fields(o.room));
+  TURNSCAN_TRY(check_fields(o.object_move));
+  TURNSCAN_TRY(check_fields(o.measure));
+  return check_fields(o.record);
+}
+
+Result<> check_moments(const VirtualScanOptions& o, double end_s) {
+  for (const VirtualScanner& scanner : o.scanners)
+    TURNSCAN_TRY(check_moment("knock-at", scanner.placement.knock.happens(),
+                              scanner.placement.knock.at_s, end_s));
+  return check_moment("object-move-at", o.object_move.happens(), o.object_move.at_s, end_s);
+}
+
+}  // namespace turnscan
