@@ -177,6 +177,63 @@ TEST(KnockedScanner, LeavesTheRecordedCalibrationAsItWas) {
   }
 }
 
+/// From 1 s to 3 s: frames 2 to 5.
+VirtualScanOptions with_hand() {
+  VirtualScanOptions o = clean();
+  o.room.kind = RoomKind::kWall;
+  o.record.color = true;
+  o.hand.at_s = 1.0;
+  o.hand.duration_s = 2.0;
+  return o;
+}
+
+TEST(HandThatReachesIn, ChangesTheFramesOfItsTimeOnly) {
+  VirtualScanOptions o = with_hand();
+  const VirtualScan scan = box_scan(o);
+  o.hand = {};
+  const VirtualScan alone = box_scan(o);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Frame with = *scan.read(i), without = *alone.read(i);
+    const bool there = i >= 3 && i <= 5;  // at frame 2 it is beside the view
+    EXPECT_EQ(with.depth.pixels != without.depth.pixels, there) << i;
+    EXPECT_EQ(with.color.pixels != without.color.pixels, there) << i;
+  }
+}
+
+TEST(HandThatReachesIn, IsNearerThanWhatItHidesAndStaysWhileThePlatterTurns) {
+  const VirtualScan scan = box_scan(with_hand());
+  const TrueSamples truth = *scan.samples(4);
+  ASSERT_EQ(truth.bodies, (std::vector{BodyKind::kObjects, BodyKind::kRoom, BodyKind::kHand}));
+  std::size_t of_hand = 0, above = 0;
+  for (std::size_t k = 0; k < truth.exact.size(); ++k) {
+    if (!truth.exact.hit(k) || truth.exact.body(k) != 2) continue;
+    ++of_hand;
+    // In the world's frame: nothing of it is as low as the object's top.
+    EXPECT_GT(truth.hits[k].p_body.y(), kHigh.y());
+    above += std::hypot(truth.hits[k].p_body.x(), truth.hits[k].p_body.z()) < 0.1 ? 1 : 0;
+    EXPECT_NEAR(truth.hits[k].normal_body.norm(), 1.0, 1e-9);
+  }
+  EXPECT_GT(of_hand, 2000u);
+  EXPECT_GT(above, 500u);
+  EXPECT_TRUE(scan.T_table_sensor(4).isApprox(box_scan(clean()).T_table_sensor(4), 1e-12));
+}
+
+TEST(HandThatReachesIn, IsMeasuredWithEveryNoise) {
+  VirtualScanOptions o = with_hand();
+  o.object_move = {0.5, 0.01, 0.0, 0.0, 0.0};  // all bodies at once
+  for (const char* noise : {"gaussian:1mm", "model"}) {
+    o.measure.noise = noise;
+    const VirtualScan scan = box_scan(o);
+    const TrueSamples truth = *scan.samples(4);
+    ASSERT_EQ(truth.bodies.size(), 4u);
+    std::size_t measured = 0;
+    for (std::size_t k = 0; k < truth.exact.size(); ++k)
+      if (truth.exact.hit(k) && truth.exact.body(k) == 3)
+        measured += truth.measured.miss[k] == Miss::kNone ? 1 : 0;
+    EXPECT_GT(measured, 1000u) << noise;
+  }
+}
+
 /// World height of the point of the platter's rim that is at an azimuth.
 double rim_height(const VirtualScan& scan, std::size_t i, double azimuth, double radius) {
   const Pose T_world_table = scan.T_table_world(i).inverse();
@@ -261,6 +318,9 @@ TEST(EventOptions, RefuseWhatLiesBeyondTheRecording) {
   o = knocked();
   o.scanners[0].placement.knock.pan_rad = 3.0;
   refused(o, "knock-pan");
+  o = with_hand();
+  o.hand.at_s = 4.5;
+  refused(o, "hand-at = 4.5s is not within the recording");
   o = clean();
   o.motion.runout_m = -0.001;
   refused(o, "runout");

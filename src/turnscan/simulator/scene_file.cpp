@@ -208,7 +208,9 @@ std::vector<SceneTable> describe(SceneDescription& scene) {
   table.append(describe(scene.table));
   tables.push_back({"table", "Turntable", std::move(table)});
   tables.push_back({"room", "Room", describe(scene.room)});
-  tables.push_back({"events", "What happens meanwhile", describe(scene.object_move)});
+  OptionTable events = describe(scene.object_move);
+  events.append(describe(scene.hand));
+  tables.push_back({"events", "What happens meanwhile", std::move(events)});
   tables.push_back({"noise", "Noise", describe(scene.measure)});
   tables.push_back({"recording", "Recording", describe(scene.record)});
   return tables;
@@ -263,6 +265,7 @@ Result<VirtualScanOptions> scan_options(const SceneDescription& scene) {
   options.table = scene.table;
   options.room = scene.room;
   options.object_move = scene.object_move;
+  options.hand = scene.hand;
   options.measure = scene.measure;
   options.record = scene.record;
   return options;

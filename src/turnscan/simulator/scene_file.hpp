@@ -42,6 +42,7 @@ struct SceneDescription {
   TablePlacement table;
   RoomOptions room;
   ObjectMove object_move;
+  HandOptions hand;
   MeasureOptions measure;
   RecordOptions record;
 };

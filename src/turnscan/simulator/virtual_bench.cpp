@@ -6,6 +6,8 @@ namespace turnscan {
 
 namespace {
 
+constexpr double kAboveObject_m = 0.04;  // the hand
+
 /// Half the height that the objects reach above the platter.
 double middle_of(const std::vector<TriangleMesh>& objects) {
   double top = 0.0;
@@ -32,6 +34,7 @@ Result<VirtualBench> VirtualBench::create(std::vector<TriangleMesh> objects,
   bench.place(std::move(objects), first);
   TURNSCAN_TRY(bench.build_scenes());
   TURNSCAN_TRY(bench.build_room());
+  TURNSCAN_TRY(bench.build_hand());
   return bench;
 }
 
@@ -74,6 +77,15 @@ Result<> VirtualBench::build_room() {
   return {};
 }
 
+Result<> VirtualBench::build_hand() {
+  if (!options_.hand.happens()) return {};
+  if (!options_.hand.height_m && object_count_ > 0)
+    options_.hand.height_m = 2.0 * aim_height_m_ + kAboveObject_m;
+  hand_mesh_.push_back(make_hand());
+  TURNSCAN_ASSIGN(hand_, Scene::create(hand_mesh_));
+  return {};
+}
+
 Pose VirtualBench::T_world_meant_table() const {
   const Pose T = table_pose({});
   return T * rotation_about_y(canonical_yaw(T, T_world_meant_sensor(0, first_travel_)));
@@ -111,6 +123,9 @@ std::vector<Body> VirtualBench::bodies_at(const PlatterState& state) const {
   std::vector<Body> bodies{{objects_alone_ ? &*objects_alone_ : &*scene_, T_world_objects(state)}};
   if (room_) bodies.push_back({&*room_, Pose::Identity()});
   if (platter_alone_) bodies.push_back({&*platter_alone_, T_world_platter(state.angle_rad)});
+  if (hand_)
+    if (const auto T = hand_pose(options_.hand, T_world_table_.translation(), state.time_s))
+      bodies.push_back({&*hand_, *T});
   return bodies;
 }
 
@@ -118,6 +133,7 @@ std::vector<BodyKind> VirtualBench::kinds() const {
   std::vector<BodyKind> kinds{BodyKind::kObjects};
   if (room_) kinds.push_back(BodyKind::kRoom);
   if (platter_alone_) kinds.push_back(BodyKind::kPlatterAlone);
+  if (hand_) kinds.push_back(BodyKind::kHand);
   return kinds;
 }
 
@@ -126,6 +142,7 @@ std::vector<std::span<const TriangleMesh>> VirtualBench::meshes() const {
                                                                    : std::span(turning_)};
   if (room_) meshes.emplace_back(standing_);
   if (platter_alone_) meshes.push_back(std::span(turning_).subspan(object_count_));
+  if (hand_) meshes.emplace_back(hand_mesh_);
   return meshes;
 }
 

@@ -36,7 +36,8 @@ class VirtualBench {
   const Scene& scene() const { return *scene_; }
   const Scene* room() const { return room_ ? &*room_ : nullptr; }
 
-  /// What is seen at a moment; each body is always of the same kind and has the same meshes.
+  /// What is seen at a moment. kinds() and meshes() say what a body is by its position, which is
+  /// always the same; the hand, which comes last, is not always there.
   std::vector<Body> bodies_at(const PlatterState& state) const;
   std::vector<BodyKind> kinds() const;
   std::vector<std::span<const TriangleMesh>> meshes() const;
@@ -46,6 +47,7 @@ class VirtualBench {
   void place(std::vector<TriangleMesh> given, const PlatterState& first);
   Result<> build_scenes();
   Result<> build_room();
+  Result<> build_hand();
   bool objects_move() const { return options_.object_move.happens(); }
 
   VirtualScanOptions options_;
@@ -55,8 +57,10 @@ class VirtualBench {
   std::vector<TriangleMesh> turning_;      ///< objects, then the platter's body; table frame
   std::size_t object_count_ = 0;
   std::vector<TriangleMesh> standing_;  ///< the room; empty without; world
+  std::vector<TriangleMesh> hand_mesh_;
   std::optional<Scene> scene_, room_;
   std::optional<Scene> objects_alone_, platter_alone_;  ///< where the objects move
+  std::optional<Scene> hand_;
 };
 
 }  // namespace turnscan

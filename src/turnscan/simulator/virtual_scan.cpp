@@ -193,17 +193,26 @@ struct VirtualScan::Impl {
     tracers[k].trace(bodies, T, out.exact);
     noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, out.exact,
                     instant_of(position), out.measured);
+    take_hits(out, bodies, T);
+    return out;
+  }
+
+  void take_hits(TrueSamples& out, std::span<const Body> bodies, const Pose& T) const {
+    const SampleTracer& tracer = tracers[out.scanner];
     out.hits.resize(out.exact.size());
     const PixelRect& rect = out.exact.rect;
     for (int row = rect.top; row < rect.bottom; ++row) {
       for (int column = rect.left; column < rect.right; ++column) {
         const std::size_t i = out.exact.index(column, row);
-        if (out.exact.hit(i))
-          out.hits[i] =
-              tracers[k].hit_of(bodies, T, out.exact, i, tracers[k].direction(column, row));
+        if (!out.exact.hit(i)) continue;
+        SampleHit& hit = out.hits[i];
+        hit = tracer.hit_of(bodies, T, out.exact, i, tracer.direction(column, row));
+        const std::size_t body = out.exact.body(i);
+        if (out.bodies[body] != BodyKind::kHand) continue;
+        hit.p_body = bodies[body].T_world_body * hit.p_body;
+        hit.normal_body = bodies[body].T_world_body.linear() * hit.normal_body;
       }
     }
-    return out;
   }
 
   Frame render(std::size_t position, Workspace& space) const {

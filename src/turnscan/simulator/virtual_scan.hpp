@@ -18,9 +18,10 @@ namespace turnscan {
 
 /// What a body of TrueSamples is, and the frame of the points on it.
 enum class BodyKind : std::uint8_t {
-  kObjects,      ///< and the platter, unless the objects move on it; the table's frame at angle 0
-  kRoom,         ///< the world's frame
-  kPlatterAlone  ///< the table's frame at angle 0
+  kObjects,       ///< and the platter, unless the objects move on it; the table's frame at angle 0
+  kRoom,          ///< the world's frame
+  kPlatterAlone,  ///< the table's frame at angle 0
+  kHand           ///< the world's frame
 };
 
 /// All about one frame that the recording does not say. Of the arrays of exact, hits has the same

@@ -63,6 +63,7 @@ Result<> check(const VirtualScanOptions& o) {
   TURNSCAN_TRY(check_fields(o.table));
   TURNSCAN_TRY(check_fields(o.room));
   TURNSCAN_TRY(check_fields(o.object_move));
+  TURNSCAN_TRY(check_fields(o.hand));
   TURNSCAN_TRY(check_fields(o.measure));
   return check_fields(o.record);
 }
@@ -71,6 +72,7 @@ Result<> check_moments(const VirtualScanOptions& o, double end_s) {
   for (const VirtualScanner& scanner : o.scanners)
     TURNSCAN_TRY(check_moment("knock-at", scanner.placement.knock.happens(),
                               scanner.placement.knock.at_s, end_s));
+  TURNSCAN_TRY(check_moment("hand-at", o.hand.happens(), o.hand.at_s, end_s));
   return check_moment("object-move-at", o.object_move.happens(), o.object_move.at_s, end_s);
 }
 

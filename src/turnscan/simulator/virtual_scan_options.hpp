@@ -5,6 +5,7 @@
 #include <string>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/simulator/scene/hand.hpp>
 #include <turnscan/simulator/scene/object_move.hpp>
 #include <turnscan/simulator/scene/rig.hpp>
 #include <turnscan/simulator/scene/room.hpp>
@@ -58,6 +59,7 @@ struct VirtualScanOptions {
   TablePlacement table;
   RoomOptions room;
   ObjectMove object_move;
+  HandOptions hand;
   MeasureOptions measure;
   RecordOptions record;
   std::uint32_t first_instant = 0;  ///< of the random numbers; see VirtualPasses

@@ -35,12 +35,17 @@ constexpr std::string_view kPlatterComment =
     "comment body 2: the platter by itself, table frame at angle 0; body 0 where it stood at "
     "first\n";
 
+constexpr std::string_view kHandComment = "comment body 3: the hand, the room's frame\n";
+
 /// Of bodies that there are only in some scans.
-std::string_view more_bodies(const TrueSamples& samples) {
-  const auto& kinds = samples.bodies;
-  const bool platter =
-      std::find(kinds.begin(), kinds.end(), BodyKind::kPlatterAlone) != kinds.end();
-  return platter ? kPlatterComment : std::string_view();
+std::string more_bodies(const TrueSamples& samples) {
+  const auto has = [&](BodyKind kind) {
+    return std::find(samples.bodies.begin(), samples.bodies.end(), kind) != samples.bodies.end();
+  };
+  std::string text;
+  if (has(BodyKind::kPlatterAlone)) text += kPlatterComment;
+  if (has(BodyKind::kHand)) text += kHandComment;
+  return text;
 }
 
 Result<> write_frame(const fs::path& path, const TrueSamples& samples) {
