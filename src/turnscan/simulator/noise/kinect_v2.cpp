@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <turnscan/simulator/noise/kinect_v2.hpp>
+#include <turnscan/simulator/noise/noise.hpp>
 
 namespace turnscan::kinect_v2 {
 
@@ -58,6 +59,38 @@ void decode_row(const Layout& layout, std::size_t row, const Rays& rays, noise::
                gate, out.z.data() + row, out.verdict.data() + row);
 }
 
+constexpr double kFilter = 1.0 / 3.0;  // nine nearly equal weights
+
+double amplitude_of(const NoiseModel& m, double range_m, double incidence_rad, double albedo) {
+  return m.tof_amplitude * albedo * std::max(std::cos(incidence_rad), 0.0) / (range_m * range_m);
+}
+
+double correlation_sigma_m(const NoiseModel& m, double amplitude) {
+  double phases = 0.0;
+  for (const double gain : {1.322581, 1.0, 1.612903}) {
+    const double relative = m.tof_relative_noise * amplitude / gain;
+    const double variance =
+        m.tof_read_noise * m.tof_read_noise + m.tof_shot_noise * amplitude + relative * relative;
+    phases += 2.0 / 3.0 * variance * gain * gain / (amplitude * amplitude);
+  }
+  constexpr double kMetresPerTurn = 299792458.0 / (2.0 * 216e6);  // of each phase
+  return kFilter * kMetresPerTurn / (2.0 * std::numbers::pi) * std::sqrt(phases);
+}
+
+/// The filter averages less what lies farther apart: by the square root of two at this sigma
+/// (measured).
+constexpr double kApart_m = 0.086;
+
+/// What a white surface has beyond the noise of its correlations.
+double grazing_after_filter_m(const NoiseModel& m, double z_m, double incidence_rad) {
+  const double more = axial_sigma_m(m, z_m, incidence_rad) - axial_sigma_m(m, z_m, 0.0);
+  if (!(more > 0.0)) return 0.0;
+  const double frontal = correlation_sigma_m(m, amplitude_of(m, z_m, 0.0, kDefaultAlbedo));
+  const double here = correlation_sigma_m(m, amplitude_of(m, z_m, incidence_rad, kDefaultAlbedo));
+  const double wanted = frontal + more;
+  return std::sqrt(std::max(wanted * wanted - here * here, 0.0));
+}
+
 }  // namespace
 
 void Light::reset(const Layout& to) {
@@ -98,21 +131,20 @@ void decode(const Raw& raw, const Rays& rays, noise::Gate gate, Workspace& work,
   }
 }
 
+double grazing_sigma_m(const NoiseModel& m, double z_m, double incidence_rad) {
+  const double after = grazing_after_filter_m(m, z_m, incidence_rad) / kFilter;
+  if (after == 0.0) return 0.0;
+  // after = before * sqrt(1 + (before / kApart_m)^2), solved for before.
+  const double share = 2.0 * after / kApart_m;
+  return kApart_m * std::sqrt(0.5 * (std::sqrt(1.0 + share * share) - 1.0));
+}
+
 double sigma_m(const NoiseModel& m, double range_m, double incidence_rad, double albedo) {
-  const double amplitude =
-      m.tof_amplitude * albedo * std::max(std::cos(incidence_rad), 0.0) / (range_m * range_m);
+  const double amplitude = amplitude_of(m, range_m, incidence_rad, albedo);
   constexpr double kLeast = 10.0 / 3.0;  // in each frequency, for the driver's sum of 10
   if (!(amplitude >= kLeast)) return std::numeric_limits<double>::quiet_NaN();
-  double phases = 0.0;
-  for (const double gain : {1.322581, 1.0, 1.612903}) {
-    const double relative = m.tof_relative_noise * amplitude / gain;
-    const double variance =
-        m.tof_read_noise * m.tof_read_noise + m.tof_shot_noise * amplitude + relative * relative;
-    phases += 2.0 / 3.0 * variance * gain * gain / (amplitude * amplitude);
-  }
-  constexpr double kMetresPerTurn = 299792458.0 / (2.0 * 216e6);  // of each phase
-  constexpr double kFilter = 1.0 / 3.0;                           // nine nearly equal weights
-  return kFilter * kMetresPerTurn / (2.0 * std::numbers::pi) * std::sqrt(phases);
+  return std::hypot(correlation_sigma_m(m, amplitude),
+                    grazing_after_filter_m(m, range_m, incidence_rad));
 }
 
 }  // namespace turnscan::kinect_v2

@@ -73,9 +73,13 @@ void expose(Light& light, const NoiseModel& model, noise::Key key, std::uint32_t
 void decode(const Raw& raw, const Rays& rays, noise::Gate gate, Workspace& work, Decoded& out,
             const noise::NoiseKernel& kernel = noise::NoiseKernels::current());
 
-/// One sigma of the depth of a flat patch, from the noise of the correlations: the phases' errors
-/// sqrt(2/3) sigma / amplitude, averaged over the frequencies and over the filter's 3 x 3 pixels.
-/// NaN where there is too little light for the driver.
+/// One sigma of the point that a pixel measures, along z and before the driver's filter: what a
+/// white surface has at a grazing incidence by axial-grazing beyond the noise of its correlations.
+double grazing_sigma_m(const NoiseModel& model, double z_m, double incidence_rad);
+
+/// One sigma of the depth of a flat patch, from the noise of the correlations (the phases' errors
+/// sqrt(2/3) sigma / amplitude, averaged over the frequencies and over the filter's 3 x 3 pixels)
+/// and of the points at grazing incidence. NaN where there is too little light for the driver.
 double sigma_m(const NoiseModel& model, double range_m, double incidence_rad, double albedo);
 
 }  // namespace turnscan::kinect_v2

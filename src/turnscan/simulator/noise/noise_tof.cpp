@@ -6,7 +6,7 @@ namespace turnscan::noise {
 
 namespace {
 
-constexpr std::uint64_t kCorrelations = 1;
+constexpr std::uint64_t kCorrelations = 1, kGrazing = 2;
 constexpr double kFarthest_m = 1e4;  // no light comes back from there
 
 /// Light comes back from what is out of range, too.
@@ -37,7 +37,8 @@ class TimeOfFlight {
       : job_(job),
         surfaces_(job.view),
         layout_{job.exact.rect.width(), job.exact.rect.height()},
-        lit_(job.exact.size()) {
+        lit_(job.exact.size()),
+        grazing_seed_(job.seed_of(kGrazing)) {
     for (std::size_t i = 0; i < lit_.size(); ++i) lit_[i] = lit(job.exact, i) ? 1 : 0;
   }
 
@@ -63,14 +64,25 @@ class TimeOfFlight {
     float half_path, amplitude;
   };
 
-  Return returned(const Samples& samples, std::size_t i, double x, double y) const {
+  /// pixel: the one that measures it, for its random number.
+  Return returned(const Samples& samples, std::size_t i, double x, double y,
+                  std::size_t pixel) const {
+    const NoiseModel& model = job_.setup.model.noise;
     const Vec3d p = double(samples.z[i]) * Vec3d(x, y, 1.0);
     const double range = p.norm();
     if (range > kFarthest_m) return {0.0f, 0.0f};
     const double back = (p - job_.setup.model.emitter_m).norm();
-    const double amplitude = job_.setup.model.noise.tof_amplitude * surfaces_.albedo(samples, i) *
-                             surfaces_.facing(samples, i, x, y) / (range * range);
-    return {float(0.5 * (range + back)), float(amplitude)};
+    const double facing = surfaces_.facing(samples, i, x, y);
+    const double amplitude =
+        model.tof_amplitude * surfaces_.albedo(samples, i) * facing / (range * range);
+    double half_path = 0.5 * (range + back);
+    if (model.axial_grazing > 0.0) {
+      const double z = samples.z[i];
+      const double sigma = kinect_v2::grazing_sigma_m(model, z, std::acos(facing));
+      if (sigma > 0.0)
+        half_path += sigma * range / z * standard_normal(hash_key(grazing_seed_, pixel));
+    }
+    return {float(std::max(half_path, 0.0)), float(amplitude)};
   }
 
   /// Pixels that see a plane have one phasor, those at steps the sum of many.
@@ -89,7 +101,7 @@ class TimeOfFlight {
         if (mixed[i] != 0 || lit_[i] == 0) continue;
         const std::size_t pixel = job_.setup.pixel(u, v);
         const Return back =
-            returned(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel]);
+            returned(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel], pixel);
         half[k] = back.half_path;
         amplitude[k] = back.amplitude;
       }
@@ -101,6 +113,12 @@ class TimeOfFlight {
     if (!rays_.index.empty()) illuminate_mixed();
   }
 
+  /// In the image, of a place in the grid.
+  std::size_t pixel_at(std::size_t i) const {
+    const auto w = static_cast<std::size_t>(layout_.width);
+    return job_.setup.pixel(job_.exact.rect.left + int(i % w), job_.exact.rect.top + int(i / w));
+  }
+
   void illuminate_mixed() {
     job_.view.tracer.trace(job_.view.bodies, job_.view.T_world_sensor, rays_.x, rays_.y,
                            rays_.samples);
@@ -108,7 +126,8 @@ class TimeOfFlight {
     std::vector<float> half(n, 0.0f), amplitude(n, 0.0f);
     for (std::size_t k = 0; k < n; ++k) {
       if (!lit(rays_.samples, k)) continue;
-      const Return back = returned(rays_.samples, k, rays_.x[k], rays_.y[k]);
+      const Return back =
+          returned(rays_.samples, k, rays_.x[k], rays_.y[k], pixel_at(rays_.index[k / rays_.each]));
       half[k] = back.half_path;
       amplitude[k] = back.amplitude / float(rays_.each);
     }
@@ -170,6 +189,7 @@ class TimeOfFlight {
   Surfaces surfaces_;
   kinect_v2::Layout layout_;
   Mask lit_;
+  std::uint64_t grazing_seed_;
   kinect_v2::Light light_;
   SubSamples rays_;
 };
