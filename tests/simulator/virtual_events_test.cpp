@@ -299,6 +299,57 @@ TEST(PlatterThatRunsOut, OnceATurnLiesOffTheCentreOfATrueAxis) {
   expect_objects_on_truth(scan);
 }
 
+TEST(ExposureOfAScan, IsTheMeanOfTheMomentsInIt) {
+  VirtualScanOptions o = clean();
+  o.platter.visible = false;
+  o.motion.frames = 40;
+  o.motion.fps = 10.0;
+  o.record.color = true;
+  o.measure.exposure_s = 0.1;
+  const VirtualScan blurred = box_scan(o);
+  // Nine instants of each tenth of a second, the fifth in the middle.
+  o.measure.exposure_s = 0.0;
+  o.motion.fps = 90.0;
+  o.motion.frames = 360;
+  const VirtualScan instants = box_scan(o);
+  const Frame frame = *blurred.read(20);
+  std::vector<Frame> moments;
+  for (std::size_t j = 0; j < 9; ++j) moments.push_back(*instants.read(9 * 20 - 4 + j));
+  EXPECT_NEAR(blurred.angle_rad(20), instants.angle_rad(180), 1e-12);
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < frame.depth.pixels.size(); ++i) {
+    double sum = 0.0, red = 0.0;
+    int low = 1 << 20, high = 0;
+    for (const Frame& moment : moments) {
+      sum += moment.depth.pixels[i] / 9.0;
+      red += moment.color.pixels[i].r / 9.0;
+      low = std::min(low, int(moment.depth.pixels[i]));
+      high = std::max(high, int(moment.depth.pixels[i]));
+    }
+    ASSERT_NEAR(frame.color.pixels[i].r, red, 0.51 + 1e-9);
+    if (low == 0 || high - low > 40) continue;
+    ASSERT_NEAR(frame.depth.pixels[i], sum, 1.1) << i;
+    ++whole;
+  }
+  EXPECT_GT(whole, 300u);
+}
+
+TEST(ExposureOfAScan, IsNoLongerThanFromFrameToFrame) {
+  VirtualScanOptions o = clean();
+  o.measure.exposure_s = 0.51;
+  const auto scan = VirtualScan::create({}, o);
+  ASSERT_FALSE(scan);
+  EXPECT_NE(scan.error().message.find("exposure = 0.51s is longer than from frame to frame"),
+            std::string::npos)
+      << scan.error().message;
+  for (const double bad : {-0.1, std::nan("")}) {
+    o.measure.exposure_s = bad;
+    const auto refused = VirtualScan::create({}, o);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("exposure = "), std::string::npos);
+  }
+}
+
 TEST(EventOptions, RefuseWhatLiesBeyondTheRecording) {
   const auto refused = [](const VirtualScanOptions& o, const std::string& says) {
     const auto scan = VirtualScan::create({}, o);

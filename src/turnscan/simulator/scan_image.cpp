@@ -81,6 +81,21 @@ ColorImage color_image(const SampleTracer& tracer, std::span<const Body> bodies,
   return image;
 }
 
+ColorImage mean_image(std::span<const ColorImage> images) {
+  ColorImage mean = images[0];
+  const auto n = static_cast<unsigned>(images.size());
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    unsigned r = n / 2, g = n / 2, b = n / 2;
+    for (const ColorImage& image : images) {
+      r += image.pixels[i].r;
+      g += image.pixels[i].g;
+      b += image.pixels[i].b;
+    }
+    mean.pixels[i] = {std::uint8_t(r / n), std::uint8_t(g / n), std::uint8_t(b / n)};
+  }
+  return mean;
+}
+
 PointCloud scan_points(const SampleTracer& tracer, std::span<const Body> bodies,
                        const Pose& T_world_sensor, const SampleGrid& grid, std::span<const float> z,
                        const Paint* paint) {

@@ -30,6 +30,9 @@ Albedo albedo_of(const std::vector<std::span<const TriangleMesh>>& meshes);
 ColorImage color_image(const SampleTracer& tracer, std::span<const Body> bodies,
                        const Pose& T_world_sensor, const SampleGrid& grid, const Paint& paint);
 
+/// Of images of one size, rounded. Precondition: there is one.
+ColorImage mean_image(std::span<const ColorImage> images);
+
 /// The samples with a return, in the order of the grid; with colours if paint is given.
 PointCloud scan_points(const SampleTracer& tracer, std::span<const Body> bodies,
                        const Pose& T_world_sensor, const SampleGrid& grid, std::span<const float> z,

@@ -182,6 +182,33 @@ struct VirtualScan::Impl {
     spare.push_back(std::move(space));
   }
 
+  /// None without an exposure.
+  std::vector<SensorMoment> moments_of(std::size_t position) const {
+    const double exposure_s = options.measure.exposure_s;
+    std::vector<SensorMoment> moments(exposure_s > 0.0 ? kExposureMoments : 0);
+    const std::size_t k = scanner_of(position);
+    for (std::size_t j = 0; j < moments.size(); ++j) {
+      const double share = (double(j) + 0.5) / double(moments.size()) - 0.5;
+      const PlatterState state =
+          platter_state_at(options.motion, state_of(position).time_s + share * exposure_s);
+      moments[j].bodies = bench.bodies_at(state);
+      moments[j].T_world_sensor = bench.T_world_sensor(k, state);
+      tracers[k].trace(moments[j].bodies, moments[j].T_world_sensor, moments[j].exact);
+    }
+    return moments;
+  }
+
+  ColorImage color_image(const SensorView& view, const SampleGrid& exact,
+                         const sampling::Paint& paint) const {
+    if (view.moments.empty())
+      return sampling::color_image(view.tracer, view.bodies, view.T_world_sensor, exact, paint);
+    std::vector<ColorImage> images;
+    for (const SensorMoment& moment : view.moments)
+      images.push_back(sampling::color_image(view.tracer, moment.bodies, moment.T_world_sensor,
+                                             moment.exact, paint));
+    return sampling::mean_image(images);
+  }
+
   TrueSamples true_samples(std::size_t position) const {
     const std::size_t k = scanner_of(position);
     const PlatterState& state = state_of(position);
@@ -191,7 +218,8 @@ struct VirtualScan::Impl {
     out.scanner = static_cast<std::uint32_t>(k);
     out.bodies = bench.kinds();
     tracers[k].trace(bodies, T, out.exact);
-    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, out.exact,
+    const std::vector<SensorMoment> moments = moments_of(position);
+    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr, moments}, out.exact,
                     instant_of(position), out.measured);
     take_hits(out, bodies, T);
     return out;
@@ -221,8 +249,9 @@ struct VirtualScan::Impl {
     const Pose T = bench.T_world_sensor(k, state);
     const std::vector<Body> bodies = bench.bodies_at(state);
     tracers[k].trace(bodies, T, space.exact);
-    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr}, space.exact,
-                    instant_of(position), space.measured);
+    const std::vector<SensorMoment> moments = moments_of(position);
+    const SensorView view{tracers[k], bodies, T, albedo ? &albedo : nullptr, moments};
+    noises[k].apply(view, space.exact, instant_of(position), space.measured);
     tallies[k].add(space.exact, space.measured);
     const sampling::Paint paint(bench.meshes());
     const bool color = options.record.color;
@@ -235,7 +264,7 @@ struct VirtualScan::Impl {
     }
     frame.depth = sampling::depth_image(space.exact, space.measured.z,
                                         options.scanners[k].model.depth_unit_m);
-    if (color) frame.color = sampling::color_image(tracers[k], bodies, T, space.exact, paint);
+    if (color) frame.color = color_image(view, space.exact, paint);
     return frame;
   }
 };

@@ -35,6 +35,9 @@ OptionTable describe(MeasureOptions& o) {
               "edge and background. The other kinds mix what a pixel really sees.")
       .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
               "How far behind the edge such a pixel may lie.")
+      .number("exposure", o.exposure_s, Quantity::kTime, {0.0, 10.0},
+              "How long a frame takes, half of it before its time: what moves is blurred. A Kinect "
+              "v2 with physics takes its nine images one after the other. 0s: an instant.")
       .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
   return table;
 }
@@ -73,6 +76,12 @@ Result<> check_moments(const VirtualScanOptions& o, double end_s) {
     TURNSCAN_TRY(check_moment("knock-at", scanner.placement.knock.happens(),
                               scanner.placement.knock.at_s, end_s));
   TURNSCAN_TRY(check_moment("hand-at", o.hand.happens(), o.hand.at_s, end_s));
+  const double interval_s = 1.0 / o.motion.fps;
+  if (o.measure.exposure_s > interval_s * (1.0 + 1e-12))
+    return fail(ErrorCode::kInvalidOption,
+                "exposure = {} is longer than from frame to frame, which is {}",
+                format_quantity(o.measure.exposure_s, Quantity::kTime),
+                format_quantity(interval_s, Quantity::kTime));
   return check_moment("object-move-at", o.object_move.happens(), o.object_move.at_s, end_s);
 }
 

@@ -31,6 +31,7 @@ struct MeasureOptions {
   std::string noise = "gaussian:1.5mm";  ///< see parse_noise_options
   double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
   double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
+  double exposure_s = 0.0;               ///< of a frame, about its time; 0: an instant
   int seed = 1;
 };
 
@@ -69,7 +70,8 @@ struct VirtualScanOptions {
 /// scanners. Those of the motion and of the noise are left to those who use them.
 Result<> check(const VirtualScanOptions& options);
 
-/// The same when something is to happen only after the end of the recording.
+/// The same when something is to happen only after the end of the recording, or the exposure is
+/// longer than from frame to frame.
 Result<> check_moments(const VirtualScanOptions& options, double end_s);
 
 }  // namespace turnscan

@@ -210,6 +210,25 @@ TEST(TurntableMotion, RefusesWhatCannotBe) {
   expect_refused(o, "give a number of frames");
 }
 
+TEST(TurntableMotion, SaysWhereThePlatterIsBetweenTheFramesToo) {
+  MotionOptions o;
+  o.frames = 90;
+  o.ripple = 0.1;
+  o.slip_at_s = 1.0;
+  o.slip_rad = 0.2;
+  const auto s = states_of(o);
+  for (std::size_t i = 0; i < 90; ++i) {
+    EXPECT_EQ(platter_state_at(o, s[i].time_s).angle_rad, s[i].angle_rad);
+    EXPECT_NEAR(platter_state_at(o, s[i].time_s).travel, s[i].travel, 1e-12);
+  }
+  // Halfway, and before the first frame as fast as after it.
+  const double half = platter_state_at(o, 0.5 / 30.0).angle_rad;
+  EXPECT_NEAR(half, 0.5 * s[1].angle_rad, 2e-4);
+  EXPECT_NEAR(platter_state_at(o, -0.5 / 30.0).angle_rad, -half, 1e-12);
+  o.start_ramp_s = 0.5;
+  EXPECT_EQ(platter_state_at(o, -0.5 / 30.0).angle_rad, 0.0);
+}
+
 TEST(TurntableMotion, MayStandStill) {
   MotionOptions o;
   o.frames = 5;

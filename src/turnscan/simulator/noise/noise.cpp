@@ -138,6 +138,9 @@ void SensorNoise::apply(const SensorView& view, const SampleGrid& exact, std::ui
         noise::apply_laser_line(job);
       break;
   }
+  const bool phases = setup.options.kind == NoiseKind::kPhysics &&
+                      setup.model.noise.physics == SensorPhysics::kKinectV2;
+  if (!view.moments.empty() && !phases) noise::blur(job);
   if (with_sigma) noise::predict(job);
 }
 

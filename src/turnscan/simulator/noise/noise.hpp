@@ -49,12 +49,24 @@ inline constexpr double kDefaultAlbedo = 0.8;  ///< of what has no colour
 /// them); empty when the mesh has none.
 std::vector<float> triangle_albedos(const TriangleMesh& mesh);
 
+/// What a scanner sees at one moment of an exposure.
+struct SensorMoment {
+  std::vector<Body> bodies;
+  Pose T_world_sensor = Pose::Identity();
+  SampleGrid exact;  ///< as of SampleTracer::trace
+};
+/// Moments of an exposure, evenly spread. As many as a Kinect v2 takes images for one frame.
+inline constexpr std::size_t kExposureMoments = 9;
+
 /// From where a frame was taken, of what. All must outlive the call it is passed to.
 struct SensorView {
   const SampleTracer& tracer;
   std::span<const Body> bodies;
   const Pose& T_world_sensor;
   const Albedo* albedo = nullptr;  ///< nullptr: kDefaultAlbedo everywhere
+  /// None: an instant. Else kExposureMoments; bodies, pose and exact samples are those of the one
+  /// in the middle.
+  std::span<const SensorMoment> moments = {};
 };
 
 /// What a scanner measured of one view: arrays over the rectangle of the exact samples, row by row.

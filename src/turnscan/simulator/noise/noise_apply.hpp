@@ -85,6 +85,8 @@ void match_windows(Job& job);
 /// Kinect v2.
 void apply_time_of_flight(Job& job);
 void apply_laser_line(Job& job);
+/// Blurs what was measured in the middle of an exposure over its moments.
+void blur(Job& job);
 /// Fills out.sigma_m.
 void predict(Job& job);
 /// One sigma along z; NaN where none is to be expected.

@@ -68,6 +68,35 @@ Result<double> full_speed(const MotionOptions& o, const SpeedProfile& profile) {
   return o.turns * kTurn / turned;
 }
 
+/// Where the platter is at a time.
+struct Course {
+  int count;  ///< of frames
+  SpeedProfile profile;
+  double speed;
+
+  double angle_rad(const MotionOptions& o, double time_s) const {
+    // Without delay and ramp it has turned before the first frame, too.
+    const bool runs = o.start_delay_s == 0.0 && o.start_ramp_s == 0.0;
+    const double turned = time_s < 0.0 && runs ? time_s : profile.turned(time_s);
+    const double theta = speed * turned;
+    // The integral of the ripple over theta.
+    const double angle = theta + o.ripple / o.ripple_cycles * std::sin(o.ripple_cycles * theta);
+    return o.slip_rad != 0.0 && time_s >= o.slip_at_s ? angle + o.slip_rad : angle;
+  }
+};
+
+Result<Course> course_of(const MotionOptions& o) {
+  TURNSCAN_ASSIGN(const int count, frame_count(o));
+  const SpeedProfile profile{o.start_delay_s,
+                             o.start_ramp_s,
+                             o.stop_ramp_s,
+                             count / o.fps - o.halt_s,
+                             o.halt_s > 0.0 ? o.halt_at_s : kNever,
+                             o.halt_s};
+  TURNSCAN_ASSIGN(const double speed, full_speed(o, profile));
+  return Course{count, profile, speed};
+}
+
 }  // namespace
 
 OptionTable describe(MotionOptions& o, const std::string& speed_name) {
@@ -118,27 +147,24 @@ OptionTable describe(MotionOptions& o, const std::string& speed_name) {
 Result<std::vector<PlatterState>> platter_states(const MotionOptions& options) {
   MotionOptions copy = options;
   TURNSCAN_TRY(describe(copy).check());
-  TURNSCAN_ASSIGN(const int count, frame_count(options));
-  const SpeedProfile profile{options.start_delay_s,
-                             options.start_ramp_s,
-                             options.stop_ramp_s,
-                             count / options.fps - options.halt_s,
-                             options.halt_s > 0.0 ? options.halt_at_s : kNever,
-                             options.halt_s};
-  TURNSCAN_ASSIGN(const double speed, full_speed(options, profile));
-  std::vector<PlatterState> states(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
+  TURNSCAN_ASSIGN(const Course course, course_of(options));
+  std::vector<PlatterState> states(static_cast<std::size_t>(course.count));
+  for (int i = 0; i < course.count; ++i) {
     PlatterState& state = states[static_cast<std::size_t>(i)];
     state.time_s = i / options.fps;
-    const double theta = speed * profile.turned(state.time_s);
-    // The integral of the ripple over theta.
-    state.angle_rad =
-        theta + options.ripple / options.ripple_cycles * std::sin(options.ripple_cycles * theta);
-    if (options.slip_rad != 0.0 && state.time_s >= options.slip_at_s)
-      state.angle_rad += options.slip_rad;
-    state.travel = count > 1 ? double(i) / (count - 1) : 0.5;
+    state.angle_rad = course.angle_rad(options, state.time_s);
+    state.travel = course.count > 1 ? double(i) / (course.count - 1) : 0.5;
   }
   return states;
+}
+
+PlatterState platter_state_at(const MotionOptions& options, double time_s) {
+  const Course course = course_of(options).value();
+  PlatterState state;
+  state.time_s = time_s;
+  state.angle_rad = course.angle_rad(options, time_s);
+  state.travel = course.count > 1 ? time_s * options.fps / (course.count - 1) : 0.5;
+  return state;
 }
 
 Eigen::Matrix3d axis_wobble(const MotionOptions& options, double angle_rad) {

@@ -56,6 +56,10 @@ struct PlatterState {
 /// than a million frames.
 Result<std::vector<PlatterState>> platter_states(const MotionOptions& options);
 
+/// The state at any time, also between the frames; before the first one and after the last as the
+/// platter moves then. Precondition: platter_states succeeds.
+PlatterState platter_state_at(const MotionOptions& options, double time_s);
+
 /// Where the axis of the platter points at this angle: the rotation that takes its mean (+Y) there.
 /// It goes round a cone wobble_cycles times a turn. Once a turn is a platter that lies obliquely on
 /// a true axis.
