@@ -25,6 +25,8 @@ Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
   TURNSCAN_ASSIGN(NoiseOptions noise, parse_noise_options(measure.noise));
   noise.mixed_pixels = measure.mixed_pixels;
   noise.mixed_reach_m = measure.mixed_reach_m;
+  noise.wiggling_m = measure.wiggling_m;
+  noise.wiggling_period_m = measure.wiggling_period_m;
   return noise;
 }
 
@@ -182,6 +184,13 @@ struct VirtualScan::Impl {
     spare.push_back(std::move(space));
   }
 
+  /// By how much a scanner that is not warm yet measures too far.
+  double too_far_m(std::size_t position) const {
+    const MeasureOptions& measure = options.measure;
+    if (measure.warm_up_m == 0.0) return 0.0;
+    return measure.warm_up_m * std::exp(-state_of(position).time_s / measure.warm_up_time_s);
+  }
+
   /// None without an exposure.
   std::vector<SensorMoment> moments_of(std::size_t position) const {
     const double exposure_s = options.measure.exposure_s;
@@ -219,8 +228,9 @@ struct VirtualScan::Impl {
     out.bodies = bench.kinds();
     tracers[k].trace(bodies, T, out.exact);
     const std::vector<SensorMoment> moments = moments_of(position);
-    noises[k].apply({tracers[k], bodies, T, albedo ? &albedo : nullptr, moments}, out.exact,
-                    instant_of(position), out.measured);
+    const SensorView view{tracers[k],         bodies, T, albedo ? &albedo : nullptr, moments,
+                          too_far_m(position)};
+    noises[k].apply(view, out.exact, instant_of(position), out.measured);
     take_hits(out, bodies, T);
     return out;
   }
@@ -250,7 +260,8 @@ struct VirtualScan::Impl {
     const std::vector<Body> bodies = bench.bodies_at(state);
     tracers[k].trace(bodies, T, space.exact);
     const std::vector<SensorMoment> moments = moments_of(position);
-    const SensorView view{tracers[k], bodies, T, albedo ? &albedo : nullptr, moments};
+    const SensorView view{tracers[k],         bodies, T, albedo ? &albedo : nullptr, moments,
+                          too_far_m(position)};
     noises[k].apply(view, space.exact, instant_of(position), space.measured);
     tallies[k].add(space.exact, space.measured);
     const sampling::Paint paint(bench.meshes());

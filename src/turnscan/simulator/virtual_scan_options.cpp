@@ -38,6 +38,14 @@ OptionTable describe(MeasureOptions& o) {
       .number("exposure", o.exposure_s, Quantity::kTime, {0.0, 10.0},
               "How long a frame takes, half of it before its time: what moves is blurred. A Kinect "
               "v2 with physics takes its nine images one after the other. 0s: an instant.")
+      .number("wiggling", o.wiggling_m, Quantity::kLength, {0.0, 1.0},
+              "Greatest error of a time-of-flight scanner that rises and falls with the range.")
+      .number("wiggling-period", o.wiggling_period_m, Quantity::kLength, {1e-3, 100.0},
+              "Range over which it rises and falls once.")
+      .number("warm-up", o.warm_up_m, Quantity::kLength, {-1.0, 1.0},
+              "How much too far each scanner measures at the first frame, cold; it fades.")
+      .number("warm-up-time", o.warm_up_time_s, Quantity::kTime, {1e-3, 1e6},
+              "After which 37 % of it is left.")
       .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
   return table;
 }

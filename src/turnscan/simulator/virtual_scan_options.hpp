@@ -32,6 +32,11 @@ struct MeasureOptions {
   double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
   double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
   double exposure_s = 0.0;               ///< of a frame, about its time; 0: an instant
+  double wiggling_m =
+      0.0;  ///< greatest error of a time-of-flight scanner by the phase of its light
+  double wiggling_period_m = 0.75;  ///< in range; of four images at 50 MHz
+  double warm_up_m = 0.0;           ///< how much too far a scanner measures when it is switched on
+  double warm_up_time_s = 900.0;    ///< until a third (1/e) of it is left
   int seed = 1;
 };
 

@@ -27,6 +27,11 @@ Result<> check(const NoiseOptions& o) {
   if (!(o.mixed_reach_m >= 0.0 && o.mixed_reach_m <= 10.0))
     return fail(ErrorCode::kInvalidOption, "mixed-reach = {} m is outside 0 to 10 m",
                 o.mixed_reach_m);
+  if (!(std::abs(o.wiggling_m) <= 1.0))
+    return fail(ErrorCode::kInvalidOption, "wiggling = {} m is outside -1 to 1 m", o.wiggling_m);
+  if (!(o.wiggling_period_m > 0.0))
+    return fail(ErrorCode::kInvalidOption, "wiggling-period = {} m is not positive",
+                o.wiggling_period_m);
   return {};
 }
 
@@ -141,6 +146,7 @@ void SensorNoise::apply(const SensorView& view, const SampleGrid& exact, std::ui
   const bool phases = setup.options.kind == NoiseKind::kPhysics &&
                       setup.model.noise.physics == SensorPhysics::kKinectV2;
   if (!view.moments.empty() && !phases) noise::blur(job);
+  noise::add_systematic(job);
   if (with_sigma) noise::predict(job);
 }
 

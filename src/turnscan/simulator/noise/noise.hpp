@@ -30,6 +30,10 @@ struct NoiseOptions {
   /// pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
   double mixed_pixels = 0.0;
   double mixed_reach_m = 0.08;
+  /// Of time-of-flight scanners: half the light's path is wrong by wiggling * sin(2 pi * half path
+  /// / period).
+  double wiggling_m = 0.0;
+  double wiggling_period_m = 1.0;
 };
 
 /// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
@@ -67,6 +71,7 @@ struct SensorView {
   /// None: an instant. Else kExposureMoments; bodies, pose and exact samples are those of the one
   /// in the middle.
   std::span<const SensorMoment> moments = {};
+  double too_far_m = 0.0;  ///< added to each depth
 };
 
 /// What a scanner measured of one view: arrays over the rectangle of the exact samples, row by row.

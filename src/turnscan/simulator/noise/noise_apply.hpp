@@ -87,6 +87,8 @@ void apply_time_of_flight(Job& job);
 void apply_laser_line(Job& job);
 /// Blurs what was measured in the middle of an exposure over its moments.
 void blur(Job& job);
+/// Adds what is no noise: wiggling, and the view's too_far_m.
+void add_systematic(Job& job);
 /// Fills out.sigma_m.
 void predict(Job& job);
 /// One sigma along z; NaN where none is to be expected.

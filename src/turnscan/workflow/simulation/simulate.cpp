@@ -2,6 +2,7 @@
 #include <turnscan/workflow/simulation/simulate.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -57,6 +58,9 @@ Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
       if (!scanner.placement.aim_height_m) scanner.placement.aim_height_m = scan.aim_height_m();
       scanner.placement.knock.at_s = 0.0;  // it stays as it is
     }
+    // It is warmer when the next pass begins.
+    options.measure.warm_up_m *=
+        std::exp(-scan.frames().back().time_s / options.measure.warm_up_time_s);
     ++options.record.pass;
     options.first_instant +=
         static_cast<std::uint32_t>(scan.frames().size() / options.scanners.size());
