@@ -25,6 +25,8 @@ Result<NoiseOptions> noise_options(const MeasureOptions& measure) {
   TURNSCAN_ASSIGN(NoiseOptions noise, parse_noise_options(measure.noise));
   noise.mixed_pixels = measure.mixed_pixels;
   noise.mixed_reach_m = measure.mixed_reach_m;
+  noise.window_px = measure.noise_window_px;
+  noise.edge_fattening_px = measure.edge_fattening_px;
   noise.wiggling_m = measure.wiggling_m;
   noise.wiggling_period_m = measure.wiggling_period_m;
   return noise;

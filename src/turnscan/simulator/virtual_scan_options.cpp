@@ -35,6 +35,12 @@ OptionTable describe(MeasureOptions& o) {
               "edge and background. The other kinds mix what a pixel really sees.")
       .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
               "How far behind the edge such a pixel may lie.")
+      .number("noise-window", o.noise_window_px, {1, kMostNoiseWindow_px},
+              "With noise = model, of structured light and stereo: side of the matching window in "
+              "pixels; where windows overlap, errors are alike. 1: each pixel has its own error.")
+      .number("edge-fattening", o.edge_fattening_px, Quantity::kNone, {0.0, kMostFattening_px},
+              "Of structured light and stereo: by how many pixels the foreground grows over its "
+              "edges, about half the matching window at most.")
       .number("exposure", o.exposure_s, Quantity::kTime, {0.0, 10.0},
               "How long a frame takes, half of it before its time: what moves is blurred. A Kinect "
               "v2 with physics takes its nine images one after the other. 0s: an instant.")

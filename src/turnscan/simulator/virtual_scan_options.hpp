@@ -31,6 +31,8 @@ struct MeasureOptions {
   std::string noise = "gaussian:1.5mm";  ///< see parse_noise_options
   double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
   double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
+  int noise_window_px = 1;               ///< see NoiseOptions
+  double edge_fattening_px = 0.0;        ///< see NoiseOptions
   double exposure_s = 0.0;               ///< of a frame, about its time; 0: an instant
   double wiggling_m =
       0.0;  ///< greatest error of a time-of-flight scanner by the phase of its light

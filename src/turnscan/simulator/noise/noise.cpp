@@ -27,6 +27,12 @@ Result<> check(const NoiseOptions& o) {
   if (!(o.mixed_reach_m >= 0.0 && o.mixed_reach_m <= 10.0))
     return fail(ErrorCode::kInvalidOption, "mixed-reach = {} m is outside 0 to 10 m",
                 o.mixed_reach_m);
+  if (o.window_px < 1 || o.window_px > kMostNoiseWindow_px)
+    return fail(ErrorCode::kInvalidOption, "noise-window = {} is outside 1 to {}", o.window_px,
+                kMostNoiseWindow_px);
+  if (!(o.edge_fattening_px >= 0.0 && o.edge_fattening_px <= kMostFattening_px))
+    return fail(ErrorCode::kInvalidOption, "edge-fattening = {} is outside 0 to {}",
+                o.edge_fattening_px, kMostFattening_px);
   if (!(std::abs(o.wiggling_m) <= 1.0))
     return fail(ErrorCode::kInvalidOption, "wiggling = {} m is outside -1 to 1 m", o.wiggling_m);
   if (!(o.wiggling_period_m > 0.0))
@@ -146,6 +152,8 @@ void SensorNoise::apply(const SensorView& view, const SampleGrid& exact, std::ui
   const bool phases = setup.options.kind == NoiseKind::kPhysics &&
                       setup.model.noise.physics == SensorPhysics::kKinectV2;
   if (!view.moments.empty() && !phases) noise::blur(job);
+  if (setup.options.edge_fattening_px > 0.0 && noise::matches_patterns(setup.model))
+    noise::fatten_edges(job);
   noise::add_systematic(job);
   if (with_sigma) noise::predict(job);
 }

@@ -22,6 +22,9 @@ enum class NoiseKind {
   kPhysics    ///< NoiseModel::physics
 };
 
+inline constexpr int kMostNoiseWindow_px = 31;
+inline constexpr double kMostFattening_px = 15.0;
+
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::kNone;
   double sigma_m = 0.0;  ///< of kGaussian
@@ -30,6 +33,11 @@ struct NoiseOptions {
   /// pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
   double mixed_pixels = 0.0;
   double mixed_reach_m = 0.08;
+  /// Of scanners that match patterns (structured light, stereo). kModel: side of the window whose
+  /// pixels make one disparity, so that errors of neighbours are alike. All kinds: by how many
+  /// pixels the foreground grows over its edges.
+  int window_px = 1;
+  double edge_fattening_px = 0.0;
   /// Of time-of-flight scanners: half the light's path is wrong by wiggling * sin(2 pi * half path
   /// / period).
   double wiggling_m = 0.0;

@@ -87,6 +87,12 @@ void apply_time_of_flight(Job& job);
 void apply_laser_line(Job& job);
 /// Blurs what was measured in the middle of an exposure over its moments.
 void blur(Job& job);
+bool matches_patterns(const ScannerModel& model);
+/// Lets the foreground grow over its edges.
+void fatten_edges(Job& job);
+/// Standard normals over the exact samples' rectangle, each the sum over a window about its pixel:
+/// pixels dx and dy apart correlate by the share of their windows that overlaps.
+std::vector<float> window_normals(const Job& job, std::uint64_t purpose);
 /// Adds what is no noise: wiggling, and the view's too_far_m.
 void add_systematic(Job& job);
 /// Fills out.sigma_m.

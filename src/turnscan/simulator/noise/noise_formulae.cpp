@@ -36,6 +36,9 @@ class Formulae {
       steps_ = steps_of(job_.exact, counts_, 0);
       reached = steps_of(job_.exact, counts_, radius_);
     }
+    if (job_.setup.options.window_px > 1 && matches_patterns(job_.setup.model))
+      for (const std::uint64_t purpose : {kAxial, kDisparity})
+        alike_[purpose] = window_normals(job_, purpose);
     const PixelRect& r = job_.exact.rect;
     for (int v = r.top; v < r.bottom; ++v) {
       draw_row(v);
@@ -83,7 +86,10 @@ class Formulae {
     const auto draw = [&](std::uint64_t purpose, bool wanted) {
       auto& row = normals_[purpose];
       row.resize(n, 0.0f);
-      if (wanted)
+      const std::vector<float>& alike = alike_[purpose];
+      if (wanted && !alike.empty())
+        std::copy_n(alike.begin() + std::ptrdiff_t(job_.exact.index(r.left, v)), n, row.begin());
+      else if (wanted)
         NoiseKernels::current().normals(job_.key_of(purpose), first, 1, int(n), row.data());
     };
     draw(kAxial, true);
@@ -187,7 +193,8 @@ class Formulae {
     for (std::size_t p = 0; p < rays_.index.size(); ++p) {
       const std::size_t i = rays_.index[p], pixel = pixel_of(i);
       for (const std::uint64_t purpose : {kAxial, kDisparity, kDark})
-        normals_[purpose].assign(1, float(normal_of(purpose, pixel)));
+        normals_[purpose].assign(
+            1, alike_[purpose].empty() ? float(normal_of(purpose, pixel)) : alike_[purpose][i]);
       measure(i, pixel, 0, mixed(p, i));
     }
   }
@@ -273,6 +280,7 @@ class Formulae {
   std::uint64_t drop_seed_;
   int radius_ = 0;                             ///< pixels about a step that are looked into
   std::array<std::vector<float>, 4> normals_;  ///< by purpose
+  std::array<std::vector<float>, 4> alike_;    ///< by purpose and place; empty: each by itself
   SubSamples rays_;
 };
 
