@@ -8,6 +8,7 @@
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/check.hpp>
 #include <turnscan/turntable/motion/free_motion.hpp>
+#include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace turnscan {
@@ -134,31 +135,105 @@ Result<CalibrationChoice> as_given(const FrameSequence& sequence, const Calibrat
   return out;
 }
 
-Result<CalibrationChoice> automatic(const FrameSequence& sequence,
-                                    const CalibrationRequest& request, const RunContext& context) {
-  if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
-  const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
-  if (!poses) {
-    auto found = from_motion(sequence, request, "the recording has no calibration", context);
-    if (found || found.error().code == ErrorCode::kCancelled) return found;
-    return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
-                found.error().message);
+/// What disturbed the recording, as its calibration or a stated speed places it; empty where
+/// nothing says where the frames are. Poses of their own are not questioned.
+Result<Placement> disturbances_of(const FrameSequence& sequence, std::optional<double> stated_speed,
+                                  const RunContext& context) {
+  if (has_poses(sequence)) return Placement();
+  const auto poses = frame_poses(sequence.header(), sequence.frames(), stated_speed);
+  if (!poses) return Placement();
+  TURNSCAN_ASSIGN(auto found, find_disturbances(sequence, poses->T_table_sensor, context));
+  return found ? std::move(*found) : Placement();
+}
+
+std::string text_of(const Placement& placement) {
+  std::vector<std::string> texts;
+  for (const Disturbance& disturbance : placement.disturbances) texts.push_back(disturbance.text);
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+bool moves_frames(const Placement& placement) {
+  return std::any_of(placement.disturbances.begin(), placement.disturbances.end(),
+                     [](const Disturbance& d) { return d.kind != DisturbanceKind::kHidden; });
+}
+
+/// The choice with the frames where they belong, and said why.
+void correct(Placement placement, CalibrationChoice& choice) {
+  if (placement.disturbances.empty()) return;
+  std::string text = text_of(placement);
+  if (moves_frames(placement)) {
+    text += "; the frames were moved to where they belong";
+    choice.poses = std::move(placement.T_table_sensor);
   }
+  if (!placement.left_out.empty())
+    text += fmt::format("; {} frames were left out", placement.left_out.size());
+  choice.left_out = std::move(placement.left_out);
+  choice.note = choice.note.empty() ? text : text + "; " + choice.note;
+}
+
+/// The recording's own calibration, with a word about what disturbed it.
+Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
+                                      const CalibrationRequest& request,
+                                      const RunContext& context) {
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(const Placement placement,
+                  disturbances_of(sequence, request.speed_rad_s, context));
+  if (!placement.disturbances.empty())
+    out.note =
+        text_of(placement) + "; nothing was corrected because --calibration recorded was given";
+  return out;
+}
+
+/// From motion, and the frames moved to where they belong all the same.
+Result<CalibrationChoice> from_motion_corrected(const FrameSequence& sequence,
+                                                const CalibrationRequest& request,
+                                                const std::string& why, const RunContext& context) {
+  TURNSCAN_ASSIGN(auto out, from_motion(sequence, request, why, context));
+  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *out.calibration));
+  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, context));
+  correct(std::move(placement), out);
+  return out;
+}
+
+/// The recording's own calibration, or one from motion where something speaks against it.
+Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
+                                    const CalibrationRequest& request, const RunContext& context) {
   if (request.table_given || request.speed_rad_s) return as_given(sequence, request, context);
   TURNSCAN_ASSIGN(const auto why, doubt(sequence, context));
   if (!why) return CalibrationChoice();
-  auto found = from_motion(sequence, request, *why, context);
+  auto found = from_motion_corrected(sequence, request, *why, context);
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
   if (found) {
     // A calibration takes precedence over the recording's only if nothing speaks against it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
     TURNSCAN_ASSIGN(const auto still, doubt(*better, context));
-    if (!still) return found;
+    if (!still || !found->poses.empty()) return found;
     failure = "the one from motion does not fit either";
   }
   CalibrationChoice out;
   out.note = fmt::format("{}, but no better one was found ({})", *why, failure);
+  return out;
+}
+
+Result<CalibrationChoice> automatic(const FrameSequence& sequence,
+                                    const CalibrationRequest& request, const RunContext& context) {
+  if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
+  const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
+  if (!poses) {
+    auto found =
+        from_motion_corrected(sequence, request, "the recording has no calibration", context);
+    if (found || found.error().code == ErrorCode::kCancelled) return found;
+    return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
+                found.error().message);
+  }
+  TURNSCAN_ASSIGN(Placement placement, disturbances_of(sequence, request.speed_rad_s, context));
+  CalibrationChoice out;
+  if (!moves_frames(placement)) {
+    TURNSCAN_ASSIGN(out, undoubted(sequence, request, context));
+    if (!out.left_out.empty()) return out;  // they were found with the better calibration
+  }
+  correct(std::move(placement), out);
   return out;
 }
 
@@ -167,9 +242,9 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
-  if (request.mode == "recorded") return CalibrationChoice();
+  if (request.mode == "recorded") return as_recorded(sequence, request, context);
   if (request.mode == "motion")
-    return from_motion(sequence, request, "--calibration motion was given", context);
+    return from_motion_corrected(sequence, request, "--calibration motion was given", context);
   if (request.mode == "auto") return automatic(sequence, request, context);
   if (const auto way = free_ways().find(request.mode); way != free_ways().end())
     return by_free_registration(sequence, request, way->second, context);
@@ -181,10 +256,17 @@ Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
 
 Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
                                                    const CalibrationChoice& choice) {
-  if (choice.calibration) return with_calibration(sequence, *choice.calibration);
-  std::vector<FrameInfo> frames = sequence.frames();
-  for (std::size_t i = 0; i < choice.poses.size(); ++i) frames[i].T_table_sensor = choice.poses[i];
   auto out = std::make_unique<SequenceView>(sequence);
+  std::vector<FrameInfo> frames = sequence.frames();
+  if (choice.calibration) {
+    if (choice.poses.empty() && choice.left_out.empty())
+      return with_calibration(sequence, *choice.calibration);
+    TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *choice.calibration));
+    out->set_header(calibrated->header());
+    frames = calibrated->frames();
+  }
+  for (std::size_t i = 0; i < choice.poses.size(); ++i) frames[i].T_table_sensor = choice.poses[i];
+  for (const std::size_t i : choice.left_out) frames[i].status = FrameStatus::kDropped;
   out->set_frames(std::move(frames));
   return out;
 }

@@ -12,14 +12,17 @@ namespace turnscan {
 
 struct CalibrationChoice {
   std::optional<Calibration> calibration;  ///< nullopt: the recording's own
-  std::vector<Pose> poses;                 ///< T_table_sensor by free registration; else empty
-  std::string note;                        ///< one sentence for people; empty: nothing to say
+  std::vector<Pose> poses;  ///< T_table_sensor by free registration or corrected; else empty
+  std::vector<std::size_t> left_out;  ///< positions of frames that cannot be placed
+  std::string note;                   ///< one sentence for people; empty: nothing to say
 };
 
 struct CalibrationRequest {
   /// "recorded" keeps the recording's calibration; "motion" makes one from the object's motion;
   /// "auto" does that where the recording has none, or one whose closure error or axis offset is
-  /// bad (turntable/checks/closure.hpp, axis_offset.hpp). icp-consecutive, icp-global,
+  /// bad (turntable/checks/closure.hpp, axis_offset.hpp). Both then move the frames to where they
+  /// belong after a disturbance (turntable/placement/find_disturbances.hpp); "recorded" only says
+  /// that there was one. icp-consecutive, icp-global,
   /// gicp-consecutive and gicp-global start from the recording's and register the frames freely
   /// (turntable/motion/free_motion.hpp).
   std::string mode = "auto";

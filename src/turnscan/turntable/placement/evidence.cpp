@@ -1,0 +1,223 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion/robust.hpp>
+#include <turnscan/turntable/placement/evidence.hpp>
+
+namespace turnscan::placement {
+
+namespace {
+
+/// Standard deviations of what a pair says, beyond noise: silhouettes, hidden places, warped depth.
+constexpr double kShiftFloor_m = 1e-4, kTurnFloor = 0.03 * kRadiansPerDegree;
+constexpr double kTurnPerApart = 0.004;
+/// Of what two views from different sides seem to be turned by more, as a share of it.
+constexpr double kBiasSigma = 0.003;
+/// Median of a chi square over its number of unknowns, for three to six of them.
+constexpr double kMedianPerUnknown = 0.87;
+/// Of a model's unknowns, metres: only what nothing shows stays at zero.
+constexpr double kValueSigma_m = 0.1, kCalibrationSigma_m = 0.002, kHeldSigma_m = 1e-7;
+
+Twist log_of(const Pose& motion, const Vec3d& middle, double lever_m) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Twist out;
+  out.head<3>() = lever_m * turn.angle() * turn.axis();
+  out.tail<3>() = motion * middle - middle;
+  return out;
+}
+
+RelativeTwist both_ways(const PairConstraint& a, const PairConstraint* b, double variance) {
+  RelativeTwist out;
+  out.pair = a.pair;
+  out.information = a.normal / variance;
+  out.right = a.right / variance;
+  if (b != nullptr) {
+    out.information += b->normal / variance;
+    out.right -= b->right / variance;
+  }
+  return out;
+}
+
+/// The noise of a pair, and what all its points share: (H^-1 + S)^-1, where H may be singular.
+void add_floor(RelativeTwist& twist, double lever_m) {
+  const double turn = lever_m * std::hypot(kTurnFloor, kTurnPerApart * twist.apart_rad);
+  Twist floor;
+  floor << turn, turn, turn, kShiftFloor_m, kShiftFloor_m, kShiftFloor_m;
+  const Matrix6d both = Matrix6d::Identity() + twist.information * floor.cwiseAbs2().asDiagonal();
+  const Eigen::PartialPivLU<Matrix6d> solver(both);
+  const Matrix6d information = solver.solve(twist.information);
+  twist.information = 0.5 * (information + information.transpose());
+  twist.right = solver.solve(twist.right);
+}
+
+/// How many of its eigenvalues say something.
+double rank_of(const Matrix6d& information) {
+  const Twist values = Eigen::SelfAdjointEigenSolver<Matrix6d>(information).eigenvalues();
+  return double((values.array() > 1e-6 * values[5]).count());
+}
+
+double sigma_of(const DisturbanceModel& model) {
+  if (model.held) return kHeldSigma_m;
+  return model.kind == ModelKind::kCalibration ? kCalibrationSigma_m : kValueSigma_m;
+}
+
+}  // namespace
+
+Evidence::Evidence(const Keyframes& frames, const PoseGraph& graph,
+                   const std::vector<Pose>& believed, std::vector<ModelFrame> model_frames,
+                   const ModelScene& scene)
+    : frames_(frames), model_frames_(std::move(model_frames)), scene_(scene) {
+  find_excess(graph);
+  scale_m_ = graph.scale_m;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const PairConstraint*> all;
+  for (const PairConstraint& c : graph.constraints) all[{c.pair.from, c.pair.to}] = &c;
+  std::vector<Twist> offset;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    offset.push_back(log_of(graph.poses[i] * believed[i].inverse(), frames.middle, frames.lever_m));
+  const double variance = excess_ * graph.scale_m * graph.scale_m;
+  for (const auto& [key, constraint] : all) {
+    const auto reverse = all.find({key.second, key.first});
+    if (reverse != all.end() && key.second < key.first) continue;
+    RelativeTwist twist =
+        both_ways(*constraint, reverse != all.end() ? reverse->second : nullptr, variance);
+    twist.apart_rad = turn_between(graph.poses[key.first], graph.poses[key.second]);
+    twist.right += twist.information * (offset[key.first] - offset[key.second]);
+    if (constraint->count < 50) continue;
+    twist.shown = rank_of(twist.information);
+    add_floor(twist, frames.lever_m);
+    twists_.push_back(twist);
+  }
+}
+
+/// What single pairs say of an unknown scatters by more than independent noise would make it.
+void Evidence::find_excess(const PoseGraph& graph) {
+  for (int k = 0; k < 6; ++k) {
+    std::vector<double> ratios;
+    for (const PairConstraint& c : graph.constraints) {
+      if (c.count < 50 || !(c.normal(k, k) > 0.0)) continue;
+      ratios.push_back(c.right[k] * c.right[k] / (c.normal(k, k) * graph.scale_m * graph.scale_m));
+    }
+    excess_ = std::max(excess_, median(ratios) / motion::kMedianOfSquare);
+  }
+  // Both directions of a pair, and pairs of one frame, share the noise of their frames.
+  excess_ *= 2.0;
+}
+
+/// The normal equations of some models: two biases, then their unknowns.
+struct Evidence::System {
+  std::vector<Basis> basis;     ///< per frame
+  std::vector<Basis> between;   ///< per pair
+  std::vector<Basis> weighted;  ///< the same times the information
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+  Eigen::LDLT<Eigen::MatrixXd> factors;
+};
+
+Evidence::System Evidence::system_of(const std::vector<DisturbanceModel>& models) const {
+  Eigen::Index n = 2;
+  for (const DisturbanceModel& model : models) n += unknowns_of(model.kind);
+  System out;
+  out.basis.assign(model_frames_.size(), Basis::Zero(6, n));
+  Eigen::VectorXd weak = Eigen::VectorXd::Zero(n);
+  weak.head<2>().setConstant(std::pow(kBiasSigma * scene_.lever_m, -2));
+  Eigen::Index at = 2;
+  for (const DisturbanceModel& model : models) {
+    const Eigen::Index count = unknowns_of(model.kind);
+    for (std::size_t i = 0; i < out.basis.size(); ++i)
+      out.basis[i].middleCols(at, count) = basis_of(model, model_frames_[i], scene_);
+    weak.segment(at, count).setConstant(std::pow(sigma_of(model), -2));
+    at += count;
+  }
+  out.matrix = weak.asDiagonal();
+  out.right = Eigen::VectorXd::Zero(n);
+  Twist about_axis;
+  about_axis << Vec3d::UnitY(), Vec3d::UnitY().cross(scene_.middle) / scene_.lever_m;
+  for (const RelativeTwist& t : twists_) {
+    Basis between = out.basis[t.pair.from] - out.basis[t.pair.to];
+    between.col(0) = t.apart_rad * about_axis;
+    between.col(1) = t.apart_rad * std::abs(t.apart_rad) * about_axis;
+    Basis weighted = t.information * between;
+    out.matrix.noalias() += between.transpose() * weighted;
+    out.right.noalias() += between.transpose() * t.right;
+    out.between.push_back(std::move(between));
+    out.weighted.push_back(std::move(weighted));
+  }
+  out.factors.compute(out.matrix);
+  return out;
+}
+
+/// The median: a step that is not among the models yet is seen by few pairs.
+double Evidence::spread_of(const System& system, const Eigen::VectorXd& values) const {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < twists_.size(); ++k) {
+    const RelativeTwist& t = twists_[k];
+    if (t.shown < 1.0) continue;
+    const Twist left = t.right - system.weighted[k] * values;
+    // What it leaves, with the pseudo-inverse of the information.
+    ratios.push_back(left.dot(t.information.completeOrthogonalDecomposition().solve(left)) /
+                     t.shown);
+  }
+  return std::max(1.0, median(ratios) / kMedianPerUnknown);
+}
+
+double Evidence::gain_of(const System& system, const DisturbanceModel& candidate) const {
+  const Eigen::Index count = unknowns_of(candidate.kind);
+  std::vector<Basis> basis;
+  for (const ModelFrame& frame : model_frames_) basis.push_back(basis_of(candidate, frame, scene_));
+  Eigen::MatrixXd own =
+      Eigen::VectorXd::Constant(count, std::pow(sigma_of(candidate), -2)).asDiagonal();
+  Eigen::MatrixXd mixed = Eigen::MatrixXd::Zero(system.right.size(), count);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+  for (std::size_t k = 0; k < twists_.size(); ++k) {
+    const RelativeTwist& t = twists_[k];
+    const Basis between = basis[t.pair.from] - basis[t.pair.to];
+    if (between.isZero(0.0)) continue;
+    own.noalias() += between.transpose() * t.information * between;
+    mixed.noalias() += system.weighted[k].transpose() * between;
+    right.noalias() += between.transpose() * t.right;
+  }
+  own -= mixed.transpose() * system.factors.solve(mixed);
+  right -= mixed.transpose() * system.factors.solve(system.right);
+  return right.dot(own.ldlt().solve(right));
+}
+
+std::vector<double> Evidence::gains(const std::vector<DisturbanceModel>& models,
+                                    const std::vector<DisturbanceModel>& candidates) const {
+  const System system = system_of(models);
+  std::vector<double> out(candidates.size());
+  parallel_for(candidates.size(), 8,
+               [&](std::size_t k) { out[k] = gain_of(system, candidates[k]); });
+  return out;
+}
+
+ModelFit Evidence::fit(std::vector<DisturbanceModel> models) const {
+  const System system = system_of(models);
+  const Eigen::VectorXd values = system.factors.solve(system.right);
+  ModelFit out;
+  out.gain = values.dot(system.right);
+  out.spread = spread_of(system, values);
+  Eigen::Index at = 2;
+  for (DisturbanceModel& model : models) {
+    const Eigen::Index count = unknowns_of(model.kind);
+    model.values = values.segment(at, count);
+    Basis mean = Basis::Zero(6, count);
+    for (const Basis& b : system.basis)
+      mean += b.middleCols(at, count) / double(system.basis.size());
+    double squares = 0.0;
+    for (const Basis& b : system.basis)
+      squares = std::max(squares, ((b.middleCols(at, count) - mean) * model.values).squaredNorm());
+    out.sizes_m.push_back(std::sqrt(squares));
+    at += count;
+  }
+  out.models = std::move(models);
+  return out;
+}
+
+}  // namespace turnscan::placement

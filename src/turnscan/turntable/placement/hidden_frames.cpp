@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/placement/hidden_frames.hpp>
+
+namespace turnscan::placement {
+
+namespace {
+
+/// What a frame shows more of than the usual one before it is left out: share of its points.
+constexpr double kLeastHidden = 0.25, kSpreads = 6.0;
+/// A point counts where the neighbour's surface lies this much farther.
+constexpr double kGap_m = 0.012, kNoises = 6.0;
+
+/// Whether the ray through q goes on for a gap before it meets the surface, or misses it.
+bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, const Vec3d& q,
+                  double gap) {
+  const Eigen::Vector2d uv = frames.data.camera.project(q);
+  const auto& camera = frames.data.camera;
+  if (!(uv.x() > 0.0 && uv.y() > 0.0 && uv.x() < camera.width - 1 && uv.y() < camera.height - 1))
+    return false;
+  const int x = int(std::lround(uv.x())) - surface.left, y = int(std::lround(uv.y())) - surface.top;
+  for (int v = std::max(0, y - 1); v <= std::min(surface.height - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(surface.width - 1, x + 1); ++u) {
+      const float z = surface.z[std::size_t(v) * std::size_t(surface.width) + std::size_t(u)];
+      if (z > 0.0f && z < q.z() + gap) return false;
+    }
+  }
+  return true;
+}
+
+double share_seen_through(const Keyframes& frames, const std::vector<Pose>& poses,
+                          const FramePair& pair) {
+  const Pose T = poses[pair.to].inverse() * poses[pair.from];
+  const motion::FrameSurface& surface = frames.data.frames[pair.to].surface;
+  const auto& samples = frames.data.frames[pair.from].samples;
+  const double gap = std::max(kGap_m, kNoises * frames.data.noise_m);
+  double through = 0.0, count = 0.0;
+  for (std::size_t s = 0; s < samples.size(); s += 2) {
+    const Vec3d q = T * samples[s].p.cast<double>();
+    const Vec3d m = T.linear() * samples[s].n.cast<double>();
+    if (-m.dot(q) < 0.25 * q.norm()) continue;
+    count += 1.0;
+    if (seen_through(frames, surface, q, gap)) through += 1.0;
+  }
+  return count > 0.0 ? through / count : 0.0;
+}
+
+}  // namespace
+
+std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vector<Pose>& poses) {
+  if (!frames.data.projective) return {};
+  std::vector<double> share(frames.size(), 0.0);
+  parallel_for(frames.size(), 1, [&](std::size_t i) {
+    std::vector<double> shares;
+    for (const int step : {-8, -4, -2, 2, 4, 8}) {
+      const auto k = std::ptrdiff_t(i) + step;
+      if (k < 0 || k >= std::ptrdiff_t(frames.size())) continue;
+      if (frames.data.frames[std::size_t(k)].surface.empty()) continue;
+      if (std::abs(turn_between(poses[i], poses[std::size_t(k)])) > 0.9) continue;
+      shares.push_back(share_seen_through(frames, poses, {std::uint32_t(i), std::uint32_t(k)}));
+    }
+    share[i] = median(shares);
+  });
+  std::vector<double> sorted = share;
+  const double usual = median(sorted);
+  std::vector<double> off;
+  for (const double s : share) off.push_back(std::abs(s - usual));
+  const double limit = usual + std::max(kLeastHidden, kSpreads * 1.4826 * median(off));
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    if (share[i] > limit) out.push_back(i);
+  return out;
+}
+
+void leave_out(Keyframes& frames, const std::vector<std::size_t>& hidden) {
+  Keyframes kept;
+  const auto is_hidden = [&](std::size_t i) {
+    return std::binary_search(hidden.begin(), hidden.end(), i);
+  };
+  std::vector<motion::MotionFrame> all = std::move(frames.data.frames);
+  frames.data.frames.clear();
+  frames.data.keys.clear();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_hidden(i)) continue;
+    frames.data.keys.push_back(frames.data.frames.size());
+    frames.data.frames.push_back(std::move(all[i]));
+    kept.positions.push_back(frames.positions[i]);
+    kept.T_table_sensor.push_back(frames.T_table_sensor[i]);
+  }
+  frames.positions = std::move(kept.positions);
+  frames.T_table_sensor = std::move(kept.T_table_sensor);
+}
+
+}  // namespace turnscan::placement

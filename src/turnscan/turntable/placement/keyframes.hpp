@@ -1,0 +1,41 @@
+#pragma once
+// The frames that are compared with each other: evenly spread, with where they are believed to be.
+
+#include <optional>
+#include <turnscan/core/pose.hpp>
+#include <turnscan/turntable/motion_input/frame_data.hpp>
+
+namespace turnscan::placement {
+
+/// Unknowns of one frame: a small rotation about Keyframes::middle times Keyframes::lever_m, then
+/// a shift; table frame, metres.
+using Twist = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Data of some frames of a sequence. The vectors have one entry for each of data.frames.
+struct Keyframes {
+  motion::MotionData data;
+  std::vector<std::size_t> positions;  ///< in the sequence, increasing
+  std::vector<Pose> T_table_sensor;    ///< as believed
+  Vec3d middle = Vec3d::Zero();        ///< of the object, table frame
+  double lever_m = 0.05;               ///< root mean square distance of its points from there
+
+  Matrix6d shown = Matrix6d::Identity();  ///< projects a twist on what the object's shape shows
+
+  std::size_t size() const { return positions.size(); }
+};
+
+/// The frames at `positions` of the first sensor. nullopt where they show too little of an object.
+/// Fails with kCancelled and what reading fails with.
+Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
+                                                const std::vector<Pose>& T_table_sensor,
+                                                std::vector<std::size_t> positions,
+                                                const RunContext& context);
+
+/// The small motion that a twist stands for.
+Pose motion_of(const Twist& twist, const Vec3d& middle, double lever_m);
+
+/// Angle between the directions in which two frames look at the table, as turned about its axis.
+double turn_between(const Pose& a, const Pose& b);
+
+}  // namespace turnscan::placement

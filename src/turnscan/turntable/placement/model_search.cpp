@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <turnscan/turntable/placement/model_search.hpp>
+
+namespace turnscan::placement {
+
+namespace {
+
+constexpr int kMostRounds = 4;
+/// What a model must explain, in chi square, of where the frames end up when they are left free.
+constexpr double kClearGain = 100.0, kGainPerUnknown = 6.0;
+/// And of where they are: frames that overlap in little more than edges end up anywhere.
+constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 3.0;
+/// How far it must move the object's points.
+constexpr double kLeastSize_m = 0.0005;
+/// A smaller error of the calibration is left alone: a sensor's warped depth looks like one.
+constexpr double kLeastCalibration_m = 0.0015;
+constexpr ConstraintWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
+
+double penalty_of(const DisturbanceModel& model) {
+  return kGainPerUnknown * double(unknowns_of(model.kind)) + kClearGain;
+}
+
+double penalty_here(const DisturbanceModel& model) {
+  return kGainPerUnknownHere * double(unknowns_of(model.kind)) + kClearGainHere;
+}
+
+DisturbanceModel model_of(ModelKind kind, std::size_t first = 0, std::size_t last = 0,
+                          double cycles = 0.0) {
+  return {kind, first, last, cycles, Eigen::VectorXd::Zero(unknowns_of(kind)), false};
+}
+
+bool turns(ModelKind kind) {
+  return kind == ModelKind::kSpeed || kind == ModelKind::kSlip || kind == ModelKind::kHalt;
+}
+
+using Models = std::vector<DisturbanceModel>;
+
+class ModelSearch {
+ public:
+  ModelSearch(const Keyframes& keyframes, const ModelFrames& frames, const RunContext& context)
+      : keyframes_(keyframes), frames_(frames), context_(context) {}
+
+  Result<Models> run(const PoseGraph& graph) {
+    models_ = {model_of(ModelKind::kCalibration)};
+    for (int k = 0; k < kMostRounds; ++k) {
+      TURNSCAN_TRY(context_.check());
+      TURNSCAN_ASSIGN(const bool found, add_best(graph));
+      if (!found) break;
+    }
+    if (models_.size() > 1) TURNSCAN_TRY(settle_calibration());
+    return std::move(models_);
+  }
+
+ private:
+  /// The keyframes as the models have them now.
+  std::vector<ModelFrame> current() const {
+    std::vector<ModelFrame> out;
+    for (const std::size_t position : keyframes_.positions) {
+      out.push_back(frames_.all[position]);
+      out.back().T_table_sensor = placed(out.back(), models_, frames_.scene);
+    }
+    return out;
+  }
+
+  std::vector<Pose> poses() const {
+    std::vector<Pose> out;
+    for (const ModelFrame& frame : current()) out.push_back(frame.T_table_sensor);
+    return out;
+  }
+
+  bool has(ModelKind kind) const {
+    return std::any_of(models_.begin(), models_.end(),
+                       [&](const DisturbanceModel& model) { return model.kind == kind; });
+  }
+
+  Models candidates() const {
+    Models out{model_of(ModelKind::kSpeed)};
+    for (const double cycles : {1.0, 2.0, 3.0, 4.0})
+      out.push_back(model_of(ModelKind::kWobble, 0, 0, cycles));
+    const auto& at = keyframes_.positions;
+    for (std::size_t k = 1; k < at.size(); ++k) {
+      for (const ModelKind kind : {ModelKind::kSlip, ModelKind::kObject, ModelKind::kSensor})
+        out.push_back(model_of(kind, at[k], at[k - 1]));
+      for (const std::size_t lasts : {2, 3, 4, 6, 9, 14})
+        if (k >= lasts) out.push_back(model_of(ModelKind::kHalt, at[k], at[k - lasts]));
+    }
+    return out;
+  }
+
+  /// Of each kind of disturbance the candidate that explains most.
+  Models best_of_kinds(const Evidence& evidence, const Models& models) const {
+    const auto all = candidates();
+    const auto gains = evidence.gains(models, all);
+    std::map<ModelKind, std::pair<double, std::size_t>> best;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      auto& [gain, at] = best[all[k].kind];
+      if (gains[k] > gain) gain = gains[k], at = k;
+    }
+    Models out;
+    for (const auto& [kind, found] : best)
+      if (found.first > 0.0) out.push_back(all[found.second]);
+    return out;
+  }
+
+  /// Alone, and a slip or a halt also together with another speed: a speed that was measured over
+  /// the whole recording contains both.
+  std::vector<Models> candidate_sets(const Evidence& evidence, const Models& models) const {
+    std::vector<Models> out;
+    for (DisturbanceModel& model : best_of_kinds(evidence, models)) out.push_back({model});
+    if (has(ModelKind::kSpeed)) return out;
+    auto with_speed = models;
+    with_speed.push_back(model_of(ModelKind::kSpeed));
+    for (DisturbanceModel& model : best_of_kinds(evidence, with_speed))
+      if (turns(model.kind)) out.push_back({with_speed.back(), model});
+    return out;
+  }
+
+  /// How clearly models explain what a fit without them leaves.
+  static double gain_over(const ModelFit& with, const ModelFit& without, const Models& set,
+                          double (*penalty)(const DisturbanceModel&)) {
+    double gain = (with.gain - without.gain) / with.spread;
+    for (const DisturbanceModel& model : set) gain -= penalty(model);
+    return gain;
+  }
+
+  /// Adds the disturbance that explains most, if any is clear, and improves all. Whether it did.
+  Result<bool> add_best(const PoseGraph& graph) {
+    const Evidence free(keyframes_, graph, poses(), current(), frames_.scene);
+    const Evidence here = evidence_here(kHere, false);
+    Models zeroed = models_;
+    for (DisturbanceModel& model : zeroed) model.values.setZero();
+    const ModelFit free_before = free.fit(zeroed), here_before = here.fit(zeroed);
+    std::vector<Models> starts;
+    double most = 0.0;
+    for (const Models& set : candidate_sets(free, zeroed)) {
+      auto models = zeroed;
+      models.insert(models.end(), set.begin(), set.end());
+      const ModelFit freely = free.fit(models), shown = here.fit(models);
+      const double gain = gain_over(freely, free_before, set, penalty_of);
+      if (!(gain > most) || freely.sizes_m.back() < kLeastSize_m) continue;
+      if (!(gain_over(shown, here_before, set, penalty_here) > 0.0)) continue;
+      most = gain;
+      const auto added = std::ptrdiff_t(set.size());
+      starts = {Models(freely.models.end() - added, freely.models.end()),
+                Models(shown.models.end() - added, shown.models.end())};
+    }
+    if (starts.empty()) return false;
+    return keep_better(starts);
+  }
+
+  /// Improves all models from several starts of the new ones; keeps the best if it is better than
+  /// without them.
+  Result<bool> keep_better(const std::vector<Models>& starts) {
+    const Models before = models_;
+    Models best;
+    double least = mismatch(keyframes_, poses());
+    for (const Models& start : starts) {
+      models_ = before;
+      models_.insert(models_.end(), start.begin(), start.end());
+      TURNSCAN_TRY(refine());
+      const double here = mismatch(keyframes_, poses());
+      if (!(here < least)) continue;
+      least = here;
+      best = models_;
+    }
+    const bool better = !best.empty();
+    models_ = better ? best : before;
+    if (!better || models_.size() <= 2) return better;
+    simplify();
+    TURNSCAN_TRY(refine());
+    return true;
+  }
+
+  /// Drops models that the others can do without; a slip stands for what it explains as well.
+  void simplify() {
+    const Evidence evidence = evidence_here(kFine, true);
+    ModelFit best = evidence.fit(models_);
+    const auto simpler = [&](Models models, double least) {
+      ModelFit fit = evidence.fit(std::move(models));
+      if (fit.gain < least) return false;
+      best = std::move(fit);
+      return true;
+    };
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t k = 1; k < best.models.size() && !changed; ++k) {
+        const ModelKind kind = best.models[k].kind;
+        const double worth = best.spread * penalty_of(best.models[k]);
+        Models fewer = best.models;
+        fewer.erase(fewer.begin() + std::ptrdiff_t(k));
+        changed = simpler(fewer, best.gain - worth);
+        if (changed || (kind != ModelKind::kObject && kind != ModelKind::kSensor)) continue;
+        Models slip = best.models;
+        slip[k] = model_of(ModelKind::kSlip, slip[k].first, slip[k].last);
+        changed = simpler(slip, best.gain - worth + best.spread * penalty_of(slip[k]));
+      }
+    }
+    models_ = std::move(best.models);
+  }
+
+  /// At the poses of the models; whole: of everything that they explain, not of the rest.
+  Evidence evidence_here(const ConstraintWeighting& weighting, bool whole) const {
+    PoseGraph graph;
+    graph.poses = poses();
+    const auto pairs = all_pairs(keyframes_, graph.poses);
+    graph.constraints = constrain_all(keyframes_, graph.poses, pairs, weighting);
+    graph.scale_m = std::max(scale_of(graph.constraints), 1e-6);
+    return Evidence(keyframes_, graph, whole ? keyframes_.T_table_sensor : graph.poses, current(),
+                    frames_.scene);
+  }
+
+  /// Gauss-Newton for the unknowns of all models, with new correspondences.
+  Result<> refine() {
+    ConstraintWeighting weighting{0.015, 0.008, 2};
+    for (int i = 0; i < 5; ++i) {
+      TURNSCAN_TRY(context_.check());
+      const Evidence evidence = evidence_here(weighting, false);
+      const ModelFit step = evidence.fit(models_);
+      for (std::size_t k = 0; k < models_.size(); ++k) models_[k].values += step.models[k].values;
+      const double limit = std::max(1.5 * evidence.scale_m(), 0.2 * keyframes_.data.noise_m);
+      weighting.huber_m = std::max(limit, 0.6 * weighting.huber_m);
+      weighting.reach_m = std::max(0.75 * weighting.reach_m, 8.0 * limit);
+    }
+    return {};
+  }
+
+  Result<> settle_calibration() {
+    Eigen::VectorXd& values = models_.front().values;
+    if (values.norm() > kLeastCalibration_m) return {};
+    values.setZero();
+    models_.front().held = true;
+    return refine();
+  }
+
+  const Keyframes& keyframes_;
+  const ModelFrames& frames_;
+  const RunContext& context_;
+  Models models_;
+};
+
+}  // namespace
+
+ModelFrames model_frames(const std::vector<Pose>& believed, const Keyframes& keyframes) {
+  ModelFrames out;
+  double turned = 0.0;
+  for (std::size_t i = 0; i < believed.size(); ++i) {
+    if (i > 0) turned += turn_between(believed[i], believed[i - 1]);
+    out.all.push_back({i, turned, believed[i]});
+  }
+  out.scene.middle = keyframes.middle;
+  out.scene.middle_sensor = keyframes.data.middle;
+  out.scene.lever_m = keyframes.lever_m;
+  if (std::abs(turned) > 1e-6) out.scene.turn_rad = turned;
+  return out;
+}
+
+Pose placed(const ModelFrame& frame, const std::vector<DisturbanceModel>& models,
+            const ModelScene& scene) {
+  ModelFrame out = frame;
+  for (const DisturbanceModel& model : models) {
+    const Twist twist = basis_of(model, out, scene) * model.values;
+    // A turn may be large.
+    const Pose motion = turns(model.kind) ? rotation_about_y(twist[1] / scene.lever_m)
+                                          : motion_of(twist, scene.middle, scene.lever_m);
+    out.T_table_sensor = motion * out.T_table_sensor;
+  }
+  return out.T_table_sensor;
+}
+
+Result<std::vector<DisturbanceModel>> find_models(const Keyframes& keyframes,
+                                                  const ModelFrames& frames, const PoseGraph& graph,
+                                                  const RunContext& context) {
+  return ModelSearch(keyframes, frames, context).run(graph);
+}
+
+}  // namespace turnscan::placement

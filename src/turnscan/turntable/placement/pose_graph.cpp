@@ -1,0 +1,112 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion/robust.hpp>
+#include <turnscan/turntable/placement/pose_graph.hpp>
+
+namespace turnscan::placement {
+
+namespace {
+
+/// How far a frame may lie from where it is believed, standard deviation, as a multiple of a
+/// residual's: so weak that only what nothing shows stays in place.
+constexpr double kFreedom = 30.0;
+
+class FreeSolver {
+ public:
+  FreeSolver(const Keyframes& frames, const std::vector<Pose>& start)
+      : frames_(frames), offset_(frames.size(), Twist::Zero()) {
+    out_.poses = start;
+  }
+
+  Result<PoseGraph> run(const RunContext& context) {
+    ConstraintWeighting weighting{0.03, 0.015, 4};
+    auto pairs = successive_pairs(frames_, out_.poses);
+    for (int i = 0; i < 6; ++i) TURNSCAN_TRY(step(pairs, weighting, context));
+    weighting.reach_m = 0.015;
+    for (int i = 0; i < 8; ++i) {
+      // Which frames show the same view changes with where they are.
+      pairs = all_pairs(frames_, out_.poses);
+      if (i >= 4) weighting.stride = 2;
+      TURNSCAN_TRY(step(pairs, weighting, context));
+    }
+    out_.constraints = constrain_all(frames_, out_.poses, pairs, weighting);
+    out_.scale_m = scale_of(out_.constraints);
+    return std::move(out_);
+  }
+
+ private:
+  Result<> step(const std::vector<FramePair>& pairs, ConstraintWeighting& weighting,
+                const RunContext& context) {
+    TURNSCAN_TRY(context.check());
+    const auto constraints = constrain_all(frames_, out_.poses, pairs, weighting);
+    std::size_t count = 0;
+    for (const PairConstraint& c : constraints) count += c.count;
+    if (count < 100)
+      return fail(ErrorCode::kTooFewPoints,
+                  "placement: the frames do not overlap, only {} points "
+                  "of them meet",
+                  count);
+    const double scale = std::max(scale_of(constraints), 1e-6);
+    const auto n = Eigen::Index(6 * frames_.size());
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+    for (const PairConstraint& c : constraints) add(c, matrix, right);
+    // A residual's variance over that of the prior: about that of a frame's residuals together.
+    const double weak = 1.0 / (kFreedom * kFreedom);
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      right.segment<6>(Eigen::Index(6 * i)) -= weak * offset_[i];
+    matrix.diagonal().array() += weak;
+    const Eigen::LDLT<Eigen::MatrixXd> factors(matrix);
+    const Eigen::VectorXd moved = factors.solve(right);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      const Twist twist = moved.segment<6>(Eigen::Index(6 * i));
+      offset_[i] += twist;
+      out_.poses[i] = motion_of(twist, frames_.middle, frames_.lever_m) * out_.poses[i];
+    }
+    const double limit = std::max(motion::kHuber * scale, 0.2 * frames_.data.noise_m);
+    weighting.huber_m = std::max(limit, 0.6 * weighting.huber_m);
+    weighting.reach_m = std::max(0.75 * weighting.reach_m, 8.0 * limit);
+    return {};
+  }
+
+  static void add(const PairConstraint& c, Eigen::MatrixXd& matrix, Eigen::VectorXd& right) {
+    const auto from = Eigen::Index(6 * c.pair.from), to = Eigen::Index(6 * c.pair.to);
+    matrix.block<6, 6>(from, from) += c.normal;
+    matrix.block<6, 6>(to, to) += c.normal;
+    matrix.block<6, 6>(from, to) -= c.normal;
+    matrix.block<6, 6>(to, from) -= c.normal;
+    right.segment<6>(from) += c.right;
+    right.segment<6>(to) -= c.right;
+  }
+
+  const Keyframes& frames_;
+  std::vector<Twist> offset_;
+  PoseGraph out_;
+};
+
+}  // namespace
+
+std::vector<PairConstraint> constrain_all(const Keyframes& frames, const std::vector<Pose>& poses,
+                                          const std::vector<FramePair>& pairs,
+                                          const ConstraintWeighting& weighting) {
+  std::vector<PairConstraint> out(pairs.size());
+  parallel_for(pairs.size(), 4,
+               [&](std::size_t k) { out[k] = constrain(frames, poses, pairs[k], weighting); });
+  return out;
+}
+
+double scale_of(const std::vector<PairConstraint>& constraints) {
+  std::vector<float> sizes;
+  for (const PairConstraint& c : constraints)
+    sizes.insert(sizes.end(), c.sizes.begin(), c.sizes.end());
+  return sizes.empty() ? 0.0 : motion::kMedianToSigma * double(median(sizes));
+}
+
+Result<PoseGraph> solve_freely(const Keyframes& frames, const std::vector<Pose>& start,
+                               const RunContext& context) {
+  return FreeSolver(frames, start).run(context);
+}
+
+}  // namespace turnscan::placement
