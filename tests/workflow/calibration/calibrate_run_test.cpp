@@ -3,6 +3,7 @@
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 #include <turnscan/workflow/calibration/sensor_correction.hpp>
+#include <turnscan/workflow/simulation/simulate.hpp>
 
 #include "tests/support/memory_sequence.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -73,6 +74,59 @@ TEST(CalibrationChoiceOf, RecordedKeepsWhatTheRecordingSays) {
   ASSERT_TRUE(choice);
   EXPECT_FALSE(choice->calibration);
   EXPECT_TRUE(choice->poses.empty() && choice->note.empty());
+}
+
+/// The letter, which from frame `at` on stands 6 mm beside where it stood.
+class MovedLetter : public FrameSequence {
+ public:
+  MovedLetter(int frames, std::size_t at)
+      : before_(scan(frames, 0.0)), after_(scan(frames, 0.006)), at_(at) {}
+  const SequenceHeader& header() const override { return before_.scan.header(); }
+  const std::vector<FrameInfo>& frames() const override { return before_.scan.frames(); }
+  Result<Frame> read(std::size_t position) const override {
+    return (position < at_ ? before_ : after_).scan.read(position);
+  }
+
+ private:
+  static Simulation scan(int frames, double x_m) {
+    SceneDescription scene;
+    scene.object = "builtin:letter-a";
+    scene.motion.frames = frames;
+    scene.motion.turns = 1.1;
+    scene.placement.distance_m = 0.7;
+    scene.object_placement.x_m = x_m;
+    return prepare_simulation(scene, {}).value();
+  }
+
+  Simulation before_, after_;
+  std::size_t at_;
+};
+
+TEST(CalibrationChoiceOf, AutoMovesFramesBackAndRecordedOnlySaysWhatHappened) {
+  const MovedLetter sequence(60, 33);
+  const auto choice = choose_calibration(sequence, {"auto", {}, false}, RunContext());
+  ASSERT_TRUE(choice) << choice.error().text();
+  EXPECT_EQ(choice->poses.size(), 60u);
+  EXPECT_EQ(choice->note.find("the object moved by "), 0u) << choice->note;
+  EXPECT_NE(choice->note.find("at 1.1 s"), std::string::npos) << choice->note;
+  const auto placed = with_choice(sequence, *choice);
+  ASSERT_TRUE(placed);
+  EXPECT_TRUE((*placed)->frames()[40].T_table_sensor);
+  const auto recorded = choose_calibration(sequence, {"recorded", {}, false}, RunContext());
+  ASSERT_TRUE(recorded);
+  EXPECT_TRUE(recorded->poses.empty());
+  EXPECT_NE(recorded->note.find("nothing was corrected"), std::string::npos) << recorded->note;
+}
+
+TEST(CalibrationChoiceOf, FramesThatAreLeftOutCountAsDropped) {
+  const MovedLetter sequence(12, 12);
+  CalibrationChoice choice;
+  choice.left_out = {3, 4};
+  const auto placed = with_choice(sequence, choice);
+  ASSERT_TRUE(placed);
+  EXPECT_EQ((*placed)->frames()[2].status, FrameStatus::kOk);
+  EXPECT_EQ((*placed)->frames()[3].status, FrameStatus::kDropped);
+  EXPECT_EQ((*placed)->frames()[4].status, FrameStatus::kDropped);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ double sigma_of(const DisturbanceModel& model) {
 Evidence::Evidence(const Keyframes& frames, const PoseGraph& graph,
                    const std::vector<Pose>& believed, std::vector<ModelFrame> model_frames,
                    const ModelScene& scene)
-    : frames_(frames), model_frames_(std::move(model_frames)), scene_(scene) {
+    : model_frames_(std::move(model_frames)), scene_(scene) {
   find_excess(graph);
   scale_m_ = graph.scale_m;
   std::map<std::pair<std::uint32_t, std::uint32_t>, const PairConstraint*> all;

@@ -47,7 +47,6 @@ class Evidence {
   double spread_of(const System& system, const Eigen::VectorXd& values) const;
   double gain_of(const System& system, const DisturbanceModel& candidate) const;
 
-  const Keyframes& frames_;
   std::vector<ModelFrame> model_frames_;
   ModelScene scene_;
   std::vector<RelativeTwist> twists_;

@@ -83,8 +83,12 @@ class DisturbanceSearch {
     TURNSCAN_ASSIGN(auto models, find_models(keyframes, frames, graph, context_));
     if (models.size() < 2) return {};
     TURNSCAN_TRY(find_moments(sequence_, believed_, keyframes, frames, models, context_));
-    for (std::size_t k = 0; k < models.size(); ++k)
-      if (!models[k].held) out_.disturbances.push_back(tell(sequence_, frames, models, k));
+    // What happened at a moment comes first: a speed that was measured over it is off, too.
+    for (const bool moment : {true, false}) {
+      for (std::size_t k = 0; k < models.size(); ++k)
+        if (!models[k].held && (models[k].first > 0) == moment)
+          out_.disturbances.push_back(tell(sequence_, frames, models, k));
+    }
     for (std::size_t i = 0; i < believed_.size(); ++i)
       out_.T_table_sensor[i] = placed(frames.all[i], models, frames.scene);
     return {};

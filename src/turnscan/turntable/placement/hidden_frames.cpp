@@ -68,9 +68,11 @@ std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vecto
   std::vector<double> off;
   for (const double s : share) off.push_back(std::abs(s - usual));
   const double limit = usual + std::max(kLeastHidden, kSpreads * 1.4826 * median(off));
+  // One alone is a view that has little in common with its neighbours, as a plate seen edge on.
+  const auto over = [&](std::size_t i) { return i < share.size() && share[i] > limit; };
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < share.size(); ++i)
-    if (share[i] > limit) out.push_back(i);
+    if (over(i) && (over(i + 1) || (i > 0 && over(i - 1)))) out.push_back(i);
   return out;
 }
 
