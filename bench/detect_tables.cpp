@@ -99,9 +99,9 @@ Outcome judge(const DetectedPlatter& p, const TurntableInfo& truth) {
   const double height = offset.dot(truth.axis);
   Outcome out;
   out.found = true;
-  out.axis_deg = {std::atan2(p.axis.cross(truth.axis).norm(), p.axis.dot(truth.axis)) *
-                      kDegreesPerRadian,
-                  p.axis_sigma_rad * kDegreesPerRadian};
+  out.axis_deg = {
+      std::atan2(p.axis.cross(truth.axis).norm(), p.axis.dot(truth.axis)) * kDegreesPerRadian,
+      p.axis_sigma_rad * kDegreesPerRadian};
   out.center_mm = {(offset - height * truth.axis).norm() * 1e3, p.center_sigma_m * 1e3};
   out.height_mm = {height * 1e3, p.height_sigma_m * 1e3};
   out.radius_mm = {(p.radius_m - *truth.radius_m) * 1e3, p.radius_sigma_m * 1e3};
@@ -111,12 +111,12 @@ Outcome judge(const DetectedPlatter& p, const TurntableInfo& truth) {
 void print_recipe(const TableRecipe& table) {
   const VirtualScanOptions& o = table.options;
   constexpr std::array kRooms{"none", "desk", "wall", "clutter"};
-  fmt::print("{:4} {:8} mix {:4.2f} {:4.2f} m {:4.1f} deg r {:3.0f} t {:4.1f} {:7} {:8}: ",
-             table.seed, o.measure.noise.substr(0, 8), o.measure.mixed_pixels,
-             o.scanners[0].placement.distance_m,
-             o.scanners[0].placement.elevation_rad * kDegreesPerRadian, o.platter.radius_m * 1e3,
-             o.platter.thickness_m * 1e3, kRooms[std::size_t(o.room.kind)],
-             table.object.empty() ? "-" : table.object);
+  fmt::print(
+      "{:4} {:8} mix {:4.2f} {:4.2f} m {:4.1f} deg r {:3.0f} t {:4.1f} {:7} {:8}: ", table.seed,
+      o.measure.noise.substr(0, 8), o.measure.mixed_pixels, o.scanners[0].placement.distance_m,
+      o.scanners[0].placement.elevation_rad * kDegreesPerRadian, o.platter.radius_m * 1e3,
+      o.platter.thickness_m * 1e3, kRooms[std::size_t(o.room.kind)],
+      table.object.empty() ? "-" : table.object);
 }
 
 void print_outcome(const Outcome& o, const DetectedPlatter& p) {
@@ -172,9 +172,10 @@ void summarise(const std::vector<Outcome>& all) {
     wrong += o.center_mm.error > 5.0 && o.center_mm.ratio() > 3.0 ? 1 : 0;
     slowest = std::max(slowest, o.seconds);
   }
-  fmt::print("{} tables: {} found, {} of them with a centre within 1 mm or 2 deviations, {} "
-             "silently wrong, {} refused; at most {:.2f} s\n",
-             all.size(), found.size(), good, wrong, all.size() - found.size(), slowest);
+  fmt::print(
+      "{} tables: {} found, {} of them with a centre within 1 mm or 2 deviations, {} "
+      "silently wrong, {} refused; at most {:.2f} s\n",
+      all.size(), found.size(), good, wrong, all.size() - found.size(), slowest);
   const auto line = [&](const char* name, Judged Outcome::*what) {
     fmt::print("  {:12} median error {:.3f}, errors over deviations rms {:.2f}\n", name,
                median_error(found, what), rms_ratio(found, what));

@@ -135,13 +135,18 @@ ScanPixels pixels_of(const AveragedScan& scan) {
   out.noise_m = out.frame_noise_m / std::sqrt(double(scan.frames));
   const float limit = scan.frames < 4 ? std::numeric_limits<float>::infinity()
                                       : float(std::max(0.002, 4.0 * out.frame_noise_m));
+  float nearest = std::numeric_limits<float>::max();
+  out.still_limit_m = limit;
+  out.deviation_m = scan.noise_m.pixels;
   for (std::size_t i = 0; i < n; ++i) {
     const float z = scan.depth_m.pixels[i];
     const Vec3f p(rays.x()[i] * z, rays.y()[i] * z, z);
     if (!(z > 0.0f) || !p.allFinite()) continue;
     out.point[i] = p;
     out.still[i] = scan.noise_m.pixels[i] > limit ? 0 : 1;
+    if (out.still[i]) nearest = std::min(nearest, z);
   }
+  out.nearest_m = nearest;
   return out;
 }
 

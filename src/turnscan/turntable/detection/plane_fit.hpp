@@ -24,6 +24,9 @@ struct ScanPixels {
   int width = 0, height = 0;
   std::vector<Vec3f> point;         ///< sensor frame; z = 0 where not valid
   std::vector<std::uint8_t> still;  ///< valid, and not noisier than a still surface is
+  std::vector<float> deviation_m;   ///< of one frame; NaN where not known
+  double still_limit_m = 0.0;       ///< of a still surface's deviation
+  double nearest_m = 0.0;           ///< depth along z of the nearest still pixel
   double noise_m = 0.0;             ///< typical, of the average
   double frame_noise_m = 0.0;       ///< typical, of one frame
 };

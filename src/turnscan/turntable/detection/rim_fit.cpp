@@ -306,6 +306,8 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
     // What flickers, a turning object or an edge, says nothing.
     const auto i = std::size_t(y) * std::size_t(view.scan.width) + std::size_t(x);
     if (!view.scan.still[i] && view.scan.point[i].z() > 0.0f) return std::nullopt;
+    // What would be nearer than anything that the sensor measures is out of its range.
+    if (!(view.scan.point[i].z() > 0.0f) && p.z() < view.scan.nearest_m) return std::nullopt;
     return view.side(x, y);
   };
   /// Radial length of this many pixels at a place of the rim.

@@ -1,0 +1,22 @@
+#pragma once
+// From a rough circle to the platter's rim with its covariance.
+
+#include <turnscan/turntable/detection/rim_likelihood.hpp>
+
+namespace turnscan::detection {
+
+struct RimEstimate {
+  RimModel model;
+  EdgeResponse edge;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of RimGradient's unknowns
+  double explained = 0.0;  ///< mean probability of what the edge's pixels see
+  std::size_t edge_pixels = 0, wall_pixels = 0;
+  double log_likelihood = 0.0;
+};
+
+/// nullopt when it runs away from the start, or too little of the rim is there.
+std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& start,
+                                        const NoiseCorrelation& noise,
+                                        std::optional<double> radius_m);
+
+}  // namespace turnscan::detection
