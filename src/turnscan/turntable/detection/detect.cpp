@@ -1,8 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <turnscan/turntable/detection/detect.hpp>
-#include <turnscan/turntable/detection/rim_estimate.hpp>
-#include <turnscan/turntable/detection/rim_fit.hpp>
+#include <turnscan/turntable/detection/platter_refinement.hpp>
 
 namespace turnscan::detection {
 
@@ -11,25 +10,10 @@ namespace {
 constexpr int kMostPlanes = 14;
 constexpr std::size_t kLeastPixels = 150;
 constexpr std::size_t kMostRefined = 3;
-constexpr double kHeightFloor_m = 1e-5;  // no residual shows how true a sensor's depth is
-constexpr double kRoundness = 4e-4;      // of the radius: by how much no platter is rounder
-
-struct PlatterCandidate {
-  DetectedPlatter platter;
-  DiscSupport support;
-  double tolerance_m = 0.0;  ///< of its plane
-};
+constexpr double kLeastWorth = 0.35;      // of the best candidate's
+constexpr double kLeastAgreement = 0.93;  // platters have 0.97 and more, clutter up to 0.88
 
 std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
-
-std::vector<std::uint8_t> mask_of(const ScanPixels& scan, const Plane& plane, double tolerance) {
-  std::vector<std::uint8_t> in(scan.point.size(), 0);
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    if (scan.still[i] && std::abs(plane.height(scan.point[i].cast<double>())) < tolerance)
-      in[i] = 1;
-  }
-  return in;
-}
 
 Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels) {
   Vec3d sum = Vec3d::Zero();
@@ -47,43 +31,6 @@ std::vector<std::int32_t> inside(const PlaneView& view, const RimCircle& circle)
       out.push_back(static_cast<std::int32_t>(i));
   }
   return out;
-}
-
-/// Whether all pixels about one lie in the plane, too: at an edge a filter mixes what it joins.
-bool amid_plane(const PlaneView& view, int x, int y, int reach) {
-  if (x < reach || y < reach || x + reach >= view.scan.width || y + reach >= view.scan.height)
-    return false;
-  for (int v = y - reach; v <= y + reach; ++v) {
-    for (int u = x - reach; u <= x + reach; ++u)
-      if (!view.in[std::size_t(v) * std::size_t(view.scan.width) + std::size_t(u)]) return false;
-  }
-  return true;
-}
-
-/// The pixels of the platter's surface that no edge can have changed.
-std::vector<std::int32_t> undisturbed(const PlaneView& view, const RimModel& model, int blur_px) {
-  const RimView rays(view.camera, view.plane, view.frame);
-  std::vector<std::int32_t> out;
-  for (int y = 0; y < view.scan.height; ++y) {
-    for (int x = 0; x < view.scan.width; ++x) {
-      const int i = y * view.scan.width + x;
-      if (!view.in[std::size_t(i)]) continue;
-      const auto within = rays.disc_px(model, x, y);
-      if (within && *within > 1.5 + blur_px && amid_plane(view, x, y, 1 + blur_px))
-        out.push_back(i);
-    }
-  }
-  return out;
-}
-
-/// A filter over neighbours favours the brighter, which are the nearer ones: by about the change of
-/// depth from pixel to pixel, times that change's share of the depth. Along the normal.
-double filter_bias(const Plane& plane, const Vec3d& at, const CameraIntrinsics& camera,
-                   int blur_px) {
-  const double facing = -plane.normal.dot(at) / at.norm();
-  const double slant =
-      at.z() / std::min(camera.fx, camera.fy) * std::sqrt(1.0 - facing * facing) / facing;
-  return blur_px * slant * slant / at.z() * facing;
 }
 
 class PlatterDetector {
@@ -109,12 +56,17 @@ class PlatterDetector {
   void examine(const FoundPlane& found, std::uint64_t seed) {
     Plane plane = found.plane;
     for (int round = 0; round < 3; ++round) {
-      const PlaneView view = view_of(plane, found.tolerance_m, middle_of(pixels_, found.pixels));
+      const PlaneView view = view_of({pixels_, camera_, rays_}, plane, found.tolerance_m,
+                                     middle_of(pixels_, found.pixels));
       const auto circle = circle_of(view, round > 0, seed);
-      if (!circle) return;
+      if (!circle && round == 0) return;
+      if (!circle) break;
       const auto own = inside(view, *circle);
       const auto estimate = fit_plane(pixels_, rays_, own);
-      if (!estimate || own.size() < kLeastPixels) return;
+      if (!estimate || own.size() < kLeastPixels) {
+        if (round == 0) return;
+        break;
+      }
       keep(*estimate, *circle, view.frame.to_space(circle->center), support_of(view, *circle),
            own.size());
       plane = estimate->plane;
@@ -123,80 +75,20 @@ class PlatterDetector {
     candidates_.push_back(last_);
   }
 
-  PlaneView view_of(const Plane& plane, double tolerance_m, const Vec3d& origin) const {
-    return {pixels_,
-            camera_,
-            rays_,
-            plane,
-            tolerance_m,
-            PlaneFrame(plane, origin),
-            mask_of(pixels_, plane, tolerance_m)};
-  }
-
   /// Only what may be the platter: it costs time.
   void refine_best() {
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& l, const auto& r) { return worth(l) > worth(r); });
     if (candidates_.size() > kMostRefined) candidates_.resize(kMostRefined);
-    for (PlatterCandidate& c : candidates_) {
-      last_ = c;
-      refine(c.tolerance_m);
-      c = last_;
+    std::vector<PlatterCandidate> refined;
+    for (const PlatterCandidate& c : candidates_) {
+      if (worth(c) < kLeastWorth * worth(candidates_.front())) break;
+      auto better = refine_platter({pixels_, camera_, rays_}, c, options_.radius_m);
+      if (better) refined.push_back(std::move(*better));
     }
-  }
-
-  /// From the rough plane and circle of last_ to their best estimates.
-  void refine(double tolerance_m) {
-    NoiseCorrelation noise;
-    RimModel model{Eigen::Vector2d::Zero(), last_.platter.radius_m, 0.0};
-    Plane plane{last_.platter.axis, last_.platter.axis.dot(last_.platter.center_m)};
-    Vec3d center = last_.platter.center_m;
-    for (int round = 0; round < 2; ++round) {
-      const PlaneView view = view_of(plane, tolerance_m, center);
-      model.center.setZero();
-      const auto own = undisturbed(view, model, noise.blur_px);
-      const auto estimate = fit_plane(pixels_, rays_, own);
-      if (!estimate || own.size() < kLeastPixels) return;
-      noise = correlation_of(pixels_, rays_, estimate->plane, own);
-      plane = estimate->plane;
-      center *= plane.offset / plane.normal.dot(center);
-      const PlaneView better = view_of(plane, tolerance_m, center);
-      const auto rim = estimate_rim(better, model, noise, options_.radius_m);
-      if (!rim) return;
-      model = rim->model;
-      center = better.frame.to_space(model.center);
-      if (round == 1) keep_refined(*estimate, *rim, noise, center);
-      if (round == 1) keep_support(view_of(plane, tolerance_m, center));
-    }
-  }
-
-  void keep_support(const PlaneView& view) {
-    RimCircle circle;
-    circle.radius_m = last_.platter.radius_m;
-    last_.support = support_of(view, circle);
-    last_.platter.rim_share = last_.support.rim_share;
-    last_.platter.confidence = last_.support.agreement * last_.support.filled;
-  }
-
-  void keep_refined(const PlaneEstimate& estimate, const RimEstimate& rim,
-                    const NoiseCorrelation& noise, const Vec3d& center) {
-    DetectedPlatter& p = last_.platter;
-    p.axis = estimate.plane.normal;
-    p.center_m = center;
-    p.radius_m = rim.model.radius_m;
-    const Vec3d n = p.axis;
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
-    const Eigen::Matrix3d covariance = noise.pixels_per_sample * estimate.covariance;
-    const double d = std::abs(estimate.plane.offset);
-    p.axis_sigma_rad = d * std::sqrt((across * covariance * across).trace());
-    p.height_sigma_m = std::hypot(d * std::sqrt(center.dot(covariance * center)), kHeightFloor_m,
-                                  filter_bias(estimate.plane, center, camera_, noise.blur_px));
-    // The rim is seen in a direction: where the plane is higher, it is nearer.
-    const double lean = (across * center).norm() / std::abs(n.dot(center));
-    p.center_sigma_m =
-        std::sqrt(rim.covariance.topLeftCorner<2, 2>().trace() +
-                  std::pow(lean * p.height_sigma_m, 2) + std::pow(kRoundness * p.radius_m, 2));
-    p.radius_sigma_m = std::hypot(std::sqrt(rim.covariance(2, 2)), kRoundness * p.radius_m);
+    if (refined.empty() && !candidates_.empty())
+      unmeasured_m_ = candidates_.front().platter.radius_m;
+    candidates_ = std::move(refined);
   }
 
   /// refined: last_ is an estimate of the same platter.
@@ -210,7 +102,25 @@ class PlatterDetector {
       const Eigen::Vector2d to_sensor = view.frame.to_plane(Vec3d::Zero()) - center;
       drop_false_ends(center, to_sensor.normalized(), ends);
     }
-    return find_circle(ends, low, high, options_.radius_m, seed);
+    const auto best = best_of(view, find_circles(ends, low, high, options_.radius_m, seed));
+    if (refined || (best && worth(support_of(view, *best)) > 0.5)) return best;
+    // A filter may leave no clear end anywhere, but then the surface itself is round.
+    auto circles = find_circles(part_ends(view), low, high, options_.radius_m, seed);
+    if (best) circles.push_back(*best);
+    return best_of(view, circles);
+  }
+
+  static std::optional<RimCircle> best_of(const PlaneView& view,
+                                          const std::vector<RimCircle>& circles) {
+    std::optional<RimCircle> best;
+    double best_worth = 0.0;
+    for (const RimCircle& circle : circles) {
+      const double value = worth(support_of(view, circle));
+      if (best && value <= best_worth) continue;
+      best = circle;
+      best_worth = value;
+    }
+    return best;
   }
 
   /// Where the ray through the rim's centre meets the refined plane.
@@ -237,6 +147,10 @@ class PlatterDetector {
     last_ = {p, support};
   }
 
+  static double worth(const DiscSupport& support) {
+    return support.agreement * support.filled * std::min(1.0, support.rim_share / 0.5);
+  }
+
   /// How much a candidate's disc counts: of two good ones the larger is the platter.
   static double worth(const PlatterCandidate& c) {
     return c.platter.confidence * std::min(1.0, c.platter.rim_share / 0.5);
@@ -251,6 +165,11 @@ class PlatterDetector {
     for (const PlatterCandidate& c : candidates_) {
       if (best == nullptr || worth(c) > worth(*best)) best = &c;
     }
+    if (best == nullptr && unmeasured_m_)
+      return fail(ErrorCode::kMissingData,
+                  "platter: too little of the best disc (radius {}) and its rim is seen to measure "
+                  "it; move the sensor nearer or higher, or give points with --points",
+                  mm(*unmeasured_m_));
     if (best == nullptr)
       return fail(ErrorCode::kMissingData,
                   "platter: none of the {} planes seen has a round rim; make room around the "
@@ -271,6 +190,12 @@ class PlatterDetector {
                   "platter: only {:.0f} % of the rim of the best disc (radius {}) is seen; move "
                   "what hides it, or give points with --points",
                   100.0 * p.rim_share, mm(p.radius_m));
+    if (!(c.support.agreement >= kLeastAgreement))
+      return fail(ErrorCode::kMissingData,
+                  "platter: the best disc (radius {}) is not round, only {:.0f} % of what is seen "
+                  "beside its rim fits it; make room around the platter, or give points with "
+                  "--points",
+                  mm(p.radius_m), 100.0 * c.support.agreement);
     if (!(p.confidence >= options_.min_confidence))
       return fail(ErrorCode::kMissingData,
                   "platter: the best disc (radius {}) is doubtful, confidence {:.2f}; make room "
@@ -302,6 +227,7 @@ class PlatterDetector {
   const DetectOptions& options_;
   PlatterCandidate last_;
   std::vector<PlatterCandidate> candidates_;
+  std::optional<double> unmeasured_m_;  ///< radius of the best one, if none can be measured
 };
 
 }  // namespace

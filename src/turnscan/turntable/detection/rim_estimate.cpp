@@ -2,14 +2,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/detection/rim_estimate.hpp>
 
 namespace turnscan::detection {
 
 namespace {
 
-constexpr double kBandReach_px = 6.0;
-constexpr std::array kThicknesses_m{0.0, 0.003, 0.007, 0.012, 0.02, 0.03, 0.045};
+constexpr double kFirstReach_px = 6.0, kReach_px = 4.5;
+constexpr std::size_t kMostInSearch = 3000;  // pixels
+constexpr std::array kThicknesses_m{0.0, 0.003, 0.007, 0.012, 0.02, 0.03, 0.045, 0.065};
 constexpr std::array kSpreads_px{1.0, 0.7, 0.5, 0.36, 0.27, 0.2, 0.14, 0.1};
 constexpr std::size_t kLeastRimPixels = 60;
 
@@ -64,18 +66,32 @@ class RimAscent {
   double damping_ = 1e-3;
 };
 
-/// The thickness decides which place of the near side is the rim: several are tried.
+/// Pixels on the wrong side of the outline, however far from it.
+std::size_t wrong_pixels(const RimData& data, const RimState& state) {
+  std::size_t wrong = 0;
+  for (const RimPixel& pixel : data.pixels) {
+    const auto distance = data.rays.outline(state.model, pixel.column, pixel.row);
+    if (!distance || pixel.label == RimLabel::kMixed) continue;
+    const bool within = distance->px > state.edge.shift_px;
+    wrong += within == (pixel.label == RimLabel::kPlatter) ? 0 : 1;
+  }
+  return wrong;
+}
+
+/// The thickness decides which place of the near side is the rim: several are tried. Their
+/// likelihoods are of different pixels, those about each outline, and cannot be compared.
 RimState best_thickness(const RimData& data, const RimModel& start) {
   RimState best;
-  double best_likelihood = -std::numeric_limits<double>::infinity();
+  std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const double thickness : kThicknesses_m) {
     RimState state;
     state.model = start;
     state.model.thickness_m = thickness;
     RimAscent ascent(data, state);
     ascent.climb(12);
-    if (ascent.system().log_likelihood <= best_likelihood) continue;
-    best_likelihood = ascent.system().log_likelihood;
+    const std::size_t wrong = wrong_pixels(data, ascent.state());
+    if (wrong >= least) continue;
+    least = wrong;
     best = ascent.state();
   }
   return best;
@@ -95,6 +111,14 @@ RimState best_spread(const RimData& data, const RimState& start) {
     best = ascent.state();
   }
   return best;
+}
+
+/// Evenly fewer pixels: while searching, what all of them say is not needed.
+RimData thinned(const RimData& data) {
+  RimData out{data.rays, {}, data.noise, data.empty_share, data.radius_m};
+  const std::size_t n = std::min(kMostInSearch, data.pixels.size());
+  for (std::size_t k = 0; k < n; ++k) out.pixels.push_back(data.pixels[k * data.pixels.size() / n]);
+  return out;
 }
 
 double empty_share(const std::vector<RimPixel>& pixels) {
@@ -130,6 +154,31 @@ Eigen::Matrix4d covariance_of(const RimEquations& equations) {
   return out;
 }
 
+/// Fills agreement and rim_share.
+void count_witnesses(const RimData& data, RimEstimate& out) {
+  constexpr std::size_t kBearings = 72;
+  constexpr double kBeside_px = 4.0;
+  std::array<std::uint8_t, kBearings> inside{}, outside{};
+  double agree = 0.0, all = 0.0;
+  for (const RimPixel& pixel : data.pixels) {
+    const auto distance = data.rays.outline(out.model, pixel.column, pixel.row);
+    if (!distance || pixel.label == RimLabel::kMixed) continue;
+    const double off = distance->px - out.edge.shift_px;
+    const double away = std::abs(off) - 0.5 * out.edge.band_px;
+    if (away > kBeside_px || away < std::min(0.5, out.edge.spread_px)) continue;
+    const bool platter = pixel.label == RimLabel::kPlatter, within = off > 0.0;
+    all += 1.0;
+    agree += platter == within ? 1.0 : 0.0;
+    const double turn = distance->bearing_rad / kTurn + 0.5;
+    const auto k = std::min(kBearings - 1, static_cast<std::size_t>(turn * double(kBearings)));
+    if (within && platter) inside[k] = 1;
+    if (!within && !platter) outside[k] = 1;
+  }
+  out.agreement = all > 0.0 ? agree / all : 0.0;
+  for (std::size_t k = 0; k < kBearings; ++k)
+    out.rim_share += inside[k] && outside[k] ? 1.0 / double(kBearings) : 0.0;
+}
+
 }  // namespace
 
 std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& start,
@@ -141,16 +190,21 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
   state.model = start;
   for (int round = 0; round < 3; ++round) {
     const double slack = round == 0 ? 0.01 : round == 1 ? 0.004 : 0.0;
-    data.pixels = label_rim(view, rays, state.model, noise, kBandReach_px, slack);
+    // At first a wall of any height is to find its foot among the pixels.
+    RimModel about = state.model;
+    if (round == 0) about.thickness_m = kThicknesses_m.back();
+    data.pixels =
+        label_rim(view, rays, about, noise, round == 0 ? kFirstReach_px : kReach_px, slack);
     if (data.pixels.size() < kLeastRimPixels) return std::nullopt;
     data.empty_share = empty_share(data.pixels);
-    state = round == 0 ? best_thickness(data, state.model) : best_spread(data, state);
+    const RimData few = thinned(data);
+    state = round == 0 ? best_thickness(few, state.model) : best_spread(few, state);
     const double moved = (state.model.center - start.center).norm();
     if (moved > 0.3 * start.radius_m || !(state.model.radius_m > 0.5 * start.radius_m))
       return std::nullopt;
   }
   RimAscent ascent(data, state);
-  ascent.climb(30);
+  ascent.climb(15);
   const RimEquations& system = ascent.system();
   RimEstimate out;
   out.model = ascent.state().model;
@@ -160,6 +214,7 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
   out.wall_pixels = system.wall_pixels;
   out.explained = system.explained / double(std::max<std::size_t>(1, system.edge_pixels));
   out.log_likelihood = system.log_likelihood;
+  count_witnesses(data, out);
   return out.covariance.allFinite() ? std::optional(out) : std::nullopt;
 }
 

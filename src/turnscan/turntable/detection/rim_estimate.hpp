@@ -10,6 +10,8 @@ struct RimEstimate {
   EdgeResponse edge;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of RimGradient's unknowns
   double explained = 0.0;  ///< mean probability of what the edge's pixels see
+  double agreement = 0.0;  ///< share of the pixels beside the edge that are on their side of it
+  double rim_share = 0.0;  ///< of the bearings, those with the platter inside and not outside
   std::size_t edge_pixels = 0, wall_pixels = 0;
   double log_likelihood = 0.0;
 };

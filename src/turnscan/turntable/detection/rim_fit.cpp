@@ -18,7 +18,7 @@ constexpr double kEdgeSigma_px = 0.35;  // a rim between two pixels: 0.29, and a
 constexpr double kWallSigma_px = 0.25;
 // How far mixed pixels shift a rim: not at all, or by half a pixel where each of them is lost.
 constexpr double kOffset_px = 0.25, kOffsetSigma_px = 0.35;
-constexpr int kPlaces = 360;
+constexpr std::size_t kMostCircles = 8, kMostEnds = 600;
 constexpr std::array<std::array<int, 2>, 4> kAround{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 struct Circle2 {
@@ -155,6 +155,19 @@ class RimSearch {
   explicit RimSearch(const PlaneView& view)
       : view_(view), w_(view.scan.width), h_(view.scan.height) {}
 
+  /// Of pixels for which `counts` is not 0.
+  std::vector<RimPoint> ends_of(const std::vector<std::uint8_t>& counts) {
+    for (int y = 1; y + 1 < h_; ++y) {
+      for (int x = 1; x + 1 < w_; ++x) {
+        if (!counts[index(x, y)]) continue;
+        for (const auto& [dx, dy] : kAround)
+          if (!counts[index(x + dx, y + dy)] && view_.side(x + dx, y + dy) <= 0)
+            add(x + 0.5 * dx, y + 0.5 * dy, true);
+      }
+    }
+    return std::move(out_);
+  }
+
   std::vector<RimPoint> run() {
     for (int y = 0; y < h_; ++y) {
       for (int x = 0; x < w_; ++x) {
@@ -246,6 +259,39 @@ class RimSearch {
 
 }  // namespace
 
+namespace {
+
+/// 1 in the largest set of pixels of the plane that are connected along rows and columns.
+std::vector<std::uint8_t> largest_part(const PlaneView& view) {
+  const int w = view.scan.width, h = view.scan.height;
+  std::vector<std::uint8_t> open = view.in;
+  std::vector<std::int32_t> best, part;
+  for (std::size_t first = 0; first < open.size(); ++first) {
+    if (!open[first]) continue;
+    part.assign(1, static_cast<std::int32_t>(first));
+    open[first] = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const int x = part[k] % w, y = part[k] / w;
+      for (const auto& [dx, dy] : kAround) {
+        const int u = x + dx, v = y + dy;
+        if (u < 0 || v < 0 || u >= w || v >= h || !open[std::size_t(v * w + u)]) continue;
+        open[std::size_t(v * w + u)] = 0;
+        part.push_back(v * w + u);
+      }
+    }
+    if (part.size() > best.size()) best.swap(part);
+  }
+  std::vector<std::uint8_t> out(open.size(), 0);
+  for (const std::int32_t i : best) out[std::size_t(i)] = 1;
+  return out;
+}
+
+}  // namespace
+
+std::vector<RimPoint> part_ends(const PlaneView& view) {
+  return RimSearch(view).ends_of(largest_part(view));
+}
+
 std::vector<RimPoint> rim_points(const PlaneView& view) { return RimSearch(view).run(); }
 
 void drop_false_ends(const Vector2d& center, const Vector2d& to_sensor,
@@ -263,10 +309,14 @@ void drop_false_ends(const Vector2d& center, const Vector2d& to_sensor,
   std::erase_if(points, [&](const RimPoint& p) { return p.jump && faces(p); });
 }
 
-std::optional<RimCircle> find_circle(const std::vector<RimPoint>& points, double min_radius_m,
-                                     double max_radius_m, std::optional<double> radius_m,
-                                     std::uint64_t seed) {
-  if (points.size() < 20) return std::nullopt;
+std::vector<RimCircle> find_circles(const std::vector<RimPoint>& all, double min_radius_m,
+                                    double max_radius_m, std::optional<double> radius_m,
+                                    std::uint64_t seed) {
+  std::vector<RimCircle> found;
+  if (all.size() < 20) return found;
+  std::vector<RimPoint> points;
+  const std::size_t n = std::min(kMostEnds, all.size());
+  for (std::size_t k = 0; k < n; ++k) points.push_back(all[k * all.size() / n]);
   constexpr std::size_t kTrials = 1500;
   std::vector<std::size_t> score(kTrials, 0);
   std::vector<Circle2> circles(kTrials, Circle2{Vector2d::Zero(), 0.0});
@@ -284,64 +334,12 @@ std::optional<RimCircle> find_circle(const std::vector<RimPoint>& points, double
   for (std::size_t t = 0; t < kTrials; ++t) order[t] = t;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t l, std::size_t r) { return score[l] > score[r]; });
-  std::optional<RimCircle> best;
-  std::size_t best_score = 0;
-  for (std::size_t k = 0; k < 8 && score[order[k]] >= 24; ++k) {
-    auto circle = refine(points, circles[order[k]], radius_m);
-    if (!circle || circle->radius_m < min_radius_m || circle->radius_m > max_radius_m) continue;
-    const std::size_t places =
-        places_near(points, {circle->center, circle->radius_m}).count() * 1000 + circle->points;
-    if (places > best_score) best = circle, best_score = places;
+  for (std::size_t k = 0; k < kMostCircles && score[order[k]] >= 24; ++k) {
+    const auto circle = refine(points, circles[order[k]], radius_m);
+    if (circle && circle->radius_m >= min_radius_m && circle->radius_m <= max_radius_m)
+      found.push_back(*circle);
   }
-  return best;
-}
-
-DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
-  const auto side_at = [&](const Vector2d& q) -> std::optional<int> {
-    const Vec3d p = view.frame.to_space(q);
-    if (!(p.z() > 0.0)) return std::nullopt;
-    const Vector2d uv = view.camera.project(p);
-    const int x = int(std::lround(uv.x())), y = int(std::lround(uv.y()));
-    if (x < 0 || y < 0 || x >= view.scan.width || y >= view.scan.height) return std::nullopt;
-    // What flickers, a turning object or an edge, says nothing.
-    const auto i = std::size_t(y) * std::size_t(view.scan.width) + std::size_t(x);
-    if (!view.scan.still[i] && view.scan.point[i].z() > 0.0f) return std::nullopt;
-    // What would be nearer than anything that the sensor measures is out of its range.
-    if (!(view.scan.point[i].z() > 0.0f) && p.z() < view.scan.nearest_m) return std::nullopt;
-    return view.side(x, y);
-  };
-  /// Radial length of this many pixels at a place of the rim.
-  const auto pixels = [&](const Vector2d& direction, double count) {
-    const Vec3d a = view.frame.to_space(circle.center + circle.radius_m * direction);
-    const Vec3d b = view.frame.to_space(circle.center + (circle.radius_m + 1e-4) * direction);
-    const double moved = (view.camera.project(b) - view.camera.project(a)).norm();
-    return moved > 1e-9 ? std::min(count * 1e-4 / moved, 0.5 * circle.radius_m) : 0.0;
-  };
-  DiscSupport out;
-  double agree = 0.0, against = 0.0, in = 0.0, behind = 0.0, all = 0.0;
-  for (int k = 0; k < kPlaces; ++k) {
-    const double a = kTurn * k / kPlaces;
-    const Vector2d direction(std::cos(a), std::sin(a));
-    const double step = pixels(direction, 2.5);
-    const auto inner = side_at(circle.center + (circle.radius_m - step) * direction);
-    const auto outer = side_at(circle.center + (circle.radius_m + step) * direction);
-    if (inner && outer) {
-      if (*inner == 0 && *outer < 0) agree += 1.0;
-      if ((*inner == 0 && *outer == 0) || *inner < 0) against += 1.0;
-    }
-    for (int ring = 0; ring < 10; ++ring) {
-      const double r = (circle.radius_m - step) * std::sqrt((ring + 0.5) / 10.0);
-      const auto side = side_at(circle.center + r * direction);
-      all += 1.0;
-      if (side && *side == 0) in += 1.0;
-      if (side && *side < 0) behind += 1.0;
-    }
-  }
-  out.rim_share = agree / kPlaces;
-  out.agreement = agree + against > 0.0 ? agree / (agree + against) : 0.0;
-  out.filled = in + behind > 0.0 ? in / (in + behind) : 0.0;
-  out.seen = (in + behind) / all;
-  return out;
+  return found;
 }
 
 }  // namespace turnscan::detection

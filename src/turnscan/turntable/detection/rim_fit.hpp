@@ -46,6 +46,9 @@ struct PlaneView {
 /// All ends of the plane except where something stands before them.
 std::vector<RimPoint> rim_points(const PlaneView& view);
 
+/// The ends of the plane's largest connected part, whatever lies behind.
+std::vector<RimPoint> part_ends(const PlaneView& view);
+
 /// On the side of a disc that faces the sensor a thick platter shows its wall, of which the upper
 /// end passes for the plane. Where enough of the points there are walls, those that are not are
 /// dropped. to_sensor: direction in the plane.
@@ -62,18 +65,10 @@ struct RimCircle {
   std::size_t points = 0;
 };
 
-/// Radius within [min, max]. nullopt where no circle has enough points all round.
-std::optional<RimCircle> find_circle(const std::vector<RimPoint>& points, double min_radius_m,
-                                     double max_radius_m, std::optional<double> radius_m,
-                                     std::uint64_t seed);
-
-/// How the image agrees with a disc.
-struct DiscSupport {
-  double rim_share = 0.0;  ///< places of the rim where the plane is inside and not outside
-  double agreement = 0.0;  ///< of the places where the image decides, those that agree
-  double filled = 0.0;     ///< of the disc where the image decides, what is in the plane
-  double seen = 0.0;       ///< of the disc, where the image decides
-};
-DiscSupport support_of(const PlaneView& view, const RimCircle& circle);
+/// Those through most of the points, in that order; some may be nearly the same. Radius within
+/// [min, max]. Empty where no circle has enough points all round.
+std::vector<RimCircle> find_circles(const std::vector<RimPoint>& points, double min_radius_m,
+                                    double max_radius_m, std::optional<double> radius_m,
+                                    std::uint64_t seed);
 
 }  // namespace turnscan::detection

@@ -7,8 +7,9 @@ namespace {
 
 enum class Seen : std::uint8_t { kUnknown, kPlatter, kFlickers, kBehind, kNothing, kBefore };
 
-constexpr int kCrowdReach = 2;    // pixels
-constexpr int kMostInCrowd = 12;  // flickering, of 25: an edge has up to 10
+constexpr double kInwards_px = 7.0;  // from the outermost pixels that count into the platter
+constexpr int kCrowdReach = 2;       // pixels
+constexpr int kMostInCrowd = 12;     // flickering, of 25: an edge has up to 10
 
 class RimLabelling {
  public:
@@ -21,6 +22,7 @@ class RimLabelling {
         slack_m_(slack_m),
         w_(view.scan.width),
         h_(view.scan.height),
+        middle_(view.camera.project(view.frame.to_space(model.center))),
         seen_(view.scan.point.size(), Seen::kUnknown) {}
 
   std::vector<RimPixel> run(double reach_px) {
@@ -104,6 +106,19 @@ class RimLabelling {
     return farthest - z > std::max(smooth, 0.15 * (farthest - surface->z_m));
   }
 
+  /// Where nothing is seen on the inner side either, an object's shadow from the sensor's lamp may
+  /// lie on the platter.
+  bool inside_is_seen(int x, int y) const {
+    const Eigen::Vector2d here(x, y);
+    const Eigen::Vector2d way = middle_ - here;
+    const double step = std::min(way.norm(), kInwards_px);
+    const Eigen::Vector2d there = here + step * way.normalized();
+    const int u = int(std::lround(there.x())), v = int(std::lround(there.y()));
+    if (u < 0 || v < 0 || u >= w_ || v >= h_) return false;
+    const Seen inside = look(u, v);
+    return inside == Seen::kPlatter || inside == Seen::kFlickers;
+  }
+
   std::optional<RimLabel> label_of(int x, int y) const {
     const auto before = [](Seen s) { return s == Seen::kBefore; };
     if (any_near(x, y, 1 + noise_.blur_px, before) || in_crowd(x, y)) return std::nullopt;
@@ -115,7 +130,7 @@ class RimLabelling {
       case Seen::kBehind:
         return between(x, y) ? RimLabel::kMixed : RimLabel::kBackground;
       case Seen::kNothing:
-        return RimLabel::kEmpty;
+        return inside_is_seen(x, y) ? std::optional(RimLabel::kEmpty) : std::nullopt;
       default:
         return std::nullopt;
     }
@@ -127,6 +142,7 @@ class RimLabelling {
   const NoiseCorrelation& noise_;
   double slack_m_;
   int w_, h_;
+  Eigen::Vector2d middle_;  ///< of the disc, in the image
   std::vector<Seen> seen_;
 };
 

@@ -14,6 +14,7 @@ using Unknowns = RimEquations::Vector;
 constexpr double kEdgeReach_px = 3.5;  // beyond it a pixel says nothing about the rim
 constexpr double kOutliers = 0.02;     // share of pixels whose label is chance
 constexpr double kWallHuber = 2.0;
+constexpr double kAnyDepth_m = 0.02;    // what depths about a wall may be, if it is none
 constexpr double kPixelSigma_px = 0.1;  // of where a pixel looks
 constexpr double kRadiusSigma_m = 0.0005;
 // What is known before: of the thickness next to nothing, of the mixed pixels that the edge is
@@ -153,7 +154,7 @@ void add_priors(const RimData& data, const RimModel& model, const EdgeResponse& 
 
 RimEquations linearise(const RimData& data, const RimModel& model, const EdgeResponse& edge) {
   RimEquations out;
-  const double margin = 0.5 + 1.5 * data.noise.blur_px;
+  const double margin = 0.5 + 2.0 * data.noise.blur_px;
   // A filter makes one of as many pixels as it joins.
   const double joined = 2.0 * data.noise.blur_px + 1.0, weight = 1.0 / (joined * joined);
   for (const RimPixel& pixel : data.pixels) {
