@@ -22,19 +22,20 @@ struct DetectedPlatter {
   double radius_m = 0.0;
   double axis_sigma_rad = 0.0, center_sigma_m = 0.0, height_sigma_m = 0.0, radius_sigma_m = 0.0;
   double plane_rms_m = 0.0;  ///< of the surface's pixels from the plane
-  double rim_rms_m = 0.0;    ///< of the rim's points from the circle, in the plane
-  double rim_share = 0.0;    ///< of 360 places on the rim, those where the surface is seen to end
-  /// Share of the rim's visible places that agree, times the share of the disc that is filled by
-  /// the plane or hidden by what stands on it.
+  double rim_rms_m = 0.0;    ///< of the first circle's points from it, in the plane
+  double rim_share = 0.0;    ///< of 72 bearings, those at which the platter is seen to end
+  /// Share of the pixels beside the rim that are on their side of it, times the share of the disc
+  /// that is filled by the plane or hidden by what stands on it.
   double confidence = 0.0;
   std::size_t plane_pixels = 0, rim_points = 0;
 };
 
 /// Planes are found one after the other (RANSAC); in each, the places where it ends before
 /// something farther give a circle (RANSAC over three of them), then least squares over plane and
-/// rim. The rim lies between two pixels; how far towards the outer one is an unknown of the fit,
-/// so that mixed pixels, which make every rim look smaller, do not shift the centre of a platter
-/// seen at a low angle.
+/// rim give a start. The rim is then estimated by maximum likelihood from what each pixel about the
+/// outline of disc and wall sees, and from the wall's depth; the wall's height and how the sensor
+/// mixes pixels are unknowns of the fit. The deviations count correlated pixels once; an error of
+/// range that is common to all pixels is not in them.
 /// Fails with kMissingData when no plane with a round rim is there, when too little of it is seen,
 /// and when two are equally good: the sentence says which and what would help. Also kInvalidOption,
 /// kCancelled.
