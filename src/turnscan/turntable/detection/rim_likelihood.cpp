@@ -14,7 +14,6 @@ using Unknowns = RimEquations::Vector;
 constexpr double kEdgeReach_px = 3.5;  // beyond it a pixel says nothing about the rim
 constexpr double kOutliers = 0.02;     // share of pixels whose label is chance
 constexpr double kWallHuber = 2.0;
-constexpr double kAnyDepth_m = 0.02;    // what depths about a wall may be, if it is none
 constexpr double kPixelSigma_px = 0.1;  // of where a pixel looks
 constexpr double kRadiusSigma_m = 0.0005;
 // What is known before: of the thickness next to nothing, of the mixed pixels that the edge is
