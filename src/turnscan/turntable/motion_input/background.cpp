@@ -68,15 +68,26 @@ class DepthStack {
   std::vector<std::vector<float>> images_;
 };
 
-/// Second difference of a row over every step-th pixel; NaN where it cannot be told. Every second
-/// one: neighbours may share some of their noise.
-float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width,
-                        std::size_t step = 2) {
+/// Second difference of a row over every second pixel, since neighbours share some of their noise;
+/// NaN where it cannot be told.
+float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width) {
   const std::size_t x = i % width;
-  if (x < step || x + step >= width) return std::numeric_limits<float>::quiet_NaN();
-  if (!(z[i - step] > 0.0f && z[i] > 0.0f && z[i + step] > 0.0f))
+  if (x < 2 || x + 2 >= width) return std::numeric_limits<float>::quiet_NaN();
+  if (!(z[i - 2] > 0.0f && z[i] > 0.0f && z[i + 2] > 0.0f))
     return std::numeric_limits<float>::quiet_NaN();
-  return std::abs(z[i - step] - 2.0f * z[i] + z[i + step]);
+  return std::abs(z[i - 2] - 2.0f * z[i] + z[i + 2]);
+}
+
+/// Third difference over every step-th pixel from i on, which curvature leaves alone, as the second
+/// one of the same noise; NaN where it cannot be told.
+float third_difference(const std::vector<float>& z, std::size_t i, std::size_t width,
+                       std::size_t step) {
+  if (i % width + 3 * step >= width) return std::numeric_limits<float>::quiet_NaN();
+  const float a = z[i], b = z[i + step], c = z[i + 2 * step], d = z[i + 3 * step];
+  if (!(a > 0.0f && b > 0.0f && c > 0.0f && d > 0.0f))
+    return std::numeric_limits<float>::quiet_NaN();
+  constexpr float kToSecond = 0.5477226f;  // sqrt(6 / 20)
+  return kToSecond * std::abs(a - 3.0f * b + 3.0f * c - d);
 }
 
 /// Standard deviation of a depth from sizes of second differences. On edges and bends these are
@@ -230,7 +241,7 @@ Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
     const auto& image = stack.image(k);
     for (std::size_t i = 0; i < image.size(); i += 3) {
       for (const std::size_t step : {1U, 2U}) {
-        const float size = second_difference(image, i, std::size_t(stack.width()), step);
+        const float size = third_difference(image, i, std::size_t(stack.width()), step);
         if (std::isfinite(size)) differences[step - 1].push_back(size);
       }
     }
