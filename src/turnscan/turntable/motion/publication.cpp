@@ -79,15 +79,11 @@ class Publication {
       out.radius_found = "the platter's rim";
       return {};
     }
-    std::vector<double> heights;
-    for (const Vec3f& p : data_.cloud) heights.push_back(a.dot(p.cast<double>() - state_.center));
-    const auto low = heights.begin() + std::ptrdiff_t(heights.size() / 200);
-    std::nth_element(heights.begin(), low, heights.end());
     TurntableInfo axis;
     axis.axis = a, axis.center_m = state_.center;
-    TURNSCAN_ASSIGN(const double base, find_base(data_, axis, sequence_, *low));
+    TURNSCAN_ASSIGN(const double base, find_base(data_, axis, sequence_));
     out.table.center_m = state_.center + base * a;
-    out.height_sigma_m = std::max(0.004, 3.0 * data_.noise_m);
+    out.height_sigma_m = std::max(0.006, 4.0 * data_.noise_m);
     out.height_found = "the lowest points of what turns";
     const auto& table = sequence_.header().turntable;
     if (table && options_.use_table && table->radius_m) {

@@ -8,76 +8,98 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kSlice_m = 0.002;
-constexpr double kGap_m = 0.008;    ///< without a point: the object has ended
-constexpr double kDeepest_m = 0.3;  ///< below what moves
+constexpr std::size_t kSlices = 300;
+constexpr double kGap_m = 0.008;      ///< hardly a point in it: the object has ended
+constexpr double kEmptyShare = 0.01;  ///< of a usual slice's points
+constexpr std::size_t kUsual = 10;    ///< slices, the first ones
+constexpr double kDeskRatio = 4.0;    ///< a slice of so many times the usual points is a desk
 constexpr std::size_t kFrames = 8;
-/// A slice with so many times the points of those above it is a desk.
-constexpr double kDeskRatio = 4.0;
 
-/// How many points lie in each slice below the lowest moving one, within a radius of the axis.
+/// How many points of surfaces lie in each slice below a height, within a radius of the axis.
 class Slices {
  public:
-  Slices(const TurntableInfo& axis, double radius_m, double lowest)
-      : axis_(axis), radius_m_(radius_m), lowest_(lowest) {}
+  Slices(const MotionData& data, const TurntableInfo& axis, double radius_m, double top)
+      : data_(data), axis_(axis), radius_m_(radius_m), top_(top) {}
 
   void add(const DepthImage& depth, const SensorInfo& sensor, const RayTable& rays) {
-    for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
-      const std::uint16_t value = depth.pixels[i];
-      if (value == kNoReturn || value == kOutsideCrop) continue;
-      const double z = value * sensor.depth_unit_m + sensor.depth_bias_m;
-      const Vec3d d = Vec3d(rays.x()[i] * z, rays.y()[i] * z, z) - axis_.center_m;
-      const double below = lowest_ - d.dot(axis_.axis);
-      if (below < -10.0 * kSlice_m || below >= kDeepest_m) continue;
-      if (axis_.axis.cross(d).squaredNorm() > radius_m_ * radius_m_) continue;
-      count_[std::size_t(below / kSlice_m + 10.0)] += 1.0;
+    const int w = depth.width;
+    for (int y = 1; y + 1 < depth.height; ++y) {
+      for (int x = 1; x + 1 < w; ++x) {
+        const auto i = std::size_t(y) * std::size_t(w) + std::size_t(x);
+        const double z = metres(depth.pixels[i], sensor);
+        if (!(z > 0.0) || !on_surface(depth, sensor, i, z)) continue;
+        const Vec3d d = Vec3d(rays.x()[i] * z, rays.y()[i] * z, z) - axis_.center_m;
+        const double below = (top_ - d.dot(axis_.axis)) / kSlice_m;
+        if (below < 0.0 || below >= double(kSlices)) continue;
+        if (axis_.axis.cross(d).squaredNorm() < radius_m_ * radius_m_)
+          count_[std::size_t(below)] += 1.0;
+      }
     }
   }
 
-  /// How far below the lowest moving point the object goes on.
-  double depth_of_object() const {
-    std::vector<double> above(count_.begin(), count_.begin() + 10);
-    const double usual = std::max(median(above), 4.0);
+  double base() const {
+    std::vector<double> first(count_.begin(), count_.begin() + kUsual);
+    const double usual = median(first), least = std::max(2.0, kEmptyShare * usual);
     double end = 0.0, empty = 0.0;
-    for (std::size_t k = 10; k < count_.size(); ++k) {
-      if (count_[k] > kDeskRatio * usual) break;
-      empty = count_[k] < 0.02 * usual ? empty + kSlice_m : 0.0;
+    for (std::size_t k = 0; k < kSlices && count_[k] < kDeskRatio * std::max(usual, 4.0); ++k) {
+      empty = count_[k] < least ? empty + kSlice_m : 0.0;
       if (empty >= kGap_m) break;
-      if (empty == 0.0) end = (double(k) - 9.0) * kSlice_m;
+      if (empty == 0.0) end = double(k + 1) * kSlice_m;
     }
-    return end;
+    return top_ - end;
   }
 
  private:
+  static double metres(std::uint16_t value, const SensorInfo& sensor) {
+    if (value == kNoReturn || value == kOutsideCrop) return 0.0;
+    return value * sensor.depth_unit_m + sensor.depth_bias_m;
+  }
+
+  bool on_surface(const DepthImage& depth, const SensorInfo& sensor, std::size_t i,
+                  double z) const {
+    const double limit = 3.0 * z / sensor.intrinsics.fx + 4.5 * data_.noise_m;
+    const auto w = std::size_t(depth.width);
+    for (const std::size_t there : {i - w, i - 1, i + 1, i + w})
+      if (std::abs(metres(depth.pixels[there], sensor) - z) > limit) return false;
+    return true;
+  }
+
+  const MotionData& data_;
   const TurntableInfo& axis_;
-  double radius_m_, lowest_;
-  std::vector<double> count_ = std::vector<double>(std::size_t(kDeepest_m / kSlice_m) + 11, 0.0);
+  double radius_m_, top_;
+  std::vector<double> count_ = std::vector<double>(kSlices, 0.0);
 };
 
-double radius_of(const MotionData& data, const TurntableInfo& axis) {
-  std::vector<double> radii;
-  for (const Vec3f& p : data.cloud)
-    radii.push_back(axis.axis.cross(p.cast<double>() - axis.center_m).norm());
-  const auto wide = radii.begin() + std::ptrdiff_t(radii.size() * 99 / 100);
-  std::nth_element(radii.begin(), wide, radii.end());
-  return *wide;
+/// The value that a share of them lies below.
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace
 
 Result<double> find_base(const MotionData& data, const TurntableInfo& axis,
-                         const FrameSequence& sequence, double lowest) {
-  if (!data.projective || data.cloud.empty()) return lowest;
+                         const FrameSequence& sequence) {
+  std::vector<double> heights, radii;
+  for (const Vec3f& p : data.cloud) {
+    const Vec3d d = p.cast<double>() - axis.center_m;
+    heights.push_back(axis.axis.dot(d));
+    radii.push_back(axis.axis.cross(d).norm());
+  }
+  if (!data.projective) return quantile(std::move(heights), 0.005);
   const SensorInfo& sensor = sequence.header().sensors.front();
   const RayTable rays(sensor.intrinsics);
-  Slices slices(axis, radius_of(data, axis), lowest);
-  for (std::size_t k = 0; k < std::min(kFrames, data.frames.size()); ++k) {
-    const std::size_t i = k * data.frames.size() / std::min(kFrames, data.frames.size());
-    TURNSCAN_ASSIGN(const Frame frame, sequence.read(data.frames[i].position));
+  Slices slices(data, axis, quantile(std::move(radii), 0.99), quantile(std::move(heights), 0.5));
+  const std::size_t count = std::min(kFrames, data.frames.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t position = data.frames[k * data.frames.size() / count].position;
+    TURNSCAN_ASSIGN(const Frame frame, sequence.read(position));
     if (frame.depth.width == sensor.intrinsics.width &&
         frame.depth.height == sensor.intrinsics.height)
       slices.add(frame.depth, sensor, rays);
   }
-  return lowest - slices.depth_of_object();
+  return slices.base();
 }
 
 }  // namespace turnscan::motion

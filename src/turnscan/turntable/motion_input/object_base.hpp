@@ -5,12 +5,12 @@
 
 namespace turnscan::motion {
 
-/// Height along the axis (unit), from its centre, of the object's lowest points. Its foot may be
-/// round and look at rest, so that `lowest`, of what was seen to move, is too high: what continues
-/// it below, about the axis and no wider, belongs to it, down to a gap or to where it spreads into
-/// a desk. sequence: the one that data was loaded from. Scans of points have no background: lowest
-/// is right. Fails as reading does.
+/// Height along the axis (unit), from its centre, of the object's lowest points: from its middle
+/// down, all surface about the axis that is no wider than what turns belongs to it, also a round
+/// foot, which looks at rest, down to a gap or to where it spreads into a desk. Flying pixels,
+/// which lie on no surface, do not count. sequence: the one that data was loaded from. In scans of
+/// points, which have no background, a two-hundredth of them lie lower. Fails as reading does.
 Result<double> find_base(const MotionData& data, const TurntableInfo& axis,
-                         const FrameSequence& sequence, double lowest);
+                         const FrameSequence& sequence);
 
 }  // namespace turnscan::motion
