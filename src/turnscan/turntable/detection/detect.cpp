@@ -11,7 +11,6 @@ constexpr int kMostPlanes = 14;
 constexpr std::size_t kLeastPixels = 150;
 constexpr std::size_t kMostRefined = 3;
 constexpr double kLeastWorth = 0.35;      // of the best candidate's
-constexpr double kLeastAgreement = 0.93;  // platters have 0.97 and more, clutter up to 0.88
 
 std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
@@ -190,7 +189,7 @@ class PlatterDetector {
                   "platter: only {:.0f} % of the rim of the best disc (radius {}) is seen; move "
                   "what hides it, or give points with --points",
                   100.0 * p.rim_share, mm(p.radius_m));
-    if (!(c.support.agreement >= kLeastAgreement))
+    if (!(c.support.agreement >= options_.min_agreement))
       return fail(ErrorCode::kMissingData,
                   "platter: the best disc (radius {}) is not round, only {:.0f} % of what is seen "
                   "beside its rim fits it; make room around the platter, or give points with "

@@ -12,6 +12,10 @@ struct DetectOptions {
   double max_radius_m = 0.6;
   double min_rim_share = 0.3;   ///< refuse when less of the rim is seen
   double min_confidence = 0.7;  ///< refuse below
+  /// Refuse as not round when less of what is seen beside the rim fits it. Simulated platters have
+  /// 0.97 and more, clutter up to 0.88. Not for people to choose: who checks the platter by other
+  /// means may take a worse one.
+  double min_agreement = 0.93;
 };
 /// Fields platter-radius, platter-min-radius, platter-max-radius, platter-rim, platter-confidence.
 OptionTable describe(DetectOptions& options);

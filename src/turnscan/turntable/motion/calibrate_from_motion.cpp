@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
@@ -10,6 +11,8 @@ namespace {
 
 /// An axis that is known no better is none.
 constexpr double kLargestAxisSigma = 1.0 * kRadiansPerDegree;
+/// Of a platter that the object's own turn checks (DetectOptions).
+constexpr double kLeastAgreement = 0.65, kLeastConfidence = 0.5;
 
 struct Attempt {
   MotionData data;
@@ -42,6 +45,9 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
                                       std::size_t max_samples, const RunContext& context) {
   MotionDataOptions loading;
   loading.detect = detect;
+  // What turns checks the platter; edges of stereo cameras are rough (0.73 on a D435's table).
+  loading.detect.min_agreement = std::min(detect.min_agreement, kLeastAgreement);
+  loading.detect.min_confidence = std::min(detect.min_confidence, kLeastConfidence);
   loading.max_keys = std::size_t(options.key_frames);
   if (options.use_table) loading.hint = sequence.header().turntable;
   TURNSCAN_ASSIGN(Attempt found, attempt(sequence, options, loading, context));

@@ -55,11 +55,11 @@ class ForegroundSearch {
         positions.begin() + std::ptrdiff_t(std::min<std::size_t>(4, positions.size())));
     TURNSCAN_ASSIGN(const SpatialNoise near, spatial_noise(sequence_, some, context_));
     data_.correlated_noise = near.correlated();
-    const double spatial = near.sigma_m;
-    const double temporal = scan.typical_noise_m();
-    const bool still = !(spatial > 0.0 && temporal > kMovingNoise * spatial);
-    data_.noise_m =
-        std::max(still ? temporal : spatial, sequence_.header().sensors[0].depth_unit_m * 0.3);
+    // A sensor that rounds, or smooths a lot, shows none between pixels.
+    const double least = sequence_.header().sensors[0].depth_unit_m * 0.3;
+    const double spatial = std::max(near.sigma_m, least), temporal = scan.typical_noise_m();
+    const bool still = near.sigma_m < least || temporal < kMovingNoise * spatial;
+    data_.noise_m = std::max(still ? temporal : spatial, least);
     return still;
   }
 
