@@ -10,7 +10,7 @@ namespace {
 constexpr int kMostPlanes = 14;
 constexpr std::size_t kLeastPixels = 150;
 constexpr std::size_t kMostRefined = 3;
-constexpr double kLeastWorth = 0.35;      // of the best candidate's
+constexpr double kLeastWorth = 0.35;  // of the best candidate's
 
 std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
 
