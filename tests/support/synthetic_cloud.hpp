@@ -10,9 +10,9 @@ namespace turnscan::testing {
 
 /// Noisy points on the plane y = height, seen from straight above and from two slanted sensors.
 /// Noise is along the ray, as in a depth camera.
-inline points::MergedCloud noisy_plane(std::size_t n, double half_m, double sigma_m,
+inline voxels::MergedCloud noisy_plane(std::size_t n, double half_m, double sigma_m,
                                        double height_m = 0.0) {
-  points::MergedCloud merged;
+  voxels::MergedCloud merged;
   merged.viewpoints = {
       {Vec3d(0, 1, 0), false}, {Vec3d(0.5, 0.8, 0), false}, {Vec3d(0, 0.8, 0.5), false}};
   for (std::uint64_t i = 0; i < n; ++i) {
@@ -28,8 +28,8 @@ inline points::MergedCloud noisy_plane(std::size_t n, double half_m, double sigm
 }
 
 /// Noisy points on a sphere around the origin, each seen by one of 36 sensors around it.
-inline points::MergedCloud noisy_sphere(std::size_t n, double radius_m, double sigma_m) {
-  points::MergedCloud merged;
+inline voxels::MergedCloud noisy_sphere(std::size_t n, double radius_m, double sigma_m) {
+  voxels::MergedCloud merged;
   for (int f = 0; f < 36; ++f) {
     const double a = f * std::numbers::pi / 6.0, e = (f / 12 - 1) * 0.9;
     merged.viewpoints.push_back(
@@ -56,7 +56,7 @@ struct Frames {
   std::vector<PointCloud> clouds;
   std::vector<Viewpoint> viewpoints;
 
-  explicit Frames(const points::MergedCloud& merged)
+  explicit Frames(const voxels::MergedCloud& merged)
       : clouds(merged.viewpoints.size()), viewpoints(merged.viewpoints) {
     for (std::size_t i = 0; i < merged.cloud.size(); ++i) {
       PointCloud& cloud = clouds[merged.cloud.frame[i]];
@@ -64,17 +64,17 @@ struct Frames {
       if (!merged.cloud.colors.empty()) cloud.colors.push_back(merged.cloud.colors[i]);
     }
   }
-  std::vector<points::PointsSeen> seen() const {
-    std::vector<points::PointsSeen> out;
+  std::vector<voxels::PointsSeen> seen() const {
+    std::vector<voxels::PointsSeen> out;
     for (std::size_t f = 0; f < clouds.size(); ++f)
       out.push_back({clouds[f].points, clouds[f].colors, viewpoints[f]});
     return out;
   }
 };
 
-inline points::MeasuredCells measured(const points::MergedCloud& merged, double voxel_m,
+inline voxels::MeasuredCells measured(const voxels::MergedCloud& merged, double voxel_m,
                                       const CandidateOptions& options = {}) {
-  points::PointSums sums(voxel_m, options);
+  voxels::PointSums sums(voxel_m, options);
   const Frames frames(merged);
   if (!sums.add(frames.seen())) return {};
   return std::move(*sums.collect(1, RunContext()));

@@ -26,22 +26,22 @@ TEST(FrameStatistics, FindTheNoiseAndSpacingOfADepthImage) {
 }
 
 TEST(CloudStatistics, FindThicknessAndDensity) {
-  const points::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
   const CloudStatistics s = cloud_statistics(merged, 0.002);
   EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);  // two of three sensors look at 32 degrees
   EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
 }
 
 TEST(CloudStatistics, OfCellsAreThoseOfTheirPoints) {
-  const points::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
   const CloudStatistics s = cloud_statistics(testing::measured(merged, 0.001), 0.002);
   EXPECT_NEAR(s.noise_m, 0.00093, 0.0001);
   EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
 }
 
 /// Lines along X of points 0.5 mm apart, one a frame and 4 mm beside the last.
-points::MergedCloud lines(std::uint32_t frames) {
-  points::MergedCloud merged;
+voxels::MergedCloud lines(std::uint32_t frames) {
+  voxels::MergedCloud merged;
   for (std::uint32_t f = 0; f < frames; ++f) {
     for (int i = 0; i < 400; ++i) {
       merged.cloud.points.emplace_back(0.0005f * float(i), 0.0f, 0.004f * float(f));

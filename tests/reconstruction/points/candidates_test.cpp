@@ -13,7 +13,7 @@ using Cell = std::array<int, 3>;
 
 std::vector<Cell> walk(const Vec3d& p, const Vec3d& d, int s, bool chord) {
   std::vector<Cell> cells;
-  walk_sub_voxels(p, d, s, chord, [&](int x, int y, int z) { cells.push_back({x, y, z}); });
+  voxels::walk_sub_voxels(p, d, s, chord, [&](int x, int y, int z) { cells.push_back({x, y, z}); });
   return cells;
 }
 
@@ -70,15 +70,15 @@ TEST(SubVoxelLine, WithoutADirectionOnlyThePointsCellIsVisited) {
   EXPECT_EQ(walk(Vec3d(1.5, 1.5, 1.5), Vec3d::Zero(), 4, true).size(), 1u);
 }
 
-Result<Candidates> candidates_of(const MergedCloud& merged, double size,
+Result<Candidates> candidates_of(const voxels::MergedCloud& merged, double size,
                                  const CandidateOptions& options) {
-  const MeasuredCells measured = testing::measured(merged, size, options);
+  const voxels::MeasuredCells measured = testing::measured(merged, size, options);
   return find_candidates(measured, measured.grid, RunContext());
 }
 
 TEST(Centroids, AreTheMeansOfTheirVoxels) {
-  const MergedCloud merged = testing::noisy_plane(5000, 0.01, 0.001);
-  const auto grid = VoxelGrid::build(merged.cloud.points, 0.002, RunContext());
+  const voxels::MergedCloud merged = testing::noisy_plane(5000, 0.01, 0.001);
+  const auto grid = voxels::VoxelGrid::build(merged.cloud.points, 0.002, RunContext());
   ASSERT_TRUE(grid);
   const auto c = candidates_of(merged, 0.002, {});
   ASSERT_TRUE(c);
@@ -95,7 +95,7 @@ TEST(Centroids, AreTheMeansOfTheirVoxels) {
 
 TEST(SubVoxelCounting, GivesEveryTiedSubVoxelAsACandidate) {
   // One point seen from straight above: its column of four sub-voxels ties.
-  MergedCloud merged;
+  voxels::MergedCloud merged;
   merged.viewpoints = {{Vec3d::UnitY(), true}};
   merged.cloud.points = {Vec3f(0.0011f, 0.0013f, 0.0001f)};
   merged.cloud.frame = {0};
@@ -114,7 +114,7 @@ TEST(SubVoxelCounting, GivesEveryTiedSubVoxelAsACandidate) {
 }
 
 TEST(SubVoxelCounting, PicksTheCellInWhichRaysFromDifferentSidesCross) {
-  MergedCloud merged;
+  voxels::MergedCloud merged;
   merged.viewpoints = {{Vec3d::UnitX(), true}, {Vec3d::UnitY(), true}, {Vec3d::UnitZ(), true}};
   const Vec3f crossing(0.0025f, 0.0015f, 0.0035f);
   for (std::uint32_t f = 0; f < 3; ++f) {
@@ -139,7 +139,7 @@ double mean_height(const Candidates& c) {
 
 TEST(SubVoxelCounting, TheWholeChordLeavesANoisyPlaneWhereItIs) {
   // The plane lies inside a voxel's layer, off its middle; 1.67 mm voxels, 1.5 mm noise.
-  const MergedCloud merged = testing::noisy_plane(400000, 0.03, 0.0015, 0.0004);
+  const voxels::MergedCloud merged = testing::noisy_plane(400000, 0.03, 0.0015, 0.0004);
   CandidateOptions options;
   options.method = CandidateMethod::kSubVoxel;
   const auto chord = candidates_of(merged, 0.00167, options);
@@ -150,7 +150,7 @@ TEST(SubVoxelCounting, TheWholeChordLeavesANoisyPlaneWhereItIs) {
 }
 
 TEST(Candidates, AreTheSameForOneAndTwoThreads) {
-  const MergedCloud merged = testing::noisy_plane(100000, 0.02, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_plane(100000, 0.02, 0.001);
   CandidateOptions options;
   options.method = CandidateMethod::kSubVoxel;
   set_thread_count(1);
@@ -163,15 +163,15 @@ TEST(Candidates, AreTheSameForOneAndTwoThreads) {
 }
 
 TEST(Candidates, GiveNothingOnceCancelled) {
-  const MergedCloud merged = testing::noisy_plane(1000, 0.02, 0.001);
-  const MeasuredCells measured = testing::measured(merged, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_plane(1000, 0.02, 0.001);
+  const voxels::MeasuredCells measured = testing::measured(merged, 0.001);
   const RunContext context;
   context.cancel();
   EXPECT_EQ(find_candidates(measured, measured.grid, context).error().code, ErrorCode::kCancelled);
 }
 
 TEST(Candidates, TakeTheMeanColourOfTheirPoints) {
-  MergedCloud merged = testing::noisy_plane(2, 0.0001, 0.0);
+  voxels::MergedCloud merged = testing::noisy_plane(2, 0.0001, 0.0);
   merged.cloud.points = {Vec3f(0.001f, 0.001f, 0.001f), Vec3f(0.002f, 0.001f, 0.001f)};
   merged.cloud.colors = {{10, 20, 30}, {20, 40, 60}};
   const auto c = candidates_of(merged, 0.01, {});

@@ -6,16 +6,17 @@ namespace turnscan::points {
 namespace {
 
 /// n points in each of the given unit voxels.
-VoxelGrid grid_of(const std::vector<std::pair<VoxelIndex, int>>& voxels) {
+voxels::VoxelGrid grid_of(const std::vector<std::pair<voxels::VoxelIndex, int>>& voxels) {
   static std::vector<std::vector<Vec3f>> alive;  // a grid refers to its points
   std::vector<Vec3f> points;
   for (const auto& [index, n] : voxels)
     points.insert(points.end(), std::size_t(n), index.cast<float>() + Vec3f::Constant(0.5f));
   alive.push_back(points);
-  return *VoxelGrid::build(alive.back(), 1.0, RunContext());
+  return *voxels::VoxelGrid::build(alive.back(), 1.0, RunContext());
 }
 
-std::int32_t label_at(const VoxelGrid& grid, const Components& c, const VoxelIndex& index) {
+std::int32_t label_at(const voxels::VoxelGrid& grid, const Components& c,
+                      const voxels::VoxelIndex& index) {
   return c.label.at(std::size_t(grid.find(index)));
 }
 
@@ -24,19 +25,19 @@ TEST(Components, TouchAcrossFacesEdgesAndCorners) {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if (dx == 0 && dy == 0 && dz == 0) continue;
-        const VoxelGrid grid = grid_of({{{0, 0, 0}, 1}, {{dx, dy, dz}, 1}});
+        const voxels::VoxelGrid grid = grid_of({{{0, 0, 0}, 1}, {{dx, dy, dz}, 1}});
         EXPECT_EQ(find_components(grid, {}, 1)->voxel_count.size(), 1u);
       }
 }
 
 TEST(Components, AGapOfOneVoxelPartsThemUnlessTheReachBridgesIt) {
-  const VoxelGrid grid = grid_of({{{0, 0, 0}, 1}, {{2, 0, 0}, 1}});
+  const voxels::VoxelGrid grid = grid_of({{{0, 0, 0}, 1}, {{2, 0, 0}, 1}});
   EXPECT_EQ(find_components(grid, {}, 1)->voxel_count.size(), 2u);
   EXPECT_EQ(find_components(grid, {}, 4)->voxel_count.size(), 1u);
 }
 
 TEST(Components, TheOneWithTheMostPointsComesFirst) {
-  const VoxelGrid grid = grid_of({{{0, 0, 0}, 5}, {{4, 0, 0}, 9}, {{8, 0, 0}, 7}});
+  const voxels::VoxelGrid grid = grid_of({{{0, 0, 0}, 5}, {{4, 0, 0}, 9}, {{8, 0, 0}, 7}});
   const auto c = find_components(grid, {}, 1);
   ASSERT_TRUE(c);
   EXPECT_EQ(label_at(grid, *c, {4, 0, 0}), 0);
@@ -47,7 +48,7 @@ TEST(Components, TheOneWithTheMostPointsComesFirst) {
 TEST(Components, CrumbsGo) {
   ComponentOptions options;
   options.min_share = 0.1;
-  const VoxelGrid grid = grid_of({{{0, 0, 0}, 100}, {{4, 0, 0}, 9}, {{8, 0, 0}, 11}});
+  const voxels::VoxelGrid grid = grid_of({{{0, 0, 0}, 100}, {{4, 0, 0}, 9}, {{8, 0, 0}, 11}});
   const auto c = find_components(grid, options, 1);
   ASSERT_TRUE(c);
   EXPECT_EQ(c->crumbs, 1u);
@@ -56,7 +57,7 @@ TEST(Components, CrumbsGo) {
 }
 
 TEST(Components, KeepLargestKeepsOneAndANumberKeepsThatMany) {
-  const VoxelGrid grid = grid_of({{{0, 0, 0}, 5}, {{4, 0, 0}, 9}, {{8, 0, 0}, 7}});
+  const voxels::VoxelGrid grid = grid_of({{{0, 0, 0}, 5}, {{4, 0, 0}, 9}, {{8, 0, 0}, 7}});
   ComponentOptions options;
   options.keep = "largest";
   EXPECT_EQ(find_components(grid, options, 1)->voxel_count.size(), 1u);
@@ -67,24 +68,24 @@ TEST(Components, KeepLargestKeepsOneAndANumberKeepsThatMany) {
 }
 
 TEST(Components, FollowAWindingPathAsOne) {
-  std::vector<std::pair<VoxelIndex, int>> path;
+  std::vector<std::pair<voxels::VoxelIndex, int>> path;
   for (int i = 0; i < 200; ++i)
     path.push_back({{int(10 * std::sin(i * 0.1)), i / 4, int(10 * std::cos(i * 0.1))}, 1});
   EXPECT_EQ(find_components(grid_of(path), {}, 1)->voxel_count.size(), 1u);
 }
 
 /// A column of voxels from low to high, one point each.
-void add_column(std::vector<std::pair<VoxelIndex, int>>& voxels, int x, int low, int high) {
+void add_column(std::vector<std::pair<voxels::VoxelIndex, int>>& voxels, int x, int low, int high) {
   for (int y = low; y <= high; ++y) voxels.push_back({{x, y, 0}, 1});
 }
 
 TEST(Components, WhatFloatsBelongsToTheNearestThatStands) {
-  std::vector<std::pair<VoxelIndex, int>> voxels;
+  std::vector<std::pair<voxels::VoxelIndex, int>> voxels;
   add_column(voxels, 0, 0, 30);   // stands
   add_column(voxels, 40, 0, 29);  // stands
   add_column(voxels, 0, 36, 55);  // floats above the first,
   add_column(voxels, 0, 61, 79);  // and this above that
-  const VoxelGrid grid = grid_of(voxels);
+  const voxels::VoxelGrid grid = grid_of(voxels);
   EXPECT_EQ(find_components(grid, {}, 1)->voxel_count.size(), 4u);
   const auto c = find_components(grid, {}, 1, 2.0);
   ASSERT_TRUE(c);
@@ -96,7 +97,7 @@ TEST(Components, WhatFloatsBelongsToTheNearestThatStands) {
 }
 
 TEST(Components, NothingIsJoinedAcrossMoreThanHalfItsSizeNorWithoutAnythingThatStands) {
-  std::vector<std::pair<VoxelIndex, int>> voxels;
+  std::vector<std::pair<voxels::VoxelIndex, int>> voxels;
   add_column(voxels, 0, 0, 20);
   add_column(voxels, 0, 32, 50);  // 12 voxels above
   EXPECT_EQ(find_components(grid_of(voxels), {}, 1, 2.0)->joined, 0u);
@@ -104,7 +105,7 @@ TEST(Components, NothingIsJoinedAcrossMoreThanHalfItsSizeNorWithoutAnythingThatS
 }
 
 TEST(Components, CrumbsThatFloatAreStillCrumbs) {
-  std::vector<std::pair<VoxelIndex, int>> voxels;
+  std::vector<std::pair<voxels::VoxelIndex, int>> voxels;
   add_column(voxels, 0, 0, 200);
   add_column(voxels, 0, 202, 203);
   const auto c = find_components(grid_of(voxels), {}, 1, 2.0);

@@ -9,16 +9,16 @@ namespace turnscan::points {
 namespace {
 
 struct Oriented {
-  MeasuredCells measurements;
-  VoxelGrid grid;
+  voxels::MeasuredCells measurements;
+  voxels::VoxelGrid grid;
   Candidates candidates;
 };
 
-Oriented orient(const MergedCloud& merged, double size, double radius) {
+Oriented orient(const voxels::MergedCloud& merged, double size, double radius) {
   Oriented out;
   out.measurements = testing::measured(merged, size);
   out.grid = out.measurements.grid;
-  out.grid.filter(count_filter(out.grid, choose_min_points(out.grid).min_points));
+  out.grid.filter(voxels::count_filter(out.grid, choose_min_points(out.grid).min_points));
   out.candidates = *find_candidates(out.measurements, out.grid, RunContext());
   EXPECT_TRUE(estimate_normals(out.candidates, radius, RunContext()));
   return out;
@@ -31,8 +31,8 @@ TEST(Normals, OfASpherePointOutwardsEverywhere) {
 }
 
 TEST(Normals, OfBothSidesOfAThinPlatePointApart) {
-  MergedCloud merged = testing::noisy_plane(60000, 0.02, 0.0002, 0.0015);
-  const MergedCloud top = merged;
+  voxels::MergedCloud merged = testing::noisy_plane(60000, 0.02, 0.0002, 0.0015);
+  const voxels::MergedCloud top = merged;
   for (std::size_t i = 0; i < top.cloud.size(); ++i) {
     Vec3f p = top.cloud.points[i];
     p.y() = -p.y();
@@ -53,7 +53,7 @@ TEST(Normals, OfBothSidesOfAThinPlatePointApart) {
 }
 
 TEST(Normals, WithTooFewNeighboursPointToTheSensor) {
-  MergedCloud merged;
+  voxels::MergedCloud merged;
   merged.viewpoints = {{Vec3d::UnitZ(), true}};
   merged.cloud.points = {Vec3f(0, 0, 0), Vec3f(1, 0, 0)};
   merged.cloud.frame = {0, 0};
@@ -94,7 +94,8 @@ TEST(Refine, LeavesOneCandidateAVoxelAndSide) {
   const auto refined =
       refine_candidates(o.measurements, o.grid, o.candidates, {0.002, 0.0015}, 3, RunContext());
   ASSERT_TRUE(refined);
-  const auto grid = VoxelGrid::build(refined->cloud.points, 0.0012, RunContext());  // 0.6 radii
+  const auto grid =
+      voxels::VoxelGrid::build(refined->cloud.points, 0.0012, RunContext());  // 0.6 radii
   // The mean of a voxel's candidates may round into its neighbour.
   EXPECT_LE(double(refined->cloud.size()), 1.05 * double(grid->voxels().size()));
 }

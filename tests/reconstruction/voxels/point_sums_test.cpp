@@ -17,7 +17,7 @@ CandidateOptions sub_voxels() {
   return options;
 }
 
-void expect_same(const MeasuredCells& a, const MeasuredCells& b) {
+void expect_same(const voxels::MeasuredCells& a, const voxels::MeasuredCells& b) {
   EXPECT_EQ(a.columns, b.columns);
   EXPECT_EQ(a.colors, b.colors);
   EXPECT_EQ(a.peak_points, b.peak_points);
@@ -29,7 +29,7 @@ void expect_same(const MeasuredCells& a, const MeasuredCells& b) {
 }
 
 TEST(PointSums, CountAndAverageLikeAMapFromCellsToPoints) {
-  const MergedCloud merged = testing::noisy_plane(20000, 0.01, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_plane(20000, 0.01, 0.001);
   struct Sum {
     Vec3d place = Vec3d::Zero(), towards = Vec3d::Zero();
     int count = 0;
@@ -43,7 +43,7 @@ TEST(PointSums, CountAndAverageLikeAMapFromCellsToPoints) {
     sum.towards += merged.towards_sensor(i).cast<double>();
     ++sum.count;
   }
-  const MeasuredCells m = testing::measured(merged, kVoxel);
+  const voxels::MeasuredCells m = testing::measured(merged, kVoxel);
   ASSERT_EQ(m.size(), oracle.size());
   for (std::size_t i = 0; i < m.size(); ++i) {
     const Vec3d cell = (m.point(i).cast<double>() / (0.5 * kVoxel)).array().floor();
@@ -57,12 +57,12 @@ TEST(PointSums, CountAndAverageLikeAMapFromCellsToPoints) {
 }
 
 TEST(PointSums, VoxelsAreThoseOfTheGridOfAllPoints) {
-  const MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
-  const auto grid = VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
-  const MeasuredCells m = testing::measured(merged, kVoxel);
+  const voxels::MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  const auto grid = voxels::VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
+  const voxels::MeasuredCells m = testing::measured(merged, kVoxel);
   ASSERT_EQ(m.grid.voxels().size(), grid->voxels().size());
   for (std::size_t v = 0; v < m.grid.voxels().size(); ++v) {
-    const VoxelGrid::Voxel& voxel = m.grid.voxels()[v];
+    const voxels::VoxelGrid::Voxel& voxel = m.grid.voxels()[v];
     EXPECT_EQ(voxel.index, grid->voxels()[v].index);
     EXPECT_EQ(voxel.count(), grid->voxels()[v].count());
     double count = 0.0;
@@ -72,16 +72,16 @@ TEST(PointSums, VoxelsAreThoseOfTheGridOfAllPoints) {
 }
 
 TEST(PointSums, DependNeitherOnTheOrderOfFramesNorOnCallsNorOnThreads) {
-  MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  voxels::MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
   for (std::size_t i = 0; i < merged.cloud.size(); ++i)
     merged.cloud.colors.push_back({std::uint8_t(i), std::uint8_t(i / 3), 7});
-  const MeasuredCells once = testing::measured(merged, kVoxel, sub_voxels());
+  const voxels::MeasuredCells once = testing::measured(merged, kVoxel, sub_voxels());
   EXPECT_FALSE(once.colors.empty());
   const testing::Frames frames(merged);
-  const std::vector<PointsSeen> seen = frames.seen();
+  const std::vector<voxels::PointsSeen> seen = frames.seen();
   for (const int threads : {1, 2, 8}) {
     set_thread_count(threads);
-    PointSums sums(kVoxel, sub_voxels());
+    voxels::PointSums sums(kVoxel, sub_voxels());
     for (std::size_t f = seen.size(); f-- > 0;) ASSERT_TRUE(sums.add({&seen[f], 1}));
     const auto again = sums.collect(1, RunContext());
     ASSERT_TRUE(again);
@@ -91,14 +91,14 @@ TEST(PointSums, DependNeitherOnTheOrderOfFramesNorOnCallsNorOnThreads) {
 }
 
 TEST(PointSums, JoinedVoxelsAreThoseOfThatSize) {
-  const MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
+  const voxels::MergedCloud merged = testing::noisy_sphere(20000, 0.03, 0.001);
   const testing::Frames frames(merged);
-  PointSums sums(kVoxel, {});
+  voxels::PointSums sums(kVoxel, {});
   ASSERT_TRUE(sums.add(frames.seen()));
   const auto joined = sums.collect(3, RunContext());
   ASSERT_TRUE(joined);
   EXPECT_DOUBLE_EQ(joined->grid.size_m(), 3 * kVoxel);
-  const auto grid = VoxelGrid::build(merged.cloud.points, 3 * kVoxel, RunContext());
+  const auto grid = voxels::VoxelGrid::build(merged.cloud.points, 3 * kVoxel, RunContext());
   ASSERT_EQ(joined->grid.voxels().size(), grid->voxels().size());
   for (std::size_t v = 0; v < grid->voxels().size(); ++v) {
     EXPECT_EQ(joined->grid.voxels()[v].index, grid->voxels()[v].index);
@@ -107,21 +107,22 @@ TEST(PointSums, JoinedVoxelsAreThoseOfThatSize) {
 }
 
 TEST(PointSums, PeaksAreTheSubVoxelsThatMostRaysMeet) {
-  const MergedCloud merged = testing::noisy_plane(3000, 0.008, 0.001);
-  const MeasuredCells m = testing::measured(merged, kVoxel, sub_voxels());
-  const auto grid = VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
+  const voxels::MergedCloud merged = testing::noisy_plane(3000, 0.008, 0.001);
+  const voxels::MeasuredCells m = testing::measured(merged, kVoxel, sub_voxels());
+  const auto grid = voxels::VoxelGrid::build(merged.cloud.points, kVoxel, RunContext());
   ASSERT_EQ(m.peaks.size(), grid->voxels().size());
   std::size_t same = 0;
   for (std::size_t v = 0; v < m.peaks.size(); ++v) {
-    const VoxelGrid::Voxel& voxel = grid->voxels()[v];
+    const voxels::VoxelGrid::Voxel& voxel = grid->voxels()[v];
     std::vector<int> counts(64, 0);
     for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
       const std::uint32_t i = grid->order()[k];
       const Vec3d p =
           (merged.cloud.points[i].cast<double>() - voxel.index.cast<double>() * kVoxel) *
           (4.0 / kVoxel);
-      walk_sub_voxels(p, merged.towards_sensor(i).cast<double>(), 4, true,
-                      [&](int x, int y, int z) { ++counts[std::size_t((z * 4 + y) * 4 + x)]; });
+      voxels::walk_sub_voxels(
+          p, merged.towards_sensor(i).cast<double>(), 4, true,
+          [&](int x, int y, int z) { ++counts[std::size_t((z * 4 + y) * 4 + x)]; });
     }
     const int highest = *std::max_element(counts.begin(), counts.end());
     const auto tied = std::count(counts.begin(), counts.end(), highest);
@@ -132,9 +133,9 @@ TEST(PointSums, PeaksAreTheSubVoxelsThatMostRaysMeet) {
 }
 
 TEST(PointSums, TakeNoMoreMemoryForMoreFrames) {
-  const MergedCloud merged = testing::noisy_plane(20000, 0.02, 0.0);
+  const voxels::MergedCloud merged = testing::noisy_plane(20000, 0.02, 0.0);
   const testing::Frames frames(merged);
-  PointSums sums(kVoxel, {});
+  voxels::PointSums sums(kVoxel, {});
   ASSERT_TRUE(sums.add(frames.seen()));
   const std::size_t bytes = sums.bytes();
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(sums.add(frames.seen()));
@@ -143,13 +144,13 @@ TEST(PointSums, TakeNoMoreMemoryForMoreFrames) {
 }
 
 TEST(PointSums, RefusePointsFarAwayAndKeepWhatTheyHad) {
-  PointSums sums(kVoxel, {});
+  voxels::PointSums sums(kVoxel, {});
   const std::vector<Vec3f> near{Vec3f(0.1f, 0.2f, 0.3f)}, far{Vec3f(0, 0, 0), Vec3f(1e5f, 0, 0)},
       none{Vec3f(std::nanf(""), 0, 0)};
-  const std::vector<PointsSeen> good{{near, {}, {}}};
+  const std::vector<voxels::PointsSeen> good{{near, {}, {}}};
   ASSERT_TRUE(sums.add(good));
   for (const auto& bad : {far, none}) {
-    const std::vector<PointsSeen> seen{{bad, {}, {}}};
+    const std::vector<voxels::PointsSeen> seen{{bad, {}, {}}};
     EXPECT_EQ(sums.add(seen).error().code, ErrorCode::kInvalidOption);
   }
   EXPECT_EQ(sums.points(), 1u);
@@ -157,10 +158,10 @@ TEST(PointSums, RefusePointsFarAwayAndKeepWhatTheyHad) {
 }
 
 TEST(PointSums, GiveNothingWhenEmptyOrCancelled) {
-  PointSums sums(kVoxel, {});
+  voxels::PointSums sums(kVoxel, {});
   EXPECT_EQ(sums.collect(1, RunContext()).error().code, ErrorCode::kTooFewPoints);
   const std::vector<Vec3f> points{Vec3f::Zero()};
-  const std::vector<PointsSeen> seen{{points, {}, {}}};
+  const std::vector<voxels::PointsSeen> seen{{points, {}, {}}};
   ASSERT_TRUE(sums.add(seen));
   const RunContext context;
   context.cancel();

@@ -51,18 +51,18 @@ constexpr std::size_t kPointsUsed = 2048;
 /// The points that a grid has sorted, in its order.
 struct SortedPoints {
   const std::vector<Vec3f>& points;
-  const points::VoxelGrid& grid;
+  const voxels::VoxelGrid& grid;
   Vec3f point(std::size_t k) const { return points[grid.order()[k]]; }
   double count(std::size_t) const { return 1.0; }
 };
 
 /// Items within r of p are spread along the normal with sigma. items: those of the grid's voxels.
 template <class Items>
-Thickness thickness_at(const Items& items, const points::VoxelGrid& grid, const Vec3f& p,
+Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const Vec3f& p,
                        double r) {
-  const points::VoxelIndex low =
+  const voxels::VoxelIndex low =
       ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
-  const points::VoxelIndex high =
+  const voxels::VoxelIndex high =
       ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
   Vec3d sum = Vec3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -73,7 +73,7 @@ Thickness thickness_at(const Items& items, const points::VoxelGrid& grid, const 
   const std::size_t step = std::max<std::size_t>(1, around / kPointsUsed);
   std::size_t skip = 0;  // points of the next voxel to leave out first
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {
-    const points::VoxelGrid::Voxel& voxel = grid.voxels()[v];
+    const voxels::VoxelGrid::Voxel& voxel = grid.voxels()[v];
     std::size_t k = voxel.begin + skip;
     for (; k < voxel.end; k += step) {
       const Vec3d d = (items.point(k) - p).template cast<double>();
@@ -147,22 +147,22 @@ CloudStatistics statistics(double start_radius_m, const ThicknessOf& thickness_o
 
 }  // namespace
 
-CloudStatistics cloud_statistics(const points::MergedCloud& merged, double start_radius_m) {
+CloudStatistics cloud_statistics(const voxels::MergedCloud& merged, double start_radius_m) {
   using ThicknessAt = std::function<Thickness(std::uint64_t)>;
   const auto& points = merged.cloud.points;
   return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
-    auto built = points::VoxelGrid::build(points, r, RunContext());
+    auto built = voxels::VoxelGrid::build(points, r, RunContext());
     if (!built) return std::nullopt;
-    const auto grid = std::make_shared<const points::VoxelGrid>(std::move(*built));
+    const auto grid = std::make_shared<const voxels::VoxelGrid>(std::move(*built));
     return [grid, r, &points](std::uint64_t key) {
       return thickness_at(SortedPoints{points, *grid}, *grid, points[key % points.size()], r);
     };
   });
 }
 
-CloudStatistics cloud_statistics(const points::MeasuredCells& measurements, double start_radius_m) {
+CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, double start_radius_m) {
   using ThicknessAt = std::function<Thickness(std::uint64_t)>;
-  const points::VoxelGrid& grid = measurements.grid;
+  const voxels::VoxelGrid& grid = measurements.grid;
   std::vector<std::uint64_t> sum;  // of the points up to a cell
   for (std::size_t i = 0; i < measurements.size(); ++i)
     sum.push_back((i > 0 ? sum.back() : 0) + std::uint64_t(measurements.count(i)));
@@ -176,7 +176,7 @@ CloudStatistics cloud_statistics(const points::MeasuredCells& measurements, doub
   });
 }
 
-double frames_apart(const points::MergedCloud& merged, double point_spacing_m) {
+double frames_apart(const voxels::MergedCloud& merged, double point_spacing_m) {
   constexpr std::size_t kSamples = 2000;
   constexpr int kDoublings = 7;
   constexpr double kShare = 0.95;

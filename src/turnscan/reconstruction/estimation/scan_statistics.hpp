@@ -28,15 +28,15 @@ struct CloudStatistics {
 /// smaller ball would cut the noise off) and they hold a piece of surface, not one line of a line
 /// scanner. Thickness: the square root of the smallest eigenvalue of the covariance. Deterministic.
 /// Starts at start_radius_m; ends at 16 times that.
-CloudStatistics cloud_statistics(const points::MergedCloud& merged, double start_radius_m);
+CloudStatistics cloud_statistics(const voxels::MergedCloud& merged, double start_radius_m);
 
 /// The same of measurements in cells. What is thinner than the cells may look thinner than it is.
-CloudStatistics cloud_statistics(const points::MeasuredCells& measurements, double start_radius_m);
+CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, double start_radius_m);
 
 /// How far apart neighbouring frames lie where they lie far apart: of 95 % of the points the
 /// nearest point of another frame is nearer. For line scanners, whose profiles part with the
 /// distance from the axis while the points on them stay close. 0 when there is one frame only.
 /// point_spacing_m: within a frame; distances of more than 256 times that are not distinguished.
-double frames_apart(const points::MergedCloud& merged, double point_spacing_m);
+double frames_apart(const voxels::MergedCloud& merged, double point_spacing_m);
 
 }  // namespace turnscan::estimation

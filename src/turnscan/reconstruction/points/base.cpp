@@ -39,9 +39,9 @@ std::vector<Wall> find_walls(const PointCloud& cloud, double cell_m, double top_
     plan.emplace_back(cloud.points[i].x(), 0.0f, cloud.points[i].z());
   }
   std::vector<Wall> walls;
-  auto grid = VoxelGrid::build(plan, cell_m, RunContext());
+  auto grid = voxels::VoxelGrid::build(plan, cell_m, RunContext());
   if (!grid) return walls;
-  for (const VoxelGrid::Voxel& voxel : grid->voxels()) {
+  for (const voxels::VoxelGrid::Voxel& voxel : grid->voxels()) {
     Wall wall{Vec3f::Zero(), Vec3f::Zero(), 0.0, {}};
     float lowest = static_cast<float>(top_m);
     for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {

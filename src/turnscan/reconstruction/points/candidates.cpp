@@ -14,7 +14,7 @@ struct VoxelSums {
   double count = 0.0;
 };
 
-VoxelSums sum_up(const MeasuredCells& m, const VoxelGrid::Voxel& voxel) {
+VoxelSums sum_up(const voxels::MeasuredCells& m, const voxels::VoxelGrid::Voxel& voxel) {
   VoxelSums sums;
   for (std::uint32_t i = voxel.begin; i < voxel.end; ++i) {
     const double n = m.count(i);
@@ -31,16 +31,16 @@ Rgb rounded(const Vec3d& color) {
   return {std::uint8_t(c.x()), std::uint8_t(c.y()), std::uint8_t(c.z())};
 }
 
-Candidates candidates_of(const MeasuredCells& m, const VoxelGrid& grid, std::size_t begin,
-                         std::size_t end) {
+Candidates candidates_of(const voxels::MeasuredCells& m, const voxels::VoxelGrid& grid,
+                         std::size_t begin, std::size_t end) {
   Candidates out;
   for (std::size_t v = begin; v < end; ++v) {
-    const VoxelGrid::Voxel& voxel = grid.voxels()[v];
+    const voxels::VoxelGrid::Voxel& voxel = grid.voxels()[v];
     const VoxelSums sums = sum_up(m, voxel);
     const Vec3f centroid = (sums.place / sums.count).cast<float>();
     std::span<const Vec3f> points(&centroid, 1);
     if (!m.peaks.empty()) {
-      const Peak& peak = m.peaks[std::size_t(m.grid.find(voxel.index))];
+      const voxels::Peak& peak = m.peaks[std::size_t(m.grid.find(voxel.index))];
       points = std::span(m.peak_points).subspan(peak.begin, peak.end - peak.begin);
     }
     for (const Vec3f& p : points) {
@@ -61,8 +61,8 @@ void extend(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-Result<Candidates> find_candidates(const MeasuredCells& measurements, const VoxelGrid& grid,
-                                   const RunContext& context) {
+Result<Candidates> find_candidates(const voxels::MeasuredCells& measurements,
+                                   const voxels::VoxelGrid& grid, const RunContext& context) {
   const std::size_t n = grid.voxels().size();
   context.begin_phase("candidate points", n);
   auto parts = parallel_chunks<Candidates>(n, kVoxelsAChunk, [&](std::size_t b, std::size_t e) {

@@ -21,7 +21,7 @@ struct Candidates {
 /// the candidates, all of them when they tie, each with its share of the weight. kChord walks the
 /// whole chord; kTowardsSensor only from the point towards the sensor, which moves a noisy plane
 /// outwards. PointSums does the counting; measurements have peaks or else give centroids.
-Result<Candidates> find_candidates(const MeasuredCells& measurements, const VoxelGrid& grid,
-                                   const RunContext& context);
+Result<Candidates> find_candidates(const voxels::MeasuredCells& measurements,
+                                   const voxels::VoxelGrid& grid, const RunContext& context);
 
 }  // namespace turnscan::points

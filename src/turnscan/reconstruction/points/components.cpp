@@ -9,20 +9,20 @@ namespace {
 
 /// Joins what lies in one cell of `side` voxels or in cells that touch. Half of the neighbours of a
 /// cell are enough, the other half meets it from the other side.
-void join_neighbours(const VoxelGrid& grid, int side, DisjointSets& sets) {
+void join_neighbours(const voxels::VoxelGrid& grid, int side, DisjointSets& sets) {
   std::vector<Vec3f> cells;  // as points, so that the grid sorts them
   cells.reserve(grid.voxels().size());
-  for (const VoxelGrid::Voxel& voxel : grid.voxels()) {
+  for (const voxels::VoxelGrid::Voxel& voxel : grid.voxels()) {
     const Vec3d cell = (voxel.index.cast<double>() / side).array().floor() + 0.5;
     cells.push_back(cell.cast<float>());
   }
-  const auto coarse = VoxelGrid::build(cells, 1.0, RunContext());
+  const auto coarse = voxels::VoxelGrid::build(cells, 1.0, RunContext());
   if (!coarse) return;  // no voxels at all
-  for (const VoxelGrid::Voxel& cell : coarse->voxels()) {
+  for (const voxels::VoxelGrid::Voxel& cell : coarse->voxels()) {
     const std::uint32_t first = coarse->order()[cell.begin];
     for (std::uint32_t k = cell.begin + 1; k < cell.end; ++k) sets.join(first, coarse->order()[k]);
-    const VoxelIndex one = VoxelIndex::Ones();
-    VoxelIndex high = cell.index + one;
+    const voxels::VoxelIndex one = voxels::VoxelIndex::Ones();
+    voxels::VoxelIndex high = cell.index + one;
     high.z() = cell.index.z();
     coarse->for_each_in_box(cell.index - one, high, [&](std::uint32_t other) {
       sets.join(first, coarse->order()[coarse->voxels()[other].begin]);
@@ -37,7 +37,7 @@ struct Piece {
 };
 
 /// Most points first.
-std::vector<Piece> find_pieces(const VoxelGrid& grid, DisjointSets& sets) {
+std::vector<Piece> find_pieces(const voxels::VoxelGrid& grid, DisjointSets& sets) {
   std::vector<Piece> pieces(grid.voxels().size());
   for (std::uint32_t i = 0; i < pieces.size(); ++i) {
     Piece& piece = pieces[sets.root(i)];
@@ -58,8 +58,8 @@ bool is_crumb(const Piece& piece, const std::vector<Piece>& pieces,
 }
 
 /// Joins what floats, but for crumbs, to what holds it. Returns their number.
-std::size_t join_floating(const VoxelGrid& grid, const ComponentOptions& options, double floor_m,
-                          DisjointSets& sets) {
+std::size_t join_floating(const voxels::VoxelGrid& grid, const ComponentOptions& options,
+                          double floor_m, DisjointSets& sets) {
   constexpr double kFarthestOfSize = 0.5;  // beyond, no surface would bridge it
   std::vector<tsdf::PlacedComponent> places;
   std::vector<std::uint32_t> roots;
@@ -91,7 +91,7 @@ std::size_t join_floating(const VoxelGrid& grid, const ComponentOptions& options
 
 }  // namespace
 
-Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
+Result<Components> find_components(const voxels::VoxelGrid& grid, const ComponentOptions& options,
                                    int reach, std::optional<double> floor_m) {
   TURNSCAN_ASSIGN(const int keep, objects_to_keep(options));
   const std::size_t n = grid.voxels().size();

@@ -21,7 +21,7 @@ struct Components {
 /// Where the height of a floor is known (voxels below floor_m stand on it), a piece that floats is
 /// joined to what holds it (tsdf::attach_detached), but not across more than half of its own size:
 /// then no surface would bridge it.
-Result<Components> find_components(const VoxelGrid& grid, const ComponentOptions& options,
+Result<Components> find_components(const voxels::VoxelGrid& grid, const ComponentOptions& options,
                                    int reach, std::optional<double> floor_m = std::nullopt);
 
 }  // namespace turnscan::points

@@ -17,14 +17,14 @@ struct Neighbourhood {
   std::size_t count = 0;
 };
 
-Neighbourhood collect(const Candidates& c, const VoxelGrid& grid, std::size_t i, double r) {
+Neighbourhood collect(const Candidates& c, const voxels::VoxelGrid& grid, std::size_t i, double r) {
   const Vec3d p = c.cloud.points[i].cast<double>();
-  const VoxelIndex low = ((p.array() - r) / grid.size_m()).floor().cast<int>();
-  const VoxelIndex high = ((p.array() + r) / grid.size_m()).floor().cast<int>();
+  const voxels::VoxelIndex low = ((p.array() - r) / grid.size_m()).floor().cast<int>();
+  const voxels::VoxelIndex high = ((p.array() + r) / grid.size_m()).floor().cast<int>();
   const Vec3f own = c.towards_sensor[i].normalized();
   Neighbourhood out;
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {
-    const VoxelGrid::Voxel& voxel = grid.voxels()[v];
+    const voxels::VoxelGrid::Voxel& voxel = grid.voxels()[v];
     for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
       const std::uint32_t j = grid.order()[k];
       const Vec3d d = c.cloud.points[j].cast<double>() - p;
@@ -58,8 +58,8 @@ Vec3f normal_of(const Candidates& c, std::size_t i, const Neighbourhood& n) {
 Result<> estimate_normals(Candidates& candidates, double radius_m, const RunContext& context) {
   const std::size_t n = candidates.cloud.size();
   context.begin_phase("normals", n);
-  TURNSCAN_ASSIGN(const VoxelGrid grid,
-                  VoxelGrid::build(candidates.cloud.points, 0.5 * radius_m, context));
+  TURNSCAN_ASSIGN(const voxels::VoxelGrid grid,
+                  voxels::VoxelGrid::build(candidates.cloud.points, 0.5 * radius_m, context));
   std::vector<Vec3f> normals(n);
   parallel_for(n, 256, [&](std::size_t i) {
     if (context.cancelled()) return;

@@ -18,7 +18,7 @@ constexpr double kFinest = 1.0 / 1000.0;
 
 /// The longest side that the cloud shows; of an object of which only one side was seen, also twice
 /// the distance from the axis.
-double longest_side(const MergedCloud& cloud, bool turns) {
+double longest_side(const voxels::MergedCloud& cloud, bool turns) {
   double longest = bounds(cloud.cloud.points).size().maxCoeff();
   if (!turns) return longest;
   for (const Vec3f& p : cloud.cloud.points)
@@ -27,13 +27,13 @@ double longest_side(const MergedCloud& cloud, bool turns) {
 }
 
 /// The frames of a cloud whose points lie in their order.
-std::vector<PointsSeen> frames_of(const MergedCloud& merged) {
+std::vector<voxels::PointsSeen> frames_of(const voxels::MergedCloud& merged) {
   const PointCloud& cloud = merged.cloud;
-  std::vector<PointsSeen> frames;
+  std::vector<voxels::PointsSeen> frames;
   for (std::size_t begin = 0; begin < cloud.size();) {
     std::size_t end = begin;
     while (end < cloud.size() && cloud.frame[end] == cloud.frame[begin]) ++end;
-    PointsSeen seen;
+    voxels::PointsSeen seen;
     seen.points = std::span(cloud.points).subspan(begin, end - begin);
     if (!cloud.colors.empty()) seen.colors = std::span(cloud.colors).subspan(begin, end - begin);
     seen.viewpoint = merged.viewpoints[cloud.frame[begin]];
@@ -77,31 +77,31 @@ class PointMethod final : public Method {
     std::string reason;
   };
 
-  Result<> add_parts(const std::vector<FramePart>& parts, const std::vector<Viewpoint>& viewpoints,
-                     const RunContext& context);
+  Result<> add_parts(const std::vector<voxels::FramePart>& parts,
+                     const std::vector<Viewpoint>& viewpoints, const RunContext& context);
   Result<> filter_cloud(const RunContext& context);
   Result<> choose_scale(bool whole);
-  VoxelScale scale_of(const MergedCloud& cloud, bool whole) const;
-  Result<MeasuredCells> measure(const RunContext& context, Reconstruction& out);
+  VoxelScale scale_of(const voxels::MergedCloud& cloud, bool whole) const;
+  Result<voxels::MeasuredCells> measure(const RunContext& context, Reconstruction& out);
 
   const ReconstructOptions& options_;
   estimation::ScanEstimate estimate_;
-  FrameRecipe recipe_;
+  voxels::FrameRecipe recipe_;
   bool profiles_;  ///< frames are lines of points without neighbours across
   bool whole_;     ///< the first frames are all frames
   bool keep_ = options_.keep_points || options_.merge.cloud_outliers;
   std::uint64_t returns_ = 0;
-  MergedCloud cloud_;  ///< until the scale is chosen, or all of it where it is asked for
+  voxels::MergedCloud cloud_;  ///< until the scale is chosen, or all of it where it is asked for
   std::optional<VoxelScale> scale_;
-  std::optional<PointSums> sums_;
+  std::optional<voxels::PointSums> sums_;
 };
 
 Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader& read,
                           const RunContext& context, Reconstruction& out) {
   TURNSCAN_ASSIGN(const auto parts,
-                  process_frames<FramePart>(
+                  process_frames<voxels::FramePart>(
                       frames, read, context, [&](const Frame& frame, const PosedFrame& posed) {
-                        return process_frame(frame, recipe_, posed.T_table_sensor);
+                        return voxels::process_frame(frame, recipe_, posed.T_table_sensor);
                       }));
   std::vector<Viewpoint> viewpoints;
   for (const PosedFrame& frame : frames) {
@@ -109,7 +109,7 @@ Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader&
     viewpoints.push_back(own.transformed(frame.T_table_sensor));
   }
   TURNSCAN_TRY(add_parts(parts, viewpoints, context));
-  for (const FramePart& part : parts) {
+  for (const voxels::FramePart& part : parts) {
     ++out.frames;
     out.returns += part.returns;
     out.inside_crop += part.inside_crop;
@@ -118,14 +118,14 @@ Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader&
 }
 
 /// What frames gave, in their order. The first ones choose the size of the voxels.
-Result<> PointMethod::add_parts(const std::vector<FramePart>& parts,
+Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
                                 const std::vector<Viewpoint>& viewpoints,
                                 const RunContext& context) {
   const bool known = scale_.has_value();
-  std::vector<PointsSeen> frames;
+  std::vector<voxels::PointsSeen> frames;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     returns_ += parts[i].returns;
-    if (keep_ || !known) append(parts[i], viewpoints[i], cloud_);
+    if (keep_ || !known) voxels::append(parts[i], viewpoints[i], cloud_);
     frames.push_back({parts[i].cloud.points, parts[i].cloud.colors, viewpoints[i]});
   }
   if (options_.merge.cloud_outliers) return {};  // all are needed before any can be counted
@@ -140,11 +140,11 @@ Result<> PointMethod::choose_scale(bool whole) {
   scale_ = scale_of(cloud_, whole);
   sums_.emplace(scale_->voxel_m, options_.candidates);
   TURNSCAN_TRY(sums_->add(frames_of(cloud_)));
-  if (!keep_) cloud_ = MergedCloud();
+  if (!keep_) cloud_ = voxels::MergedCloud();
   return {};
 }
 
-PointMethod::VoxelScale PointMethod::scale_of(const MergedCloud& cloud, bool whole) const {
+PointMethod::VoxelScale PointMethod::scale_of(const voxels::MergedCloud& cloud, bool whole) const {
   VoxelScale scale;
   // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
   const double noise = estimate_.noise_m, step = estimate_.spacing_m;
@@ -205,8 +205,8 @@ Result<> PointMethod::filter_cloud(const RunContext& context) {
 
 /// Gives the sums. The scan may have turned out thicker, or sparser, than its first frames: then
 /// automatic voxels are joined.
-Result<MeasuredCells> PointMethod::measure(const RunContext& context, Reconstruction& out) {
-  TURNSCAN_ASSIGN(MeasuredCells measured, sums_->collect(1, context));
+Result<voxels::MeasuredCells> PointMethod::measure(const RunContext& context, Reconstruction& out) {
+  TURNSCAN_ASSIGN(voxels::MeasuredCells measured, sums_->collect(1, context));
   const estimation::CloudStatistics statistics =
       estimation::cloud_statistics(measured, 3.0 * std::max(scale_->pixels_m, scale_->noise_m));
   // Cells of half a voxel hide what is thinner than they are; the first frames have seen that.
@@ -229,7 +229,7 @@ Result<MeasuredCells> PointMethod::measure(const RunContext& context, Reconstruc
 
 Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
                              Reconstruction& out) {
-  MeasuredCells measured;
+  voxels::MeasuredCells measured;
   {
     const StageTimer timer(out.stages, "merge");
     if (options_.merge.cloud_outliers) TURNSCAN_TRY(filter_cloud(context));
@@ -240,7 +240,7 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
                   "--crop-margin and --crop-radius",
                   out.points, returns_);
     if (sink && options_.keep_points) TURNSCAN_TRY(sink("merged", cloud_.cloud));
-    cloud_ = MergedCloud();
+    cloud_ = voxels::MergedCloud();
   }
   {
     const StageTimer timer(out.stages, "voxels");

@@ -17,7 +17,7 @@ namespace {
 /// The stages in their order, which share its members.
 class PointStages {
  public:
-  PointStages(const MeasuredCells& measurements, double spacing_m,
+  PointStages(const voxels::MeasuredCells& measurements, double spacing_m,
               const std::optional<Cylinder>& cylinder, const ReconstructOptions& options,
               const StageSink& sink, const RunContext& context, Reconstruction& out)
       : measurements_(measurements),
@@ -68,14 +68,14 @@ class PointStages {
   Result<> build_surfaces();
   Result<ObjectResult> build_surface(const PointCloud& object);
 
-  const MeasuredCells& measurements_;
+  const voxels::MeasuredCells& measurements_;
   double spacing_m_;
   std::optional<Cylinder> cylinder_;
   const ReconstructOptions& options_;
   const StageSink& sink_;
   const RunContext& context_;
   Reconstruction& out_;
-  VoxelGrid grid_;  ///< what is left of the measurements' voxels
+  voxels::VoxelGrid grid_;  ///< what is left of the measurements' voxels
   Components components_;
   Candidates candidates_;
   std::vector<PointCloud> objects_;  ///< oriented points, with base
@@ -84,13 +84,13 @@ class PointStages {
 Result<> PointStages::choose_voxels() {
   const double size = grid_.size_m();
   context_.begin_phase("voxels", 2);
-  const ThresholdChoice threshold = choose_min_points(grid_);
+  const voxels::ThresholdChoice threshold = choose_min_points(grid_);
   const int m = options_.voxels.min_points.value_or(threshold.min_points);
   choose("voxel-min-points", std::to_string(m),
          options_.voxels.min_points
              ? "given"
              : fmt::format("a tenth of the typical count {:.0f}", threshold.typical_count));
-  grid_.filter(count_filter(grid_, m));
+  grid_.filter(voxels::count_filter(grid_, m));
   context_.advance();
   if (grid_.voxels().empty())
     return fail(ErrorCode::kTooFewPoints,
@@ -114,7 +114,7 @@ Result<> PointStages::choose_voxels() {
     out_.notes.push_back(fmt::format("pieces above the platter joined to what stands below: {}",
                                      components_.joined));
   PointCloud centers;
-  for (const VoxelGrid::Voxel& voxel : grid_.voxels()) {
+  for (const voxels::VoxelGrid::Voxel& voxel : grid_.voxels()) {
     centers.points.push_back(grid_.center(voxel).cast<float>());
     centers.weights.push_back(static_cast<float>(voxel.count()));
   }
@@ -242,7 +242,7 @@ Result<> PointStages::build_surfaces() {
 
 }  // namespace
 
-Result<> reconstruct_points(const MeasuredCells& measurements, double spacing_m,
+Result<> reconstruct_points(const voxels::MeasuredCells& measurements, double spacing_m,
                             const std::optional<Cylinder>& cylinder,
                             const ReconstructOptions& options, const StageSink& sink,
                             const RunContext& context, Reconstruction& out) {

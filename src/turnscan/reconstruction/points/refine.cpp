@@ -29,7 +29,7 @@ using Moments = std::array<double, refinement::kMoments>;
 
 class Projector {
  public:
-  Projector(const MeasuredCells& measurements, const RefineScale& scale)
+  Projector(const voxels::MeasuredCells& measurements, const RefineScale& scale)
       : measurements_(measurements), grid_(measurements.grid) {
     reach_ = kReach * scale.radius_m;
     height_ = std::max(kTukey * scale.noise_m, 0.5 * scale.radius_m);
@@ -84,15 +84,15 @@ class Projector {
     const double size = grid_.size_m();
     const Vec3d half = height * site.n.cwiseAbs() +
                        reach_ * (Vec3d::Ones() - site.n.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-    const VoxelIndex low = ((site.p - half) / size).array().floor().cast<int>();
-    const VoxelIndex high = ((site.p + half) / size).array().floor().cast<int>();
+    const voxels::VoxelIndex low = ((site.p - half) / size).array().floor().cast<int>();
+    const voxels::VoxelIndex high = ((site.p + half) / size).array().floor().cast<int>();
     const double far = reach_ + 0.87 * size, far2 = far * far;
     refinement::MomentLanes lanes{};
     const refinement::RefineKernel& kernel = refinement::RefineKernels::current();
     // Voxels that follow each other lie behind each other in memory.
     std::uint32_t begin = 0, end = 0;
     grid_.for_each_in_box(low, high, [&](std::uint32_t i) {
-      const VoxelGrid::Voxel& voxel = grid_.voxels()[i];
+      const voxels::VoxelGrid::Voxel& voxel = grid_.voxels()[i];
       const Vec3d d = grid_.center(voxel) - site.p;
       const double h = d.dot(site.n);
       if (d.squaredNorm() - h * h > far2 || std::abs(h) > height + 0.87 * size) return;
@@ -116,8 +116,8 @@ class Projector {
             c[4].data(), c[5].data(), c[6].data()};
   }
 
-  const MeasuredCells& measurements_;
-  const VoxelGrid& grid_;
+  const voxels::MeasuredCells& measurements_;
+  const voxels::VoxelGrid& grid_;
   double reach_ = 0.0, height_ = 0.0;
 };
 
@@ -202,11 +202,11 @@ Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, 
     return fail(ErrorCode::kTooFewPoints,
                 "refine: no candidate has enough measurements around it; the scan is too sparse "
                 "for refine-radius, or use --no-refine");
-  TURNSCAN_ASSIGN(const VoxelGrid grid, VoxelGrid::build(points, size_m, context));
+  TURNSCAN_ASSIGN(const voxels::VoxelGrid grid, voxels::VoxelGrid::build(points, size_m, context));
   Candidates out;
   out_sites.clear();
   VoxelMeans means(from);
-  for (const VoxelGrid::Voxel& voxel : grid.voxels()) {
+  for (const voxels::VoxelGrid::Voxel& voxel : grid.voxels()) {
     for (std::uint32_t k = voxel.begin; k < voxel.end; ++k) {
       const std::uint32_t i = origin[grid.order()[k]];
       means.add(sites[i], i);
@@ -218,7 +218,7 @@ Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, 
 
 /// Of the layers of voxels that noise spreads along the normal, the fullest is the best start:
 /// candidates whose voxel has a fuller one next to it along their normal are left out.
-std::vector<Site> starting_sites(const VoxelGrid& grid, const Candidates& candidates) {
+std::vector<Site> starting_sites(const voxels::VoxelGrid& grid, const Candidates& candidates) {
   std::vector<Site> sites(candidates.cloud.size());
   parallel_for(sites.size(), 1024, [&](std::size_t i) {
     Site& site = sites[i];
@@ -238,9 +238,10 @@ std::vector<Site> starting_sites(const VoxelGrid& grid, const Candidates& candid
 
 }  // namespace
 
-Result<Candidates> refine_candidates(const MeasuredCells& measurements, const VoxelGrid& grid,
-                                     const Candidates& candidates, const RefineScale& scale,
-                                     int iterations, const RunContext& context) {
+Result<Candidates> refine_candidates(const voxels::MeasuredCells& measurements,
+                                     const voxels::VoxelGrid& grid, const Candidates& candidates,
+                                     const RefineScale& scale, int iterations,
+                                     const RunContext& context) {
   if (candidates.cloud.normals.size() != candidates.cloud.size())
     throw std::invalid_argument("refine_candidates: candidates need normals");
   const Projector projector(measurements, scale);

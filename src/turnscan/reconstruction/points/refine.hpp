@@ -16,8 +16,9 @@ struct RefineScale {
 /// candidate moves onto it; the normal follows. Candidates with too little support are dropped.
 /// Then one candidate per cell of max(voxel, 0.6 radius_m) is kept: those that fell into one cell,
 /// facing one way, are averaged. Needs normals; candidates.voxel stays the voxel they came from.
-Result<Candidates> refine_candidates(const MeasuredCells& measurements, const VoxelGrid& grid,
-                                     const Candidates& candidates, const RefineScale& scale,
-                                     int iterations, const RunContext& context);
+Result<Candidates> refine_candidates(const voxels::MeasuredCells& measurements,
+                                     const voxels::VoxelGrid& grid, const Candidates& candidates,
+                                     const RefineScale& scale, int iterations,
+                                     const RunContext& context);
 
 }  // namespace turnscan::points

@@ -31,7 +31,7 @@ OrientedSamples::OrientedSamples(const PointCloud& oriented, const Cube& cube, i
   const auto place = [&](std::size_t i) -> Vec3d {
     return (oriented.points[i].cast<double>() - cube.corner) / cube.side_m;
   };
-  std::vector<points::KeyedItem> items(n);
+  std::vector<voxels::KeyedItem> items(n);
   parallel_for(n, 4096, [&](std::size_t i) {
     const Vec3d p = place(i);
     std::array<std::uint64_t, 3> c;
@@ -40,7 +40,7 @@ OrientedSamples::OrientedSamples(const PointCloud& oriented, const Cube& cube, i
                                                    std::ldexp(1.0, max_depth) - 1.0));
     items[i] = {morton_code(c[0], c[1], c[2]), std::uint32_t(i)};
   });
-  points::sort_by_key(items, (std::uint64_t(1) << (3 * max_depth)) - 1);
+  voxels::sort_by_key(items, (std::uint64_t(1) << (3 * max_depth)) - 1);
   position_.resize(n), normal_.resize(n), code_.resize(n);
   parallel_for(n, 4096, [&](std::size_t i) {
     position_[i] = place(items[i].item);

@@ -27,7 +27,7 @@ constexpr std::uint64_t kFewestPoints = 100;
 /// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there
 /// are too few points to tell.
 double thickness(const VolumetricInput& input, double noise_m) {
-  points::MergedCloud sample;
+  voxels::MergedCloud sample;
   sample.cloud.points = sample_points(input);
   if (sample.cloud.size() < 100) return 0.0;
   return estimation::cloud_statistics(sample, 3.0 * std::max(input.spacing_m, noise_m)).noise_m;

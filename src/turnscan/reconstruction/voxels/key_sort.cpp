@@ -4,7 +4,7 @@
 #include <turnscan/reconstruction/voxels/key_sort.hpp>
 #include <utility>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 namespace {
 
@@ -47,4 +47,4 @@ void sort_by_key(std::vector<KeyedItem>& items, std::uint64_t max_key) {
   }
 }
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

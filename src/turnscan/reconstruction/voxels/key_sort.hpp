@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 struct KeyedItem {
   std::uint64_t key;
@@ -14,4 +14,4 @@ struct KeyedItem {
 /// Sorts in ascending order; items with equal keys keep their order. max_key: no key is above it.
 void sort_by_key(std::vector<KeyedItem>& items, std::uint64_t max_key);
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

@@ -5,7 +5,7 @@
 #include <turnscan/core/image.hpp>
 #include <turnscan/reconstruction/voxels/voxel_grid.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 /// The places of a voxel that most rays met, all with the same count (sub-voxel counting).
 struct Peak {
@@ -36,4 +36,4 @@ struct MeasuredCells {
   float count(std::size_t i) const { return columns[6][i]; }
 };
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

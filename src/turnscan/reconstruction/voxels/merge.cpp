@@ -1,7 +1,7 @@
 #include <turnscan/reconstruction/frame_batch.hpp>
 #include <turnscan/reconstruction/voxels/merge.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 Vec3f MergedCloud::towards_sensor(std::size_t i) const {
   // In single precision: called for every point by several stages, and the points have no more.
@@ -62,4 +62,4 @@ void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merg
   ++merged.frames;
 }
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

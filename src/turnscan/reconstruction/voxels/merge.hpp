@@ -5,7 +5,7 @@
 #include <turnscan/reconstruction/outliers/outliers.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 /// All points of a scan in the table frame, with where each was seen from.
 struct MergedCloud {
@@ -41,4 +41,4 @@ Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
 /// for none.
 void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merged);
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

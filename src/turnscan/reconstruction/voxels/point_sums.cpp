@@ -7,7 +7,7 @@
 #include <turnscan/reconstruction/voxels/point_sums.hpp>
 #include <turnscan/reconstruction/voxels/sub_voxel_line.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 namespace {
 
@@ -403,4 +403,4 @@ Result<MeasuredCells> PointSums::collect(int joined, const RunContext& context) 
   return out;
 }
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

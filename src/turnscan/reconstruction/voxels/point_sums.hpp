@@ -9,7 +9,7 @@
 #include <turnscan/reconstruction/options/point_options.hpp>
 #include <turnscan/reconstruction/voxels/measured_cells.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 /// Points of one frame, table frame, and where they were seen from.
 struct PointsSeen {
@@ -52,4 +52,4 @@ class PointSums {
   std::vector<std::unique_ptr<Part>> parts_;  ///< each holds the bricks that hash to it
 };
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

@@ -5,7 +5,7 @@
 #include <limits>
 #include <turnscan/core/pose.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 /// Visits, in order, each cell of the grid [0, s)^3 (unit cells) that the line through p with
 /// direction d meets (Amanatides and Woo 1987): the whole chord, or only the part from p along +d.
@@ -47,4 +47,4 @@ void walk_sub_voxels(Vec3d p, const Vec3d& d, int s, bool whole_chord, const Vis
   }
 }
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

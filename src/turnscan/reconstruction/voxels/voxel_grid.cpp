@@ -6,7 +6,7 @@
 #include <turnscan/reconstruction/voxels/key_sort.hpp>
 #include <turnscan/reconstruction/voxels/voxel_grid.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::vector<std::uint8_t> count_filter(const VoxelGrid& grid, int min_points) {
   return keep;
 }
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels

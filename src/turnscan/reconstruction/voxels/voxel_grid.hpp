@@ -4,7 +4,7 @@
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/run_context.hpp>
 
-namespace turnscan::points {
+namespace turnscan::voxels {
 
 using VoxelIndex = Eigen::Vector3i;
 
@@ -88,4 +88,4 @@ ThresholdChoice choose_min_points(const VoxelGrid& grid);
 /// 1 for voxels with at least min_points points.
 std::vector<std::uint8_t> count_filter(const VoxelGrid& grid, int min_points);
 
-}  // namespace turnscan::points
+}  // namespace turnscan::voxels
