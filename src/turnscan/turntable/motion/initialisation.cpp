@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <turnscan/turntable/motion/axis_search.hpp>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/initialisation.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
@@ -25,15 +26,7 @@ class Initialisation {
   }
 
   Result<InitialMotion> run() {
-    std::vector<Start> starts;
-    std::optional<Error> failure;  // of the first axis that nothing can be said about
-    for (const MotionState& axis : candidate_axes(data_, table_)) {
-      TURNSCAN_TRY(context_.check());
-      auto begun = start_angles(axis, starts);
-      if (!begun && !failure) failure = std::move(begun).error();
-    }
-    if (starts.empty()) return tl::unexpected<Error>(*failure);
-    TURNSCAN_TRY(keep_promising(starts));
+    TURNSCAN_ASSIGN(std::vector<Start> starts, find_starts());
     const Start* best = &starts.front();
     double least = std::numeric_limits<double>::infinity();
     for (Start& start : starts) {
@@ -71,6 +64,23 @@ class Initialisation {
     MotionState state;
     AnglePrior prior;
   };
+
+  Result<std::vector<Start>> find_starts() const {
+    std::vector<Start> starts;
+    if (source_ == AngleSource::kAngles && !data_.projective && !table_) {
+      TURNSCAN_TRY(search_everywhere(starts));
+      return starts;
+    }
+    std::optional<Error> failure;  // of the first axis that nothing can be said about
+    for (const MotionState& axis : candidate_axes(data_, table_)) {
+      TURNSCAN_TRY(context_.check());
+      auto begun = start_angles(axis, starts);
+      if (!begun && !failure) failure = std::move(begun).error();
+    }
+    if (starts.empty()) return tl::unexpected<Error>(*failure);
+    TURNSCAN_TRY(keep_promising(starts));
+    return starts;
+  }
 
   /// Moves the start's axis and angles; leaves them where no equation helps.
   Result<> solve_roughly(Start& start, std::size_t stride, int iterations) const {
@@ -143,15 +153,34 @@ class Initialisation {
 
   /// The list of angles may count the other way round; about a rough axis that cannot be told yet.
   void start_from_angles(const Start& start, std::vector<Start>& starts) const {
-    const double zero = *data_.frames[0].nominal_rad;
-    for (const double sign : {1.0, -1.0}) {
-      Start one = start;
-      one.prior.nominal_sigma_rad = options_.angle_sigma_rad;
-      one.prior.nominal_sign = sign;
-      for (std::size_t i = 0; i < one.state.angle.size(); ++i)
-        one.state.angle[i] = sign * (*data_.frames[i].nominal_rad - zero);
-      starts.push_back(std::move(one));
-    }
+    const std::vector<double> told = told_angles();
+    for (const double sign : {1.0, -1.0}) starts.push_back(start_with(start.state, told, sign));
+  }
+
+  Start start_with(const MotionState& axis, const std::vector<double>& told, double sign) const {
+    Start out{axis, {}};
+    out.prior.nominal_sigma_rad = options_.angle_sigma_rad;
+    out.prior.nominal_sign = sign;
+    out.state.angle = told;
+    for (double& angle : out.state.angle) angle *= sign;
+    return out;
+  }
+
+  /// Since the first frame.
+  std::vector<double> told_angles() const {
+    std::vector<double> out;
+    for (const MotionFrame& frame : data_.frames)
+      out.push_back(*frame.nominal_rad - *data_.frames[0].nominal_rad);
+    return out;
+  }
+
+  /// Scans that lie far apart are aligned only from near by.
+  Result<> search_everywhere(std::vector<Start>& starts) const {
+    const std::vector<double> told = told_angles();
+    TURNSCAN_ASSIGN(const auto trials, search_axes(data_, told, kMostStarts, context_));
+    for (const AxisTrial& trial : trials)
+      starts.push_back(start_with(trial.state, told, trial.sign));
+    return {};
   }
 
   const MotionData& data_;

@@ -3,8 +3,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_adjustment.hpp>
-#include <turnscan/turntable/motion/evidence.hpp>
-#include <turnscan/turntable/motion/motor_phases.hpp>
+#include <turnscan/turntable/motion/motor_law.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/refinement.hpp>

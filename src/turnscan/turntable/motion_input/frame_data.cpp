@@ -10,6 +10,19 @@ namespace turnscan::motion {
 namespace {
 
 constexpr std::uint64_t kSamplingSeed = 0x6d6f74696f6eULL;
+/// Of a scan: more take time to search and say no more of its place.
+constexpr std::size_t kMostScanPoints = 150000;
+
+/// At most about `most` of the points, chosen by chance: every few of a grid would be its columns.
+std::vector<Vec3f> thin_out(std::vector<Vec3f> points, std::size_t most, std::uint64_t seed) {
+  if (points.size() <= most) return points;
+  const double share = double(most) / double(points.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (uniform01(hash_key(seed, i)) < share) points[kept++] = points[i];
+  points.resize(kept);
+  return points;
+}
 
 class FrameLoader {
  public:
@@ -109,10 +122,10 @@ class FrameLoader {
   Result<> take_points(const Frame& raw, bool key, std::uint64_t seed, MotionFrame& frame,
                        std::vector<Vec3f>& cloud) const {
     const SensorInfo& sensor = sequence_.header().sensors.front();
-    TURNSCAN_ASSIGN(const FramePoints points, points_of(raw, sensor, RayTable()));
+    TURNSCAN_ASSIGN(FramePoints points, points_of(raw, sensor, RayTable()));
     if (points.cloud.points.size() < 50) return {};
     FrameSurface surface;
-    surface.points = points.cloud.points;
+    surface.points = thin_out(std::move(points.cloud.points), kMostScanPoints, seed);
     surface.tree = KdTree(surface.points);
     sample_points(surface, points.viewpoint, seed, samples_per_frame(key), frame, cloud);
     if (key) frame.surface = std::move(surface);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <turnscan/core/random.hpp>
 #include <turnscan/turntable/motion_input/point_sampling.hpp>
 
@@ -71,6 +72,37 @@ Vec3d unit_normal(const Vec3d& scaled, const Vec3d& ray, const Vec3d& p) {
   return n.dot(p) > 0.0 ? Vec3d(-n) : n;
 }
 
+/// Of scans whose points lie nearer together than they are noisy.
+constexpr std::size_t kMostNeighbours = 100;
+
+std::size_t place_of(std::uint64_t key, std::size_t count) {
+  return std::size_t(uniform01(key) * double(count));
+}
+
+/// The plane through the points nearest to p; nothing where they lie in none.
+std::optional<SurfaceSample> plane_at(const FrameSurface& surface, const Vec3f& p,
+                                      std::size_t neighbours, const Viewpoint& viewpoint) {
+  std::array<std::uint32_t, kMostNeighbours> index{};
+  std::array<float, kMostNeighbours> squared{};
+  if (surface.tree.knn(p, neighbours, index.data(), squared.data()) < neighbours)
+    return std::nullopt;
+  const std::span near(index.data(), neighbours);
+  Vec3d mean = Vec3d::Zero();
+  for (const auto i : near) mean += surface.points[i].cast<double>() / double(neighbours);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto i : near) {
+    const Vec3d d = surface.points[i].cast<double>() - mean;
+    spread += d * d.transpose() / double(neighbours);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
+  const Vec3d& e = eigen.eigenvalues();
+  if (!(e[1] > 0.0) || e[0] > 0.05 * e[1]) return std::nullopt;
+  Vec3d n = eigen.eigenvectors().col(0);
+  if (n.dot(viewpoint.direction_from(p.cast<double>())) < 0.0) n = -n;
+  return SurfaceSample{p, n.cast<float>(),
+                       float(std::sqrt(std::max(e[0], 0.0) / e[1] / double(neighbours)))};
+}
+
 }  // namespace
 
 void sample_depth(const MotionData& data, const RayTable& rays, const DepthForeground& depth,
@@ -104,28 +136,15 @@ void sample_depth(const MotionData& data, const RayTable& rays, const DepthForeg
 
 void sample_points(const FrameSurface& surface, const Viewpoint& viewpoint, std::uint64_t seed,
                    std::size_t wanted, MotionFrame& frame, std::vector<Vec3f>& cloud) {
-  const std::vector<Vec3f>& all = surface.points;
-  constexpr std::size_t kNeighbours = 20;
-  std::array<std::uint32_t, kNeighbours> index{};
-  std::array<float, kNeighbours> squared{};
-  for (std::size_t t = 0; t < 2 * wanted && frame.samples.size() < wanted; ++t) {
-    const Vec3f p = all[std::size_t(uniform01(hash_key(seed, t)) * double(all.size()))];
-    cloud.push_back(p);
-    if (surface.tree.knn(p, kNeighbours, index.data(), squared.data()) < kNeighbours) continue;
-    Vec3d mean = Vec3d::Zero();
-    for (const auto i : index) mean += all[i].cast<double>() / double(kNeighbours);
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const auto i : index) {
-      const Vec3d d = all[i].cast<double>() - mean;
-      spread += d * d.transpose() / double(kNeighbours);
+  for (const std::size_t neighbours : {std::size_t{20}, kMostNeighbours}) {
+    frame.samples.clear();
+    for (std::size_t t = 0; t < 2 * wanted && frame.samples.size() < wanted; ++t) {
+      const Vec3f p = surface.points[place_of(hash_key(seed, t), surface.points.size())];
+      if (neighbours != kMostNeighbours) cloud.push_back(p);
+      const auto sample = plane_at(surface, p, neighbours, viewpoint);
+      if (sample) frame.samples.push_back(*sample);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
-    const Vec3d& e = eigen.eigenvalues();
-    if (!(e[1] > 0.0) || e[0] > 0.05 * e[1]) continue;
-    Vec3d n = eigen.eigenvectors().col(0);
-    if (n.dot(viewpoint.direction_from(p.cast<double>())) < 0.0) n = -n;
-    frame.samples.push_back(
-        {p, n.cast<float>(), float(std::sqrt(std::max(e[0], 0.0) / e[1] / kNeighbours))});
+    if (frame.samples.size() >= wanted / 4) return;
   }
 }
 

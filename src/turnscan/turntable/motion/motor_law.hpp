@@ -1,8 +1,8 @@
 #pragma once
-// When the table starts, stops and stands.
+// What the frames say of the motor: when the table starts, stops and stands, and how evenly it
+// turns.
 
-#include <turnscan/turntable/motion/angle_prior.hpp>
-#include <turnscan/turntable/motion/motion_state.hpp>
+#include <turnscan/turntable/motion/pairwise_solver.hpp>
 
 namespace turnscan::motion {
 
@@ -15,5 +15,13 @@ bool find_transients(const MotionData& data, const MotionState& state, AnglePrio
 /// stopped, until an angle is farther from the mean of those before than it can be by chance. What
 /// the table turns by meanwhile is less than can be seen. Needs prior.transient.
 void find_standstills(const MotionState& state, AnglePrior& prior);
+
+/// Sets prior.speed_walk to the steadiest of several that is about as probable as the most probable
+/// one (the prior of largest evidence: MacKay 1992, "Bayesian interpolation"), and state to the
+/// solution with the best. solution: of the same state, whose scale of the residuals is kept. Fails
+/// as solve_pairwise.
+Result<> choose_speed_walk(const MotionData& data, const MotionSolution& solution,
+                           SolveOptions options, AnglePrior& prior, MotionState& state,
+                           const RunContext& context);
 
 }  // namespace turnscan::motion

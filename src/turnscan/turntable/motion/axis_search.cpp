@@ -1,0 +1,192 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/turntable/motion/axis_search.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+// Views that are compared: near enough to see the same, far enough apart to show the axis.
+constexpr double kLeastApart = 8.0 * kRadiansPerDegree, kBestApart = 35.0 * kRadiansPerDegree;
+constexpr std::size_t kMostPairs = 12, kMostQueries = 32, kMostSurfacePoints = 600;
+/// Places are tried up to so many mean widths from the middle of what is seen, four a width.
+constexpr int kPlaces = 6;
+constexpr double kStep = 0.5;
+constexpr double kSameNormal = 0.6;  ///< least cosine between normals of one surface
+
+/// What is seen of a frame, a point in every few millimetres.
+struct CoarseSurface {
+  std::vector<Vec3f> normals;
+  KdTree tree;
+  std::vector<Vec3f> points;
+};
+
+struct ComparedPair {
+  std::size_t to;  ///< position in the surfaces
+  double turn_rad;
+  std::vector<SurfaceSample> samples;
+};
+
+std::vector<SurfaceSample> every_few(const std::vector<SurfaceSample>& all, std::size_t most) {
+  const std::size_t n = std::min(most, all.size());
+  std::vector<SurfaceSample> out;
+  for (std::size_t k = 0; k < n; ++k) out.push_back(all[k * all.size() / n]);
+  return out;
+}
+
+class AxisSearch {
+ public:
+  AxisSearch(const MotionData& data, const std::vector<double>& angle_rad)
+      : data_(data), angle_(angle_rad) {
+    choose_pairs();
+    find_directions();
+  }
+
+  Result<std::vector<AxisTrial>> run(std::size_t most, const RunContext& context) const {
+    std::vector<AxisTrial> trials;
+    for (const double sign : {1.0, -1.0})
+      for (const Vec3d& axis : axes_) add_places(axis, sign, trials);
+    parallel_for(trials.size(), 16, [&](std::size_t i) {
+      if (!context.cancelled()) trials[i].cost = cost_of(trials[i]);
+    });
+    TURNSCAN_TRY(context.check());
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const AxisTrial& a, const AxisTrial& b) { return a.cost < b.cost; });
+    return far_apart(trials, most);
+  }
+
+ private:
+  void choose_pairs() {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const std::size_t from : data_.keys) {
+      const std::size_t to = partner_of(from);
+      if (to != from) pairs.emplace_back(from, to);
+    }
+    const std::size_t n = std::min(kMostPairs, pairs.size());
+    surfaces_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto [from, to] = pairs[k * pairs.size() / n];
+      for (const SurfaceSample& s : every_few(data_.frames[to].samples, kMostSurfacePoints)) {
+        surfaces_[k].points.push_back(s.p);
+        surfaces_[k].normals.push_back(s.n);
+      }
+      surfaces_[k].tree = KdTree(surfaces_[k].points);
+      pairs_.push_back(
+          {k, angle_[to] - angle_[from], every_few(data_.frames[from].samples, kMostQueries)});
+    }
+  }
+
+  /// The frame whose view is most nearly kBestApart from that of `from`; itself: none.
+  std::size_t partner_of(std::size_t from) const {
+    std::size_t best = from;
+    double least = kTurn;
+    for (const std::size_t to : data_.keys) {
+      const double apart = std::abs(std::remainder(angle_[to] - angle_[from], kTurn));
+      if (data_.frames[to].pass != data_.frames[from].pass || apart < kLeastApart) continue;
+      if (data_.frames[to].samples.empty() || data_.frames[from].samples.empty()) continue;
+      const double off = std::abs(apart - kBestApart);
+      if (off < least) best = to, least = off;
+    }
+    return best;
+  }
+
+  /// Candidate axes: upright, leaning towards the scanner or away from it, and a little sideways.
+  /// A scanner sees surfaces that face it: it looks along the direction that most normals have.
+  void find_directions() {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const CoarseSurface& surface : surfaces_)
+      for (const Vec3f& n : surface.normals)
+        spread += n.cast<double>() * n.cast<double>().transpose();
+    const Vec3d up = Vec3d::UnitY();
+    Vec3d view = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    view -= view.dot(up) * up;
+    view = view.norm() > 0.05 ? Vec3d(view.normalized()) : Vec3d::UnitZ();
+    const Vec3d right = up.cross(view);
+    for (const double tilt : {0.0, 20.0, -20.0, 40.0, -40.0, 60.0, -60.0}) {
+      for (const double roll : {0.0, 15.0, -15.0}) {
+        if (roll != 0.0 && std::abs(tilt) > 50.0) continue;
+        axes_.emplace_back(Eigen::AngleAxisd(roll * kRadiansPerDegree, view) *
+                           (Eigen::AngleAxisd(tilt * kRadiansPerDegree, right) * up));
+      }
+    }
+  }
+
+  void add_places(const Vec3d& axis, double sign, std::vector<AxisTrial>& trials) const {
+    const Vec3d side = axis.unitOrthogonal(), other = axis.cross(side);
+    const double step = kStep * width();
+    for (int i = -kPlaces; i <= kPlaces; ++i) {
+      for (int k = -kPlaces; k <= kPlaces; ++k) {
+        AxisTrial trial;
+        trial.state.axis = axis;
+        trial.state.center = data_.middle + step * (i * side + k * other);
+        trial.sign = sign;
+        trials.push_back(std::move(trial));
+      }
+    }
+  }
+
+  /// Of what is seen, about a half of its radius.
+  double width() const { return 0.25 * data_.extent_m; }
+
+  /// Point-to-plane distances over how far a place's and a direction's step may move a point; what
+  /// has no neighbour with such a normal costs as much as what is as far off.
+  double cost_of(const AxisTrial& trial) const {
+    double sum = 0.0, count = 0.0;
+    for (const ComparedPair& pair : pairs_) {
+      const CoarseSurface& surface = surfaces_[pair.to];
+      const double turn = trial.sign * pair.turn_rad;
+      const Eigen::Matrix3d R = Eigen::AngleAxisd(turn, trial.state.axis).toRotationMatrix();
+      const double gate =
+          std::max(kStep * width() * std::abs(2.0 * std::sin(0.5 * turn)), 3.0 * data_.spacing_m);
+      for (const SurfaceSample& sample : pair.samples) {
+        const Vec3d q = trial.state.center + R * (sample.p.cast<double>() - trial.state.center);
+        const Vec3d m = R * sample.n.cast<double>();
+        std::uint32_t index = 0;
+        float squared = 0.0f;
+        count += 1.0;
+        sum += 1.0;
+        if (surface.tree.knn(q.cast<float>(), 1, &index, &squared, float(2.0 * gate)) == 0)
+          continue;
+        const Vec3d n = surface.normals[index].cast<double>();
+        if (std::abs(n.dot(m)) < kSameNormal) continue;
+        const double off = n.dot(q - surface.points[index].cast<double>()) / gate;
+        sum -= std::max(0.0, 1.0 - off * off);
+      }
+    }
+    return count > 0.0 ? sum / count : 1.0;
+  }
+
+  /// Neighbours of a better trial lead to the same solution.
+  std::vector<AxisTrial> far_apart(const std::vector<AxisTrial>& trials, std::size_t most) const {
+    std::vector<AxisTrial> out;
+    for (const AxisTrial& trial : trials) {
+      if (out.size() >= most) break;
+      const bool same = std::any_of(out.begin(), out.end(), [&](const AxisTrial& kept) {
+        return kept.sign == trial.sign &&
+               kept.state.axis.dot(trial.state.axis) > std::cos(25.0 * kRadiansPerDegree) &&
+               (kept.state.center - trial.state.center).norm() < 2.5 * kStep * width();
+      });
+      if (!same) out.push_back(trial);
+    }
+    return out;
+  }
+
+  const MotionData& data_;
+  const std::vector<double>& angle_;
+  std::vector<CoarseSurface> surfaces_;
+  std::vector<ComparedPair> pairs_;
+  std::vector<Vec3d> axes_;
+};
+
+}  // namespace
+
+Result<std::vector<AxisTrial>> search_axes(const MotionData& data,
+                                           const std::vector<double>& angle_rad, std::size_t most,
+                                           const RunContext& context) {
+  return AxisSearch(data, angle_rad).run(most, context);
+}
+
+}  // namespace turnscan::motion

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+
+#include "tests/support/memory_sequence.hpp"
+#include "tests/support/rig.hpp"
+
+namespace turnscan {
+namespace {
+
+struct RangeScans {
+  testing::MemorySequence sequence;
+  TurntableInfo truth;  ///< in the frame of the scans
+};
+
+/// Scans of the doll `step_deg` apart on a table that is not seen: x right, y up, the origin near
+/// the object, where no scanner stands. told: the sign with which the angles are written down.
+RangeScans range_scans(int count, double step_deg, double told) {
+  testing::RigOptions o;
+  o.shrink = 2;
+  o.platter = o.room = false;
+  o.mixed_pixels = 0.0;
+  o.noise_m = 0.0002;
+  o.distance_m = 0.6;
+  o.elevation_rad = 0.35;
+  o.aim_height_m = 0.09;
+  o.frames = count;
+  o.fps = 1.0;
+  const double step = step_deg * kRadiansPerDegree;
+  o.angle = [step](double t) { return step * t; };
+  o.objects = {*builtin_object("doll")};
+  const testing::Rig rig(o);
+  // Half a turn about the camera's x axis, and the origin beside the object.
+  Pose T_scan_camera = Pose::Identity();
+  T_scan_camera.linear() = Vec3d(1.0, -1.0, -1.0).asDiagonal();
+  T_scan_camera.translation() = Vec3d(0.01, 0.02, o.distance_m);
+  RangeScans out;
+  SensorInfo sensor;
+  sensor.kind = SensorKind::kPointScanner;
+  out.sequence.header_value.sensors = {sensor};
+  const SensorInfo& camera = rig.header().sensors.front();
+  for (std::size_t i = 0; i < rig.frames().size(); ++i) {
+    const auto points = points_of(*rig.read(i), camera, RayTable(camera.intrinsics));
+    Frame scan;
+    scan.info.index = i;
+    scan.info.time_s = std::nan("");
+    scan.info.angle_rad = told * step * double(i);
+    for (const Vec3f& p : points->cloud.points)
+      scan.points.points.push_back((T_scan_camera * p.cast<double>()).cast<float>());
+    out.sequence.add(std::move(scan));
+  }
+  out.truth.axis = T_scan_camera.linear() * rig.truth().axis;
+  out.truth.center_m = T_scan_camera * rig.truth().center_m;
+  return out;
+}
+
+double axis_error_deg(const TurntableInfo& found, const TurntableInfo& truth) {
+  return std::atan2(truth.axis.cross(found.axis).norm(), truth.axis.dot(found.axis)) *
+         kDegreesPerRadian;
+}
+
+double line_error_mm(const TurntableInfo& found, const TurntableInfo& truth) {
+  const Vec3d off = found.center_m - truth.center_m;
+  return (off - off.dot(truth.axis) * truth.axis).norm() * 1e3;
+}
+
+TEST(RangeScans, FarApartAreAlignedWithAnglesOfEitherSign) {
+  for (const double told : {1.0, -1.0}) {
+    const RangeScans scans = range_scans(8, 45.0, told);
+    const auto found = calibrate_from_motion(scans.sequence, {}, {}, {});
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_LT(axis_error_deg(found->table, scans.truth), 0.1);
+    EXPECT_LT(line_error_mm(found->table, scans.truth), 0.3);
+    for (std::size_t i = 0; i < found->angles_rad.size(); ++i)
+      EXPECT_NEAR(found->angles_rad[i], 45.0 * kRadiansPerDegree * double(i), 0.01);
+  }
+}
+
+TEST(RangeScans, AreAlignedTheSameWayForAnyNumberOfThreads) {
+  const RangeScans scans = range_scans(6, 24.0, -1.0);
+  const auto many = calibrate_from_motion(scans.sequence, {}, {}, {});
+  set_thread_count(1);
+  const auto one = calibrate_from_motion(scans.sequence, {}, {}, {});
+  set_thread_count(0);
+  ASSERT_TRUE(many && one);
+  EXPECT_EQ(many->table.axis, one->table.axis);
+  EXPECT_EQ(many->table.center_m, one->table.center_m);
+  EXPECT_LT(axis_error_deg(many->table, scans.truth), 0.1);
+}
+
+TEST(RangeScans, AreNotAlignedOnceCancelled) {
+  const RunContext context;
+  context.cancel();
+  EXPECT_EQ(calibrate_from_motion(range_scans(4, 30.0, 1.0).sequence, {}, {}, context).error().code,
+            ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan
