@@ -10,7 +10,7 @@ TURNSCAN_FUZZ_TARGET(recording_file) {
   folder.put("a.ply", fuzz::text_of(data, size));
   // What can be read must not be taken for truncated.
   const bool readable = bool(read_cloud(folder / "a.ply"));
-  const std::string defect = turnscan::recording_format::defect_of_file(folder / "a.ply");
+  const std::string defect = turnscan::recording_format::check_file(folder / "a.ply").words;
   fuzz::require(!readable || defect.empty() || !fuzz::text_of(data, size).starts_with("ply"),
                 "a readable file is whole");
   return 0;

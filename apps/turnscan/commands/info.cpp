@@ -56,6 +56,8 @@ class InfoCommand : public Command {
   static Result<> repair(const std::filesystem::path& folder, Session& session) {
     TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder));
     for (const std::string& text : report.done) session.print("Repair: {}\n", text);
+    for (const std::string& name : report.kept)
+      session.print("Repair: the file that was replaced is kept as {}\n", name);
     session.print("Repair: {} frames are whole; the recording {}\n", report.frames,
                   report.was_complete ? "was complete already" : "is marked complete now");
     return {};

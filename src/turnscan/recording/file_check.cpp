@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <system_error>
+#include <turnscan/core/result.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 #include <turnscan/recording/file_check.hpp>
@@ -26,7 +29,11 @@ class InputFile {
   explicit InputFile(const fs::path& path)
       : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     struct stat status {};
-    regular_ = descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+      error_ = errno;
+      return;
+    }
+    regular_ = S_ISREG(status.st_mode);
     if (regular_) size_ = static_cast<std::uint64_t>(status.st_size);
   }
   ~InputFile() {
@@ -35,20 +42,23 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
+  int error() const { return error_; }  ///< of opening or reading; 0: none
   bool regular() const { return regular_; }
   std::uint64_t size() const { return size_; }
-  std::string read(std::uint64_t offset, std::size_t count) const {
+  std::string read(std::uint64_t offset, std::size_t count) {
     std::string bytes(count, '\0');
     const ssize_t got = ::pread(descriptor_, bytes.data(), count, static_cast<off_t>(offset));
+    if (got < 0) error_ = errno;
     bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
     return bytes;
   }
-  bool ends_with(std::string_view tail) const {
+  bool ends_with(std::string_view tail) {
     return size_ >= tail.size() && read(size_ - tail.size(), tail.size()) == tail;
   }
 
  private:
   int descriptor_;
+  int error_ = 0;
   bool regular_ = false;
   std::uint64_t size_ = 0;
 };
@@ -98,27 +108,47 @@ std::optional<PlyOutline> ply_outline(std::string_view text) {
   return std::nullopt;
 }
 
-std::string defect_of_ply(const InputFile& file) {
+std::string defect_of_ply(InputFile& file) {
   const auto header = ply_outline(file.read(0, kHeaderBytes));
   if (!header) return "its header is damaged";
   // The last value of an ASCII file need not be followed by a separator.
   return file.size() + 1 < header->bytes + header->least_body ? "is truncated" : "";
 }
 
-}  // namespace
-
-std::string defect_of_file(const fs::path& path) {
+std::string defect_of_content(InputFile& file, const std::string& extension) {
   using namespace std::string_view_literals;
-  const InputFile file(path);
-  if (!file.regular()) return "is missing";
   if (file.size() == 0) return "is empty";
-  const std::string extension = file::lower_extension(path);
   // PNG specification (ISO/IEC 15948), 11.2.5: an IEND chunk has no data and a fixed CRC.
   if (extension == "png" && !file.ends_with("\0\0\0\0IEND\xAE\x42\x60\x82"sv))
     return "is truncated";
   if ((extension == "jpg" || extension == "jpeg") && !file.ends_with("\xFF\xD9"sv))
     return "is truncated";
   return extension == "ply" ? defect_of_ply(file) : "";
+}
+
+FileCheck unreadable(const char* what, int error) {
+  return {FileState::kUnreadable,
+          fmt::format("{} ({})", what, std::generic_category().message(error))};
+}
+
+}  // namespace
+
+FileCheck check_file(const fs::path& path) {
+  InputFile file(path);
+  // A name beyond what the file system takes cannot have been written either.
+  if (file.error() == ENOENT || file.error() == ENOTDIR || file.error() == ENAMETOOLONG)
+    return {FileState::kLost, "is missing"};
+  if (file.error() != 0) return unreadable("cannot be opened", file.error());
+  if (!file.regular()) return {FileState::kUnreadable, "is not a regular file"};
+  std::string defect = defect_of_content(file, file::lower_extension(path));
+  if (file.error() != 0) return unreadable("cannot be read", file.error());
+  if (defect.empty()) return {};
+  return {FileState::kLost, std::move(defect)};
+}
+
+FileCheck check_frame_file(const fs::path& folder, const FrameRow& row) {
+  if (row.info.file.empty()) return {FileState::kLost, "is not named"};
+  return check_file(folder / row.info.file);
 }
 
 }  // namespace turnscan::recording_format

@@ -3,12 +3,26 @@
 
 #include <filesystem>
 #include <string>
+#include <turnscan/recording/frames_csv.hpp>
 
 namespace turnscan::recording_format {
 
-/// Empty when the file is there and looks whole, else the reason in a few words. PNG: ends with
-/// IEND. JPEG: ends with the end-of-image marker. PLY: not shorter than its header says. Files
-/// with other endings need only be there and not be empty.
-std::string defect_of_file(const std::filesystem::path& path);
+enum class FileState {
+  kWhole,
+  kLost,       ///< not there, empty or truncated: waiting does not bring it back
+  kUnreadable  ///< permission, a failing disk or network, too many open files: it may be whole
+};
+
+struct FileCheck {
+  FileState state = FileState::kWhole;
+  std::string words;  ///< "is missing", "cannot be opened (Permission denied)"; empty when whole
+};
+
+/// PNG: ends with IEND. JPEG: ends with the end-of-image marker. PLY: not shorter than its header
+/// says. Files with other endings need only be there and not be empty.
+FileCheck check_file(const std::filesystem::path& path);
+
+/// The same of the file that a frame's line names; a line without a name has lost its file.
+FileCheck check_frame_file(const std::filesystem::path& folder, const FrameRow& row);
 
 }  // namespace turnscan::recording_format

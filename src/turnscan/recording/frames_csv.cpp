@@ -141,7 +141,7 @@ std::string frames_csv_line(const FrameInfo& info, const std::string& color_file
   } else {
     line += ",,,,,,,";
   }
-  line += fmt::format(",{},{},{}\n", info.file, color_file,
+  line += fmt::format(",{},{},{}\n", text::csv_field(info.file), text::csv_field(color_file),
                       info.status == FrameStatus::kOk ? "ok" : "dropped");
   return line;
 }

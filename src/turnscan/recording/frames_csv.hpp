@@ -24,7 +24,7 @@ struct FrameTable {
 
 /// The column names, with the line's end.
 std::string frames_csv_header();
-/// One line, with its end. info.file and color_file must not contain commas, quotes or line ends.
+/// One line, with its end. Names are quoted where they need it; they have no line ends.
 std::string frames_csv_line(const FrameInfo& info, const std::string& color_file);
 
 /// Reads the whole table. A last line without its end that cannot be read is left out with a note;

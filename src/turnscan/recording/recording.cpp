@@ -68,23 +68,24 @@ class DefectNote {
 
 void check_files(const fs::path& folder, std::vector<FrameRow>& rows,
                  std::vector<std::string>& notes) {
-  DefectNote dropped("marked dropped"), colorless("read without colour");
+  DefectNote dropped("marked dropped"), unread("left out"), colorless("read without colour");
   for (FrameRow& row : rows) {
     if (row.info.status == FrameStatus::kDropped) continue;
-    const std::string defect =
-        row.info.file.empty() ? "is not named" : defect_of_file(folder / row.info.file);
-    if (!defect.empty()) {
-      dropped.add(row.info, row.info.file, defect);
+    const FileCheck check = check_frame_file(folder, row);
+    if (check.state != FileState::kWhole) {
+      (check.state == FileState::kLost ? dropped : unread)
+          .add(row.info, row.info.file, check.words);
       row.info.status = FrameStatus::kDropped;
       continue;
     }
     if (row.color_file.empty()) continue;
-    const std::string color_defect = defect_of_file(folder / row.color_file);
-    if (color_defect.empty()) continue;
-    colorless.add(row.info, row.color_file, color_defect);
+    const FileCheck color = check_file(folder / row.color_file);
+    if (color.state == FileState::kWhole) continue;
+    colorless.add(row.info, row.color_file, color.words);
     row.color_file.clear();
   }
   dropped.put_into(notes);
+  unread.put_into(notes);
   colorless.put_into(notes);
 }
 

@@ -2,12 +2,15 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cerrno>
+#include <regex>
 #include <set>
 #include <system_error>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/recording/file_check.hpp>
 #include <turnscan/recording/frames_csv.hpp>
+#include <turnscan/recording/mended_table.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/recording_json.hpp>
 #include <turnscan/recording/repair.hpp>
@@ -37,35 +40,45 @@ class TableLock {
   bool held_ = true;
 };
 
+/// Empty when there is no table.
 Result<std::string> table_text(const fs::path& folder) {
-  const fs::path path = folder / "frames.csv";
-  std::error_code error;
-  if (!fs::exists(path, error)) return frames_csv_header();
-  TURNSCAN_ASSIGN(std::string text, read_file(path, kMaxTableBytes));
-  return text.find('\n') == std::string::npos ? frames_csv_header() : text;
+  auto text = read_file(folder / "frames.csv", kMaxTableBytes);
+  if (!text && text.error().code == ErrorCode::kNotFound) return std::string();
+  return text;
 }
 
-std::string line_of(const FrameRow& row, bool whole) {
-  FrameInfo info = row.info;
-  if (whole) return frames_csv_line(info, row.color_file);
-  info.status = FrameStatus::kDropped;
-  info.file.clear();
-  return frames_csv_line(info, "");
-}
-
-bool has_whole_file(const fs::path& folder, const FrameRow& row) {
-  return !row.info.file.empty() && defect_of_file(folder / row.info.file).empty();
-}
-
-/// The table with whole lines only. A table with columns of others keeps its lines as they are.
-struct MendedTable {
-  std::string text;
+/// What can be said of the frames now: the lost ones are marked dropped.
+struct Inspection {
+  std::vector<FrameRow> rows;
   std::set<std::string> named;  ///< files that a line names
+};
+
+Inspection inspect(const fs::path& folder, std::vector<FrameRow> rows, RepairReport& report) {
+  Inspection out;
+  for (FrameRow& row : rows) {
+    out.named.insert(row.info.file);
+    if (row.info.status == FrameStatus::kDropped) continue;
+    const FileCheck check = check_frame_file(folder, row);
+    report.frames += check.state == FileState::kWhole ? 1 : 0;
+    report.dropped += check.state == FileState::kLost ? 1 : 0;
+    if (check.state == FileState::kLost) row.info.status = FrameStatus::kDropped;
+    if (check.state != FileState::kUnreadable || ++report.unreadable > 1) continue;
+    report.first_unreadable = fmt::format("{} {}", row.info.file, check.words);
+  }
+  out.rows = std::move(rows);
+  return out;
+}
+
+/// The new frames.csv, and how many lines it has.
+struct NewTable {
+  std::string text;
+  std::set<std::string> named;
   std::size_t rows = 0;
 };
 
-Result<MendedTable> mend(const fs::path& folder, std::size_t sensors, RepairReport& report) {
-  TURNSCAN_ASSIGN(const std::string text, table_text(folder));
+Result<NewTable> new_table(const fs::path& folder, const std::string& text, std::size_t sensors,
+                           RepairReport& report) {
+  if (text.find('\n') == std::string::npos) return NewTable{frames_csv_header(), {}, 0};
   auto table = parse_frames_csv(text, sensors);
   if (!table) {
     Error error = std::move(table).error();
@@ -73,45 +86,86 @@ Result<MendedTable> mend(const fs::path& folder, std::size_t sensors, RepairRepo
     return tl::unexpected<Error>(std::move(error));
   }
   report.done = table->notes;
-  const bool ours = text.starts_with(frames_csv_header());
-  MendedTable out;
-  out.text = frames_csv_header();
-  for (FrameRow& row : table->rows) {
-    const bool was_dropped = row.info.status == FrameStatus::kDropped;
-    bool whole = !was_dropped && has_whole_file(folder, row);
-    if (!row.color_file.empty() && !defect_of_file(folder / row.color_file).empty())
-      row.color_file.clear();
-    out.named.insert(row.info.file);
-    out.text += line_of(row, whole);
-    report.frames += whole ? 1 : 0;
-    report.dropped += whole || was_dropped ? 0 : 1;
+  Inspection inspection = inspect(folder, std::move(table->rows), report);
+  TURNSCAN_ASSIGN(std::string mended, mended_table(text, inspection.rows, sensors));
+  return NewTable{std::move(mended), std::move(inspection.named), inspection.rows.size()};
+}
+
+/// recording.json with its two fields about completeness set, and all others as they are.
+Result<std::string> completed_description(std::string text, std::size_t frames) {
+  text = text::with_json_member(std::move(text), "complete", "true");
+  text = text::with_json_member(std::move(text), "frame_count", fmt::format("{}", frames));
+  const auto back = parse_recording_json(text);
+  if (back && back->complete && back->frame_count == frames) return text;
+  return fail(ErrorCode::kLibrary,
+              "recording.json cannot be marked complete; set its field \"complete\" by hand");
+}
+
+/// A name beside the file that is free, or holds the same already.
+Result<fs::path> keep_old(const fs::path& path, const std::string& text) {
+  for (int i = 1; i < 1000; ++i) {
+    fs::path kept = path;
+    kept += i == 1 ? ".before-repair" : fmt::format(".before-repair-{}", i);
+    const auto there = read_file(kept);
+    if (there && *there == text) return kept;
+    if (there || there.error().code != ErrorCode::kNotFound) continue;
+    TURNSCAN_TRY(write_file_verified(kept, text));
+    return kept;
   }
-  out.rows = table->rows.size();
-  if (!ours) out.text = text.substr(0, text.find_last_of('\n') + 1);
+  return fail_at(path.string(), ErrorCode::kAlreadyExists,
+                 "999 files of earlier repairs lie beside it; remove some");
+}
+
+Result<> replace(const fs::path& path, const std::string& before, const std::string& after,
+                 RepairReport& report) {
+  if (before == after) return {};
+  if (!before.empty()) {
+    TURNSCAN_ASSIGN(const fs::path kept, keep_old(path, before));
+    report.kept.push_back(kept.filename().string());
+  }
+  return write_file_verified(path, after);
+}
+
+/// The entries of a folder of this recording; none of one that a symbolic link leads to, whose
+/// files are somebody else's.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> out;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return out;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (fs::is_regular_file(entry.symlink_status(error))) out.push_back(entry.path());
+  }
   return out;
 }
 
-/// Files of this writer that were not whole when it ended: .NAME.part
+/// Whether the writer gave this name to a file that was not whole: .NAME.PID-COUNT.part
+bool is_leftover(const std::string& name) {
+  static const std::regex pattern(R"(\.(.*\.[0-9]+-[0-9]+|recording\.json)\.part)");
+  return name.size() < 256 && std::regex_match(name, pattern);
+}
+
 void remove_leftovers(const fs::path& folder, RepairReport& report) {
   std::error_code error;
-  for (const char* name : {".", "depth", "color", "points"}) {
-    for (const auto& entry : fs::directory_iterator(folder / name, error)) {
-      const std::string file = entry.path().filename().string();
-      if (!file.starts_with('.') || !file.ends_with(".part") || !entry.is_regular_file(error))
-        continue;
-      if (fs::remove(entry.path(), error)) ++report.leftovers;
-    }
+  std::vector<fs::path> files;
+  for (const char* name : {"depth", "color", "points"}) {
+    const auto more = files_in(folder / name);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  // The recording's own folder may be given as a symbolic link.
+  const auto top = files_in(fs::canonical(folder, error));
+  files.insert(files.end(), top.begin(), top.end());
+  for (const fs::path& file : files) {
+    if (is_leftover(file.filename().string()) && fs::remove(file, error)) ++report.leftovers;
   }
 }
 
 void count_without_line(const fs::path& folder, const std::set<std::string>& named,
                         RepairReport& report) {
-  std::error_code error;
   for (const char* name : {"depth", "points"}) {
-    for (const auto& entry : fs::directory_iterator(folder / name, error)) {
-      const std::string file = std::string(name) + "/" + entry.path().filename().string();
-      if (entry.path().filename().string().starts_with('.') || named.count(file) > 0) continue;
-      ++report.without_line;
+    for (const fs::path& path : files_in(folder / name)) {
+      const std::string file = path.filename().string();
+      if (!file.starts_with('.') && named.count(std::string(name) + "/" + file) == 0)
+        ++report.without_line;
     }
   }
 }
@@ -122,6 +176,12 @@ void tell(RepairReport& report) {
   };
   say(report.dropped, "frame was lost: its file is not whole; it is marked dropped now",
       "frames were lost: their files are not whole; they are marked dropped now");
+  if (report.unreadable > 0)
+    report.done.push_back(fmt::format(
+        "{} {}: {}; nothing was changed there, and what can be read again counts again",
+        report.unreadable,
+        report.unreadable == 1 ? "frame cannot be read just now" : "frames cannot be read just now",
+        report.first_unreadable));
   say(report.without_line,
       "image is not part of the recording: the writer ended before its line; it was left in place",
       "images are not part of the recording: the writer ended before their lines; they were left "
@@ -146,15 +206,16 @@ Result<RepairReport> repair_recording(const fs::path& folder) {
     return fail_at(folder.string(), ErrorCode::kIo,
                    "it is being recorded just now; wait until the recording has ended");
   TURNSCAN_ASSIGN(const std::string text, read_file(json, kMaxDescriptionBytes));
-  TURNSCAN_ASSIGN(RecordingDescription description, parse_recording_json(text));
+  TURNSCAN_ASSIGN(const RecordingDescription description, parse_recording_json(text));
   RepairReport report;
   report.was_complete = description.complete;
-  TURNSCAN_ASSIGN(const MendedTable table, mend(folder, description.header.sensors.size(), report));
+  TURNSCAN_ASSIGN(const std::string old_table, table_text(folder));
+  TURNSCAN_ASSIGN(const NewTable table,
+                  new_table(folder, old_table, description.header.sensors.size(), report));
+  TURNSCAN_ASSIGN(const std::string completed, completed_description(text, table.rows));
   count_without_line(folder, table.named, report);
-  TURNSCAN_TRY(write_file_atomically(csv, table.text));
-  description.complete = true;
-  description.frame_count = static_cast<std::uint32_t>(table.rows);
-  TURNSCAN_TRY(write_file_atomically(json, recording_json(description)));
+  TURNSCAN_TRY(replace(csv, old_table, table.text, report));
+  TURNSCAN_TRY(replace(json, text, completed, report));
   remove_leftovers(folder, report);
   tell(report);
   return report;

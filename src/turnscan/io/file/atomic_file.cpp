@@ -171,7 +171,9 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  Result<> write(const std::function<Result<>(FileSink&)>& body, Durability durability) {
+  /// verify, when given: looks at the temporary file before it takes the name.
+  Result<> write(const std::function<Result<>(FileSink&)>& body, Durability durability,
+                 const std::function<Result<>(const fs::path&)>& verify = {}) {
     std::error_code error;
     const fs::file_status status = fs::status(path_, error);
     if (fs::is_directory(status)) return system_error(path_, "cannot write", EISDIR);
@@ -187,6 +189,7 @@ class AtomicFile {
     if (durability == Durability::kSynced && ::fsync(descriptor.get()) != 0)
       return system_error(path_, "cannot write", errno);
     if (descriptor.close() != 0) return system_error(path_, "cannot write", errno);
+    if (verify) TURNSCAN_TRY(verify(temporary_));
     return commit(durability);
   }
 
@@ -237,6 +240,18 @@ Result<> write_file_atomically(const fs::path& path, std::span<const std::byte> 
 Result<> write_file_atomically(const fs::path& path, std::string_view text, Durability durability) {
   return write_file_atomically(
       path, [text](FileSink& sink) { return sink.write(text); }, durability);
+}
+
+Result<> write_file_verified(const fs::path& path, std::string_view text) {
+  const auto verify = [&](const fs::path& temporary) -> Result<> {
+    auto back = read_file(temporary, text.size());
+    if (back && *back == text) return {};
+    return fail_at(path.string(), ErrorCode::kIo,
+                   "what was written does not read back; the file was left as it is, check the "
+                   "disk");
+  };
+  return AtomicFile(path).write([text](FileSink& sink) { return sink.write(text); },
+                                Durability::kSynced, verify);
 }
 
 }  // namespace turnscan

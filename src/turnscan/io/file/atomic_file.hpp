@@ -64,4 +64,8 @@ Result<> write_file_atomically(const std::filesystem::path& path, std::span<cons
 Result<> write_file_atomically(const std::filesystem::path& path, std::string_view text,
                                Durability durability = Durability::kSynced);
 
+/// As write_file_atomically(), and the temporary file is read back before it takes the name: fails
+/// with kIo, and leaves `path` as it was, when it does not hold what was written.
+Result<> write_file_verified(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace turnscan

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -55,6 +56,7 @@ void write(const OrderedJson& value, const std::string& indent, std::string& out
 }  // namespace
 
 Result<Json> parse_json(std::string_view text) {
+  TURNSCAN_TRY(check_json_depth(text));
   Json value = Json::parse(text.begin(), text.end(), nullptr, false);
   if (value.is_discarded()) return fail(ErrorCode::kFormat, "not valid JSON");
   return value;

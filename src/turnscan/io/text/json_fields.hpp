@@ -48,7 +48,7 @@ class JsonObject {
   std::string place_;
 };
 
-/// Fails with kFormat when text is not JSON.
+/// Fails with kFormat when text is not JSON, or as check_json_depth().
 Result<Json> parse_json(std::string_view text);
 
 /// 16 numbers or four rows of four. place is for the error.

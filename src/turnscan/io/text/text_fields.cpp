@@ -89,6 +89,14 @@ Result<std::vector<std::string>> csv_fields(std::string_view line) {
   }
 }
 
+std::string csv_field(std::string_view text) {
+  const bool plain = text.find_first_of(",\"") == std::string_view::npos && trimmed(text) == text;
+  if (plain) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  return out + '"';
+}
+
 Result<CsvColumns> CsvColumns::parse(std::string_view header_line) {
   CsvColumns columns;
   TURNSCAN_ASSIGN(columns.names_, csv_fields(header_line));
@@ -100,16 +108,16 @@ Result<CsvColumns> CsvColumns::parse(std::string_view header_line) {
   return columns;
 }
 
-bool CsvColumns::has(std::string_view name) const {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
+bool CsvColumns::has(std::string_view name) const { return position(name) < size(); }
+
+std::size_t CsvColumns::position(std::string_view name) const {
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
 }
 
 std::string_view CsvColumns::field(const std::vector<std::string>& fields,
                                    std::string_view name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  const auto i = static_cast<std::size_t>(found - names_.begin());
-  return i < fields.size() && found != names_.end() ? std::string_view(fields[i])
-                                                    : std::string_view();
+  const std::size_t i = position(name);
+  return i < std::min(fields.size(), size()) ? std::string_view(fields[i]) : std::string_view();
 }
 
 Result<std::uint32_t> parse_index(std::string_view text, std::uint32_t max) {

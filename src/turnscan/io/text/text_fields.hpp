@@ -39,11 +39,16 @@ std::vector<std::string_view> words_of(std::string_view text);
 /// when a quote is not closed.
 Result<std::vector<std::string>> csv_fields(std::string_view line);
 
+/// One field as csv_fields() reads it back, quoted where it has to be. No line ends in it.
+std::string csv_field(std::string_view text);
+
 /// Columns by name. Unknown names are allowed; a name twice is not.
 class CsvColumns {
  public:
   static Result<CsvColumns> parse(std::string_view header_line);
   bool has(std::string_view name) const;
+  /// The column's number, or size() when there is none.
+  std::size_t position(std::string_view name) const;
   /// The field of that column; empty when there is no such column.
   std::string_view field(const std::vector<std::string>& fields, std::string_view name) const;
   std::size_t size() const { return names_.size(); }
