@@ -13,6 +13,7 @@
 #include <memory>
 #include <new>
 #include <turnscan/core/process/helper_program.hpp>
+#include <turnscan/core/process/process_setup.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/reconstruction/surface/hull_bytes.hpp>
 
@@ -98,6 +99,7 @@ std::optional<std::uint64_t> memory_of_machine() {
 
 // The libraries write messages of their own, which go nowhere.
 int main(int argc, char** argv) {
+  process::set_up_process();
   process::limit_this_process({.memory_bytes = memory_of_machine()});
   const int output = ::dup(STDOUT_FILENO), errors = ::dup(STDERR_FILENO);
   const int nowhere = ::open("/dev/null", O_WRONLY);

@@ -4,8 +4,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 using turnscan::ErrorCode;
@@ -14,6 +17,16 @@ using turnscan::Result;
 using turnscan::TriangleMesh;
 
 namespace {
+
+/// Opens nothing but regular files: a reference to a pipe would wait for its writer.
+class RegularFiles : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error) ? DefaultIOSystem::Open(file, mode)
+                                                         : nullptr;
+  }
+};
 
 constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                             aiProcess_SortByPType | aiProcess_RemoveComponent;
@@ -93,6 +106,7 @@ tl::unexpected<turnscan::Error> refused(const std::string& why) {
 
 Result<AssimpMeshes> read_with_assimp(const std::filesystem::path& path) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new RegularFiles);  // owned by the importer
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, kDropped);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);

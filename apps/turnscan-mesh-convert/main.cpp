@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <turnscan/core/process/helper_program.hpp>
+#include <turnscan/core/process/process_setup.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/file_name.hpp>
@@ -74,6 +75,7 @@ int run(int argc, char** argv) {
 // Ends at once: what the libraries would still do at the exit, after a file that may have been made
 // to harm them, can only spoil what has been written. Standard error is not buffered.
 int main(int argc, char** argv) {
+  process::set_up_process();
   process::limit_this_process(
       {.memory_bytes = 2 * kGiB, .file_bytes = 2 * kGiB, .cpu_seconds = 60});
   ::_exit(run(argc, argv));

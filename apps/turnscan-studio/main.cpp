@@ -1,5 +1,6 @@
 #include <QApplication>
 #include <QCommandLineParser>
+#include <turnscan/core/process/process_setup.hpp>
 #include <turnscan/core/version.hpp>
 
 #include "app/program.hpp"
@@ -7,6 +8,7 @@
 
 int main(int argc, char** argv) {
   using namespace turnscan::studio;
+  turnscan::process::set_up_process();
   prepare_application();
   QApplication app(argc, argv);
   name_application();

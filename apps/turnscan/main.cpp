@@ -1,7 +1,11 @@
+#include <turnscan/core/process/process_setup.hpp>
+
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   using namespace turnscan::cli;
   Program program;
   program.add("import", "Make a recording from range scans or depth images of another program",
@@ -23,4 +27,11 @@ int main(int argc, char** argv) {
               make_demo_command());
   program.add_reference();
   return program.run(argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  turnscan::process::set_up_process();
+  return turnscan::cli::run_guarded(run, argc, argv);
 }

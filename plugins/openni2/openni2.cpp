@@ -2,9 +2,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <system_error>
 
 #include "openni2_library.hpp"
 
@@ -91,6 +93,12 @@ turnscan_device::turnscan_device(const std::string& address, const turnscan_para
 
 void turnscan_device::open(const std::string& address) {
   using namespace turnscan::plugin;
+  // The library would open a pipe, and wait for its writer without end.
+  std::error_code error;
+  const auto status = std::filesystem::status(address, error);
+  if (!address.empty() && std::filesystem::exists(status) &&
+      !std::filesystem::is_regular_file(status))
+    throw Failure{TURNSCAN_NOT_FOUND, address + " is no file; give an .oni file or a device"};
   const char* uri = address.empty() ? openni::ANY_DEVICE : address.c_str();
   if (device_.device.open(uri) != openni::STATUS_OK) throw open_failure(last_error());
   file_ = device_.device.isFile();

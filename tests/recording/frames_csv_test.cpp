@@ -40,6 +40,24 @@ TEST(FramesCsv, LineHasAFieldForEachColumn) {
             "7,0.25,0,2,3,90,,,,,,,,depth/000007.png,color/000007.png,ok\n");
 }
 
+TEST(FramesCsv, NamesThatNeedQuotesReadBack) {
+  for (const std::string name : {"a,1.png", "a\"b\".png", " a.png"}) {
+    FrameInfo info;
+    info.file = name;
+    const FrameTable t = parsed(table(frames_csv_line(info, name)));
+    ASSERT_EQ(t.rows.size(), 1u);
+    EXPECT_EQ(t.rows[0].info.file, name);
+    EXPECT_EQ(t.rows[0].color_file, name);
+  }
+}
+
+TEST(FramesCsv, TimesAnglesAndPosesThatNoScanHasAreRefused) {
+  EXPECT_THAT(refusal(table("0,1e307,0,0,0,,,,,,,,,a.png,,\n")), HasSubstr("its time"));
+  EXPECT_THAT(refusal(table("0,0,0,0,0,1e300,,,,,,,,a.png,,\n")), HasSubstr("its angle"));
+  EXPECT_THAT(refusal(table("0,0,0,0,0,,1e8,0,0,0,0,0,1,a.png,,\n")), HasSubstr("km"));
+  parsed(table("0,1.7e12,0,0,0,36000,1e5,0,0,0,0,0,1,a.png,,\n"));
+}
+
 TEST(FramesCsv, EmptyFieldsAreUnknown) {
   const FrameTable t = parsed(table("3,,,,,,,,,,,,,depth/000003.png,,\n"));
   ASSERT_EQ(t.rows.size(), 1u);

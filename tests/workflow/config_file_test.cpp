@@ -52,5 +52,20 @@ TEST_F(ConfigFile, MustExist) {
   EXPECT_EQ(result.error().code, ErrorCode::kNotFound);
 }
 
+TEST_F(ConfigFile, WhatTheParserCannotBearIsRefusedBefore) {
+  const auto expect = [this](const std::string& text, const std::string& why) {
+    const std::string error = error_of("# first\n" + text);
+    EXPECT_NE(error.find("options.toml:2: this line " + why), std::string::npos)
+        << error.substr(0, 300);
+    EXPECT_LT(error.size(), 300u);
+  };
+  std::string dots = "a";
+  for (int i = 0; i < 1000; ++i) dots += ".a";
+  expect("[" + dots + "]", "has a key of more than 32 parts");
+  expect(dots + " = 1", "has a key of more than 32 parts");
+  expect(std::string(1000000, 'k') + " = 1", "has more than 4096 bytes");
+  expect("a = " + std::string(2000, '['), "nests lists and tables more than 32 deep");
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -8,6 +8,7 @@
 #include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/workflow/file_roles.hpp>
 #include <utility>
 
 namespace turnscan::cli {
@@ -56,6 +57,8 @@ class Command {
  public:
   virtual ~Command() = default;
   virtual void declare(CommandLine& line) = 0;
+  /// What run() will read and write; the program refuses outputs over inputs.
+  virtual FileRoles files() const = 0;
   /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else failed.
   virtual Result<> run(Session& session) = 0;
 };

@@ -220,6 +220,12 @@ Result<> CommandLine::apply() {
   return {};
 }
 
+std::vector<std::string> CommandLine::files_read() const {
+  std::vector<std::string> files{config_path_};
+  for (const FileOption& file : file_options_) files.push_back(file.path);
+  return files;
+}
+
 std::vector<std::string> CommandLine::long_names() const {
   std::vector<std::string> names;
   for (const CLI::Option* option : app_.get_options()) {

@@ -74,6 +74,9 @@ class CommandLine {
   /// Called after parsing: sets the fields from the TOML file, then from the command line.
   Result<> apply();
 
+  /// The files that apply() has read.
+  std::vector<std::string> files_read() const;
+
   const std::vector<ArgumentGroup>& groups() const { return groups_; }
   /// Every long name, without dashes.
   std::vector<std::string> long_names() const;

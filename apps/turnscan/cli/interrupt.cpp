@@ -23,7 +23,7 @@ bool ignored(int signal) {
 InterruptWatch::InterruptWatch(RunContext context) {
   sigset_t set;
   sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     if (!ignored(signal)) sigaddset(&set, signal);
   }
   if (pthread_sigmask(SIG_BLOCK, &set, nullptr) != 0) return;

@@ -6,9 +6,11 @@
 #include <cstring>
 #include <deque>
 #include <new>
+#include <system_error>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/workflow/text/shown_text.hpp>
 
 #include "cli/command_line.hpp"
 #include "cli/interrupt.hpp"
@@ -91,12 +93,27 @@ std::string with_advice(const Error& error) {
   return fmt::format("{}; {}", text, advice_for(error.code));
 }
 
+/// Takes no memory: it may be what is lacking.
+void put_error(std::string_view text) {
+  std::fprintf(stderr, "turnscan: %.*s\n", static_cast<int>(text.size()), text.data());
+}
+
 /// One line whatever a path or a library's message contains.
-void print_error(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  std::fputs(("turnscan: " + text + "\n").c_str(), stderr);
+void print_error(const std::string& text) { put_error(shown_line(text)); }
+
+std::string text_of_exception(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  const std::string_view what = error.what();
+  // oneTBB throws a plain error with these words.
+  if ((system != nullptr && system->code() == std::errc::resource_unavailable_try_again) ||
+      what.find("pthread_create") != std::string_view::npos)
+    return "threads: the system allows no more of them; end other programs, raise the limit "
+           "(ulimit -u), or use --threads 1";
+  return shown_line(system != nullptr
+                        ? fmt::format("system: {}; check limits and permissions", what)
+                        : fmt::format("internal error: {}; please report it with the command that "
+                                      "you ran",
+                                      what));
 }
 
 std::string with_hint(const std::string& text, const std::string& command) {
@@ -111,7 +128,7 @@ int usage_error(const std::string& text, const std::string& command) {
 
 /// Written at the end, because a full disk shows only when the buffer is flushed.
 int put_text(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  std::fputs(shown_text(text).c_str(), stdout);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
   print_error(fmt::format("standard output: {}; make room or print elsewhere",
                           errno != 0 ? std::strerror(errno) : "cannot be written"));
@@ -214,6 +231,7 @@ void Program::add_reference() {
    public:
     explicit ReferenceCommand(const Program& program) : program_(program) {}
     void declare(CommandLine&) override {}
+    FileRoles files() const override { return {}; }
     Result<> run(Session& session) override {
       session.print("{}", program_.reference());
       return {};
@@ -228,7 +246,9 @@ void Program::add_reference() {
 
 int Program::run_command(Entry& entry) {
   const std::string called = "turnscan " + entry.app->get_name();
-  if (const auto extra = entry.app->remaining(); !extra.empty())
+  auto extra = entry.app->remaining();
+  std::erase(extra, "--");  // what follows it was taken for arguments
+  if (!extra.empty())
     return usage_error(unknown_argument(extra.front(), entry.line.long_names()), called);
   if (auto applied = entry.line.apply(); !applied) {
     const Error& error = applied.error();
@@ -236,6 +256,10 @@ int Program::run_command(Entry& entry) {
     print_error(with_advice(error));
     return exit_code_of(error.code);
   }
+  FileRoles files = entry.command->files();
+  for (std::string& file : entry.line.files_read()) files.inputs.push_back(std::move(file));
+  if (const auto checked = check_file_roles(files); !checked)
+    return usage_error(checked.error().text(), called);
   set_thread_count(entry.run_options.threads);
   Session session{RunContext()};
   const InterruptWatch watch(session.context());
@@ -254,7 +278,7 @@ int Program::run_command(Entry& entry) {
   return code;
 }
 
-int Program::run_checked(int argc, char** argv) {
+int Program::run(int argc, char** argv) {
   CLI::App& app = parts_->app;
   try {
     app.parse(argc, argv);
@@ -281,15 +305,13 @@ int Program::run_checked(int argc, char** argv) {
                      "turnscan");
 }
 
-int Program::run(int argc, char** argv) {
+int run_guarded(int (*body)(int, char**), int argc, char** argv) {
   try {
-    return run_checked(argc, argv);
+    return body(argc, argv);
   } catch (const std::bad_alloc&) {
-    print_error(
-        "memory: there is not enough of it; use larger voxels, fewer frames or --threads 1");
+    put_error("memory: there is not enough of it; use larger voxels, fewer frames or --threads 1");
   } catch (const std::exception& error) {
-    print_error(fmt::format("internal error: {}; please report it with the command that you ran",
-                            error.what()));
+    put_error(text_of_exception(error));
   }
   return kExitFailed;
 }

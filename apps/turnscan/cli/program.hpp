@@ -24,12 +24,15 @@ class Program {
  private:
   struct Entry;
 
-  int run_checked(int argc, char** argv);
   int run_command(Entry& entry);
   std::string reference() const;
 
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// The exit code of body(), which may throw: too little memory or too few threads become an error
+/// in one line like any other.
+int run_guarded(int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace turnscan::cli

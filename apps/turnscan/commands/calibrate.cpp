@@ -68,6 +68,13 @@ class CalibrateCommand : public Command {
     line.group("motion", "Motion", describe(request_.motion));
   }
 
+  FileRoles files() const override {
+    FileRoles files{{recording_, request_.points, request_.depth_also}, {json_, save_}};
+    files.inputs.insert(files.inputs.end(), request_.iai_folders.begin(),
+                        request_.iai_folders.end());
+    return files;
+  }
+
   Result<> run(Session& session) override {
     if (int(!request_.points.empty()) + int(detect_) + int(from_motion_) > 1)
       return fail(ErrorCode::kInvalidOption,

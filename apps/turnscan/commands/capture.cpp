@@ -26,6 +26,10 @@ class CaptureCommand : public Command {
     line.group("limits", "End of the recording", describe(setup_.options.limits));
   }
 
+  FileRoles files() const override {
+    return {with_replayed(setup_.devices, setup_.turntable_file), {report_}};
+  }
+
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_folder(out_));
     TURNSCAN_TRY(check_output_file(report_, ".json"));

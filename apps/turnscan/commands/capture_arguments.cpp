@@ -1,6 +1,7 @@
 #include "commands/capture_arguments.hpp"
 
 #include <algorithm>
+#include <turnscan/capture/source/source_uri.hpp>
 
 #include <turnscan/workflow/text/capture_text.hpp>
 #include "cli/command_line.hpp"
@@ -36,6 +37,16 @@ void declare_capture(CommandLine& line, CaptureSetup& setup) {
 void declare_table(CommandLine& line, CaptureSetup& setup) {
   line.group("table", "Turntable", describe_speed(setup));
   line.group("crop", "Crop", describe(setup.options.crop));
+}
+
+std::vector<std::string> with_replayed(const std::vector<std::string>& devices,
+                                       const std::string& file) {
+  std::vector<std::string> files{file};
+  for (const std::string& device : devices) {
+    const auto uri = parse_source_uri(device);
+    if (uri && uri->scheme == "replay") files.push_back(uri->address);
+  }
+  return files;
 }
 
 std::function<void(const CaptureProgress&)> progress_in(Session& session) {

@@ -43,6 +43,8 @@ class DemoCommand : public Command {
     line.group("evaluation", "Evaluation", describe(scene_.evaluate));
   }
 
+  FileRoles files() const override { return {}; }
+
   Result<> run(Session& session) override {
     // "1.5mm" is short for "gaussian:1.5mm".
     std::string& noise = scene_.scan.measure.noise;

@@ -30,10 +30,10 @@ struct Piece {
   TriangleMesh mesh;
 };
 
-Result<std::vector<Piece>> make_pieces(const std::string& scene) {
+Result<std::vector<Piece>> make_pieces(const std::string& scene, const RunContext& context) {
   std::vector<Piece> pieces;
   const auto add = [&](const std::string& name, double x, double z, double yaw) -> Result<> {
-    TURNSCAN_ASSIGN(TriangleMesh mesh, builtin_object(name));
+    TURNSCAN_ASSIGN(TriangleMesh mesh, builtin_object(name, context));
     pieces.push_back({name, place(std::move(mesh), x, z, yaw), {}});
     return {};
   };
@@ -164,7 +164,7 @@ Result<std::vector<std::string>> scene_names(const std::string& object) {
 Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name, const fs::path& folder,
                                                 const DemoSceneOptions& options,
                                                 const RunContext& context) {
-  TURNSCAN_ASSIGN(std::vector<Piece> pieces, make_pieces(name));
+  TURNSCAN_ASSIGN(std::vector<Piece> pieces, make_pieces(name, context));
   std::vector<TriangleMesh> objects;
   objects.reserve(pieces.size());
   for (const Piece& piece : pieces) objects.push_back(piece.truth);

@@ -42,6 +42,8 @@ class DevicesCommand : public Command {
     line.option("--json", "FILE.json", json_, "Also write the list as JSON");
   }
 
+  FileRoles files() const override { return {{}, {json_}}; }
+
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     session.context().begin_phase("look for devices", 0);

@@ -48,6 +48,10 @@ class EvaluateCommand : public Command {
     line.group("error-map", "Error map", describe(map_options_));
   }
 
+  FileRoles files() const override {
+    return {{mesh_, reference_, seen_from_}, {json_, error_map_}};
+  }
+
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(error_map_, ".ply"));

@@ -9,6 +9,7 @@
 
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
+#include <turnscan/workflow/text/shown_text.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 
@@ -29,10 +30,16 @@ class InfoCommand : public Command {
                 "Unit of a mesh or cloud file that does not say it: um, mm, cm, m, in");
   }
 
+  FileRoles files() const override { return {{path_}, {}}; }
+
   Result<> run(Session& session) override {
     const std::filesystem::path path(path_);
     std::error_code error;
-    if (!std::filesystem::exists(path, error))
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::none)
+      return fail_at(path_, ErrorCode::kIo, "it cannot be looked at ({}); check permissions",
+                     error.message());
+    if (!std::filesystem::exists(status))
       return fail_at(path_, ErrorCode::kNotFound,
                      "there is no such file or folder; check the path");
     if (std::filesystem::is_directory(path, error)) return about_recording(path, session);
@@ -89,7 +96,7 @@ class InfoCommand : public Command {
 
   void print_mesh(const TriangleMesh& mesh, const MeshReport& report, std::size_t count,
                   Session& session) const {
-    const std::string name = mesh.name.empty() ? "" : fmt::format(" '{}'", mesh.name);
+    const std::string name = mesh.name.empty() ? "" : fmt::format(" '{}'", shown_line(mesh.name));
     session.print("{}: {}{}\n", path_, count == 1 ? "mesh" : "one of several meshes", name);
     session.print("{} vertices{}, {} triangles in {} {}, {}\n", report.vertices,
                   mesh.colors.empty() ? "" : " with colours", report.triangles, report.components,

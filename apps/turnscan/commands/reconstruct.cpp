@@ -42,6 +42,12 @@ class ReconstructCommand : public Command {
       line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
   }
 
+  FileRoles files() const override {
+    FileRoles files{{recording_, request_.turntable}, {files_.mesh, files_.report}};
+    for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
+    return files;
+  }
+
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
@@ -76,14 +82,16 @@ class ReconstructCommand : public Command {
                   "--save-stage {}: this method has no such stage; choose another --method, or one "
                   "of {}",
                   stage, fmt::join(made, ", "));
+    files_.stages[stage] = stage_file(text);
+    return check_output_file(files_.stages[stage], ".ply");
+  }
+
+  /// "NAME=FILE.ply", or "NAME" for a file beside the mesh.
+  std::string stage_file(const std::string& text) const {
+    const auto equals = text.find('=');
+    if (equals != std::string::npos) return text.substr(equals + 1);
     const std::string& mesh = files_.mesh;
-    const std::string file =
-        equals == std::string::npos
-            ? with_suffix(mesh.substr(0, mesh.size() - ending_of(mesh).size()) + ".ply",
-                          "-" + stage)
-            : text.substr(equals + 1);
-    files_.stages[stage] = file;
-    return check_output_file(file, ".ply");
+    return with_suffix(mesh.substr(0, mesh.size() - ending_of(mesh).size()) + ".ply", "-" + text);
   }
 
   std::string recording_;

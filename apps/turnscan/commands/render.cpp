@@ -20,6 +20,8 @@ class RenderCommand : public Command {
     line.group("picture", "Picture", describe(options_));
   }
 
+  FileRoles files() const override { return {meshes_, {out_}}; }
+
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(out_, ".png"));
     std::vector<TriangleMesh> meshes;

@@ -29,6 +29,11 @@ class ScanCommand : public Command {
       line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
   }
 
+  FileRoles files() const override {
+    return {with_replayed(request_.setup.devices, request_.setup.turntable_file),
+            {request_.mesh, request_.report}};
+  }
+
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;
     const ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }};

@@ -25,6 +25,8 @@ class SimulateCommand : public Command {
                     kEmptyTable));
     line.option("-o,--out", "RECORDING", request_.recording,
                 "Folder to make for the recording; it must not exist or be empty");
+    line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
+              "Remove what lies at RECORDING when it is a recording that was not finished");
     line.repeatable(
         "--scanner", "SCANNER", scanners_,
         fmt::format("A preset ({}) or a file FILE.toml; may be given several times. What of its "
@@ -51,6 +53,15 @@ class SimulateCommand : public Command {
     for (SceneTable& table : describe(request_.scene))
       line.group(table.name, table.title, std::move(table.options));
     line.group("coverage", "Coverage", describe(request_.coverage_options));
+  }
+
+  FileRoles files() const override {
+    FileRoles files{{object_, request_.scene.object}, {request_.coverage, request_.report}};
+    if (!request_.coverage.empty()) files.outputs.push_back(coverage_json_file(request_));
+    for (const std::string& text : scanners_)
+      files.inputs.push_back(text.substr(0, text.find(',')));
+    for (const ScannerEntry& entry : request_.scene.scanners) files.inputs.push_back(entry.model);
+    return files;
   }
 
   Result<> run(Session& session) override {

@@ -40,6 +40,8 @@ class TurntableCommand : public Command {
     line.group("motor", "Motor", describe(motor_));
   }
 
+  FileRoles files() const override { return {}; }
+
   Result<> run(Session& session) override {
     if (action_ != "rotate" && action_ != "speed" && action_ != "stop" && action_ != "status")
       return fail(ErrorCode::kInvalidOption,

@@ -1,6 +1,20 @@
+#include <numbers>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/core/units.hpp>
 
 namespace turnscan {
+
+std::string implausible(const FrameInfo& info) {
+  constexpr double kMaxTime_s = 1e13, kMaxTurns = 1e6;
+  if (std::isinf(info.time_s) || std::abs(info.time_s) > kMaxTime_s)
+    return fmt::format("its time {:.3g} s is beyond {:.0e} s", info.time_s, kMaxTime_s);
+  if (info.angle_rad && !(std::abs(*info.angle_rad) <= kMaxTurns * 2.0 * std::numbers::pi))
+    return fmt::format("its angle {:.3g} rad is beyond {:.0e} turns", *info.angle_rad, kMaxTurns);
+  if (info.T_table_sensor && (!info.T_table_sensor->matrix().allFinite() ||
+                              info.T_table_sensor->translation().norm() > kMaxDistance_m))
+    return fmt::format("its pose lies beyond {:.0f} km", kMaxDistance_m / 1000.0);
+  return {};
+}
 
 Vec3d Viewpoint::direction_from(const Vec3d& p) const {
   if (parallel) return value;

@@ -64,6 +64,10 @@ struct FrameInfo {
   FrameStatus status = FrameStatus::kOk;
 };
 
+/// Why no frame has this time, angle or pose: not finite, or beyond 1e13 s, a million turns,
+/// kMaxDistance_m. Empty when they are plausible.
+std::string implausible(const FrameInfo& info);
+
 /// A depth image, or points (then depth is empty).
 struct Frame {
   FrameInfo info;

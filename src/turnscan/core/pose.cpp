@@ -1,13 +1,26 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <turnscan/core/pose.hpp>
+#include <turnscan/core/units.hpp>
 
 namespace turnscan {
+
+namespace {
+
+Result<> check_translation(const Vec3d& translation_m) {
+  if (translation_m.norm() <= kMaxDistance_m) return {};
+  return fail(ErrorCode::kFormat,
+              "pose lies {:.3g} m from its origin, and at most {:.0f} km are read",
+              translation_m.norm(), kMaxDistance_m / 1000.0);
+}
+
+}  // namespace
 
 Result<Pose> pose_from(const Vec3d& translation_m, double qx, double qy, double qz, double qw) {
   const Eigen::Quaterniond q(qw, qx, qy, qz);
   if (!translation_m.allFinite() || !q.coeffs().allFinite())
     return fail(ErrorCode::kFormat, "pose has a value that is not finite");
+  TURNSCAN_TRY(check_translation(translation_m));
   if (!(q.norm() > 1e-6) || !std::isfinite(q.norm()))
     return fail(ErrorCode::kFormat, "pose has a quaternion of length {}", q.norm());
   Pose pose = Pose::Identity();
@@ -18,6 +31,7 @@ Result<Pose> pose_from(const Vec3d& translation_m, double qx, double qy, double 
 
 Result<Pose> pose_from(const Eigen::Matrix4d& matrix) {
   if (!matrix.allFinite()) return fail(ErrorCode::kFormat, "pose has a value that is not finite");
+  TURNSCAN_TRY(check_translation(matrix.topRightCorner<3, 1>()));
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > 1e-6)
     return fail(ErrorCode::kFormat, "pose matrix: the last row is not 0 0 0 1");
   const Eigen::Matrix3d r = matrix.topLeftCorner<3, 3>();

@@ -8,6 +8,10 @@
 
 namespace turnscan {
 
+/// Nothing that is read lies further from its origin, in metres: 1000 km. Beyond it 32-bit floats
+/// cannot tell a table from a house, and libraries that cast rays overflow.
+inline constexpr double kMaxDistance_m = 1e6;
+
 enum class Quantity { kNone, kLength, kAngle, kTime, kAngularSpeed };
 
 /// Reads a finite number with a unit of the quantity and returns it in SI units. Lengths: um, mm,

@@ -26,8 +26,8 @@ class Method {
   virtual Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                        const RunContext& context, Reconstruction& out) = 0;
 
-  /// The frames that the estimate was made from have been added.
-  virtual Result<> begin() { return {}; }
+  /// The frames that the estimate was made from have been added. Fails with kCancelled.
+  virtual Result<> begin(const RunContext&) { return {}; }
 
   /// A rough mesh of what was added so far, in bounded time; empty before begin(). Of methods that
   /// have previews.

@@ -164,7 +164,7 @@ class ReconstructionStream::Impl {
         first_frames_.posed_frames(), [&](std::size_t i) -> Result<Frame> { return frames[i]; },
         context, out_));
     first_frames_.clear();
-    return method_->begin();
+    return method_->begin(context);
   }
 
   SequenceHeader header_;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <regex>
 #include <string_view>
 #include <system_error>
 #include <turnscan/core/result.hpp>
@@ -127,7 +128,8 @@ std::string defect_of_content(InputFile& file, const std::string& extension) {
 }
 
 FileCheck unreadable(const char* what, int error) {
-  return {FileState::kUnreadable,
+  const bool ours = error == EMFILE || error == ENFILE || error == ENOMEM;
+  return {ours ? FileState::kNoResources : FileState::kUnreadable,
           fmt::format("{} ({})", what, std::generic_category().message(error))};
 }
 
@@ -149,6 +151,11 @@ FileCheck check_file(const fs::path& path) {
 FileCheck check_frame_file(const fs::path& folder, const FrameRow& row) {
   if (row.info.file.empty()) return {FileState::kLost, "is not named"};
   return check_file(folder / row.info.file);
+}
+
+bool is_leftover(const std::string& name) {
+  static const std::regex pattern(R"(\.(.*\.[0-9]+-[0-9]+|recording\.json)\.part)");
+  return name.size() < 256 && std::regex_match(name, pattern);
 }
 
 }  // namespace turnscan::recording_format

@@ -9,8 +9,9 @@ namespace turnscan::recording_format {
 
 enum class FileState {
   kWhole,
-  kLost,       ///< not there, empty or truncated: waiting does not bring it back
-  kUnreadable  ///< permission, a failing disk or network, too many open files: it may be whole
+  kLost,        ///< not there, empty or truncated: waiting does not bring it back
+  kUnreadable,  ///< permission, a failing disk or network: it may be whole
+  kNoResources  ///< this program has too many files open, or too little memory
 };
 
 struct FileCheck {
@@ -24,5 +25,8 @@ FileCheck check_file(const std::filesystem::path& path);
 
 /// The same of the file that a frame's line names; a line without a name has lost its file.
 FileCheck check_frame_file(const std::filesystem::path& folder, const FrameRow& row);
+
+/// Whether the writer gave this name to a file that was not whole yet: .NAME.PID-COUNT.part
+bool is_leftover(const std::string& name);
 
 }  // namespace turnscan::recording_format

@@ -88,6 +88,8 @@ Result<FrameRow> parse_row(const text::CsvColumns& columns, const text::TextLine
     info.angle_rad = degrees * kRadiansPerDegree;
   }
   TURNSCAN_ASSIGN(info.T_table_sensor, pose_fields(columns, fields));
+  if (const std::string why = implausible(info); !why.empty())
+    return fail(ErrorCode::kFormat, "frame {}: {}", info.index, why);
   TURNSCAN_ASSIGN(info.file, name_field(columns.field(fields, "file")));
   TURNSCAN_ASSIGN(row.color_file, name_field(columns.field(fields, "color_file")));
   TURNSCAN_ASSIGN(info.status, status_field(columns.field(fields, "status")));

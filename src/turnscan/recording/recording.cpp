@@ -66,12 +66,20 @@ class DefectNote {
   std::size_t count_ = 0;
 };
 
-void check_files(const fs::path& folder, std::vector<FrameRow>& rows,
-                 std::vector<std::string>& notes) {
+/// Fails when this program lacks what it needs to look: the frame is not to blame.
+Result<> check_resources(const FileCheck& check, const fs::path& file) {
+  if (check.state != FileState::kNoResources) return {};
+  return fail_at(file.string(), ErrorCode::kResourceLimit,
+                 "it {}; raise the limit (ulimit -n) or end other programs", check.words);
+}
+
+Result<> check_files(const fs::path& folder, std::vector<FrameRow>& rows,
+                     std::vector<std::string>& notes) {
   DefectNote dropped("marked dropped"), unread("left out"), colorless("read without colour");
   for (FrameRow& row : rows) {
     if (row.info.status == FrameStatus::kDropped) continue;
     const FileCheck check = check_frame_file(folder, row);
+    TURNSCAN_TRY(check_resources(check, folder / row.info.file));
     if (check.state != FileState::kWhole) {
       (check.state == FileState::kLost ? dropped : unread)
           .add(row.info, row.info.file, check.words);
@@ -80,6 +88,7 @@ void check_files(const fs::path& folder, std::vector<FrameRow>& rows,
     }
     if (row.color_file.empty()) continue;
     const FileCheck color = check_file(folder / row.color_file);
+    TURNSCAN_TRY(check_resources(color, folder / row.color_file));
     if (color.state == FileState::kWhole) continue;
     colorless.add(row.info, row.color_file, color.words);
     row.color_file.clear();
@@ -87,6 +96,7 @@ void check_files(const fs::path& folder, std::vector<FrameRow>& rows,
   dropped.put_into(notes);
   unread.put_into(notes);
   colorless.put_into(notes);
+  return {};
 }
 
 /// A PLY with lists has no length that could be checked cheaply: the last one is read.
@@ -156,7 +166,7 @@ Result<Recording> Recording::open(const fs::path& folder) {
   TURNSCAN_ASSIGN(FrameTable table, read_table(folder, description.header.sensors.size()));
   recording.notes_ = std::move(table.notes);
   note_completeness(description, table.rows.size(), recording.notes_);
-  check_files(folder, table.rows, recording.notes_);
+  TURNSCAN_TRY(check_files(folder, table.rows, recording.notes_));
   check_last_scan(folder, description.header, table.rows, recording.notes_);
   recording.header_ = std::move(description.header);
   recording.capture_ = std::move(description.capture);

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <turnscan/core/units.hpp>
 #include <turnscan/recording/recording_json.hpp>
 
 namespace turnscan::recording_format {
@@ -8,7 +9,7 @@ namespace {
 
 constexpr const char* kRecordingFormat = "turnscan recording";
 constexpr std::size_t kMaxSensors = 64;
-constexpr double kMaxMetres = 1e6;
+constexpr double kMaxSpeed_rad_s = 1e4;
 
 Result<SensorKind> parse_kind(const text::JsonObject& object) {
   TURNSCAN_ASSIGN(const std::string kind, object.text_or("kind", "depth-camera"));
@@ -162,8 +163,8 @@ void put_source(const std::string& source, text::OrderedJson& out) {
 
 /// Empty when the sensor is usable, else what is wrong with it.
 std::string defect_of(const SensorInfo& s) {
-  if (!s.viewpoint.value.allFinite() || s.viewpoint.value.norm() > kMaxMetres)
-    return "its viewpoint is not finite";
+  if (!s.viewpoint.value.allFinite() || s.viewpoint.value.norm() > kMaxDistance_m)
+    return "its viewpoint is not within 1000 km";
   if (s.viewpoint.parallel && !(s.viewpoint.value.norm() > 1e-6))
     return "its parallel viewing direction has no length";
   if (s.T_table_sensor && !s.T_table_sensor->matrix().allFinite())
@@ -176,17 +177,19 @@ std::string defect_of(const SensorInfo& s) {
   if (const auto good = s.intrinsics.check(); !good) return good.error().message;
   if (!(s.depth_unit_m > 0.0 && s.depth_unit_m <= 1.0))
     return fmt::format("its depth unit {} m is not within 0 to 1 m", s.depth_unit_m);
-  if (!(std::abs(s.depth_bias_m) <= kMaxMetres)) return "its depth bias is not finite";
+  if (!(std::abs(s.depth_bias_m) <= kMaxDistance_m)) return "its depth bias is not within 1000 km";
   return "";
 }
 
 std::string defect_of(const TurntableInfo& table) {
   if (!table.axis.allFinite() || !(table.axis.norm() > 1e-6)) return "its axis has no direction";
-  if (!table.center_m.allFinite() || table.center_m.norm() > kMaxMetres)
-    return "its centre is not finite";
-  if (table.radius_m && !(*table.radius_m > 0.0 && *table.radius_m <= kMaxMetres))
-    return fmt::format("its radius {} m is not positive", *table.radius_m);
-  if (table.speed_rad_s && !std::isfinite(*table.speed_rad_s)) return "its speed is not finite";
+  if (!table.center_m.allFinite() || table.center_m.norm() > kMaxDistance_m)
+    return "its centre is not within 1000 km";
+  if (table.radius_m && !(*table.radius_m > 0.0 && *table.radius_m <= kMaxDistance_m))
+    return fmt::format("its radius {} m is not within 0 to 1000 km", *table.radius_m);
+  if (table.speed_rad_s && !(std::abs(*table.speed_rad_s) <= kMaxSpeed_rad_s))
+    return fmt::format("its speed {:.3g} rad/s is beyond {:.0e} rad/s", *table.speed_rad_s,
+                       kMaxSpeed_rad_s);
   return "";
 }
 

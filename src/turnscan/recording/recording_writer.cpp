@@ -138,9 +138,7 @@ Result<> check_frame(const Frame& frame, const SequenceHeader& header) {
   const FrameInfo& info = frame.info;
   if (info.sensor >= header.sensors.size())
     return misfit(frame, fmt::format("there is no sensor {}", info.sensor));
-  if (std::isinf(info.time_s) || (info.angle_rad && !std::isfinite(*info.angle_rad)) ||
-      (info.T_table_sensor && !info.T_table_sensor->matrix().allFinite()))
-    return misfit(frame, "its time, angle or pose is not finite");
+  if (const std::string why = implausible(info); !why.empty()) return misfit(frame, why);
   if (info.status == FrameStatus::kDropped) return {};
   const SensorInfo& sensor = header.sensors[info.sensor];
   // A scan that saw nothing is a frame, too: a profile beside the object.

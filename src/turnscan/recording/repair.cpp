@@ -1,9 +1,3 @@
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <regex>
 #include <set>
 #include <system_error>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -14,31 +8,13 @@
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/recording_json.hpp>
 #include <turnscan/recording/repair.hpp>
+#include <turnscan/recording/table_lock.hpp>
 
 namespace turnscan::recording_format {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A lock on frames.csv, which a writer holds as long as it is at work.
-class TableLock {
- public:
-  explicit TableLock(const fs::path& table)
-      : descriptor_(::open(table.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    held_ = descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-  }
-  ~TableLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  TableLock(const TableLock&) = delete;
-  TableLock& operator=(const TableLock&) = delete;
-  bool held() const { return held_; }
-
- private:
-  int descriptor_;
-  bool held_ = true;
-};
 
 /// Empty when there is no table.
 Result<std::string> table_text(const fs::path& folder) {
@@ -62,7 +38,9 @@ Inspection inspect(const fs::path& folder, std::vector<FrameRow> rows, RepairRep
     report.frames += check.state == FileState::kWhole ? 1 : 0;
     report.dropped += check.state == FileState::kLost ? 1 : 0;
     if (check.state == FileState::kLost) row.info.status = FrameStatus::kDropped;
-    if (check.state != FileState::kUnreadable || ++report.unreadable > 1) continue;
+    if (check.state == FileState::kWhole || check.state == FileState::kLost ||
+        ++report.unreadable > 1)
+      continue;
     report.first_unreadable = fmt::format("{} {}", row.info.file, check.words);
   }
   out.rows = std::move(rows);
@@ -136,12 +114,6 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     if (fs::is_regular_file(entry.symlink_status(error))) out.push_back(entry.path());
   }
   return out;
-}
-
-/// Whether the writer gave this name to a file that was not whole: .NAME.PID-COUNT.part
-bool is_leftover(const std::string& name) {
-  static const std::regex pattern(R"(\.(.*\.[0-9]+-[0-9]+|recording\.json)\.part)");
-  return name.size() < 256 && std::regex_match(name, pattern);
 }
 
 void remove_leftovers(const fs::path& folder, RepairReport& report) {

@@ -34,12 +34,19 @@ std::string position_text(const SequenceSummary& s) {
   return text.empty() ? "nothing" : text;
 }
 
+/// A name from a file must not begin a line that looks like ours.
+std::string one_line(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == '\n' ? "\\u000a" : std::string(1, c);
+  return out;
+}
+
 void put_sensor(std::size_t number, const SensorSummary& sensor, std::string& out) {
   const SensorInfo& info = sensor.info;
   const bool camera = info.kind == SensorKind::kDepthCamera;
   out += fmt::format("sensor {}:    {}{}, {} frames\n", number,
                      camera ? "depth camera" : "point scanner",
-                     info.model.empty() ? "" : " " + info.model, sensor.frames);
+                     info.model.empty() ? "" : " " + one_line(info.model), sensor.frames);
   if (camera) {
     const CameraIntrinsics& c = info.intrinsics;
     out +=
@@ -115,7 +122,7 @@ using namespace recording_format;
 std::string summary_text(const SequenceSummary& s) {
   std::string out;
   if (!s.source.empty()) out += fmt::format("source:      {}\n", s.source);
-  if (!s.software.empty()) out += fmt::format("written by:  {}\n", s.software);
+  if (!s.software.empty()) out += fmt::format("written by:  {}\n", one_line(s.software));
   out += fmt::format("frames:      {}, {} dropped, {} {}\n", s.frames, s.dropped, s.passes,
                      s.passes == 1 ? "pass" : "passes");
   out += fmt::format("placed by:   {}\n", position_text(s));

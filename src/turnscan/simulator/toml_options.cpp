@@ -10,6 +10,44 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kLargest = 1u << 20u;
+constexpr std::size_t kLongestLine = 4096;
+constexpr int kMostDots = 32;
+constexpr int kDeepest = 32;
+
+/// What the library parses by recursion, or in a time that grows with the square of a key's length.
+std::string excess_of(std::string_view line, int& depth) {
+  if (line.size() > kLongestLine) return fmt::format("has more than {} bytes", kLongestLine);
+  int dots = 0;
+  char quote = '\0';
+  for (const char c : line) {
+    if (c == ',' || c == '=') dots = 0;
+    if (c == '.' && ++dots > kMostDots)
+      return fmt::format("has a key of more than {} parts", kMostDots);
+    if (quote == '\0' && (c == '"' || c == '\'')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = '\0';
+    }
+    if (quote != '\0') continue;
+    if (c == ']' || c == '}') depth = std::max(depth - 1, 0);
+    if ((c == '[' || c == '{') && ++depth > kDeepest)
+      return fmt::format("nests lists and tables more than {} deep", kDeepest);
+  }
+  return {};
+}
+
+Result<> check_shape(std::string_view text, const fs::path& path) {
+  int depth = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (const std::string excess = excess_of(text.substr(0, end), depth); !excess.empty())
+      return fail_at(path.string(), ErrorCode::kInvalidOption,
+                     "{}:{}: this line {}, which no such file has; check the path", path.string(),
+                     number, excess);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -22,6 +60,9 @@ tl::unexpected<Error> fail_in_toml(const fs::path& path, const toml::node& where
 Result<toml::table> read_toml(const fs::path& path) {
   std::error_code error;
   const auto status = fs::status(path, error);
+  if (status.type() == fs::file_type::none)
+    return fail_at(path.string(), ErrorCode::kIo, "it cannot be looked at ({}); check permissions",
+                   error.message());
   if (!fs::exists(status))
     return fail_at(path.string(), ErrorCode::kNotFound, "there is no such file; check the path");
   if (!fs::is_regular_file(status))
@@ -37,6 +78,7 @@ Result<toml::table> read_toml(const fs::path& path) {
 }
 
 Result<toml::table> parse_toml(std::string_view text, const fs::path& path) {
+  TURNSCAN_TRY(check_shape(text, path));
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& failure) {

@@ -10,7 +10,8 @@
 namespace turnscan::scene {
 
 /// The file as a table. Fails with kNotFound, with kInvalidOption when it is no file, longer than
-/// 1 MB or not TOML (naming file and line).
+/// 1 MB, has a line of more than 4096 bytes, a key of more than 32 parts or lists deeper than 32,
+/// or is not TOML (naming file and line).
 Result<toml::table> read_toml(const std::filesystem::path& path);
 
 /// The same from a text; `path` is its name in errors.

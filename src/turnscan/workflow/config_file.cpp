@@ -2,7 +2,7 @@
 
 #include <toml++/toml.h>
 
-#include <filesystem>
+#include <turnscan/simulator/toml_options.hpp>
 
 namespace turnscan {
 
@@ -72,20 +72,8 @@ Result<> read_table(const std::string& path, const toml::table& table, const std
 }  // namespace
 
 Result<> read_config_file(const std::string& path, const std::deque<OptionGroup>& groups) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    return fail_at(path, ErrorCode::kNotFound, "there is no such file; check the path of --config");
-  if (!std::filesystem::is_regular_file(status))
-    return fail_at(path, ErrorCode::kInvalidOption,
-                   "this is not a file; give --config the path of a TOML file");
-  try {
-    return read_table(path, toml::parse_file(path), "", groups);
-  } catch (const toml::parse_error& failure) {
-    return fail_in(path, failure.source(),
-                   fmt::format("not TOML: {}; check the syntax of this line",
-                               std::string(failure.description())));
-  }
+  TURNSCAN_ASSIGN(const toml::table table, scene::read_toml(path));
+  return read_table(path, table, "", groups);
 }
 
 }  // namespace turnscan

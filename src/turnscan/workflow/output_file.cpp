@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <turnscan/recording/unfinished.hpp>
 
 namespace turnscan {
 
@@ -60,6 +61,11 @@ Result<> check_output_folder(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) {
+    if (is_unfinished_recording(path))
+      return fail_at(path, ErrorCode::kAlreadyExists,
+                     "an unfinished recording lies there, whose program was ended; finish it with "
+                     "'turnscan info --repair', or make it again (import and simulate: with "
+                     "--overwrite-unfinished), or choose another name");
     if (!fs::is_empty(path, error) || error)
       return fail_at(path, ErrorCode::kAlreadyExists,
                      "the folder has content and is never overwritten; choose another name");
@@ -74,6 +80,12 @@ Result<> check_output_folder(const std::string& path) {
     return fail_at(path, ErrorCode::kIo, "{} is not a folder; choose another place",
                    above.string());
   return check_writable(above, path);
+}
+
+Result<> clear_output_folder(const std::string& path, bool overwrite_unfinished) {
+  if (overwrite_unfinished && is_unfinished_recording(path))
+    TURNSCAN_TRY(remove_unfinished_recording(path));
+  return check_output_folder(path);
 }
 
 }  // namespace turnscan

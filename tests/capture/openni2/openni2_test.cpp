@@ -9,6 +9,7 @@
 #include <dlfcn.h>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -175,6 +176,14 @@ TEST(OpenNi2, SaysWhatItNeedsOrWhatIsNotThere) {
 
 // The texts are those of OpenNI's drivers for PrimeSense and Orbbec sensors on Linux: they cannot
 // open what the user may not, and cannot claim the interface of what another program has.
+TEST(OpenNi2, APipeIsNoFileToPlay) {
+  const testing::TempFolder temp;
+  ASSERT_EQ(::mkfifo((temp / "a.oni").c_str(), 0600), 0);
+  const auto source = open_source(uri_of((temp / "a.oni").string()), {});
+  ASSERT_FALSE(source);
+  EXPECT_EQ(source.error().code, ErrorCode::kNotFound);
+}
+
 TEST(OpenNi2, ASensorThatCannotBeOpenedSaysWhy) {
   const std::vector<std::tuple<std::string, ErrorCode, std::string>> cases{
       {"Could not open \"1d27/0601@3/2\": Failed to open the USB device!", ErrorCode::kNoPermission,

@@ -170,5 +170,22 @@ TEST(ReadFile, RefusesWhatIsMissingTooLongOrNotAFile) {
   EXPECT_EQ(read_file(folder / "pipe").error().code, ErrorCode::kIo);
 }
 
+TEST(AtomicFile, WhatAKilledProcessOfTheSameNumberLeftIsNoObstacle) {
+  const TempFolder folder;
+  for (int i = 0; i < 300; ++i)
+    folder.put(fmt::format(".a.{}-{}.part", ::getpid(), i), "left behind");
+  ASSERT_TRUE(write_file_atomically(folder / "a", std::string_view("new")));
+  EXPECT_EQ(testing::content_of(folder / "a"), "new");
+  EXPECT_EQ(folder.count(), 301u);
+}
+
+TEST(AtomicFile, VerifiedWritingReplacesTheWholeFile) {
+  const TempFolder folder;
+  folder.put("a", "old");
+  ASSERT_TRUE(write_file_verified(folder / "a", "new"));
+  EXPECT_EQ(testing::content_of(folder / "a"), "new");
+  EXPECT_FALSE(write_file_verified(folder / "no/a", "new"));
+}
+
 }  // namespace
 }  // namespace turnscan

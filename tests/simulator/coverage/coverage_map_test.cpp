@@ -1,6 +1,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/coverage/coverage_map.hpp>
+#include <turnscan/simulator/coverage/coverage_patches.hpp>
 
 #include "tests/simulator/shapes.hpp"
 
@@ -127,6 +128,14 @@ TEST(CoverageMap, CutsLargeFacesToTheSizeOfACell) {
 
 /// A shelf at depth dz behind a wall: b * dz / z of it lies in the umbra, seen by the receiver
 /// only.
+TEST(CoverageMap, FarFromTheOriginFacesAreCutNoFinerThanFloatsAre) {
+  TriangleMesh mesh;
+  mesh.vertices = {Vec3f(9e5f, 0, 0), Vec3f(9e5f + 1.0f, 0, 0), Vec3f(9e5f, 1.0f, 9e5f)};
+  mesh.triangles = {{0, 1, 2}};
+  const coverage::CoveragePatches patches(std::span(&mesh, 1), 1e-3);
+  EXPECT_FALSE(patches.patches.empty());
+}
+
 TEST(CoverageMap, GivesTheUmbraOfASlotToTheEmitter) {
   const double b = 0.2, z = 0.8, dz = 0.2;
   TriangleMesh front, back;

@@ -148,7 +148,7 @@ TEST(ImplicitMesh, IsManifoldForAFieldOfRandomSigns) {
       return value;
     };
     const TriangleMesh mesh =
-        objects::mesh_of(field, {Vec3f::Zero(), Vec3f::Constant(24 * kCell), kCell, 0});
+        *objects::mesh_of(field, {Vec3f::Zero(), Vec3f::Constant(24 * kCell), kCell, 0});
     ASSERT_GT(mesh.triangles.size(), 10000u);
     EXPECT_TRUE(test::closed_and_oriented(mesh)) << seed;
     EXPECT_TRUE(test::one_ring_each(mesh)) << seed;
@@ -159,7 +159,7 @@ TEST(ImplicitMesh, IsManifoldForAFieldOfRandomSigns) {
 TEST(ImplicitMesh, HasItsVerticesOnTheSurface) {
   const objects::SignedDistance ball = [](const Vec3f& p) { return p.norm() - 0.02f; };
   const TriangleMesh mesh =
-      objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 3});
+      *objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 3});
   ASSERT_FALSE(mesh.empty());
   for (const Vec3f& p : mesh.vertices) ASSERT_NEAR(p.norm(), 0.02f, 1e-7f);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -169,7 +169,7 @@ TEST(ImplicitMesh, HasItsVerticesOnTheSurface) {
 TEST(ImplicitMesh, IsOnTheSurfaceBeforeItIsSmoothed) {
   const objects::SignedDistance ball = [](const Vec3f& p) { return p.norm() - 0.02f; };
   const TriangleMesh mesh =
-      objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 0});
+      *objects::mesh_of(ball, {Vec3f::Constant(-0.0253f), Vec3f::Constant(0.025f), 0.001f, 0});
   // No vertex comes nearer to a corner of the grid than 0.5 % of a cell.
   for (const Vec3f& p : mesh.vertices) ASSERT_NEAR(p.norm(), 0.02f, 6e-6f);
 }

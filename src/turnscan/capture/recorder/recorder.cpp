@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 #include <turnscan/capture/recorder/recorder.hpp>
+#include <turnscan/core/guarded.hpp>
 
 namespace turnscan {
 
@@ -195,7 +196,12 @@ bool Recorder::State::work() {
 }
 
 void Recorder::State::run() {
-  while (work()) {
+  for (bool more = true; more;) {
+    const auto worked = guarded([&]() -> Result<> {
+      more = work();
+      return {};
+    });
+    if (!worked) fail_with(worked.error());
   }
 }
 
@@ -226,9 +232,10 @@ Result<Recorder> Recorder::create(const fs::path& folder, const SequenceHeader& 
                   RecordingWriter::create(folder, header, settings, options.color));
   auto state = std::make_unique<State>(std::move(writer), folder, options);
   state->counts.free_bytes = free;
+  Recorder recorder(std::move(state));  // joins those that began when one cannot
   for (int i = 0; i < options.encoders; ++i)
-    state->threads.emplace_back([raw = state.get()] { raw->run(); });
-  return Recorder(std::move(state));
+    recorder.state_->threads.emplace_back([raw = recorder.state_.get()] { raw->run(); });
+  return recorder;
 }
 
 Result<> Recorder::put(Frame frame) {

@@ -1,11 +1,11 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <turnscan/capture/source/plugin_source.hpp>
 #include <turnscan/capture/source/plugins.hpp>
+#include <turnscan/core/process/program_folders.hpp>
 
 namespace turnscan::source {
 
@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kFoldersUp = 4;
 constexpr std::string_view kPrefix = "turnscan-", kSuffix = ".so";
 constexpr std::int32_t kMaxDevices = 64;
 
@@ -22,16 +21,6 @@ const std::map<std::string, std::string>& packages() {
   static const std::map<std::string, std::string> names{{"openni2", "libopenni2-0"},
                                                         {"freenect", "libfreenect0.5"}};
   return names;
-}
-
-std::vector<fs::path> split_folders(std::string_view text) {
-  std::vector<fs::path> folders;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(':'), text.size());
-    if (end > 0) folders.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return folders;
 }
 
 std::string name_of(const fs::path& file) {
@@ -74,6 +63,7 @@ Result<const turnscan_plugin*> load_file(const std::string& scheme, const fs::pa
   const auto failed = [&](const std::string& why) {
     return fail(ErrorCode::kLibrary, "driver {} ({}): {}", scheme, file.string(), why);
   };
+  TURNSCAN_TRY(process::check_trusted(file));
   // Never unloaded: drivers leave threads and exit handlers behind.
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr) return failed(load_failure(scheme, dlerror()));
@@ -118,6 +108,7 @@ std::vector<FoundDevice> found_devices(const turnscan_plugin& plugin, std::strin
 Result<const turnscan_plugin*> load_plugin(const std::string& scheme) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
+  TURNSCAN_TRY(process::folders_of_variable("TURNSCAN_PLUGINS"));
   const auto files = plugin_files();
   const auto file = files.find(scheme);
   if (file != files.end()) return load_file(scheme, file->second);
@@ -137,15 +128,13 @@ using namespace source;
 namespace fs = std::filesystem;
 
 std::vector<fs::path> plugin_folders() {
-  if (const char* set = std::getenv("TURNSCAN_PLUGINS"); set != nullptr && *set != '\0')
-    return split_folders(set);
+  const auto given = process::folders_of_variable("TURNSCAN_PLUGINS");
+  if (!given) return {};  // load_plugin() says why
+  if (!given->empty()) return *given;
   std::vector<fs::path> folders;
   std::error_code error;
-  fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (int i = 0; i < kFoldersUp && !above.empty(); ++i, above = above.parent_path())
-    if (const fs::path folder = above / "lib" / "turnscan" / "plugins";
-        fs::is_directory(folder, error))
-      folders.push_back(folder);
+  for (fs::path& folder : process::own_folders("lib/turnscan/plugins"))
+    if (fs::is_directory(folder, error)) folders.push_back(std::move(folder));
   if (folders.empty()) folders.emplace_back(TURNSCAN_INSTALLED_PLUGINS);
   return folders;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <turnscan/capture/source/queued_source.hpp>
+#include <turnscan/core/guarded.hpp>
 
 namespace turnscan::source {
 
@@ -38,7 +39,13 @@ Result<> QueuedSource::start() {
   TURNSCAN_TRY(grabber_->start());
   stopping_ = false;
   queue_.reopen();
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this] {
+    const auto ran = guarded([this]() -> Result<> {
+      run();
+      return {};
+    });
+    if (!ran) queue_.close(ran.error());
+  });
   return {};
 }
 

@@ -87,7 +87,7 @@ Result<std::vector<TriangleMesh>> load_objects(const SourceUri& uri, const Descr
                 fmt::join(builtin_object_names(), ", "));
   TriangleMesh mesh;
   if (name.find_first_of("./") == std::string::npos) {
-    TURNSCAN_ASSIGN(mesh, builtin_object(name));
+    TURNSCAN_ASSIGN(mesh, builtin_object(name, context));
   } else {
     ReadMeshOptions options;
     if (!d.options.unit.empty()) {

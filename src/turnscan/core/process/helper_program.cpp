@@ -3,8 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <turnscan/core/process/helper_program.hpp>
+#include <turnscan/core/process/program_folders.hpp>
 
 namespace turnscan::process {
 
@@ -30,16 +30,15 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0;
 }
 
-/// PREFIX/libexec/turnscan for PREFIX/bin/program; a build tree has it in the same place.
-std::optional<fs::path> near_executable(const std::string& name) {
-  std::error_code error;
-  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (int level = 0; level < 4 && !error && folder.has_relative_path(); ++level) {
-    const fs::path candidate = folder / "libexec/turnscan" / name;
-    if (is_program(candidate)) return candidate;
-    folder = folder.parent_path();
+/// The program in the first of the folders that has it. Fails when it is not to be trusted there.
+Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
+                                        const std::string& name) {
+  for (const fs::path& folder : folders) {
+    if (!is_program(folder / name)) continue;
+    TURNSCAN_TRY(check_trusted(folder / name));
+    return std::optional<fs::path>(folder / name);
   }
-  return std::nullopt;
+  return std::optional<fs::path>();
 }
 
 void limit(int resource, rlim_t value) {
@@ -50,15 +49,17 @@ void limit(int resource, rlim_t value) {
 }  // namespace
 
 Result<fs::path> find_helper_program(const std::string& name) {
-  if (const char* folder = std::getenv("TURNSCAN_LIBEXEC"); folder != nullptr && *folder != '\0') {
-    const fs::path program = fs::path(folder) / name;
-    if (is_program(program)) return program;
+  TURNSCAN_ASSIGN(const auto given, folders_of_variable("TURNSCAN_LIBEXEC"));
+  if (!given.empty()) {
+    TURNSCAN_ASSIGN(const auto program, find_in(given, name));
+    if (program) return *program;
     return fail(ErrorCode::kMissingData, "there is no program {}; set TURNSCAN_LIBEXEC right",
-                program.string());
+                (given.front() / name).string());
   }
-  if (const auto program = near_executable(name)) return *program;
-  const fs::path installed = fs::path(TURNSCAN_LIBEXEC_DIR) / name;
-  if (is_program(installed)) return installed;
+  std::vector<fs::path> folders = own_folders("libexec/turnscan");
+  folders.emplace_back(TURNSCAN_LIBEXEC_DIR);
+  TURNSCAN_ASSIGN(const auto program, find_in(folders, name));
+  if (program) return *program;
   return fail(ErrorCode::kMissingData,
               "the program {} is not installed; set TURNSCAN_LIBEXEC to the folder that it is in",
               name);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <stdexcept>
+#include <turnscan/core/units.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/cloud/pcd_read.hpp>
 #include <turnscan/io/file/decode_file.hpp>
@@ -49,6 +50,17 @@ void drop_points_that_are_not_finite(CloudFile& file) {
     if (cell >= 0) cell = new_place[static_cast<std::size_t>(cell)];
 }
 
+/// In the file's own unit, which may be a thousandth of a millimetre.
+Result<> check_distances(const std::vector<Vec3f>& points) {
+  constexpr double kFarthest = 1e6 * kMaxDistance_m;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].cwiseAbs().maxCoeff() > kFarthest)
+      return fail(ErrorCode::kFormat,
+                  "a point has a coordinate beyond {:.0e}, which no scan has; check the file",
+                  kFarthest);
+  return {};
+}
+
 void require_lengths(const PointCloud& cloud) {
   const auto fits = [n = cloud.size()](std::size_t size) { return size == 0 || size == n; };
   if (!fits(cloud.normals.size()) || !fits(cloud.colors.size()) || !fits(cloud.weights.size()) ||
@@ -92,6 +104,7 @@ Result<CloudFile> decode_cloud(std::string_view bytes) {
   auto file = ply::looks_like_ply(bytes) ? decode_ply(bytes) : pcd::parse_pcd(bytes);
   if (!file) return file;
   drop_points_that_are_not_finite(*file);
+  TURNSCAN_TRY(check_distances(file->cloud.points));
   return file;
 }
 

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMaxTemporaries = 10000;
 constexpr std::size_t kBufferBytes = std::size_t(1) << 16;
 
 std::string words_of(int error) { return std::generic_category().message(error); }
@@ -179,9 +180,7 @@ class AtomicFile {
     if (fs::is_directory(status)) return system_error(path_, "cannot write", EISDIR);
     if (nameless_ || (fs::exists(status) && !fs::is_regular_file(status)))
       return write_directly(body);
-    temporary_ = temporary_beside(path_);
-    Descriptor descriptor(
-        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    Descriptor descriptor(create_temporary());
     if (descriptor.get() < 0) return refuse(errno);
     if (fs::exists(status))
       (void)::fchmod(descriptor.get(), static_cast<mode_t>(status.permissions()) & 07777);
@@ -194,6 +193,16 @@ class AtomicFile {
   }
 
  private:
+  /// -1 with errno. A process of the same number, which was killed, may have left the first name.
+  int create_temporary() {
+    for (int tries = 0;; ++tries) {
+      temporary_ = temporary_beside(path_);
+      const int descriptor =
+          ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor >= 0 || errno != EEXIST || tries == kMaxTemporaries) return descriptor;
+    }
+  }
+
   Result<> refuse(int error) {
     temporary_.clear();  // it is not ours
     return system_error(path_, "cannot write", error);

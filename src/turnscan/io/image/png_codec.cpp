@@ -20,7 +20,10 @@ namespace {
 struct Source {
   const unsigned char* data;
   std::size_t left;
+  std::size_t allowed;  // further bytes that may be taken
 };
+
+constexpr std::size_t kMostBehindRows = 64 * 1024;
 
 struct Failure {
   std::array<char, 128> text;
@@ -37,6 +40,8 @@ void on_warning(png_structp, png_const_charp) {}
 void read_bytes(png_structp png, png_bytep target, std::size_t size) {
   auto* source = static_cast<Source*>(png_get_io_ptr(png));
   if (size > source->left) png_error(png, "the file ends too early");
+  if (size > source->allowed) png_error(png, "there is more behind its rows");
+  source->allowed -= size;
   std::memcpy(target, source->data, size);
   source->data += size;
   source->left -= size;
@@ -87,10 +92,18 @@ bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_byte
   png_set_user_limits(png, 65535, 65535);
   png_read_info(png, info);
   ask_for(png, kind);
-  (void)png_set_interlace_handling(png);
+  const int passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
   if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "unexpected kind of pixels");
-  png_read_image(png, rows);
+  const png_uint_32 height = png_get_image_height(png, info);
+  for (int pass = 0; pass < passes; ++pass) {
+    for (png_uint_32 y = 0; y < height; ++y) {
+      // With the last row libpng unpacks whatever is left of the data, a thousandfold at worst.
+      if (pass + 1 == passes && y + 1 == height) source->allowed = row_bytes + kMostBehindRows;
+      png_read_row(png, rows[y], nullptr);
+    }
+  }
+  source->allowed = source->left;
   png_read_end(png, nullptr);
   png_destroy_read_struct(&png, &info, nullptr);
   return true;
@@ -167,7 +180,7 @@ Result<> decode_png(std::string_view bytes, const PngInfo& info, PngPixels kind,
   const std::size_t row_bytes = info.width * bytes_per_pixel(kind);
   std::vector<png_bytep> rows(info.height);
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = pixels + row * row_bytes;
-  Source source{reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+  Source source{reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), bytes.size()};
   Failure failure{};
   if (!decode_rows(&source, kind, row_bytes, rows.data(), &failure))
     return fail(ErrorCode::kFormat, "damaged PNG image: {}", failure.text.data());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <turnscan/core/units.hpp>
 #include <turnscan/io/file/decode_file.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/mesh/mesh_convert.hpp>
@@ -54,9 +55,15 @@ mesh_io::Meshes finish(std::vector<TriangleMesh> meshes, double metres_per_unit)
   for (TriangleMesh& mesh : meshes) {
     if (metres_per_unit != 1.0)
       for (Vec3f& p : mesh.vertices) p = (p.cast<double>() * metres_per_unit).cast<float>();
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       if (!mesh.vertices[i].allFinite())
         return fail(ErrorCode::kFormat, "the coordinates of vertex {} are not finite", i);
+      if (const double distance = mesh.vertices[i].cwiseAbs().maxCoeff(); distance > kMaxDistance_m)
+        return fail(ErrorCode::kFormat,
+                    "vertex {} lies {:.3g} m from the origin, and at most {:.0f} km are read; "
+                    "check the unit (--unit) or the file",
+                    i, distance, kMaxDistance_m / 1000.0);
+    }
   }
   return meshes;
 }

@@ -126,18 +126,19 @@ void Integrator::add_earlier_free_bricks(std::span<const std::size_t> groups,
 }
 
 /// What earlier views saw past in bricks in which a surface is measured for the first time.
-void Integrator::add_earlier_free_samples(std::span<const BrickMask> made,
-                                          const EarlierViews& before) {
+Result<> Integrator::add_earlier_free_samples(std::span<const BrickMask> made,
+                                              const EarlierViews& before,
+                                              const RunContext& context) {
   std::vector<std::pair<std::size_t, std::size_t>> which;  // group, brick
   for (std::size_t n = 0; n < made.size(); ++n) {
     for (BrickMask left = made[n]; left != 0; left &= left - 1)
       which.emplace_back(n, std::size_t(std::countr_zero(left)));
   }
-  if (which.empty() || before.views.empty()) return;
+  if (which.empty() || before.views.empty()) return {};
   std::vector<RangeBounds> views(before.views.size());
   parallel_for(views.size(), 16,
                [&](std::size_t v) { views[v].set_view(before.views[v], scale_); });
-  parallel_for(which.size(), 1, [&](std::size_t i) {
+  return parallel_for(which.size(), 1, context, [&](std::size_t i) {
     add_earlier_free_samples(which[i].first, which[i].second, views, before.weight);
   });
 }
@@ -214,8 +215,8 @@ Integrator::BrickMask Integrator::integrate_into(BrickGroup& group, const GridCo
   return made;
 }
 
-Result<> Integrator::integrate(std::span<const views::DepthView> batch,
-                               const EarlierViews& before) {
+Result<> Integrator::integrate(std::span<const views::DepthView> batch, const EarlierViews& before,
+                               const RunContext& context) {
   TURNSCAN_TRY(cover(batch, before));
   batch_.resize(batch.size());
   parallel_for(batch.size(), 1, [&](std::size_t v) {
@@ -224,18 +225,18 @@ Result<> Integrator::integrate(std::span<const views::DepthView> batch,
   });
   std::vector<BrickMask> made(groups_.size(), 0);
   std::atomic<std::size_t> bytes{bytes_};
-  parallel_for(groups_.size(), 1, [&](std::size_t n) {
+  const auto integrate_group = [&](std::size_t n) {
     if (bytes > 2 * scale_.max_bytes) return;  // ends in an error
     made[n] = integrate_into(groups_[n], first_brick(n));
     bytes += std::size_t(std::popcount(made[n])) * sizeof(BrickSums);
-  });
+  };
+  TURNSCAN_TRY(parallel_for(groups_.size(), 1, context, integrate_group));
   bytes_ = bytes;
   if (bytes_ > scale_.max_bytes)
     return fail(ErrorCode::kResourceLimit,
                 "volumetric: the samples need more than {} MB; choose a larger --voxel-size",
                 scale_.max_bytes >> 20);
-  add_earlier_free_samples(made, before);
-  return {};
+  return add_earlier_free_samples(made, before, context);
 }
 
 }  // namespace turnscan::tsdf

@@ -42,12 +42,13 @@ class Integrator {
   /// Adds views, in order, on all cores: the same sums for any number of threads, not for other
   /// batches. Fails with kResourceLimit when the bricks or their table do not fit the scale's
   /// max_bytes.
-  Result<> integrate(std::span<const views::DepthView> batch, const EarlierViews& before);
+  Result<> integrate(std::span<const views::DepthView> batch, const EarlierViews& before,
+                     const RunContext& context = {});
 
   /// Where views saw a surface within the truncation, a sample gets their mean distance along the
   /// rays; where they saw past it, it is free; conflicts go by the evidence. The rest has weight 0.
   /// Bricks that lie in the box or touch it.
-  Volume extract_volume(const Box& box) const;
+  Result<Volume> extract_volume(const Box& box, const RunContext& context = {}) const;
 
   /// The same at a coarser level, whose samples are means of 2^3, 4^3 or 8^3: the finest that has
   /// at most `most_bricks` bricks, or the coarsest.
@@ -87,7 +88,8 @@ class Integrator {
   std::unique_ptr<BrickSums> first_sums(std::span<const VisibilityMasks> visibility,
                                         std::size_t brick, const float first[3],
                                         std::size_t& view) const;
-  void add_earlier_free_samples(std::span<const BrickMask> made, const EarlierViews& before);
+  Result<> add_earlier_free_samples(std::span<const BrickMask> made, const EarlierViews& before,
+                                    const RunContext& context);
   void add_earlier_free_samples(std::size_t group, std::size_t brick,
                                 std::span<const RangeBounds> before, float weight);
 

@@ -9,15 +9,17 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   box.min.array() -= rim;
   box.max.array() += rim;
   if (scale.floor_m) box.min.y() = -0.25 * scale.cell_m;  // the lowest layer is at -0.5
-  Volume volume = timed(times, "distances", [&] { return integrator.extract_volume(box); });
+  TURNSCAN_ASSIGN(Volume volume, timed(times, "distances",
+                                       [&] { return integrator.extract_volume(box, context); }));
   ExtractedSurface out;
   out.grid.origin_m = volume.origin_m;
   out.grid.cell_m = volume.cell_m;
   if (scale.floor_m) out.grid.flat_m = 0.0f;
-  TURNSCAN_TRY(timed(times, "closing", [&] {
-    smooth(volume, 1);
+  const auto close = [&]() -> Result<> {
+    TURNSCAN_TRY(smooth(volume, 1, context));
     return close_holes(volume, scale, context);
-  }));
+  };
+  TURNSCAN_TRY(timed(times, "closing", close));
   TURNSCAN_TRY(context.check());
   const auto march = [&]() -> Result<TriangleMesh> {
     TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(2) << 30));

@@ -49,8 +49,9 @@ class Volume {
   std::vector<std::size_t> allocated_bricks() const;
 };
 
-/// Averages known samples with their known neighbours, by their weights.
-void smooth(Volume& volume, int rounds);
+/// Averages known samples with their known neighbours, by their weights. Fails with kCancelled, and
+/// then leaves the volume as it was after the last whole round.
+Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 
 /// Decides what no view saw: the harmonic function that continues what is known, positive beyond
 /// the volume; below the floor of a platter the walls go on down and end flat at y = 0. Enclosed

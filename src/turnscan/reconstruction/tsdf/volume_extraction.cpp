@@ -112,7 +112,7 @@ float Integrator::least_weight() const {
   return std::max(kLeastWeight, kLeastShare * typical_weight(all, float(scale_.cell_m)));
 }
 
-Volume Integrator::extract_volume(const Box& box) const {
+Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& context) const {
   Volume volume;
   volume.cell_m = scale_.cell_m;
   volume.truncation_m = scale_.truncation_m;
@@ -129,6 +129,7 @@ Volume Integrator::extract_volume(const Box& box) const {
   const float least = least_weight();
   BrickDistances brick;
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
+    if (b % 1024 == 0) TURNSCAN_TRY(context.check());
     const GridCoords at = volume.bricks.coords(b);
     const BrickEvidence own = evidence({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
     if (own.sums == nullptr) {

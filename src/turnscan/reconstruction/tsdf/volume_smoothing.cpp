@@ -22,12 +22,12 @@ float smoothed(const BrickHalo& halo, int i, int j, int k) {
 
 }  // namespace
 
-void smooth(Volume& volume, int rounds) {
+Result<> smooth(Volume& volume, int rounds, const RunContext& context) {
   const std::vector<std::size_t> bricks = volume.allocated_bricks();
   const VolumeSamples samples(volume);
   std::vector<float> next(volume.value.size());
   for (int round = 0; round < rounds; ++round) {
-    parallel_for(bricks.size(), 8, [&](std::size_t b) {
+    const auto smooth_brick = [&](std::size_t b) {
       BrickHalo halo;
       halo.gather(volume, samples, volume.bricks.coords(bricks[b]));
       float* out = &next[volume.first_sample(bricks[b])];
@@ -37,9 +37,11 @@ void smooth(Volume& volume, int rounds) {
             out[sample_in_brick(i, j, k)] = smoothed(halo, i, j, k);
         }
       }
-    });
+    };
+    TURNSCAN_TRY(parallel_for(bricks.size(), 8, context, smooth_brick));
     volume.value.swap(next);
   }
+  return {};
 }
 
 }  // namespace turnscan::tsdf

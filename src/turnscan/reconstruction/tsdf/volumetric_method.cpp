@@ -53,16 +53,17 @@ class VolumetricMethod final : public Method {
   Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                const RunContext& context, Reconstruction& out) override;
   /// Chooses the scale from the views that are there.
-  Result<> begin() override;
+  Result<> begin(const RunContext& context) override;
   Result<TriangleMesh> preview(const RunContext& context) const override;
   Result<> finish(const StageSink& sink, const RunContext& context, Reconstruction& out) override;
 
  private:
   Result<FrameView> view_of(const Frame& frame, const Pose& T_table_sensor) const;
-  Result<> add_profiles(const std::vector<views::Profile>& group, std::uint32_t sensor);
-  Result<> add_view(views::DepthView view, std::uint32_t sensor);
-  Result<> integrate_pending(bool all);
-  Result<> correct_noise(Reconstruction& out);
+  Result<> add_profiles(const std::vector<views::Profile>& group, std::uint32_t sensor,
+                        const RunContext& context);
+  Result<> add_view(views::DepthView view, std::uint32_t sensor, const RunContext& context);
+  Result<> integrate_pending(bool all, const RunContext& context);
+  Result<> correct_noise(Reconstruction& out, const RunContext& context);
   ObjectResult object_of(VolumetricPiece& piece) const;
 
   const SequenceHeader& header_;
@@ -120,9 +121,10 @@ Result<> VolumetricMethod::add(std::span<const PosedFrame> frames, const FrameRe
     out.inside_crop += views[i].inside_crop;
     const std::uint32_t sensor = frames[i].info.sensor;
     if (views[i].profile) {
-      TURNSCAN_TRY(add_profiles(profiles_[sensor].add(std::move(*views[i].profile)), sensor));
+      TURNSCAN_TRY(
+          add_profiles(profiles_[sensor].add(std::move(*views[i].profile)), sensor, context));
     } else {
-      TURNSCAN_TRY(add_view(std::move(views[i].view), sensor));
+      TURNSCAN_TRY(add_view(std::move(views[i].view), sensor, context));
     }
   }
   return {};
@@ -153,19 +155,21 @@ Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_ta
 }
 
 Result<> VolumetricMethod::add_profiles(const std::vector<views::Profile>& group,
-                                        std::uint32_t sensor) {
+                                        std::uint32_t sensor, const RunContext& context) {
   if (group.empty()) return {};
-  return add_view(views::view_of_profiles(group, *estimate_.sheets[sensor], view_scale_), sensor);
+  return add_view(views::view_of_profiles(group, *estimate_.sheets[sensor], view_scale_), sensor,
+                  context);
 }
 
-Result<> VolumetricMethod::add_view(views::DepthView view, std::uint32_t sensor) {
+Result<> VolumetricMethod::add_view(views::DepthView view, std::uint32_t sensor,
+                                    const RunContext& context) {
   if (view.empty()) return {};
   pending_.push_back(std::move(view));
   pending_sensor_.push_back(sensor);
-  return begun_ ? integrate_pending(false) : Result<>();
+  return begun_ ? integrate_pending(false, context) : Result<>();
 }
 
-Result<> VolumetricMethod::begin() {
+Result<> VolumetricMethod::begin(const RunContext& context) {
   input_.views = std::move(pending_);
   if (are_images_)
     input_.filter_share = estimation::share_of_neighbours(input_.views, estimate_.noise_m);
@@ -177,18 +181,18 @@ Result<> VolumetricMethod::begin() {
     integrator_ = Integrator(scale_.volume);
   }
   begun_ = true;
-  return integrate_pending(false);
+  return integrate_pending(false, context);
 }
 
 /// Integrates the whole batches of what is pending, or all of it.
-Result<> VolumetricMethod::integrate_pending(bool all) {
+Result<> VolumetricMethod::integrate_pending(bool all, const RunContext& context) {
   std::size_t done = 0;
   while (done + (all ? 1 : kViewsAtOnce) <= pending_.size()) {
     const std::size_t count = std::min(kViewsAtOnce, pending_.size() - done);
     {
       const std::lock_guard lock(mutex_);
       TURNSCAN_TRY(integrator_.integrate(std::span(pending_).subspan(done, count),
-                                         {kept_.views(), float(kept_.stride())}));
+                                         {kept_.views(), float(kept_.stride())}, context));
     }
     for (std::size_t v = done; v < done + count; ++v)
       kept_.add(std::move(pending_[v]), pending_sensor_[v]);
@@ -201,7 +205,7 @@ Result<> VolumetricMethod::integrate_pending(bool all) {
 
 /// When the frames' places disagree more than the first ones let expect, the volume is made once
 /// more, from the views that were kept.
-Result<> VolumetricMethod::correct_noise(Reconstruction& out) {
+Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& context) {
   out.merged_noise_m = thickness(input_, estimate_.noise_m);
   const double noise = std::max(estimate_.noise_m, out.merged_noise_m);
   const bool again = noise > kNoiseSlack * input_.noise_m && !options_.volumetric.truncation_m;
@@ -216,7 +220,7 @@ Result<> VolumetricMethod::correct_noise(Reconstruction& out) {
   const std::span<const views::DepthView> all(input_.views);
   for (std::size_t v = 0; v < all.size(); v += kViewsAtOnce)
     TURNSCAN_TRY(integrator.integrate(all.subspan(v, std::min(kViewsAtOnce, all.size() - v)),
-                                      {all.first(v), 1.0f}));
+                                      {all.first(v), 1.0f}, context));
   const std::lock_guard lock(mutex_);
   integrator_ = std::move(integrator);
   return {};
@@ -260,7 +264,8 @@ ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
 
 Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& context,
                                   Reconstruction& out) {
-  for (auto& [sensor, group] : profiles_) TURNSCAN_TRY(add_profiles(group.flush(), sensor));
+  for (auto& [sensor, group] : profiles_)
+    TURNSCAN_TRY(add_profiles(group.flush(), sensor, context));
   out.points = out.inside_crop;
   if (out.inside_crop < kFewestPoints)
     return fail(ErrorCode::kTooFewPoints,
@@ -269,7 +274,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                 out.inside_crop, out.returns);
   {
     const StageTimer timer(out.stages, "frames");
-    TURNSCAN_TRY(integrate_pending(true));
+    TURNSCAN_TRY(integrate_pending(true, context));
   }
   TURNSCAN_TRY(context.check());
   if (options_.volumetric.sharpen && input_.filter_share > 0.0)
@@ -280,7 +285,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
   input_.views = kept_.take();
   {
     const StageTimer timer(out.stages, "noise");
-    TURNSCAN_TRY(correct_noise(out));
+    TURNSCAN_TRY(correct_noise(out, context));
   }
   TURNSCAN_ASSIGN(VolumetricResult result,
                   reconstruct_volume(input_, scale_, integrator_, options_.volumetric,

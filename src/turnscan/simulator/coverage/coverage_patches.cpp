@@ -148,13 +148,14 @@ void CoveragePatches::cut(const TriangleMesh& mesh, std::uint32_t object) {
 std::int32_t CoveragePatches::cut(const std::array<Vec3f, 3>& corners, std::uint32_t object,
                                   std::uint32_t face) {
   const int edge = longest_edge(corners);
-  if (edge_length(corners, edge) <= cell_m) {
+  const auto parts = halves(corners, edge);
+  // Far from the origin the middle of an edge may be its end: there is no float between them.
+  if (edge_length(corners, edge) <= cell_m || parts[0] == corners || parts[1] == corners) {
     patches.push_back({corners, object, face, 0, 0});
     return static_cast<std::int32_t>(patches.size() - 1);
   }
   const auto node = nodes_.size();
   nodes_.push_back({edge, {}});
-  const auto parts = halves(corners, edge);
   for (std::size_t k = 0; k < 2; ++k) {
     const std::int32_t child = cut(parts[k], object, face);
     nodes_[node].child[k] = child;

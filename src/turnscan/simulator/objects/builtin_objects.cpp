@@ -104,9 +104,11 @@ TriangleMesh make_cylinder() {
   return mesh;
 }
 
-using Maker = TriangleMesh (*)();
+using Maker = Result<TriangleMesh> (*)(const RunContext&);
 constexpr std::array<std::pair<std::string_view, Maker>, 3> kObjects{
-    {{"letter-a", make_letter}, {"cylinder", make_cylinder}, {"doll", objects::make_doll}}};
+    {{"letter-a", [](const RunContext&) -> Result<TriangleMesh> { return make_letter(); }},
+     {"cylinder", [](const RunContext&) -> Result<TriangleMesh> { return make_cylinder(); }},
+     {"doll", objects::make_doll}}};
 
 }  // namespace
 
@@ -117,9 +119,9 @@ std::vector<std::string> builtin_object_names() {
   return names;
 }
 
-Result<TriangleMesh> builtin_object(std::string_view name) {
+Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context) {
   for (const auto& object : kObjects)
-    if (object.first == name) return object.second();
+    if (object.first == name) return object.second(context);
   return fail(ErrorCode::kNotFound, "there is no built-in object '{}'; there are {}", name,
               fmt::join(builtin_object_names(), ", "));
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 
@@ -47,9 +48,9 @@ struct Doll {
 /// "letter-a", "cylinder", "doll".
 std::vector<std::string> builtin_object_names();
 
-/// The object of that name, with vertex colours. Takes up to about a second (doll). An unknown
-/// name fails with kNotFound and lists the known ones.
-Result<TriangleMesh> builtin_object(std::string_view name);
+/// The object of that name, with vertex colours. Takes up to about a second of a processor (doll).
+/// An unknown name fails with kNotFound and lists the known ones; fails with kCancelled.
+Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context = {});
 
 /// The mesh turned by yaw_rad about +Y (counter-clockwise seen from above), then moved by (x, z).
 TriangleMesh place(TriangleMesh mesh, double x_m, double z_m, double yaw_rad);

@@ -211,17 +211,19 @@ Rgb mean_color(const Vec3f& p) {
 
 }  // namespace
 
-TriangleMesh make_doll() {
+Result<TriangleMesh> make_doll(const RunContext& context) {
   ImplicitGrid grid;
   // The odd offset keeps the platter's plane off the grid's corners.
   grid.min = 1e-3f * Vec3f(-84.0f, -1.37f, -51.0f);
   grid.max = 1e-3f * Vec3f(78.0f, 204.0f, 64.0f);
   grid.cell = float(Doll::cell_m);
-  TriangleMesh mesh = mesh_of([](const Vec3f& p) { return 1e-3f * doll_at(1000.0f * p).d; }, grid);
+  const auto distance = [](const Vec3f& p) { return 1e-3f * doll_at(1000.0f * p).d; };
+  TURNSCAN_ASSIGN(TriangleMesh mesh, mesh_of(distance, grid, context));
   mesh.name = "doll";
   mesh.colors.resize(mesh.vertices.size());
-  parallel_for(mesh.vertices.size(), 256,
-               [&](std::size_t i) { mesh.colors[i] = mean_color(1000.0f * mesh.vertices[i]); });
+  TURNSCAN_TRY(parallel_for(mesh.vertices.size(), 256, context, [&](std::size_t i) {
+    mesh.colors[i] = mean_color(1000.0f * mesh.vertices[i]);
+  }));
   return mesh;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 // The shape of the built-in doll.
 
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 
 namespace turnscan::objects {
 
-/// Closed mesh with normals and vertex colours; see Doll in builtin_objects.hpp.
-TriangleMesh make_doll();
+/// Closed mesh with normals and vertex colours; see Doll in builtin_objects.hpp. Fails with
+/// kCancelled.
+Result<TriangleMesh> make_doll(const RunContext& context);
 
 }  // namespace turnscan::objects

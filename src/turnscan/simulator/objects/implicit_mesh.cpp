@@ -23,22 +23,23 @@ struct Cell {
 
 class Mesher {
  public:
-  Mesher(const SignedDistance& distance, const ImplicitGrid& grid)
-      : distance_(distance), grid_(grid) {
+  Mesher(const SignedDistance& distance, const ImplicitGrid& grid, const RunContext& context)
+      : distance_(distance), grid_(grid), context_(context) {
     const Vec3f size = (grid.max - grid.min) / grid.cell;
     for (int a = 0; a < 3; ++a)
       blocks_[a] = static_cast<int>(std::ceil(size[a] / kBlock)), corners_[a] = blocks_[a] * kBlock;
   }
 
-  TriangleMesh mesh() const {
-    const auto blocks = parallel_chunks<std::vector<KeyTriangle>>(
-        std::size_t(blocks_[0]) * blocks_[1] * blocks_[2], 1,
-        [&](std::size_t i, std::size_t) { return triangles_of_block(i); });
+  Result<TriangleMesh> mesh() const {
+    const std::size_t count = std::size_t(blocks_[0]) * blocks_[1] * blocks_[2];
+    std::vector<std::vector<KeyTriangle>> blocks(count);
+    TURNSCAN_TRY(parallel_for(blocks.size(), 1, context_,
+                              [&](std::size_t i) { blocks[i] = triangles_of_block(i); }));
     std::vector<KeyTriangle> triangles;
     for (const auto& block : blocks) triangles.insert(triangles.end(), block.begin(), block.end());
-    TriangleMesh out = index(triangles);
-    for (int round = 0; round < grid_.smoothing; ++round) even_out(out);
-    set_normals(out);
+    TURNSCAN_ASSIGN(TriangleMesh out, index(triangles));
+    for (int round = 0; round < grid_.smoothing; ++round) TURNSCAN_TRY(even_out(out));
+    TURNSCAN_TRY(set_normals(out));
     return out;
   }
 
@@ -106,7 +107,7 @@ class Mesher {
     return corner_key(corner) * 3 + Key(edge.axis);
   }
 
-  TriangleMesh index(const std::vector<KeyTriangle>& triangles) const {
+  Result<TriangleMesh> index(const std::vector<KeyTriangle>& triangles) const {
     std::vector<Key> keys;
     keys.reserve(triangles.size() * 3);
     for (const KeyTriangle& t : triangles) keys.insert(keys.end(), t.begin(), t.end());
@@ -114,7 +115,8 @@ class Mesher {
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     TriangleMesh out;
     out.vertices.resize(keys.size());
-    parallel_for(keys.size(), 256, [&](std::size_t i) { out.vertices[i] = vertex(keys[i]); });
+    TURNSCAN_TRY(parallel_for(keys.size(), 256, context_,
+                              [&](std::size_t i) { out.vertices[i] = vertex(keys[i]); }));
     out.triangles.resize(triangles.size());
     parallel_for(triangles.size(), 1024, [&](std::size_t i) {
       for (int k = 0; k < 3; ++k)
@@ -167,35 +169,38 @@ class Mesher {
     return p;
   }
 
-  void even_out(TriangleMesh& mesh) const {
+  Result<> even_out(TriangleMesh& mesh) const {
     std::vector<Vec3f> sum(mesh.vertices.size(), Vec3f::Zero());
     std::vector<float> count(mesh.vertices.size(), 0.0f);
     for (const auto& t : mesh.triangles) {
       const Vec3f total = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
       for (const std::uint32_t v : t) sum[v] += total - mesh.vertices[v], count[v] += 2.0f;
     }
-    parallel_for(mesh.vertices.size(), 256, [&](std::size_t i) {
+    return parallel_for(mesh.vertices.size(), 256, context_, [&](std::size_t i) {
       const Vec3f p = mesh.vertices[i];
       mesh.vertices[i] = onto_surface(p + 0.5f * (sum[i] / count[i] - p));
     });
   }
 
-  void set_normals(TriangleMesh& mesh) const {
+  Result<> set_normals(TriangleMesh& mesh) const {
     mesh.normals.resize(mesh.vertices.size());
-    parallel_for(mesh.vertices.size(), 256,
-                 [&](std::size_t i) { mesh.normals[i] = gradient(mesh.vertices[i]).normalized(); });
+    return parallel_for(mesh.vertices.size(), 256, context_, [&](std::size_t i) {
+      mesh.normals[i] = gradient(mesh.vertices[i]).normalized();
+    });
   }
 
   const SignedDistance& distance_;
   ImplicitGrid grid_;
+  const RunContext& context_;
   std::array<int, 3> blocks_{};
   std::array<int, 3> corners_{};  // cells along each axis; one more corner
 };
 
 }  // namespace
 
-TriangleMesh mesh_of(const SignedDistance& distance, const ImplicitGrid& grid) {
-  return Mesher(distance, grid).mesh();
+Result<TriangleMesh> mesh_of(const SignedDistance& distance, const ImplicitGrid& grid,
+                             const RunContext& context) {
+  return Mesher(distance, grid, context).mesh();
 }
 
 }  // namespace turnscan::objects

@@ -3,6 +3,8 @@
 // that it judges.
 
 #include <functional>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 
 namespace turnscan::objects {
@@ -20,7 +22,8 @@ struct ImplicitGrid {
 /// Closed, 2-manifold, outward triangles with their vertices on the zero set, and its normals.
 /// Marching cubes (Lorensen and Cline 1987) with a table made from one rule for faces: corners
 /// inside are connected only along edges. Neighbouring cells then always agree, and no diagonal
-/// within a cell joins two edges of one face, so that no edge is used twice.
-TriangleMesh mesh_of(const SignedDistance& distance, const ImplicitGrid& grid);
+/// within a cell joins two edges of one face, so that no edge is used twice. Fails with kCancelled.
+Result<TriangleMesh> mesh_of(const SignedDistance& distance, const ImplicitGrid& grid,
+                             const RunContext& context = {});
 
 }  // namespace turnscan::objects

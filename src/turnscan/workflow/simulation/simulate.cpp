@@ -37,7 +37,7 @@ SequenceView watched(const VirtualPasses& scan, const FrameWatcher& watcher) {
 
 Result<TriangleMesh> load_mesh(const SceneDescription& scene, const RunContext& context) {
   if (scene.object.starts_with(kBuiltin))
-    return builtin_object(std::string_view(scene.object).substr(kBuiltin.size()));
+    return builtin_object(std::string_view(scene.object).substr(kBuiltin.size()), context);
   ReadMeshOptions options;
   if (!scene.unit.empty()) {
     TURNSCAN_ASSIGN(options.metres_per_unit, metres_per(scene.unit));
@@ -154,6 +154,8 @@ Result<> check_outputs(const SimulateRequest& request) {
 }
 
 Result<Simulation> simulate(const SimulateRequest& request, const RunContext& context) {
+  if (!request.recording.empty())
+    TURNSCAN_TRY(clear_output_folder(request.recording, request.overwrite_unfinished));
   TURNSCAN_TRY(check_outputs(request));
   TURNSCAN_ASSIGN(Simulation simulation, prepare_simulation(request.scene, context));
   const auto begin = std::chrono::steady_clock::now();

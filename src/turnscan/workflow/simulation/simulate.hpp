@@ -50,9 +50,10 @@ Result<CoverageMap> coverage_of(const Simulation& simulation, const CoverageMapO
 
 struct SimulateRequest {
   SceneDescription scene;
-  std::string recording;  ///< folder to make; empty: nothing is recorded
-  bool samples = false;   ///< also write every sample; needs a recording
-  std::string coverage;   ///< .ply to write, and beside it a .json; empty: no coverage
+  std::string recording;              ///< folder to make; empty: nothing is recorded
+  bool overwrite_unfinished = false;  ///< an unfinished recording there is removed
+  bool samples = false;               ///< also write every sample; needs a recording
+  std::string coverage;               ///< .ply to write, and beside it a .json; empty: no coverage
   CoverageMapOptions coverage_options;
   std::string report;  ///< .json of what was done; empty: none
 };
@@ -64,8 +65,8 @@ std::string coverage_json_file(const SimulateRequest& request);
 /// with kInvalidOption for samples without a recording.
 Result<> check_outputs(const SimulateRequest& request);
 
-/// Checks the outputs, prepares, records and writes what is asked for. Fails as these steps do; a
-/// recording that was finished stays.
+/// Makes room, checks the outputs, prepares, records and writes what is asked for. Fails as these
+/// steps do; a recording that was finished stays.
 Result<Simulation> simulate(const SimulateRequest& request, const RunContext& context);
 
 /// A JSON object of what was done: options, counts, samples by reason, wall times, peak memory; it

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/recording/file_check.hpp>
+#include <turnscan/recording/recording_json.hpp>
+#include <turnscan/recording/table_lock.hpp>
+#include <turnscan/recording/unfinished.hpp>
+#include <vector>
+
+namespace turnscan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kDescription = "recording.json";
+constexpr std::array<const char*, 6> kParts{kDescription, "frames.csv", "depth",
+                                            "color",      "points",     "truth"};
+
+bool is_part(const std::string& name) {
+  return recording_format::is_leftover(name) ||
+         std::find(kParts.begin(), kParts.end(), name) != kParts.end();
+}
+
+}  // namespace
+
+bool is_unfinished_recording(const fs::path& folder) {
+  std::error_code error;
+  bool described = false, some = false;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_part(name)) return false;
+    described |= name == kDescription;
+    some |= !recording_format::is_leftover(name);
+  }
+  if (error) return false;
+  if (!described) return !some && !fs::is_empty(folder, error);
+  const auto text = read_file(folder / kDescription, recording_format::kMaxDescriptionBytes);
+  if (!text) return false;
+  const auto description = recording_format::parse_recording_json(*text);
+  return description && !description->complete &&
+         recording_format::TableLock(folder / "frames.csv").held();
+}
+
+Result<> remove_unfinished_recording(const fs::path& folder) {
+  if (!is_unfinished_recording(folder))
+    return fail_at(folder.string(), ErrorCode::kInvalidOption,
+                   "it is no unfinished recording; choose another folder");
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().filename() != kDescription) paths.push_back(entry.path());
+  paths.push_back(folder / kDescription);
+  for (const fs::path& path : paths) {
+    if (!error) fs::remove_all(path, error);
+  }
+  if (error)
+    return fail_at(folder.string(), ErrorCode::kIo, "it cannot be removed ({}); check permissions",
+                   error.message());
+  return {};
+}
+
+}  // namespace turnscan

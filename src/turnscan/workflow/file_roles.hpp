@@ -1,0 +1,21 @@
+#pragma once
+// No output takes the place of an input: asked before the work begins, for every command.
+
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// The files and folders that a run reads, and the files that it writes. Names of what is no file
+/// ("builtin:cube", a device, empty) may be among them.
+struct FileRoles {
+  std::vector<std::string> inputs;   ///< a folder stands for every file in it
+  std::vector<std::string> outputs;  ///< none is a folder
+};
+
+/// Fails with kInvalidOption when an output is an input, or two outputs are one file, by whatever
+/// names (links, device and inode).
+Result<> check_file_roles(const FileRoles& roles);
+
+}  // namespace turnscan

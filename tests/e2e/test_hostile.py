@@ -1,0 +1,155 @@
+"""Hostile inputs and surroundings: nothing is lost, and nothing crashes."""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+import harness
+from harness import FAILED, USAGE, png16, ply_cube, shared_recording, start
+
+
+class OutputOverInput(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(shared_recording(), self.dir / "rec")
+        (self.dir / "s.ply").write_text(ply_cube(0.1))
+
+    def unchanged(self, name, *args):
+        before = (self.dir / name).read_bytes()
+        self.refused(USAGE, *args, says="choose another name")
+        self.assertEqual((self.dir / name).read_bytes(), before)
+
+    def test_reports_and_meshes_over_the_recording(self):
+        self.unchanged("rec/recording.json", "reconstruct", "rec", "-o", "o.ply", "--report", "rec/recording.json")
+        os.link(self.dir / "rec/recording.json", self.dir / "other.json")
+        self.unchanged("rec/recording.json", "reconstruct", "rec", "-o", "o.ply", "--report", "other.json")
+        self.unchanged("rec/recording.json", "calibrate", "rec", "--json", "rec/recording.json")
+
+    def test_pictures_of_the_mesh_over_the_mesh(self):
+        self.unchanged("s.ply", "simulate", "s.ply", "--unit", "m", "--coverage", "s.ply")
+        self.unchanged("s.ply", "evaluate", "s.ply", "--reference", "s.ply", "--error-map", "s.ply")
+        os.symlink("s.ply", self.dir / "link.ply")
+        self.unchanged("s.ply", "evaluate", "s.ply", "--reference", "s.ply", "--error-map", "link.ply")
+
+    def test_two_outputs_into_one_file(self):
+        self.refused(USAGE, "reconstruct", "rec", "-o", "a.ply", "--save-stage", "fitted=a.ply",
+                     says="two outputs")
+        self.assertFalse((self.dir / "a.ply").exists())
+
+
+class Surroundings(harness.TestCase):
+    def test_closed_standard_streams(self):
+        def close_all():
+            for descriptor in (0, 1, 2):
+                os.close(descriptor)
+
+        process = subprocess.Popen([harness.BIN, "simulate", "builtin:cylinder", "--frames", "3", "-o", "c"],
+                                   cwd=self.dir, preexec_fn=close_all)
+        self.assertEqual(process.wait(timeout=harness.HANG_S), 0)
+        lines = (self.dir / "c/frames.csv").read_text().splitlines()
+        self.assertTrue(lines[0].startswith("index,"))
+        self.assertEqual(len(lines), 4)
+
+    def test_what_an_unfinished_recording_needs_is_said(self):
+        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
+        path = self.dir / "r/recording.json"
+        path.write_text(path.read_text().replace('"complete": true', '"complete": false'))
+        args = ("simulate", "builtin:cylinder", "--frames", "3", "-o", "r")
+        self.refused(FAILED, *args, says=("--repair", "--overwrite-unfinished"))
+        self.ok(*args, "--overwrite-unfinished", "--quiet")
+        self.refused(FAILED, *args, "--overwrite-unfinished", says="never overwritten")
+
+    def test_control_characters_are_shown(self):
+        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
+        path = self.dir / "r/recording.json"
+        path.write_text(path.read_text().replace('"model": "', '"model": "\\u001b[31m\\nframes: 99'))
+        shown = self.ok("info", "r").stdout
+        self.assertIn("\\u001b[31m\\u000aframes: 99", shown)
+        self.assertNotIn("\x1b", shown)
+        refused = self.refused(FAILED, "info", "\x1b[31m")
+        self.assertIn("\\u001b[31m", refused.stderr)
+
+    def test_two_dashes_end_the_options(self):
+        (self.dir / "-m.ply").write_text(ply_cube(0.1))
+        self.assertIn("triangles", self.ok("info", "--unit", "m", "--", "-m.ply").stdout)
+
+    def test_what_may_not_be_read_is_not_missing(self):
+        if os.geteuid() == 0:
+            self.skipTest("the superuser may read everything")
+        (self.dir / "closed").mkdir()
+        (self.dir / "closed/m.ply").write_text(ply_cube(0.1))
+        (self.dir / "closed").chmod(0)
+        self.refused(FAILED, "info", "closed/m.ply", says="permission")
+
+
+class FarAway(harness.TestCase):
+    def far_mesh(self):
+        path = self.dir / "far.ply"
+        path.write_text(ply_cube(0.1).replace(" 0.05 ", " 1e20 "))
+        return path
+
+    def test_meshes_are_refused(self):
+        mesh = self.far_mesh()
+        for args in (("render", mesh, "-o", "r.png"), ("info", mesh),
+                     ("simulate", mesh, "--unit", "m", "--coverage", "c.ply")):
+            self.refused(FAILED, *args, says="from the origin")
+
+
+class Term(harness.TestCase):
+    """SIGTERM at random moments: how much the program still works for it. FAULTS_FULL=1: 50 moments
+    of each command. Processor time, so that other programs do not count."""
+
+    MOMENTS = 50 if os.environ.get("FAULTS_FULL") == "1" else 5
+    MOST_S = 1.0
+
+    def processor_seconds(self, pid):
+        fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def lag(self, args, delay):
+        process = start(*args, "--quiet", cwd=self.dir)
+        time.sleep(delay)
+        try:
+            before = self.processor_seconds(process.pid)
+        except (OSError, IndexError):
+            before = None
+        process.send_signal(signal.SIGTERM)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        process.communicate()
+        if before is None or process.returncode not in (130, -signal.SIGTERM):
+            return 0.0
+        return used.ru_utime + used.ru_stime - before
+
+    def every_moment(self, *args):
+        begin = time.monotonic()
+        self.ok(*args, "--quiet")
+        whole = time.monotonic() - begin
+        generator = random.Random(str(args[0]))
+        lags = []
+        for _ in range(self.MOMENTS):
+            for name in self.files():
+                if (self.dir / name).is_dir():
+                    harness.remove(self.dir / name)
+                else:
+                    (self.dir / name).unlink(missing_ok=True)
+            lags.append(self.lag(args, generator.uniform(0.02, 1.0) * whole))
+        print(f"{args[0]}: {self.MOMENTS} moments, longest lag {max(lags):.2f} s of processor", flush=True)
+        self.assertLess(max(lags), self.MOST_S * os.cpu_count())
+
+    def test_reconstruct_finely(self):
+        self.every_moment("reconstruct", shared_recording(), "-o", "m.ply", "--voxel-size", "0.8mm")
+
+    def test_simulate(self):
+        self.every_moment("simulate", "builtin:doll", "--frames", "8", "-o", "r")
+
+    def test_render(self):
+        self.every_moment("demo", "--object", "cylinder", "--frames", "12", "--picture-size", "256", "--out", "d")
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <turnscan/workflow/file_roles.hpp>
+
+#include "tests/support/temp_folder.hpp"
+
+namespace turnscan {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TempFolder;
+
+struct Roles : ::testing::Test {
+  Roles() {
+    fs::create_directories(folder / "rec/depth");
+    folder.put("rec/recording.json", "x");
+    folder.put("rec/depth/0.png", "x");
+    folder.put("a.ply", "x");
+  }
+  std::string at(const char* name) const { return (folder / name).string(); }
+  bool allowed(std::vector<std::string> inputs, std::vector<std::string> outputs) const {
+    const auto checked = check_file_roles({std::move(inputs), std::move(outputs)});
+    if (!checked) {
+      EXPECT_EQ(checked.error().code, ErrorCode::kInvalidOption);
+    }
+    return checked.has_value();
+  }
+  const TempFolder folder;
+};
+
+TEST_F(Roles, AnOutputIsNoInput) {
+  EXPECT_FALSE(allowed({at("a.ply")}, {at("a.ply")}));
+  EXPECT_FALSE(allowed({at("rec/../a.ply")}, {at("a.ply")}));
+  EXPECT_FALSE(allowed({at("rec")}, {at("b.ply"), at("rec/recording.json")}));
+  EXPECT_FALSE(allowed({at("rec")}, {at("rec/depth/0.png")}));
+}
+
+TEST_F(Roles, LinksAreTheFilesThatTheyLeadTo) {
+  fs::create_symlink(at("a.ply"), at("soft.ply"));
+  fs::create_hard_link(at("rec/depth/0.png"), at("hard.png"));
+  EXPECT_FALSE(allowed({at("a.ply")}, {at("soft.ply")}));
+  EXPECT_FALSE(allowed({at("soft.ply")}, {at("a.ply")}));
+  EXPECT_FALSE(allowed({at("rec")}, {at("hard.png")}));
+}
+
+TEST_F(Roles, TwoOutputsAreTwoFiles) {
+  EXPECT_FALSE(allowed({}, {at("b.ply"), at("b.ply")}));
+  EXPECT_FALSE(allowed({}, {at("b.ply"), at("rec/../b.ply")}));
+  fs::create_hard_link(at("a.ply"), at("b.ply"));
+  EXPECT_FALSE(allowed({}, {at("a.ply"), at("b.ply")}));
+}
+
+TEST_F(Roles, WhatDestroysNothingIsAllowed) {
+  EXPECT_TRUE(allowed({at("rec"), at("a.ply"), "builtin:cube", ""}, {at("new.ply"), ""}));
+  EXPECT_TRUE(allowed({at("rec")}, {at("a.ply"), at("rec/mesh.ply")}));
+  EXPECT_TRUE(allowed({}, {"/dev/null", "/dev/null"}));
+}
+
+}  // namespace
+}  // namespace turnscan
