@@ -34,10 +34,23 @@ def call(args, cwd, **fault):
                           timeout=harness.HANG_S)
 
 
-def numbers_to_try(count):
+def calls_of(kind, args, folder):
+    """How often the calls happen in a run, and the run."""
+    count = folder.parent / "count"
+    done = call(args, folder, FAULT_KIND=kind, FAULT_AT=0, FAULT_COUNT=count)
+    return int(count.read_text()), done
+
+
+def numbers_to_try(kind, start, count):
+    """start: calls before the command begins, which are all alike; a third as many points for them."""
     if FULL or count <= POINTS:
         return range(1, count + 1)
-    return sorted({1 + round(i * (count - 1) / (POINTS - 1)) for i in range(POINTS)})
+    points = 3 * POINTS if kind == "memory" else POINTS
+
+    def spread(first, last, number):
+        return {first + round(i * (last - first) / max(number - 1, 1)) for i in range(number)}
+
+    return sorted(spread(1, start, points // 4 if start else 0) | spread(start + 1, count, points))
 
 
 def frames_of(folder):
@@ -71,12 +84,11 @@ class Scenario:
     def learn(self, base, kind):
         """How often the calls happen, and what the whole outputs are."""
         folder = self.fresh(base)
-        count = base / "count"
-        done = call(self.args, folder, FAULT_KIND=kind, FAULT_AT=0, FAULT_COUNT=count)
+        count, done = calls_of(kind, self.args, folder)
         if done.returncode != 0:
             raise AssertionError(f"{self.name} fails without a fault: {done.stderr}")
         self.new = {file: (folder / file).read_bytes() for file in self.files}
-        return int(count.read_text())
+        return count
 
     def check(self, folder, done):
         if done.returncode not in (0, 1, 2):
@@ -115,9 +127,10 @@ class Scenario:
 
     def run(self, base, kind):
         count = self.learn(base, kind)
+        start = calls_of(kind, ["--version"], base / "run")[0]
         tried = 0
         wrong = []
-        for number in numbers_to_try(count):
+        for number in numbers_to_try(kind, min(start, count - 1), count):
             for lasts in ({}, {"FAULT_LASTS": 1}) if kind in ("write", "open") else ({},):
                 folder = self.fresh(base)
                 done = call(self.args, folder, FAULT_KIND=kind, FAULT_AT=number, **lasts)
