@@ -44,7 +44,8 @@ TEST(BuiltinObjects, NamesTheKnownOnesWhenAskedForAnother) {
   const auto mesh = builtin_object("teapot");
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().code, ErrorCode::kNotFound);
-  EXPECT_NE(mesh.error().message.find("letter-a, cylinder, doll"), std::string::npos);
+  EXPECT_NE(mesh.error().message.find("letter-a, cylinder, doll, scorpion, skull"),
+            std::string::npos);
 }
 
 TEST(LetterA, HasTheSizeOfTheWoodenOne) {
@@ -107,6 +108,38 @@ TEST(Doll, IsTheSameForEveryNumberOfThreads) {
   EXPECT_EQ(one.vertices, four.vertices);
   EXPECT_EQ(one.triangles, four.triangles);
   EXPECT_EQ(one.colors, four.colors);
+}
+
+long euler_characteristic(const TriangleMesh& mesh) {
+  return static_cast<long>(mesh.vertices.size()) - static_cast<long>(mesh.triangles.size()) / 2;
+}
+
+TEST(Scorpion, IsOnePieceWithoutHandlesAsTallAsItSays) {
+  const TriangleMesh mesh = object("scorpion");
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  EXPECT_NEAR(bounds(mesh.vertices).max.y(), Scorpion::height_m, 5e-4);
+}
+
+TEST(Scorpion, StandsOnThinFeetAndHidesItsUnderside) {
+  std::size_t under = 0;
+  for (const Vec3f& p : object("scorpion").vertices) {
+    const bool below_body = std::abs(p.x()) < 0.015f && std::abs(p.z()) < 0.04f;
+    if (below_body && p.y() < 0.024f) {
+      ++under;
+      ASSERT_GT(p.y(), 0.999 * Scorpion::body_clearance_m);
+    }
+    // Nothing but feet reaches the platter.
+    if (p.y() < 0.002f) {
+      ASSERT_GT(std::abs(p.x()), 0.07f);
+    }
+  }
+  EXPECT_GT(under, 500u);
+}
+
+TEST(Skull, HasTwoCheekbonesAndAJawThatStandFree) {
+  const TriangleMesh mesh = object("skull");
+  EXPECT_EQ(euler_characteristic(mesh), 2 - 2 * 3);
+  EXPECT_NEAR(bounds(mesh.vertices).max.y(), Skull::height_m, 5e-4);
 }
 
 TEST(Placing, TurnsCounterClockwiseSeenFromAboveThenMoves) {

@@ -4,6 +4,8 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/doll.hpp>
+#include <turnscan/simulator/objects/scorpion.hpp>
+#include <turnscan/simulator/objects/skull.hpp>
 
 namespace turnscan {
 
@@ -105,10 +107,12 @@ TriangleMesh make_cylinder() {
 }
 
 using Maker = Result<TriangleMesh> (*)(const RunContext&);
-constexpr std::array<std::pair<std::string_view, Maker>, 3> kObjects{
+constexpr std::array<std::pair<std::string_view, Maker>, 5> kObjects{
     {{"letter-a", [](const RunContext&) -> Result<TriangleMesh> { return make_letter(); }},
      {"cylinder", [](const RunContext&) -> Result<TriangleMesh> { return make_cylinder(); }},
-     {"doll", objects::make_doll}}};
+     {"doll", objects::make_doll},
+     {"scorpion", objects::make_scorpion},
+     {"skull", objects::make_skull}}};
 
 }  // namespace
 

@@ -45,11 +45,30 @@ struct Doll {
   static constexpr double cell_m = 0.0008;  ///< of the grid on which its surface is meshed
 };
 
-/// "letter-a", "cylinder", "doll".
+/// A scorpion with raised tail and claws, which measures reconstruction where it is hard: eight
+/// thin bent legs beside a low body that hides its own underside.
+struct Scorpion {
+  static constexpr double height_m = 0.150;  ///< platter to the top of the tail
+  static constexpr double body_clearance_m = 0.010;
+  static constexpr double thigh_thickness_m = 0.008;  ///< diameter at the hip
+  static constexpr double foot_thickness_m = 0.004;   ///< diameter at the platter
+  static constexpr double cell_m = 0.0008;            ///< as the doll's
+};
+
+/// A skull with free-standing cheekbones, deep orbits and an open mouth that reaches far back:
+/// three handles, hollows of which no view sees the ground.
+struct Skull {
+  static constexpr double height_m = 0.150;
+  static constexpr double arch_thickness_m = 0.008;  ///< diameter of the cheekbones
+  static constexpr double cell_m = 0.0008;           ///< as the doll's
+};
+
+/// "letter-a", "cylinder", "doll", "scorpion", "skull".
 std::vector<std::string> builtin_object_names();
 
-/// The object of that name, with vertex colours. Takes up to about a second of a processor (doll).
-/// An unknown name fails with kNotFound and lists the known ones; fails with kCancelled.
+/// The object of that name, with vertex colours. Takes up to about a second of a processor (all but
+/// the first two). An unknown name fails with kNotFound and lists the known ones; fails with
+/// kCancelled.
 Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context = {});
 
 /// The mesh turned by yaw_rad about +Y (counter-clockwise seen from above), then moved by (x, z).

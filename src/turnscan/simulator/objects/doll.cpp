@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/doll.hpp>
-#include <turnscan/simulator/objects/implicit_mesh.hpp>
+#include <turnscan/simulator/objects/implicit_parts.hpp>
 
 // Lengths in this file are millimetres, up is +y, the face looks along +z.
 
@@ -15,69 +11,6 @@ namespace {
 constexpr Rgb kDress{58, 122, 138}, kTrim{238, 226, 202}, kSkin{238, 199, 172}, kHair{108, 68, 44},
     kStraw{224, 192, 130}, kRibbon{180, 58, 54}, kBag{146, 90, 54}, kBowl{226, 222, 214},
     kShoe{56, 46, 50}, kEye{44, 38, 42}, kMouth{188, 84, 82}, kBelt{206, 156, 62};
-
-float smooth_min(float a, float b, float k) {
-  const float h = std::max(k - std::abs(a - b), 0.0f) / k;
-  return std::min(a, b) - 0.25f * k * h * h;
-}
-
-float smooth_max(float a, float b, float k) { return -smooth_min(-a, -b, k); }
-
-float square(float x) { return x * x; }
-
-float sphere(const Vec3f& p, const Vec3f& centre, float radius) {
-  return (p - centre).norm() - radius;
-}
-
-float capsule(const Vec3f& p, const Vec3f& a, const Vec3f& b, float radius) {
-  const Vec3f along = b - a;
-  const float t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0f, 1.0f);
-  return (p - a - t * along).norm() - radius;
-}
-
-/// Cylinder with rounded edges, at the distance rho from its axis and at a height along it.
-float round_cylinder(float rho, float along, float low, float high, float radius, float edge) {
-  const float r = rho - radius + edge;
-  const float y = std::abs(along - 0.5f * (low + high)) - 0.5f * (high - low) + edge;
-  return std::min(std::max(r, y), 0.0f) + std::hypot(std::max(r, 0.0f), std::max(y, 0.0f)) - edge;
-}
-
-float round_box(const Vec3f& p, const Vec3f& half, float edge) {
-  const Vec3f q = p.cwiseAbs() - half + Vec3f::Constant(edge);
-  return q.cwiseMax(0.0f).norm() + std::min(q.maxCoeff(), 0.0f) - edge;
-}
-
-/// Ring in the plane z = 0.
-float torus(const Vec3f& p, float ring, float tube) {
-  return std::hypot(std::hypot(p.x(), p.y()) - ring, p.z()) - tube;
-}
-
-/// Distance so far and what lies nearest, while parts are added.
-struct Shape {
-  float d = 1e6f;
-  Rgb color{};
-
-  void add(float part, float blend, Rgb part_color) {
-    if (part < d) color = part_color;
-    d = blend > 0.0f ? smooth_min(d, part, blend) : std::min(d, part);
-  }
-
-  /// Takes the part away, and paints what shows.
-  void carve(float part, float blend, Rgb part_color) {
-    if (-part > d - 0.4f) color = part_color;
-    d = smooth_max(d, -part, blend);
-  }
-
-  /// A patch that stands `height` proud of the surface so far; outline < 0 within it.
-  void emboss(float outline, float height, Rgb part_color) {
-    add(smooth_max(outline, d - height, 0.8f), 0.3f, part_color);
-  }
-
-  /// Whether parts within the ball may change the result, if they blend by at most 6 mm.
-  bool near(const Vec3f& p, const Vec3f& centre, float radius) const {
-    return sphere(p, centre, radius) < d + 6.0f;
-  }
-};
 
 float skirt_radius(const Vec3f& p) {
   const float up = std::clamp(p.y() / 95.0f, 0.0f, 1.0f);
@@ -199,16 +132,6 @@ Shape doll_at(const Vec3f& p) {
   return shape;
 }
 
-/// Of a neighbourhood as large as a triangle: softens the steps along borders between colours.
-Rgb mean_color(const Vec3f& p) {
-  Eigen::Vector3i sum(2, 2, 2);
-  for (const Vec3f& k : {Vec3f(1, -1, -1), Vec3f(-1, -1, 1), Vec3f(-1, 1, -1), Vec3f(1, 1, 1)}) {
-    const Rgb c = doll_at(p + 0.4f * k).color;
-    sum += Eigen::Vector3i(c.r, c.g, c.b);
-  }
-  return {std::uint8_t(sum.x() / 4), std::uint8_t(sum.y() / 4), std::uint8_t(sum.z() / 4)};
-}
-
 }  // namespace
 
 Result<TriangleMesh> make_doll(const RunContext& context) {
@@ -217,14 +140,7 @@ Result<TriangleMesh> make_doll(const RunContext& context) {
   grid.min = 1e-3f * Vec3f(-84.0f, -1.37f, -51.0f);
   grid.max = 1e-3f * Vec3f(78.0f, 204.0f, 64.0f);
   grid.cell = float(Doll::cell_m);
-  const auto distance = [](const Vec3f& p) { return 1e-3f * doll_at(1000.0f * p).d; };
-  TURNSCAN_ASSIGN(TriangleMesh mesh, mesh_of(distance, grid, context));
-  mesh.name = "doll";
-  mesh.colors.resize(mesh.vertices.size());
-  TURNSCAN_TRY(parallel_for(mesh.vertices.size(), 256, context, [&](std::size_t i) {
-    mesh.colors[i] = mean_color(1000.0f * mesh.vertices[i]);
-  }));
-  return mesh;
+  return mesh_of_shape("doll", doll_at, grid, context);
 }
 
 }  // namespace turnscan::objects
