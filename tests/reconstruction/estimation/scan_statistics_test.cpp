@@ -25,6 +25,31 @@ TEST(FrameStatistics, FindTheNoiseAndSpacingOfADepthImage) {
   EXPECT_LT(s.spacing_m, 0.0045);
 }
 
+/// Bars eight pixels wide in front of a wall, each at a depth of its own; the pixel between bar and
+/// wall mixes both.
+FramePoints bars_before_a_wall(double noise_m) {
+  FramePoints points;
+  points.width = 200;
+  points.height = 60;
+  for (int v = 0; v < points.height; ++v) {
+    for (int u = 0; u < points.width; ++u) {
+      const auto key = hash_key(9, std::uint64_t(v * points.width + u));
+      const float bar = 0.85f + 0.003f * float(u / 20 % 7);
+      const float mixed = bar + float(uniform01(mix64(key))) * (0.9f - bar);
+      const float depth = u % 20 < 8 ? bar : u % 20 == 8 ? mixed : 0.9f;
+      points.cloud.points.emplace_back(0.002f * float(u), 0.002f * float(v),
+                                       depth + float(noise_m * standard_normal(key)));
+      points.cell.push_back(v * points.width + u);
+    }
+  }
+  return points;
+}
+
+TEST(FrameStatistics, NoiseOfThinThingsIsThatOfTheSensorNotOfTheirEdges) {
+  for (const double noise : {0.0005, 0.0015, 0.003})
+    EXPECT_NEAR(frame_statistics(bars_before_a_wall(noise)).noise_m, noise, 0.15 * noise) << noise;
+}
+
 TEST(CloudStatistics, FindThicknessAndDensity) {
   const voxels::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
   const CloudStatistics s = cloud_statistics(merged, 0.002);

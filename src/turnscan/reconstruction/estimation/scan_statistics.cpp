@@ -94,6 +94,74 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
           extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }
 
+/// A second difference this many times the noise is a step from one surface to another.
+constexpr double kJump = 3.5;
+constexpr int kNoiseRounds = 6;
+/// Fewer than this share of the second differences beside no step say nothing.
+constexpr std::size_t kLeastShareOfBends = 8, kFewestBends = 16;
+
+/// Second differences along the rows of a grid, z[i] - (z[i-1] + z[i+1]) / 2, of the depth along
+/// the ray.
+class GridBends {
+ public:
+  explicit GridBends(const FramePoints& points) : points_(points) {
+    const auto& p = points.cloud.points;
+    bend_.assign(p.size(), 0.0);
+    inner_.assign(p.size(), 0);
+    // A scanner with parallel rays looks along the viewpoint's direction.
+    const Vec3f along =
+        points.viewpoint.parallel ? Vec3f(points.viewpoint.value.cast<float>()) : Vec3f::UnitZ();
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+      if (!follows(i) || !follows(i + 1)) continue;
+      inner_[i] = 1;
+      bend_[i] = std::abs((p[i] - 0.5f * (p[i - 1] + p[i + 1])).dot(along));
+    }
+  }
+
+  /// From all of them: on a small object most may cross steps.
+  double raw_noise() const {
+    std::vector<double> bends;
+    for (std::size_t i = 0; i < bend_.size(); ++i) {
+      if (inner_[i]) bends.push_back(bend_[i]);
+    }
+    return noise_of(bends);
+  }
+
+  /// From those that lie, with both neighbours, within a surface; nullopt if they are too few.
+  std::optional<double> noise_within(double jump_m) const {
+    std::vector<double> bends;
+    std::size_t all = 0;
+    for (std::size_t i = 1; i + 1 < bend_.size(); ++i) {
+      all += inner_[i];
+      if (within(i - 1, jump_m) && within(i, jump_m) && within(i + 1, jump_m))
+        bends.push_back(bend_[i]);
+    }
+    if (bends.size() < std::max(kFewestBends, all / kLeastShareOfBends)) return std::nullopt;
+    return noise_of(bends);
+  }
+
+  /// Median distance of neighbours.
+  double spacing() const {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < bend_.size(); ++i) {
+      if (follows(i))
+        steps.push_back((points_.cloud.points[i] - points_.cloud.points[i - 1]).norm());
+    }
+    return median(steps);
+  }
+
+ private:
+  bool follows(std::size_t i) const { return points_.cell[i] == points_.cell[i - 1] + 1; }
+  bool within(std::size_t i, double jump_m) const { return inner_[i] && bend_[i] <= jump_m; }
+  static double noise_of(std::vector<double>& bends) {
+    return 1.4826 * median(bends) / std::sqrt(1.5);
+  }
+
+  const FramePoints& points_;
+  std::vector<double> bend_;
+  std::vector<std::uint8_t> inner_;  ///< has both neighbours
+};
+
 }  // namespace
 
 FrameStatistics frame_statistics(const FramePoints& points) {
@@ -102,19 +170,11 @@ FrameStatistics frame_statistics(const FramePoints& points) {
     unordered_spacing(points.cloud.points, out);
     return out;
   }
-  std::vector<double> steps, bends;
-  const auto& p = points.cloud.points;
-  const bool depth = !points.viewpoint.parallel;
-  for (std::size_t i = 1; i < p.size(); ++i) {
-    if (points.cell[i] != points.cell[i - 1] + 1) continue;
-    steps.push_back((p[i] - p[i - 1]).norm());
-    if (i + 1 == p.size() || points.cell[i + 1] != points.cell[i] + 1) continue;
-    // Along the ray; a scanner with parallel rays looks along the viewpoint's direction.
-    const Vec3f bend = p[i] - 0.5f * (p[i - 1] + p[i + 1]);
-    bends.push_back(std::abs(depth ? bend.z() : bend.dot(points.viewpoint.value.cast<float>())));
-  }
-  out.spacing_m = out.even_spacing_m = median(steps);
-  out.noise_m = 1.4826 * median(bends) / std::sqrt(1.5);
+  const GridBends bends(points);
+  out.noise_m = bends.raw_noise();
+  for (int round = 0; round < kNoiseRounds; ++round)
+    out.noise_m = bends.noise_within(kJump * std::sqrt(1.5) * out.noise_m).value_or(out.noise_m);
+  out.spacing_m = out.even_spacing_m = bends.spacing();
   return out;
 }
 

@@ -15,7 +15,8 @@ struct FrameStatistics {
 
 /// Noise: second differences along the rows of the grid, z[i] - (z[i-1] + z[i+1]) / 2, have
 /// 1.5 sigma^2 for independent noise and vanish on smooth surfaces; their median absolute value
-/// gives sigma. Correlated noise is underestimated; merged_noise sees it.
+/// gives sigma. Those beside a step between two surfaces (mixed pixels, silhouettes) are left out
+/// as far as enough remain. Correlated noise is underestimated; merged_noise sees it.
 FrameStatistics frame_statistics(const FramePoints& points);
 
 /// Of the merged cloud.

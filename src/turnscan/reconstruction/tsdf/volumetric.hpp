@@ -15,7 +15,7 @@ struct VolumetricInput {
   double spacing_m = 0.0;               ///< of the points of one frame
   /// Distance between samples over spacing_m. A camera's many frames fall between each other's
   /// pixels; a few range scans do not.
-  double cells_of_spacing = 0.5;
+  double cells_of_spacing = 0.42;
   double filter_share = 0.0;     ///< of a pixel's neighbours in its depth, see sensor_filter.hpp
   bool profiles = false;         ///< of a line scanner: views are parts of one long scan
   bool colored = false;          ///< the mesh gets the views' colours
