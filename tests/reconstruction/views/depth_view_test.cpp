@@ -28,5 +28,31 @@ TEST(DepthView, SeesPastNothingThatANeighbourTwoPixelsAwaySaw) {
   }
 }
 
+std::uint32_t depth_at(const DepthView& view, int x, int y) {
+  return view.pixels[std::size_t(view.width * (y + 1) + x + 1)] & 0xffffu;
+}
+
+TEST(DepthView, AMixtureBehindARimIsNoMeasurement) {
+  RawWindow raw(9, 5);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 9; ++x) raw.at(x, y) = x < 4 ? 8500 : x == 4 ? 8700 : 9000;
+  }
+  DepthView view;
+  pack_window(raw, 0.01, view);
+  for (int x = 0; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), x == 4 ? 0u : raw.at(x, 2)) << x;
+  // It saw free space all the same.
+  EXPECT_NE(view.pixels[std::size_t(11 * 3 + 5)] >> 17, 0u);
+}
+
+TEST(DepthView, ASteepSlopeIsMeasured) {
+  RawWindow raw(9, 5);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 9; ++x) raw.at(x, y) = std::uint16_t(8500 + 150 * x);
+  }
+  DepthView view;
+  pack_window(raw, 0.01, view);
+  for (int x = 2; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), raw.at(x, 2)) << x;
+}
+
 }  // namespace
 }  // namespace turnscan::views

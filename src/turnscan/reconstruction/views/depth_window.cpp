@@ -8,16 +8,35 @@ namespace {
 
 constexpr std::uint16_t kFar = 65534;  // stands for "empty as far as it matters"
 
+constexpr std::array<std::array<int, 2>, 4> kSides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+
 /// Whether a neighbour is so much farther that the pixel may hold a mixture of both.
 bool beside_edge(const RawWindow& raw, int x, int y, int step) {
   const int own = raw.at(x, y);
-  constexpr std::array<std::array<int, 2>, 4> kSides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   return std::any_of(kSides.begin(), kSides.end(), [&](const auto& side) {
     const int u = x + side[0], v = y + side[1];
     if (u < 0 || v < 0 || u >= raw.width || v >= raw.height) return true;
     const std::uint16_t other = raw.at(u, v);
     return !measured(other) || int(other) > own + step;
   });
+}
+
+/// Whether the pixel hangs in the air behind a rim, between what it shows on one side and what lies
+/// behind on another: a mixture of both, and a measurement of neither. A steep slope is none: there
+/// the step to the nearer side is as high as the one before it.
+bool flying(const RawWindow& raw, int x, int y, int step) {
+  const int own = raw.at(x, y);
+  bool behind = false, before = false;
+  const auto depth = [&](int u, int v) {
+    const bool within = u >= 0 && v >= 0 && u < raw.width && v < raw.height;
+    return within && measured(raw.at(u, v)) ? int(raw.at(u, v)) : int(kFar);
+  };
+  for (const auto& [dx, dy] : kSides) {
+    const int near = depth(x + dx, y + dy), climb = own - near;
+    before |= near - own > step;
+    behind |= climb > step && 2 * (near - depth(x + 2 * dx, y + 2 * dy)) < climb;
+  }
+  return behind && before;
 }
 
 /// A pixel this near to another may look past what that one sees: its own share of the edge, and a
@@ -61,7 +80,8 @@ void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const std::uint16_t own = raw.at(x, y);
-      const std::uint32_t depth = measured(own) ? own : 0u;
+      const bool on_surface = measured(own) && !flying(raw, x, y, step);
+      const std::uint32_t depth = on_surface ? own : 0u;
       if (depth != 0) nearest = std::min(nearest, own);
       view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
           DepthView::pack(depth, depth != 0 && beside_edge(raw, x, y, step), free.at(x, y));
