@@ -80,6 +80,36 @@ TEST(Integrator, AViewCountsAsManyTimesAsItStandsFor) {
   EXPECT_EQ(every.extract_volume(kBox)->value, half.extract_volume(kBox)->value);
 }
 
+/// Without what is right of the middle: hidden, say.
+views::DepthView left_half(views::DepthView view) {
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    if (i % 60 >= 30) view.pixels[i] = 0;
+  }
+  return view;
+}
+
+TEST(Integrator, WhatThreeViewsSawIsKnownHoweverManySawOtherPlaces) {
+  const auto known_on_the_right = [](std::size_t others) {
+    std::vector<views::DepthView> views(others, left_half(wall(0, 1.0)));
+    views.resize(others + 3, wall(0, 1.0));
+    Integrator integrator(volume_scale());
+    EXPECT_TRUE(integrator.integrate(views, {}));
+    const Volume volume = integrator.extract_volume(kBox);
+    std::size_t count = 0;
+    for (const std::size_t b : volume.allocated_bricks()) {
+      for (std::size_t s = 0; s < kBrickSamples; ++s) {
+        const GridCoords at = volume.bricks.coords(b);
+        const double x = volume.position(at[0] * kBrickSide + int(s & 7), 0, 0).x();
+        count += x > 0.02 && volume.weight[volume.first_sample(b) + s] > 0.0f ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  const std::size_t alone = known_on_the_right(0);
+  EXPECT_GT(alone, 1000u);
+  EXPECT_EQ(known_on_the_right(400), alone);
+}
+
 TEST(Integrator, IsCoarseWhereFewBricksAreAllowed) {
   Integrator integrator(volume_scale());
   ASSERT_TRUE(integrator.integrate(walls(), {}));

@@ -13,6 +13,9 @@ namespace {
 constexpr float kFreeWeight = 0.5f;
 constexpr float kLeastWeight = 0.3f;  // below, a sample counts as not seen
 constexpr float kLeastShare = 0.02f;  // of the typical weight, likewise
+/// But so much is enough, however many views saw other places: what few of many frames saw deep in
+/// a hollow is no less sure than it would be with those few alone.
+constexpr float kEnoughWeight = 1.0f;
 
 /// Where a brick's sample, the first coordinate fastest, lies in its sums.
 std::size_t place_in_parts(std::size_t sample) {
@@ -109,7 +112,8 @@ float Integrator::least_weight() const {
       if (sums) all.push_back(sums.get());
     }
   }
-  return std::max(kLeastWeight, kLeastShare * typical_weight(all, float(scale_.cell_m)));
+  return std::clamp(kLeastShare * typical_weight(all, float(scale_.cell_m)), kLeastWeight,
+                    kEnoughWeight);
 }
 
 Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& context) const {
