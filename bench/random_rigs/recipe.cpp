@@ -50,24 +50,30 @@ void add_trouble(Draw& draw, double seconds, Recipe& recipe) {
     scene.table.z_m = shift * std::sin(way);
     scene.table.tilt_rad = draw.between(0.5, 2.0) * kRadiansPerDegree;
     scene.table.tilt_direction_rad = draw.between(0.0, kTurn);
-  } else if (kind < 0.27) {
+  } else if (kind < 0.25) {
     recipe.trouble = Trouble::kSlip;
     scene.motion.slip_at_s = when;
     scene.motion.slip_rad =
         (draw.chance(0.5) ? 1.0 : -1.0) * draw.between(3.0, 15.0) * kRadiansPerDegree;
-  } else if (kind < 0.34) {
+  } else if (kind < 0.30) {
     recipe.trouble = Trouble::kHalt;
     scene.motion.halt_at_s = when;
     scene.motion.halt_s = 0.1 * seconds;
-  } else if (kind < 0.40) {
+  } else if (kind < 0.35) {
     recipe.trouble = Trouble::kWobble;
     scene.motion.wobble_rad = draw.between(0.2, 1.0) * kRadiansPerDegree;
     scene.motion.wobble_cycles = 1 + draw.below(2);
+  } else if (kind < 0.40) {
+    recipe.trouble = Trouble::kObjectMoved;
+    scene.object_move.at_s = when;
+    scene.object_move.shift_m = draw.between(0.002, 0.010);
+    scene.object_move.direction_rad = draw.between(0.0, kTurn);
+    scene.object_move.turn_rad = draw.between(-10.0, 10.0) * kRadiansPerDegree;
   }
 }
 
 std::string_view name_of(Trouble trouble) {
-  constexpr std::array names{"", ", stale table", ", slip", ", halt", ", wobble"};
+  constexpr std::array names{"", ", stale table", ", slip", ", halt", ", wobble", ", object moved"};
   return names[std::size_t(trouble)];
 }
 

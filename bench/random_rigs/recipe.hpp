@@ -8,7 +8,7 @@
 namespace turnscan::rigs {
 
 /// What is not as the recording or a good bench has it.
-enum class Trouble { kNone, kStaleTable, kSlip, kHalt, kWobble };
+enum class Trouble { kNone, kStaleTable, kSlip, kHalt, kWobble, kObjectMoved };
 
 struct Recipe {
   SceneDescription scene;
