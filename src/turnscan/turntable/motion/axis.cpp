@@ -1,3 +1,5 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/turntable/motion/axis.hpp>
@@ -9,6 +11,23 @@ namespace {
 // How far a platter may lie from square to the axis, and its rim's centre from it. In the mean
 // over a turn the plane is square to the axis wherever it is.
 constexpr double kPlatterLean = 5e-4, kEccentricity_m = 1e-3;
+
+/// The tilts and shifts that lead from one axis to another, at the height of the first one's
+/// centre.
+Eigen::Vector4d way_between(const AxisEstimate& from, const AxisEstimate& to) {
+  const auto [u, v] = tangent_basis(from.axis);
+  const Vec3d lean = from.axis.cross(to.axis), off = from.center - to.center;
+  const double along = from.axis.dot(off) / from.axis.dot(to.axis);
+  const Vec3d shift = to.center + along * to.axis - from.center;
+  return {lean.dot(u), lean.dot(v), shift.dot(u), shift.dot(v)};
+}
+
+/// Estimated covariances of nested data may contradict each other.
+Eigen::Matrix4d without_negative(const Eigen::Matrix4d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
 
 }  // namespace
 
@@ -50,6 +69,24 @@ std::pair<double, double> move_axis(const Eigen::Vector4d& step, Vec3d& axis, Ve
   if (size > 0.0) axis = (Eigen::AngleAxisd(size, turn.normalized()) * axis).normalized();
   center += shift * std::min(1.0, 0.05 / std::max(shift.norm(), 1e-12));
   return {size, shift.norm()};
+}
+
+AxisEstimate combine_nested(const AxisEstimate& all, const AxisEstimate& part,
+                            const Eigen::Matrix4d& bias) {
+  // Tilts and shifts differ by orders of magnitude.
+  const Eigen::Vector4d unit = bias.diagonal().cwiseSqrt();
+  if (!(unit.minCoeff() > 0.0)) return all;
+  const Eigen::Vector4d per = unit.cwiseInverse();
+  const Eigen::Matrix4d own = per.asDiagonal() * bias * per.asDiagonal();
+  const Eigen::Matrix4d noise =
+      without_negative(per.asDiagonal() * (part.covariance - all.covariance) * per.asDiagonal());
+  const Eigen::LDLT<Eigen::Matrix4d> between(noise + own);
+  const Eigen::Vector4d step =
+      unit.asDiagonal() * own * between.solve(per.asDiagonal() * way_between(all, part));
+  AxisEstimate out = all;
+  move_axis(step, out.axis, out.center);
+  out.covariance += unit.asDiagonal() * (own - own * between.solve(own)) * unit.asDiagonal();
+  return out;
 }
 
 }  // namespace turnscan::motion

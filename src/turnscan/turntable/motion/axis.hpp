@@ -24,4 +24,18 @@ void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec
                     double unit, Eigen::Ref<Eigen::Matrix4d> normal,
                     Eigen::Ref<Eigen::Vector4d> right);
 
+struct AxisEstimate {
+  Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
+  Vec3d center = Vec3d::Zero();  ///< a point of it, metres
+  /// Of two tilts and two shifts about tangent_basis(axis), radians and metres.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+/// The best linear unbiased estimate from `all`, which has besides its noise a systematic error of
+/// the covariance `bias`, and `part`, from part of the same data, which has none. The covariance of
+/// efficient estimates from nested data is that of the larger set (Hausman 1978, "Specification
+/// tests in econometrics"). Both axes lie within a few degrees of each other.
+AxisEstimate combine_nested(const AxisEstimate& all, const AxisEstimate& part,
+                            const Eigen::Matrix4d& bias);
+
 }  // namespace turnscan::motion

@@ -9,11 +9,21 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kLeastCosine = 0.5;                    // of incidence
-constexpr double kLeastWeight = 3.0;                    // in samples seen head-on
-constexpr double kLeastNormalAgreement = 0.8;           // length of the mean of unit normals
-constexpr double kLowCosine = 0.45, kFullCosine = 0.8;  // of incidence: weight 0 to 1 between
+constexpr double kLeastCosine = 0.5;                   // of incidence
+constexpr double kLeastWeight = 3.0;                   // in samples seen head-on
+constexpr double kLeastNormalAgreement = 0.8;          // length of the mean of unit normals
+constexpr double kLowCosine = 0.3, kFullCosine = 0.5;  // of incidence: weight 0 to full between
+constexpr double kLeastRamp = 0.02;
 constexpr std::size_t kLeastObservations = 1000;
+
+/// By the cosine of incidence. Where a surface is seen at low angles tells most of the axis: seen
+/// head-on, a lean of the axis towards the sensor looks like a cone. Noise is along the ray, so
+/// that the distance along the normal has the cosine of it; of a sensor that filters its image as
+/// much as everywhere, for its filter errs there.
+double incidence_weight(double cosine, bool filtered) {
+  const double ramp = (cosine - kLowCosine) / (kFullCosine - kLowCosine);
+  return std::clamp(ramp, kLeastRamp, 1.0) / (filtered ? 1.0 : cosine * cosine);
+}
 
 struct TurnedSample {
   Vec3d p, n;
@@ -102,9 +112,8 @@ void SurfelObservations::observe(const MotionData& data, const MotionState& stat
       Vec3d found;
       if (cosine < kLowCosine || !data.find_correspondence(surface, q, reach_m, found)) continue;
       if (inner_only && !data.within_outline(surface, q)) continue;
-      const double full = (cosine - kLowCosine) / (kFullCosine - kLowCosine);
-      observed_[k].push_back(
-          {std::uint32_t(s), float(m.dot(found - q)), float(std::clamp(full, 0.02, 1.0)), 0.0f});
+      observed_[k].push_back({std::uint32_t(s), float(m.dot(found - q)),
+                              float(incidence_weight(cosine, data.correlated_noise)), 0.0f});
     }
   });
 }

@@ -20,7 +20,7 @@ std::vector<Surfel> make_surfels(const MotionData& data, const MotionState& stat
 struct SurfelObservation {
   std::uint32_t surfel;
   float distance_m;
-  float incidence;  ///< weight by the angle of incidence, 0 to 1
+  float incidence;  ///< weight by the angle of incidence
   float weight;     ///< the same, less where the residual is large
 };
 
