@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
@@ -59,7 +60,16 @@ void judge_angles(const Calibration& found, const VirtualScan& truth, Errors& ou
   out.angles = count > 0.0 ? std::sqrt(ratios / count) : std::nan("");
 }
 
-Errors judge(const Calibration& found, const VirtualScan& truth, bool steady) {
+/// Of the motor: a slip or a halt takes few frames.
+double usual_speed(const VirtualScan& truth) {
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < truth.frames().size(); ++i)
+    speeds.push_back((truth.angle_rad(i) - truth.angle_rad(i - 1)) /
+                     (truth.frames()[i].time_s - truth.frames()[i - 1].time_s));
+  return median(speeds);
+}
+
+Errors judge(const Calibration& found, const VirtualScan& truth) {
   const TurntableInfo& table = truth.turntable();
   const Vec3d a = table.axis.normalized(), b = found.table.axis.normalized();
   const Vec3d middle = table.center_m + 0.08 * a;  // where the object is
@@ -72,10 +82,9 @@ Errors judge(const Calibration& found, const VirtualScan& truth, bool steady) {
   out.line = out.line_mm / (found.center_sigma_m * 1e3);
   out.height = out.height_mm / (found.height_sigma_m * 1e3);
   if (!found.angles_rad.empty()) judge_angles(found, truth, out);
-  const std::size_t last = truth.frames().size() - 1;
-  const double speed = truth.angle_rad(last) / truth.frames()[last].time_s;
+  const double speed = usual_speed(truth);
   out.speed = std::nan("");
-  if (steady && found.table.speed_rad_s) {
+  if (found.table.speed_rad_s) {
     const double off = *found.table.speed_rad_s - speed;
     out.speed_percent = 100.0 * off / speed;
     out.speed = std::abs(off) / found.speed_sigma_rad_s;
@@ -156,9 +165,7 @@ class Bench {
       return;
     }
     const Calibration& found = *choice->calibration;
-    const bool steady =
-        recipe.trouble != rigs::Trouble::kSlip && recipe.trouble != rigs::Trouble::kHalt;
-    const Errors e = judge(found, truth, steady);
+    const Errors e = judge(found, truth);
     tally_.add(e);
     print(e, found, spent);
     const bool physics = recipe.scene.measure.noise == "physics";

@@ -82,6 +82,32 @@ TEST(CalibrateFromMotion, FollowsASlowStart) {
   EXPECT_NEAR(*found->start_s, 3.5, 0.2);  // where the steady line meets the start
 }
 
+// Outlines tell the axis, and so do surfaces that are seen at low angles.
+TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
+  testing::RigOptions o = rig_options("doll", 48, 1.1);
+  o.shrink = 1;
+  o.distance_m = 0.9;
+  o.platter = false;
+  o.seed = 2;
+  const testing::Rig rig(o);
+  const auto found = calibrate_from_motion(rig, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  EXPECT_LT(axis_error_deg(rig, *found), 0.1);
+  EXPECT_LT(line_error_mm(rig, *found), 0.15);
+  EXPECT_LT(found->axis_sigma_rad, 0.15 * kRadiansPerDegree);
+}
+
+TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {
+  testing::RigOptions o = rig_options("doll", 60, 1.1);
+  const double speed = 1.1 * 2.0 * std::numbers::pi / 30.0;
+  o.angle = [speed](double t) { return speed * t + (t < 16.2 ? 0.0 : 12.0 * kRadiansPerDegree); };
+  const testing::Rig rig(o);
+  const auto found = calibrate_from_motion(rig, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  EXPECT_NEAR(*found->table.speed_rad_s, speed, 0.003 * speed);
+  EXPECT_LT(mean_angle_error_deg(rig, *found), 0.4);
+}
+
 // Pairs of views alone lead each other astray, here to 0.12 degrees; the model does not.
 TEST(CalibrateFromMotion, FollowsTheRippleOfAMotor) {
   testing::RigOptions o = rig_options("doll", 120, 1.1);

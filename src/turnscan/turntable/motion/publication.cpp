@@ -11,6 +11,12 @@ namespace turnscan::motion {
 
 namespace {
 
+/// How well an object's lowest points tell where it stands (bench/random_rigs): where it ends at a
+/// gap, at least and as a multiple of the noise, and where it spreads into a desk.
+constexpr double kBaseSigma_m = 0.004, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
+/// Frames that tell a speed, less one.
+constexpr std::size_t kLeastStretch = 3;
+
 class Publication {
  public:
   Publication(const MotionData& data, const RefinedMotion& motion, const FrameSequence& sequence,
@@ -81,9 +87,10 @@ class Publication {
     }
     TurntableInfo axis;
     axis.axis = a, axis.center_m = state_.center;
-    TURNSCAN_ASSIGN(const double base, find_base(data_, axis, sequence_));
-    out.table.center_m = state_.center + base * a;
-    out.height_sigma_m = std::max(0.006, 4.0 * data_.noise_m);
+    TURNSCAN_ASSIGN(const ObjectBase base, find_base(data_, axis, sequence_));
+    out.table.center_m = state_.center + base.height_m * a;
+    out.height_sigma_m =
+        base.ends ? std::max(kBaseSigma_m, kBaseNoises * data_.noise_m) : kSpreadingBaseSigma_m;
     out.height_found = "the lowest points of what turns";
     const auto& table = sequence_.header().turntable;
     if (table && options_.use_table && table->radius_m) {
@@ -129,8 +136,42 @@ class Publication {
     return state_.angle[a] + share * (state_.angle[b] - state_.angle[a]);
   }
 
-  /// The steady speed: the slope of the angles over time once the table runs, and the moment at
-  /// which that line left the angle that the table stood at.
+  /// Frames of which the table turned evenly, and the sums of their regression line.
+  struct Stretch {
+    std::size_t first, last;
+    double time_s = 0.0, angle_rad = 0.0;  ///< means
+    double squares = 0.0, along = 0.0;     ///< of times, and of times with angles
+  };
+
+  Stretch regression(std::size_t first, std::size_t last) const {
+    Stretch out{first, last};
+    const double share = 1.0 / double(last - first + 1);
+    for (std::size_t i = first; i <= last; ++i)
+      out.time_s += share * data_.frames[i].time_s, out.angle_rad += share * state_.angle[i];
+    for (std::size_t i = first; i <= last; ++i) {
+      const double t = data_.frames[i].time_s - out.time_s;
+      out.squares += t * t, out.along += t * (state_.angle[i] - out.angle_rad);
+    }
+    return out;
+  }
+
+  /// Between slips and halts; all frames where those leave nothing.
+  std::vector<Stretch> steady_stretches(std::size_t first, std::size_t last) const {
+    const auto& transient = motion_.prior.transient;
+    std::vector<Stretch> out;
+    for (std::size_t i = first; i <= last && !transient.empty(); ++i) {
+      if (transient[i] != 0) continue;
+      std::size_t end = i;
+      while (end < last && transient[end + 1] == 0) ++end;
+      if (end - i >= kLeastStretch) out.push_back(regression(i, end));
+      i = end;
+    }
+    if (out.empty()) out.push_back(regression(first, last));
+    return out;
+  }
+
+  /// The steady speed: the slope of the angles over time once the table runs, a slip or a halt left
+  /// out, and the moment at which that line left the angle that the table stood at.
   void set_speed(Calibration& out) const {
     const auto& frames = data_.frames;
     const std::size_t n = frames.size();
@@ -143,26 +184,23 @@ class Publication {
     std::size_t first = 0, last = n - 1;
     while (first + stretch < n / 4 && slope(first, first + stretch) / middle < 0.93) ++first;
     while (last > stretch + 3 * n / 4 && slope(last - stretch, last) / middle < 0.93) --last;
-    double t = 0.0, y = 0.0, tt = 0.0, ty = 0.0, count = 0.0;
-    for (std::size_t i = first; i <= last; ++i)
-      t += frames[i].time_s, y += state_.angle[i], ++count;
-    t /= count, y /= count;
-    for (std::size_t i = first; i <= last; ++i) {
-      tt += std::pow(frames[i].time_s - t, 2);
-      ty += (frames[i].time_s - t) * (state_.angle[i] - y);
+    const auto lines = steady_stretches(first, last);
+    double along = 0.0, squares = 0.0, spans = 0.0, sigma = 0.0;
+    for (const Stretch& line : lines) {
+      along += line.along, squares += line.squares;
+      spans += std::pow(frames[line.last].time_s - frames[line.first].time_s, 2);
     }
-    const double speed = ty / tt;
+    const double speed = along / squares;
     out.table.speed_rad_s = speed;
-    const double span = frames[last].time_s - frames[first].time_s;
-    double sigma = 0.0;
     for (std::size_t i = first; i <= last; ++i) sigma = std::max(sigma, solution_.angle_sigma[i]);
-    out.speed_sigma_rad_s = sigma / span;
+    out.speed_sigma_rad_s = sigma / std::sqrt(spans);
     out.speed_found = motion_.turn_observable ? "slope of the angles over time" : "stated";
     if (!motion_.turn_observable) {
       out.undetermined.emplace_back("speed");
       out.speed_sigma_rad_s = std::nan("");
     }
-    const double start = t - y / speed;  // where the line meets angle 0
+    // Where the line meets angle 0.
+    const double start = lines.front().time_s - lines.front().angle_rad / speed;
     out.start_s = first == 0 ? frames.front().time_s : start;
   }
 

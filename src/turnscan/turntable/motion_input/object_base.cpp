@@ -10,7 +10,7 @@ namespace {
 constexpr double kSlice_m = 0.002;
 constexpr std::size_t kSlices = 300;
 constexpr double kGap_m = 0.008;      ///< hardly a point in it: the object has ended
-constexpr double kEmptyShare = 0.01;  ///< of a usual slice's points
+constexpr double kEmptyShare = 0.05;  ///< of a usual slice's points: mixed pixels are left
 constexpr std::size_t kUsual = 10;    ///< slices, the first ones
 constexpr double kDeskRatio = 4.0;    ///< a slice of so many times the usual points is a desk
 constexpr std::size_t kFrames = 8;
@@ -37,16 +37,16 @@ class Slices {
     }
   }
 
-  double base() const {
+  ObjectBase base() const {
     std::vector<double> first(count_.begin(), count_.begin() + kUsual);
     const double usual = median(first), least = std::max(2.0, kEmptyShare * usual);
     double end = 0.0, empty = 0.0;
     for (std::size_t k = 0; k < kSlices && count_[k] < kDeskRatio * std::max(usual, 4.0); ++k) {
       empty = count_[k] < least ? empty + kSlice_m : 0.0;
-      if (empty >= kGap_m) break;
+      if (empty >= kGap_m) return {top_ - end, true};
       if (empty == 0.0) end = double(k + 1) * kSlice_m;
     }
-    return top_ - end;
+    return {top_ - end, false};
   }
 
  private:
@@ -79,15 +79,15 @@ double quantile(std::vector<double> values, double share) {
 
 }  // namespace
 
-Result<double> find_base(const MotionData& data, const TurntableInfo& axis,
-                         const FrameSequence& sequence) {
+Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
+                             const FrameSequence& sequence) {
   std::vector<double> heights, radii;
   for (const Vec3f& p : data.cloud) {
     const Vec3d d = p.cast<double>() - axis.center_m;
     heights.push_back(axis.axis.dot(d));
     radii.push_back(axis.axis.cross(d).norm());
   }
-  if (!data.projective) return quantile(std::move(heights), 0.005);
+  if (!data.projective) return ObjectBase{quantile(std::move(heights), 0.005), true};
   const SensorInfo& sensor = sequence.header().sensors.front();
   const RayTable rays(sensor.intrinsics);
   Slices slices(data, axis, quantile(std::move(radii), 0.99), quantile(std::move(heights), 0.5));
