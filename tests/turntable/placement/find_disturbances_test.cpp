@@ -16,7 +16,7 @@ namespace {
 constexpr int kFrames = 60;
 constexpr double kTurns = 1.1;
 
-testing::Rig turning_rig(const std::string& object, double x_m = 0.0, std::uint64_t seed = 1) {
+testing::RigOptions rig_options(const std::string& object, double x_m, std::uint64_t seed) {
   testing::RigOptions o;
   o.shrink = 2;
   o.noise_m = 0.001;
@@ -28,7 +28,11 @@ testing::Rig turning_rig(const std::string& object, double x_m = 0.0, std::uint6
   o.seed = seed;
   o.objects = {place(*builtin_object(object), x_m, 0.0, 0.6)};
   o.angle = [](double t) { return kTurns * kTurn / kFrames * t; };
-  return testing::Rig(o);
+  return o;
+}
+
+testing::Rig turning_rig(const std::string& object, double x_m = 0.0, std::uint64_t seed = 1) {
+  return testing::Rig(rig_options(object, x_m, seed));
 }
 
 /// The frames with the true turntable, and a speed that is right but for a factor.
@@ -80,6 +84,19 @@ TEST(FindDisturbances, SaysNothingOfAnUndisturbedRecording) {
       EXPECT_TRUE(found.left_out.empty());
     }
   }
+}
+
+TEST(FindDisturbances, LooksPastThingsBesideAPlatterThatNobodySees) {
+  testing::RigOptions o = rig_options("letter-a", 0.0, 1);
+  o.platter = false;
+  o.clutter = 4;
+  const testing::Rig rig(o);
+  SequenceView sequence = calibrated(rig);
+  SequenceHeader header = sequence.header();
+  header.turntable->radius_m.reset();
+  sequence.set_header(header);
+  const Placement found = found_in(sequence);
+  EXPECT_TRUE(found.disturbances.empty()) << found.disturbances[0].text;
 }
 
 TEST(FindDisturbances, MovesFramesBackAfterTheObjectMoved) {

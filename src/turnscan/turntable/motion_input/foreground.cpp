@@ -10,6 +10,9 @@ constexpr std::size_t kMeanFrames = 36;  ///< that the search averages
 /// From this ratio of noise in time to noise between pixels on, nothing stands still.
 constexpr double kMovingNoise = 3.0;
 
+/// Of a platter of which only the axis is known.
+constexpr double kUnknownRadius_m = 0.3;
+
 class ForegroundSearch {
  public:
   ForegroundSearch(const FrameSequence& sequence, const MotionDataOptions& options,
@@ -34,14 +37,10 @@ class ForegroundSearch {
     }
     if (const auto& platter = data_.platter) {
       crop_to(platter->axis, platter->center_m, platter->radius_m, platter->plane_rms_m);
-    } else if (options_.hint) {
-      crop_to(options_.hint->axis.normalized(), options_.hint->center_m,
-              options_.hint->radius_m.value_or(0.3), 0.002);
+    } else if (options_.hint && options_.hint->radius_m) {
+      crop_to_hint(*options_.hint->radius_m);
     } else {
-      data_.notes.push_back(
-          "no platter was seen: what turns was told from what stands still by "
-          "its motion");
-      TURNSCAN_TRY(find_moving(positions));
+      TURNSCAN_TRY(tell_by_motion(positions));
     }
     return std::move(foreground_);
   }
@@ -88,6 +87,24 @@ class ForegroundSearch {
     foreground_.top = std::clamp(int(low.y()) - 2, 0, data_.camera.height - 1);
     foreground_.right = std::clamp(int(high.x()) + 3, foreground_.left + 1, data_.camera.width);
     foreground_.bottom = std::clamp(int(high.y()) + 3, foreground_.top + 1, data_.camera.height);
+  }
+
+  void crop_to_hint(double radius_m) {
+    crop_to(options_.hint->axis.normalized(), options_.hint->center_m, radius_m, 0.002);
+  }
+
+  /// Things that stand about may stand nearer to the axis than an unknown platter reaches.
+  Result<> tell_by_motion(const std::vector<std::size_t>& positions) {
+    const auto found = find_moving(positions);
+    if (found || found.error().code == ErrorCode::kCancelled || !options_.hint) {
+      data_.notes.push_back(
+          "no platter was seen: what turns was told from what stands still by "
+          "its motion");
+      return found;
+    }
+    foreground_ = Foreground();
+    crop_to_hint(kUnknownRadius_m);
+    return {};
   }
 
   static Pose frame_of(const Vec3d& axis, const Vec3d& center) {

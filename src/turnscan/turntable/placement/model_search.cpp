@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/placement/model_search.hpp>
 
 namespace turnscan::placement {
@@ -16,6 +17,8 @@ constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 3.0;
 constexpr double kLeastSize_m = 0.0005;
 /// A smaller error of the calibration is left alone: a sensor's warped depth looks like one.
 constexpr double kLeastCalibration_m = 0.0015;
+/// No table wobbles by more: what the shape hardly shows, together with another calibration, does.
+constexpr double kLargestWobble_rad = 3.0 * kRadiansPerDegree;
 constexpr ConstraintWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
 
 double penalty_of(const DisturbanceModel& model) {
@@ -33,6 +36,13 @@ DisturbanceModel model_of(ModelKind kind, std::size_t first = 0, std::size_t las
 
 bool turns(ModelKind kind) {
   return kind == ModelKind::kSpeed || kind == ModelKind::kSlip || kind == ModelKind::kHalt;
+}
+
+/// The tilts of a wobble's cosine and sine are two unknowns each (DisturbanceModel).
+bool plausible(const DisturbanceModel& model, double lever_m) {
+  if (model.kind != ModelKind::kWobble) return true;
+  return std::hypot(model.values.segment<2>(0).norm(), model.values.segment<2>(5).norm()) <
+         kLargestWobble_rad * lever_m;
 }
 
 using Models = std::vector<DisturbanceModel>;
@@ -73,6 +83,12 @@ class ModelSearch {
   bool has(ModelKind kind) const {
     return std::any_of(models_.begin(), models_.end(),
                        [&](const DisturbanceModel& model) { return model.kind == kind; });
+  }
+
+  bool all_plausible() const {
+    return std::all_of(models_.begin(), models_.end(), [&](const DisturbanceModel& model) {
+      return plausible(model, frames_.scene.lever_m);
+    });
   }
 
   Models candidates() const {
@@ -161,7 +177,7 @@ class ModelSearch {
       models_.insert(models_.end(), start.begin(), start.end());
       TURNSCAN_TRY(refine());
       const double here = mismatch(keyframes_, poses());
-      if (!(here < least)) continue;
+      if (!(here < least) || !all_plausible()) continue;
       least = here;
       best = models_;
     }
