@@ -19,16 +19,32 @@ struct Attempt {
   RefinedMotion refined;
 };
 
+/// started: set when a motion was seen to start from.
 Result<Attempt> attempt(const FrameSequence& sequence, const FromMotionOptions& options,
-                        const MotionDataOptions& loading, const RunContext& context) {
+                        const MotionDataOptions& loading, const RunContext& context,
+                        bool& started) {
   Attempt out;
+  started = false;
   TURNSCAN_ASSIGN(out.data, load_motion(sequence, loading, context));
   context.begin_phase("find the motion", 4);
   TURNSCAN_ASSIGN(InitialMotion start,
                   initialise_motion(out.data, sequence.header(), options, context));
   context.advance();
+  started = true;
   TURNSCAN_ASSIGN(out.refined, refine_motion(out.data, std::move(start), context));
   return out;
+}
+
+/// With the platter; without it where nothing turns above what was taken for one.
+Result<Attempt> first_attempt(const FrameSequence& sequence, const FromMotionOptions& options,
+                              MotionDataOptions& loading, const RunContext& context) {
+  bool started = false;
+  auto found = attempt(sequence, options, loading, context, started);
+  if (found || started || found.error().code == ErrorCode::kCancelled) return found;
+  loading.use_platter = false;
+  auto without = attempt(sequence, options, loading, context, started);
+  return without || without.error().code == ErrorCode::kCancelled ? std::move(without)
+                                                                  : std::move(found);
 }
 
 bool fits_better(const Attempt& a, const Attempt& b) {
@@ -50,10 +66,11 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
   loading.detect.min_confidence = std::min(detect.min_confidence, kLeastConfidence);
   loading.max_keys = std::size_t(options.key_frames);
   if (options.use_table) loading.hint = sequence.header().turntable;
-  TURNSCAN_ASSIGN(Attempt found, attempt(sequence, options, loading, context));
+  TURNSCAN_ASSIGN(Attempt found, first_attempt(sequence, options, loading, context));
   if (!found.refined.platter_fits) {
     loading.use_platter = false;
-    auto again = attempt(sequence, options, loading, context);
+    bool started = false;
+    auto again = attempt(sequence, options, loading, context, started);
     if (!again && again.error().code == ErrorCode::kCancelled)
       return tl::unexpected<Error>(again.error());
     const bool better = again && fits_better(*again, found);
