@@ -12,8 +12,9 @@ namespace {
 constexpr double kLeastHidden = 0.25, kSpreads = 6.0;
 /// A point counts where the neighbour's surface lies this much farther.
 constexpr double kGap_m = 0.012, kNoises = 6.0;
-/// And no nearer surface within so many pixels: what is thin loses its outline's mixed pixels.
-constexpr int kBeside = 3;
+/// And no nearer surface within so many pixels: what is thin loses its outline's mixed pixels, more
+/// of them where the sensor filters its image (drop_outline).
+constexpr int kBeside = 3, kBesideFiltered = 6;
 
 /// Whether the ray through q goes on for a gap before it meets the surface, or misses it.
 bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, const Vec3d& q,
@@ -23,8 +24,9 @@ bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, 
   if (!(uv.x() > 0.0 && uv.y() > 0.0 && uv.x() < camera.width - 1 && uv.y() < camera.height - 1))
     return false;
   const int x = int(std::lround(uv.x())) - surface.left, y = int(std::lround(uv.y())) - surface.top;
-  const int top = std::max(0, y - kBeside), bottom = std::min(surface.height - 1, y + kBeside);
-  const int left = std::max(0, x - kBeside), right = std::min(surface.width - 1, x + kBeside);
+  const int beside = frames.data.correlated_noise ? kBesideFiltered : kBeside;
+  const int top = std::max(0, y - beside), bottom = std::min(surface.height - 1, y + beside);
+  const int left = std::max(0, x - beside), right = std::min(surface.width - 1, x + beside);
   for (int v = top; v <= bottom; ++v) {
     for (int u = left; u <= right; ++u) {
       const float z = surface.z[std::size_t(v) * std::size_t(surface.width) + std::size_t(u)];
