@@ -89,7 +89,7 @@ class Surroundings(harness.TestCase):
 class FarAway(harness.TestCase):
     def far_mesh(self):
         path = self.dir / "far.ply"
-        path.write_text(ply_cube(0.1).replace(" 0.05 ", " 1e20 "))
+        path.write_text(ply_cube(0.1).replace(" 0.1 ", " 1e20 "))
         return path
 
     def test_meshes_are_refused(self):

@@ -41,8 +41,10 @@ Function* real(Function*, const char* name) {
 }
 #define REAL(name) (*real(&name, #name))
 
+thread_local bool in_loader = false;  // glibc's dlopen() does not survive a lack of memory
+
 bool fails(Kind kind) {
-  if (kind != armed) return false;
+  if (kind != armed || in_loader) return false;
   const long number = ++calls;
   return fail_at > 0 && (number == fail_at || (fault_lasts && number > fail_at));
 }
@@ -226,6 +228,13 @@ int open64(const char* path, int flags, ...) {
   const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
   va_end(more);
   return open_file(path, flags, mode);
+}
+
+void* dlopen(const char* file, int mode) noexcept {
+  in_loader = true;
+  void* library = REAL(dlopen)(file, mode);
+  in_loader = false;
+  return library;
 }
 
 void* malloc(size_t size) {
