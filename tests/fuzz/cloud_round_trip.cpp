@@ -14,8 +14,7 @@ TURNSCAN_FUZZ_TARGET(cloud_round_trip) {
   const std::size_t n = size / 7;
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint8_t* b = data + 7 * i;
-    const Vec3f p(float(b[0]) - 128.0f, float(b[1]) / 256.0f, float(b[2]) * float(b[3]));
-    file.cloud.points.push_back(p);
+    file.cloud.points.emplace_back(b[0] - 128.0f, b[1] / 256.0f, 1.0f * b[2] * b[3]);
     if ((data[0] & 1) != 0) file.cloud.colors.push_back({b[4], b[5], b[6]});
     if ((data[0] & 2) != 0) file.cloud.normals.push_back(Vec3f::UnitX());
     if ((data[0] & 4) != 0) file.cloud.weights.push_back(float(b[4]));

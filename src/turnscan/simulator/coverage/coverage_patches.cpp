@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <turnscan/simulator/coverage/coverage_patches.hpp>
 
 namespace turnscan::coverage {
@@ -23,6 +24,14 @@ int longest_edge(const std::array<Vec3f, 3>& c) {
 
 double edge_length(const std::array<Vec3f, 3>& c, int edge) {
   return double((c[std::size_t(edge)] - c[std::size_t((edge + 1) % 3)]).norm());
+}
+
+/// Edges far from the origin that are not much longer than floats lie apart are not halved:
+/// rounding would move their middle as much as halving does, and the cutting would not end.
+double float_step(const std::array<Vec3f, 3>& c) {
+  float farthest = 0.0f;
+  for (const Vec3f& p : c) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  return 16.0 * double(std::numeric_limits<float>::epsilon()) * double(farthest);
 }
 
 /// The two halves of a triangle.
@@ -148,14 +157,14 @@ void CoveragePatches::cut(const TriangleMesh& mesh, std::uint32_t object) {
 std::int32_t CoveragePatches::cut(const std::array<Vec3f, 3>& corners, std::uint32_t object,
                                   std::uint32_t face) {
   const int edge = longest_edge(corners);
-  const auto parts = halves(corners, edge);
-  // Far from the origin the middle of an edge may be its end: there is no float between them.
-  if (edge_length(corners, edge) <= cell_m || parts[0] == corners || parts[1] == corners) {
+  const double smallest = std::max(cell_m, float_step(corners));
+  if (edge_length(corners, edge) <= smallest || patches.size() >= kMostPatches) {
     patches.push_back({corners, object, face, 0, 0});
     return static_cast<std::int32_t>(patches.size() - 1);
   }
   const auto node = nodes_.size();
   nodes_.push_back({edge, {}});
+  const auto parts = halves(corners, edge);
   for (std::size_t k = 0; k < 2; ++k) {
     const std::int32_t child = cut(parts[k], object, face);
     nodes_[node].child[k] = child;
