@@ -39,6 +39,15 @@ TEST(ProgramFolders, CodeOfOtherUsersIsNotTrusted) {
   EXPECT_THAT(check_trusted(file).error().message, ::testing::HasSubstr("another user"));
 }
 
+TEST(ProgramFolders, WhoCanReplaceTheProgramMayReplaceItsHelpers) {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path folder = program.parent_path();
+  const auto before = fs::status(folder).permissions();
+  fs::permissions(folder, fs::perms(0777));
+  EXPECT_TRUE(check_trusted(program));
+  fs::permissions(folder, before);
+}
+
 TEST(ProgramFolders, VariablesNameAbsoluteFolders) {
   ::setenv("TURNSCAN_TEST_FOLDERS", "/a::/b/c", 1);
   EXPECT_EQ(*folders_of_variable("TURNSCAN_TEST_FOLDERS"), (std::vector<fs::path>{"/a", "/b/c"}));

@@ -69,7 +69,10 @@ Result<> check_trusted(const fs::path& path) {
   if (error)
     return fail_at(path.string(), ErrorCode::kNotFound, "it cannot be found ({}); check the path",
                    error.message());
-  for (;; at = at.parent_path()) {
+  // Who can write to a folder above the program could replace the program itself: a checkout that
+  // is another user's is no danger beyond that.
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  for (; !is_inside(program, at); at = at.parent_path()) {
     struct stat status {};
     const std::string why =
         ::stat(at.c_str(), &status) != 0 ? "cannot be looked at" : distrust(status);
@@ -78,8 +81,9 @@ Result<> check_trusted(const fs::path& path) {
                      "{} {}, so that this program could be told to run foreign code; give it to "
                      "root or yourself, with 'chmod go-w'",
                      at.string(), why);
-    if (at == at.root_path()) return {};
+    if (at == at.root_path()) break;
   }
+  return {};
 }
 
 }  // namespace turnscan::process

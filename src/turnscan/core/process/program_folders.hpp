@@ -16,9 +16,10 @@ std::vector<std::filesystem::path> own_folders(const std::filesystem::path& rela
 /// kInvalidOption for one that is not absolute.
 Result<std::vector<std::filesystem::path>> folders_of_variable(const char* name);
 
-/// Succeeds when nobody but the superuser and this user can have put something else in the place of
-/// this file: it and all folders above it are theirs, and not writable by others (folders with the
-/// sticky bit are). Fails with kNoPermission, naming what is not so.
+/// Succeeds when nobody but the superuser, this user and those who could replace this program can
+/// have put something else in the place of this file: it and all folders above it are theirs, and
+/// not writable by others (folders with the sticky bit may be), up to a folder in which the program
+/// lies, too. Fails with kNoPermission, naming what is not so.
 Result<> check_trusted(const std::filesystem::path& path);
 
 }  // namespace turnscan::process
