@@ -50,7 +50,7 @@ class MissingOrDamaged(harness.TestCase):
         self.assertFalse((self.dir / "rec").exists())
 
     def test_names_with_line_breaks_still_give_one_line(self):
-        self.refused(FAILED, "info", "two\nlines.ply", says="two lines.ply")
+        self.refused(FAILED, "info", "two\nlines.ply", says=r"two\u000alines.ply")
 
 
 class Import(harness.TestCase):

@@ -46,6 +46,25 @@ TEST(Simplify, KeepsWithinTheError) {
   EXPECT_NEAR(check_mesh(*out).volume_m3, check_mesh(mesh).volume_m3, 0.12);
 }
 
+TEST(Simplify, KeepsTheTrianglesThatAreToStay) {
+  const TriangleMesh mesh = dumbbell();
+  SimplifyGoal goal{4, 0.05};
+  const auto corner = [&](std::size_t t) { return mesh.vertices[mesh.triangles[t][0]]; };
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    goal.keep.push_back(corner(t).x() > 0.8f ? 1 : 0);
+    kept += goal.keep.back();
+  }
+  const auto out = simplify(mesh, goal);
+  ASSERT_TRUE(out) << out.error().text();
+  EXPECT_TRUE(check_mesh(*out).watertight()) << check_mesh(*out).text();
+  EXPECT_GT(out->triangles.size(), kept);
+  EXPECT_LT(out->triangles.size() - kept, (mesh.triangles.size() - kept) / 4);
+  std::size_t there = 0;
+  for (const auto& t : out->triangles) there += out->vertices[t[0]].x() > 0.8f ? 1 : 0;
+  EXPECT_GE(there, kept);
+}
+
 TEST(Simplify, LeavesAMeshAloneThatHasFewEnough) {
   const TriangleMesh mesh = dumbbell();
   EXPECT_EQ(simplify(mesh, {mesh.triangles.size(), 1e30})->triangles, mesh.triangles);

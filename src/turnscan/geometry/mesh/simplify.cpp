@@ -12,13 +12,20 @@ namespace {
 
 constexpr int kTries = 5;
 
-TriangleMesh collapse(const TriangleMesh& mesh, std::size_t triangles, float relative_error) {
-  std::vector<unsigned int> from, to(3 * mesh.triangles.size());
-  from.reserve(to.size());
-  for (const auto& t : mesh.triangles) from.insert(from.end(), t.begin(), t.end());
+TriangleMesh collapse(const TriangleMesh& mesh, const std::vector<std::uint8_t>& keep,
+                      std::size_t triangles, float relative_error) {
+  std::vector<unsigned int> from, kept;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    auto& side = !keep.empty() && keep[i] != 0 ? kept : from;
+    side.insert(side.end(), t.begin(), t.end());
+  }
+  std::vector<unsigned int> to(from.size());
+  const std::size_t target = 3 * triangles - std::min(3 * triangles, kept.size());
   to.resize(meshopt_simplify(to.data(), from.data(), from.size(), mesh.vertices.data()->data(),
-                             mesh.vertices.size(), sizeof(Vec3f), 3 * triangles, relative_error, 0,
-                             nullptr));
+                             mesh.vertices.size(), sizeof(Vec3f), target, relative_error,
+                             kept.empty() ? 0 : meshopt_SimplifyLockBorder, nullptr));
+  to.insert(to.end(), kept.begin(), kept.end());
   TriangleMesh out = mesh;
   out.triangles.clear();
   for (std::size_t i = 0; i + 2 < to.size(); i += 3)
@@ -61,7 +68,7 @@ Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal
   const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;
   const auto error = static_cast<float>(std::min(relative, 1e10));
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    TriangleMesh out = collapse(mesh, target, error);
+    TriangleMesh out = collapse(mesh, goal.keep, target, error);
     if (!out.empty() && (!watertight || check_mesh(out).watertight())) return out;
     if (auto mended = mend(out, pieces); mended) return *mended;
     // Collapses are made in order of error: fewer of them end before the one that did harm.

@@ -8,36 +8,60 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// Distance of the vertex of one mesh that lies farthest from another mesh.
-double farthest_vertex(const TriangleMesh& from, const TriangleMesh& to) {
-  const MeshDistance distance(to);
-  std::vector<double> distances(from.vertices.size());
-  parallel_for(distances.size(), 256, [&](std::size_t v) {
-    distances[v] = distance.closest(from.vertices[v].cast<double>()).distance;
+constexpr int kTries = 10;
+constexpr int kRings = 3;  ///< of triangles about a vertex that strays too far
+/// Of the vertices: where more stray too far, the bound on the quadrics is too wide.
+constexpr double kFewStrays = 0.01;
+
+/// The vertices that lie farther from the other mesh than that, one flag each.
+std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const TriangleMesh& fewer,
+                                    double max_error_m) {
+  const MeshDistance distance(fewer);
+  std::vector<std::uint8_t> out(full.vertices.size());
+  parallel_for(out.size(), 256, [&](std::size_t v) {
+    out[v] = distance.closest(full.vertices[v].cast<double>()).distance > max_error_m ? 1 : 0;
   });
-  return distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end());
+  return out;
+}
+
+/// Marks the triangles of some rings about vertices.
+void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
+                std::vector<std::uint8_t>& keep) {
+  for (int ring = 0; ring < kRings; ++ring) {
+    std::vector<std::size_t> touched;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& corners = mesh.triangles[t];
+      if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return vertices[v] != 0; }))
+        touched.push_back(t);
+    }
+    for (const std::size_t t : touched) {
+      keep[t] = 1;
+      for (const auto v : mesh.triangles[t]) vertices[v] = 1;
+    }
+  }
 }
 
 }  // namespace
 
 /// Quadrics only estimate how far a surface strays: it is measured, and tried again with a smaller
-/// bound, then by bisection.
+/// bound, or where it strays in a few places with those left as they are.
 Result<TriangleMesh> simplify_within(const TriangleMesh& full, std::size_t triangles,
                                      double max_error_m, const RunContext& context) {
-  constexpr int kTries = 6;
-  TriangleMesh best = full;
-  double goal = max_error_m, enough = 0.0, too_much = 0.0;
+  SimplifyGoal goal{triangles, max_error_m, false,
+                    std::vector<std::uint8_t>(full.triangles.size(), 0)};
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(full, {triangles, goal, false}));
+    TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(full, goal));
     TURNSCAN_TRY(context.check());
-    const double farthest = farthest_vertex(full, fewer);
-    (farthest <= max_error_m ? enough : too_much) = goal;
-    if (farthest <= max_error_m && fewer.triangles.size() < best.triangles.size())
-      best = std::move(fewer);
-    if (too_much == 0.0) break;
-    goal = enough > 0.0 ? 0.5 * (enough + too_much) : goal * 0.9 * max_error_m / farthest;
+    auto strays = strays_of(full, fewer, max_error_m);
+    const auto count = std::size_t(std::count(strays.begin(), strays.end(), 1));
+    if (count == 0) return fewer;
+    if (double(count) > kFewStrays * double(strays.size())) {
+      goal.max_error_m *= 0.5;
+    } else {
+      keep_about(full, std::move(strays), goal.keep);
+    }
   }
-  return best;
+  return full;
 }
 
 }  // namespace turnscan::tsdf
