@@ -94,7 +94,7 @@ TEST(Integrator, WhatThreeViewsSawIsKnownHoweverManySawOtherPlaces) {
     views.resize(others + 3, wall(0, 1.0));
     Integrator integrator(volume_scale());
     EXPECT_TRUE(integrator.integrate(views, {}));
-    const Volume volume = integrator.extract_volume(kBox);
+    const Volume volume = *integrator.extract_volume(kBox);
     std::size_t count = 0;
     for (const std::size_t b : volume.allocated_bricks()) {
       for (std::size_t s = 0; s < kBrickSamples; ++s) {
