@@ -21,6 +21,7 @@ namespace {
 
 using namespace turnscan;
 using namespace turnscan::points;
+using namespace turnscan::voxels;
 
 constexpr std::uint32_t kFrames = 64;
 constexpr double kVoxel = 0.0016, kNoise = 0.0013;
