@@ -20,7 +20,7 @@ std::string state_of(const DriverState& driver) {
 }
 
 nlohmann::ordered_json json_of(const DriverState& driver) {
-  nlohmann::ordered_json out;
+  auto out = nlohmann::ordered_json::object();
   out["name"] = driver.name;
   out["description"] = driver.description;
   out["file"] = driver.file.string();
@@ -80,7 +80,7 @@ class DevicesCommand : public Command {
   }
 
   static nlohmann::ordered_json json(const std::vector<DriverState>& drivers) {
-    nlohmann::ordered_json out;
+    auto out = nlohmann::ordered_json::object();
     out["virtual"] = {{"objects", builtin_object_names()}, {"sensors", scanner_presets()}};
     out["folders"] = folders();
     out["drivers"] = nlohmann::ordered_json::array();

@@ -71,7 +71,7 @@ void put_angles(text::OrderedJson& out, const Calibration& c) {
 }
 
 text::OrderedJson depth_json(const DepthCorrection& depth) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["bias_m"] = depth.bias_m;
   out["scale"] = depth.scale;
   out["bias_sigma_m"] = known(depth.bias_sigma_m);
@@ -93,7 +93,7 @@ Result<DepthCorrection> parse_depth(const text::JsonObject& object) {
 }
 
 text::OrderedJson camera_json(const CameraCorrection& camera) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["intrinsics"] = text::json_of(camera.intrinsics);
   if (camera.color_intrinsics) {
     out["color_intrinsics"] = text::json_of(*camera.color_intrinsics);
@@ -131,7 +131,7 @@ Result<> parse_corrections(const text::JsonObject& object, std::optional<DepthCo
 }
 
 text::OrderedJson place_json(const SensorPlace& place) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["T_table_sensor"] = text::json_of(place.T_table_sensor);
   out["heading_sigma_deg"] = known_degrees(place.heading_sigma_rad);
   out["shift_sigma_m"] = known(place.shift_sigma_m);
@@ -270,7 +270,7 @@ namespace turnscan {
 using namespace recording_format;
 
 std::string calibration_json(const Calibration& c) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["format"] = kCalibrationFormat;
   out["schema_version"] = kCalibrationSchema;
   out["method"] = std::string(name_of(c.method));
@@ -289,6 +289,7 @@ std::string calibration_json(const Calibration& c) {
   if (!c.notes.empty()) out["notes"] = c.notes;
   if (c.depth) out["depth"] = depth_json(*c.depth);
   if (c.camera) out["camera"] = camera_json(*c.camera);
+  if (!c.others.empty()) out["other_sensors"] = text::OrderedJson::array();
   for (const SensorPlace& place : c.others) out["other_sensors"].push_back(place_json(place));
   put_angles(out, c);
   return text::json_text(out);

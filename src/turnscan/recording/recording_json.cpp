@@ -141,11 +141,12 @@ text::OrderedJson sensor_json(const SensorInfo& sensor) {
   text::OrderedJson out = sensor_kind_json(sensor);
   if (sensor.T_table_sensor) out["T_table_sensor"] = text::json_of(*sensor.T_table_sensor);
   out["viewpoint"] = viewpoint_json(sensor.viewpoint);
-  out["color"]["registered"] = !sensor.color_intrinsics;
+  text::OrderedJson color = {{"registered", !sensor.color_intrinsics}};
   if (sensor.color_intrinsics) {
-    out["color"]["intrinsics"] = text::json_of(*sensor.color_intrinsics);
-    out["color"]["T_color_sensor"] = text::json_of(sensor.T_color_sensor);
+    color["intrinsics"] = text::json_of(*sensor.color_intrinsics);
+    color["T_color_sensor"] = text::json_of(sensor.T_color_sensor);
   }
+  out["color"] = std::move(color);
   return out;
 }
 
@@ -197,7 +198,7 @@ std::string defect_of(const TurntableInfo& table) {
 
 text::OrderedJson sensor_kind_json(const SensorInfo& sensor) {
   const bool camera = sensor.kind == SensorKind::kDepthCamera;
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["kind"] = camera ? "depth-camera" : "point-scanner";
   out["model"] = sensor.model;
   if (camera) {
@@ -209,7 +210,7 @@ text::OrderedJson sensor_kind_json(const SensorInfo& sensor) {
 }
 
 text::OrderedJson turntable_json(const TurntableInfo& table) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["axis"] = text::json_of(table.axis);
   out["center_m"] = text::json_of(table.center_m);
   if (table.radius_m) out["radius_m"] = *table.radius_m;
@@ -250,7 +251,7 @@ Result<RecordingDescription> parse_recording_json(std::string_view text) {
 
 std::string recording_json(const RecordingDescription& description) {
   const SequenceHeader& header = description.header;
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["format"] = kRecordingFormat;
   out["schema_version"] = kRecordingSchema;
   out["software"] = header.software;

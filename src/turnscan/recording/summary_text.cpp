@@ -138,7 +138,7 @@ std::string summary_text(const SequenceSummary& s) {
 }
 
 std::string summary_json(const SequenceSummary& s) {
-  text::OrderedJson out;
+  auto out = text::OrderedJson::object();
   out["kind"] = "recording";
   out["source"] = s.source;
   out["software"] = s.software;

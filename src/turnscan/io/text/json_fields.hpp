@@ -15,6 +15,8 @@ namespace turnscan::text {
 
 using Json = nlohmann::json;
 /// For writing only: parsing into it takes quadratic time in the number of fields.
+/// Begin with OrderedJson::object() or array(): a null value that [] or push_back() turns into one
+/// is left unusable, even to its destructor, when no memory is to be had for that (version 3.11).
 using OrderedJson = nlohmann::ordered_json;
 
 /// One JSON object and its place in the file, e.g. "sensors[0].intrinsics". Refers to the Json.

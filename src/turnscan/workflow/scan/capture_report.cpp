@@ -11,7 +11,7 @@ namespace turnscan {
 nlohmann::ordered_json workflow::capture_json(const CaptureResult& result,
                                               const SourceInfo& source) {
   const RecorderStatistics& r = result.recorder;
-  nlohmann::ordered_json out;
+  auto out = nlohmann::ordered_json::object();
   out["device"] = source.uri;
   out["live"] = source.live;
   out["ended"] = result.ended;
@@ -38,7 +38,7 @@ nlohmann::ordered_json workflow::capture_json(const CaptureResult& result,
 
 std::string capture_report(const CaptureResult& result, const SourceInfo& source,
                            const std::string& folder) {
-  nlohmann::ordered_json out;
+  auto out = nlohmann::ordered_json::object();
   out["software"] = std::string("turnscan ") + version();
   out["recording"] = folder;
   out.update(workflow::capture_json(result, source));

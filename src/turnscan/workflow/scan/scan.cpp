@@ -48,7 +48,7 @@ std::string free_recording(const std::string& mesh) {
 }
 
 nlohmann::ordered_json ahead_json(const ScanAhead::Outcome& ahead) {
-  nlohmann::ordered_json out;
+  auto out = nlohmann::ordered_json::object();
   out["frames"] = ahead.frames_ahead;
   out["kept"] = ahead.kept;
   if (ahead.closure_limit_m > 0.0) {
@@ -185,7 +185,7 @@ class ScanRun {
   }
 
   std::string report(const SourceInfo& info) const {
-    nlohmann::ordered_json out;
+    auto out = nlohmann::ordered_json::object();
     out["software"] = std::string("turnscan ") + version();
     out["recording"] = out_.recording;
     out["mesh"] = request_.mesh;

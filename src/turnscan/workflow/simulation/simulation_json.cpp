@@ -9,19 +9,23 @@ namespace turnscan {
 namespace {
 
 nlohmann::ordered_json options_json(SceneDescription scene) {
-  nlohmann::ordered_json out;
-  for (const SceneTable& table : describe(scene))
-    for (const OptionField& field : table.options.fields())
-      out[table.name][field.name] = field.get();
+  auto out = nlohmann::ordered_json::object();
+  for (const SceneTable& table : describe(scene)) {
+    nlohmann::ordered_json& options = out[table.name];
+    if (options.is_null()) options = nlohmann::ordered_json::object();
+    for (const OptionField& field : table.options.fields()) options[field.name] = field.get();
+  }
   return out;
 }
 
 nlohmann::ordered_json scanner_json(const VirtualPasses& scan, std::size_t k) {
-  nlohmann::ordered_json scanner;
+  auto scanner = nlohmann::ordered_json::object();
   scanner["model"] = scan.header().sensors[k].model;
+  auto samples = nlohmann::ordered_json::object();
   const auto tally = scan.tally(k);
   for (std::size_t m = 0; m < tally.size(); ++m)
-    scanner["samples"][m == 0 ? "measured" : std::string(name_of(static_cast<Miss>(m)))] = tally[m];
+    samples[m == 0 ? "measured" : std::string(name_of(static_cast<Miss>(m)))] = tally[m];
+  scanner["samples"] = std::move(samples);
   return scanner;
 }
 
@@ -29,7 +33,7 @@ nlohmann::ordered_json scanner_json(const VirtualPasses& scan, std::size_t k) {
 
 std::string simulation_json(const Simulation& simulation) {
   const VirtualPasses& scan = simulation.scan;
-  nlohmann::ordered_json out;
+  auto out = nlohmann::ordered_json::object();
   out["software"] = std::string("turnscan ") + version();
   out["object"] = simulation.scene.object;
   out["frames"] = scan.frames().size();

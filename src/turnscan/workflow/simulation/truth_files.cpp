@@ -65,15 +65,16 @@ Json object_json(const VirtualScan& scan, const PlacedObject& placed) {
 }
 
 std::string truth_json(const VirtualPasses& scan, const std::vector<PlacedObject>& placed) {
-  Json out;
+  auto out = Json::object();
   out["format"] = "turnscan truth";
   out["software"] = std::string("turnscan ") + version();
   if (!placed.empty()) out["object"] = object_json(scan.pass(0), placed[0]);
+  if (placed.size() > 1) out["next_passes"] = Json::array();
   for (std::size_t k = 1; k < placed.size(); ++k)
     out["next_passes"].push_back(object_json(scan.pass(k), placed[k]));
   out["sensors"] = Json::array();
   for (std::size_t k = 0; k < scan.header().sensors.size(); ++k) {
-    Json sensor;
+    auto sensor = Json::object();
     sensor["model"] = scan.header().sensors[k].model;
     // The frames of the first instant come in the order of the sensors.
     sensor["T_table_sensor"] = matrix_json(scan.pass(0).T_table_sensor(k));
