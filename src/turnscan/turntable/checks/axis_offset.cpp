@@ -51,7 +51,8 @@ bool AxisOffset::bad() const {
 }
 
 Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
-                                                      const RunContext& context) {
+                                                      const RunContext& context,
+                                                      PlatterMemory* memory) {
   const auto& table = sequence.header().turntable;
   if (!table)
     return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
@@ -69,6 +70,7 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
     return std::nullopt;
   motion::MotionDataOptions loading;
   loading.hint = table;
+  loading.memory = memory;
   const auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
   const auto nothing_if_unseen = [](const Error& error) -> Result<std::optional<AxisOffset>> {
     if (error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/turntable/detection/detect.hpp>
 
 namespace turnscan {
 
@@ -24,6 +25,7 @@ struct AxisOffset {
 /// than an eighth of a turn, or too little of an object. Fails with kMissingData when the recording
 /// has no turntable or no angles, kCancelled, and what reading fails with.
 Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
-                                                      const RunContext& context);
+                                                      const RunContext& context,
+                                                      PlatterMemory* memory = nullptr);
 
 }  // namespace turnscan

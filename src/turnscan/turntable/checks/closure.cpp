@@ -159,7 +159,8 @@ bool ClosureError::bad() const {
 }
 
 Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,
-                                                    const RunContext& context) {
+                                                    const RunContext& context,
+                                                    PlatterMemory* memory) {
   const auto& table = sequence.header().turntable;
   if (!table)
     return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
@@ -172,6 +173,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
   if (positions.size() < 3) return std::nullopt;
   motion::MotionDataOptions loading;
   loading.hint = table;
+  loading.memory = memory;
   const auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
   if (!data) {
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;

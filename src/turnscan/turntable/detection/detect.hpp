@@ -34,6 +34,13 @@ struct DetectedPlatter {
   std::size_t plane_pixels = 0, rim_points = 0;
 };
 
+/// What a search for the platter of a recording found, for the searches that follow: it stands
+/// where it stood, whichever frames are looked at.
+struct PlatterMemory {
+  bool searched = false;
+  std::optional<DetectedPlatter> platter;  ///< as searched; nullopt: none was seen
+};
+
 /// Planes are found one after the other (RANSAC); in each, the places where it ends before
 /// something farther give a circle (RANSAC over three of them), then least squares over plane and
 /// rim give a start. The rim is then estimated by maximum likelihood from what each pixel about the

@@ -29,12 +29,7 @@ class ForegroundSearch {
     TURNSCAN_ASSIGN(const AveragedScan scan,
                     average_frames(sequence_, positions, average, context_));
     TURNSCAN_ASSIGN(const bool still, find_noise(scan, positions));
-    if (options_.use_platter && still) {
-      const auto platter = detect_platter(scan, options_.detect, context_);
-      if (!platter && platter.error().code == ErrorCode::kCancelled)
-        return tl::unexpected<Error>(platter.error());
-      if (platter) data_.platter = *platter;
-    }
+    if (options_.use_platter && still) TURNSCAN_TRY(find_platter(scan));
     if (const auto& platter = data_.platter) {
       crop_to(platter->axis, platter->center_m, platter->radius_m, platter->plane_rms_m);
     } else if (options_.hint && options_.hint->radius_m) {
@@ -46,6 +41,20 @@ class ForegroundSearch {
   }
 
  private:
+  Result<> find_platter(const AveragedScan& scan) {
+    PlatterMemory* memory = options_.memory;
+    if (memory != nullptr && memory->searched) {
+      data_.platter = memory->platter;
+      return {};
+    }
+    const auto platter = detect_platter(scan, options_.detect, context_);
+    if (!platter && platter.error().code == ErrorCode::kCancelled)
+      return tl::unexpected<Error>(platter.error());
+    if (platter) data_.platter = *platter;
+    if (memory != nullptr) *memory = {true, data_.platter};
+    return {};
+  }
+
   /// Sets the noise. Returns whether something stands still, a platter perhaps: else the pixels
   /// change by more than noise all over the image.
   Result<bool> find_noise(const AveragedScan& scan, const std::vector<std::size_t>& positions) {

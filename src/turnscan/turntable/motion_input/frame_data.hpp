@@ -76,6 +76,7 @@ struct MotionDataOptions {
   std::size_t max_keys = 160;
   std::optional<TurntableInfo> hint;  ///< used where no platter is seen
   bool use_platter = true;            ///< false: do not look for one
+  PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: look for it
 };
 
 /// Reads the frames. Fails with kTooFewPoints when fewer than 3 frames can be used or nothing

@@ -96,12 +96,13 @@ std::size_t first_after(const std::vector<std::size_t>& between, const StepCost&
 Result<> find_moments(const FrameSequence& sequence, const std::vector<Pose>& believed,
                       const Keyframes& keyframes, const ModelFrames& frames,
                       std::vector<DisturbanceModel>& models, const RunContext& context) {
+  PlatterMemory memory{true, keyframes.data.platter};
   for (std::size_t step = 0; step < models.size(); ++step) {
     if (!is_step(models[step].kind)) continue;
     const Window window = window_of(sequence, keyframes, models[step]);
     if (window.between.empty()) continue;
     TURNSCAN_ASSIGN(const auto loaded,
-                    load_keyframes(sequence, believed, window.positions, context));
+                    load_keyframes(sequence, believed, window.positions, &memory, context));
     if (!loaded) continue;
     models[step].first =
         first_after(window.between, StepCost(*loaded, frames, models, step), models[step].first);

@@ -23,15 +23,16 @@ std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
 class DisturbanceSearch {
  public:
   DisturbanceSearch(const FrameSequence& sequence, const std::vector<Pose>& believed,
-                    const RunContext& context)
-      : sequence_(sequence), believed_(believed), context_(context) {
+                    PlatterMemory* memory, const RunContext& context)
+      : sequence_(sequence), believed_(believed), memory_(memory), context_(context) {
     out_.T_table_sensor = believed;
   }
 
   Result<std::optional<Placement>> run() {
     const auto positions = keyframe_positions(sequence_);
     if (positions.size() < kLeastKeyframes) return std::nullopt;
-    TURNSCAN_ASSIGN(auto keyframes, load_keyframes(sequence_, believed_, positions, context_));
+    TURNSCAN_ASSIGN(auto keyframes,
+                    load_keyframes(sequence_, believed_, positions, memory_, context_));
     if (!keyframes || keyframes->size() < kLeastKeyframes) return std::nullopt;
     context_.begin_phase("compare frames", 1);
     find_shown(*keyframes,
@@ -96,6 +97,7 @@ class DisturbanceSearch {
 
   const FrameSequence& sequence_;
   const std::vector<Pose>& believed_;
+  PlatterMemory* memory_;
   const RunContext& context_;
   Placement out_;
 };
@@ -108,7 +110,8 @@ namespace turnscan {
 
 Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence,
                                                    const std::vector<Pose>& T_table_sensor,
-                                                   const RunContext& context) {
+                                                   const RunContext& context,
+                                                   PlatterMemory* memory) {
   const auto& frames = sequence.frames();
   if (T_table_sensor.size() != frames.size())
     return fail(ErrorCode::kInvalidOption, "placement: {} poses for {} frames",
@@ -119,7 +122,7 @@ Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence
   if (std::any_of(frames.begin(), frames.end(),
                   [&](const FrameInfo& f) { return f.pass != frames.front().pass; }))
     return std::nullopt;
-  return placement::DisturbanceSearch(sequence, T_table_sensor, context).run();
+  return placement::DisturbanceSearch(sequence, T_table_sensor, memory, context).run();
 }
 
 }  // namespace turnscan

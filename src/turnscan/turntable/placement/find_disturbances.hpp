@@ -5,6 +5,7 @@
 #include <string>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/turntable/detection/detect.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -41,6 +42,7 @@ struct Placement {
 /// kInvalidOption when the poses do not fit the frames, kCancelled, and what reading fails with.
 Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence,
                                                    const std::vector<Pose>& T_table_sensor,
-                                                   const RunContext& context);
+                                                   const RunContext& context,
+                                                   PlatterMemory* memory = nullptr);
 
 }  // namespace turnscan

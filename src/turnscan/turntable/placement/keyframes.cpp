@@ -36,10 +36,11 @@ void measure_object(Keyframes& frames) {
 Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
                                                 const std::vector<Pose>& T_table_sensor,
                                                 std::vector<std::size_t> positions,
-                                                const RunContext& context) {
+                                                PlatterMemory* memory, const RunContext& context) {
   if (positions.size() < 3) return std::nullopt;
   motion::MotionDataOptions loading;
   loading.hint = table_at(T_table_sensor[positions.front()], sequence.header());
+  loading.memory = memory;
   auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
   if (!data) {
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;

@@ -30,7 +30,7 @@ struct Keyframes {
 Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
                                                 const std::vector<Pose>& T_table_sensor,
                                                 std::vector<std::size_t> positions,
-                                                const RunContext& context);
+                                                PlatterMemory* memory, const RunContext& context);
 
 /// The small motion that a twist stands for.
 Pose motion_of(const Twist& twist, const Vec3d& middle, double lever_m);

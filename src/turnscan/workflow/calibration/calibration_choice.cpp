@@ -81,8 +81,8 @@ Result<std::optional<Measure>> if_measurable(Result<std::optional<Measure>> meas
 
 /// Why the closure after a turn speaks against the calibration; nullopt: it does not.
 Result<std::optional<std::string>> closure_doubt(const FrameSequence& sequence,
-                                                 const RunContext& context) {
-  TURNSCAN_ASSIGN(const auto closure, if_measurable(measure_closure(sequence, context)));
+                                                 PlatterMemory& memory, const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto closure, if_measurable(measure_closure(sequence, context, &memory)));
   if (!closure || !closure->bad()) return std::nullopt;
   return fmt::format(
       "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
@@ -91,9 +91,10 @@ Result<std::optional<std::string>> closure_doubt(const FrameSequence& sequence,
 }
 
 /// The same of the axis about which the frames fit.
-Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence,
+Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence, PlatterMemory& memory,
                                               const RunContext& context) {
-  TURNSCAN_ASSIGN(const auto offset, if_measurable(measure_axis_offset(sequence, context)));
+  TURNSCAN_ASSIGN(const auto offset,
+                  if_measurable(measure_axis_offset(sequence, context, &memory)));
   if (!offset || !offset->bad()) return std::nullopt;
   return fmt::format(
       "the recording's axis lies {:.1f} mm beside the one about which the object turns, and leans "
@@ -102,10 +103,11 @@ Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence,
 }
 
 /// nullopt: nothing speaks against the recording's calibration.
-Result<std::optional<std::string>> doubt(const FrameSequence& sequence, const RunContext& context) {
-  TURNSCAN_ASSIGN(auto why, closure_doubt(sequence, context));
+Result<std::optional<std::string>> doubt(const FrameSequence& sequence, PlatterMemory& memory,
+                                         const RunContext& context) {
+  TURNSCAN_ASSIGN(auto why, closure_doubt(sequence, memory, context));
   if (why) return why;
-  return axis_doubt(sequence, context);
+  return axis_doubt(sequence, memory, context);
 }
 
 /// The sequence with the angles of a stated speed in place of its own.
@@ -123,12 +125,12 @@ SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) 
 
 /// What was given by somebody is used, and a doubt about it is said.
 Result<CalibrationChoice> as_given(const FrameSequence& sequence, const CalibrationRequest& request,
-                                   const RunContext& context) {
+                                   PlatterMemory& memory, const RunContext& context) {
   CalibrationChoice out;
   TURNSCAN_ASSIGN(const auto why,
                   request.speed_rad_s
-                      ? doubt(at_stated_speed(sequence, *request.speed_rad_s), context)
-                      : doubt(sequence, context));
+                      ? doubt(at_stated_speed(sequence, *request.speed_rad_s), memory, context)
+                      : doubt(sequence, memory, context));
   if (why)
     out.note = fmt::format("{}; it was used because {} given, --calibration motion makes another",
                            *why, request.speed_rad_s ? "the speed was" : "it was");
@@ -138,11 +140,11 @@ Result<CalibrationChoice> as_given(const FrameSequence& sequence, const Calibrat
 /// What disturbed the recording, as its calibration or a stated speed places it; empty where
 /// nothing says where the frames are. Poses of their own are not questioned.
 Result<Placement> disturbances_of(const FrameSequence& sequence, std::optional<double> stated_speed,
-                                  const RunContext& context) {
+                                  PlatterMemory& memory, const RunContext& context) {
   if (has_poses(sequence)) return Placement();
   const auto poses = frame_poses(sequence.header(), sequence.frames(), stated_speed);
   if (!poses) return Placement();
-  TURNSCAN_ASSIGN(auto found, find_disturbances(sequence, poses->T_table_sensor, context));
+  TURNSCAN_ASSIGN(auto found, find_disturbances(sequence, poses->T_table_sensor, context, &memory));
   return found ? std::move(*found) : Placement();
 }
 
@@ -173,11 +175,11 @@ void correct(Placement placement, CalibrationChoice& choice) {
 
 /// The recording's own calibration, with a word about what disturbed it.
 Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
-                                      const CalibrationRequest& request,
+                                      const CalibrationRequest& request, PlatterMemory& memory,
                                       const RunContext& context) {
   CalibrationChoice out;
   TURNSCAN_ASSIGN(const Placement placement,
-                  disturbances_of(sequence, request.speed_rad_s, context));
+                  disturbances_of(sequence, request.speed_rad_s, memory, context));
   if (!placement.disturbances.empty())
     out.note =
         text_of(placement) + "; nothing was corrected because --calibration recorded was given";
@@ -187,27 +189,30 @@ Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
 /// From motion, and the frames moved to where they belong all the same.
 Result<CalibrationChoice> from_motion_corrected(const FrameSequence& sequence,
                                                 const CalibrationRequest& request,
-                                                const std::string& why, const RunContext& context) {
+                                                const std::string& why, PlatterMemory& memory,
+                                                const RunContext& context) {
   TURNSCAN_ASSIGN(auto out, from_motion(sequence, request, why, context));
   TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *out.calibration));
-  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, context));
+  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, memory, context));
   correct(std::move(placement), out);
   return out;
 }
 
 /// The recording's own calibration, or one from motion where something speaks against it.
 Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
-                                    const CalibrationRequest& request, const RunContext& context) {
-  if (request.table_given || request.speed_rad_s) return as_given(sequence, request, context);
-  TURNSCAN_ASSIGN(const auto why, doubt(sequence, context));
+                                    const CalibrationRequest& request, PlatterMemory& memory,
+                                    const RunContext& context) {
+  if (request.table_given || request.speed_rad_s)
+    return as_given(sequence, request, memory, context);
+  TURNSCAN_ASSIGN(const auto why, doubt(sequence, memory, context));
   if (!why) return CalibrationChoice();
-  auto found = from_motion_corrected(sequence, request, *why, context);
+  auto found = from_motion_corrected(sequence, request, *why, memory, context);
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
   if (found) {
     // A calibration takes precedence over the recording's only if nothing speaks against it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
-    TURNSCAN_ASSIGN(const auto still, doubt(*better, context));
+    TURNSCAN_ASSIGN(const auto still, doubt(*better, memory, context));
     if (!still || !found->poses.empty()) return found;
     failure = "the one from motion does not fit either";
   }
@@ -217,20 +222,22 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
 }
 
 Result<CalibrationChoice> automatic(const FrameSequence& sequence,
-                                    const CalibrationRequest& request, const RunContext& context) {
+                                    const CalibrationRequest& request, PlatterMemory& memory,
+                                    const RunContext& context) {
   if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
-    auto found =
-        from_motion_corrected(sequence, request, "the recording has no calibration", context);
+    auto found = from_motion_corrected(sequence, request, "the recording has no calibration",
+                                       memory, context);
     if (found || found.error().code == ErrorCode::kCancelled) return found;
     return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
                 found.error().message);
   }
-  TURNSCAN_ASSIGN(Placement placement, disturbances_of(sequence, request.speed_rad_s, context));
+  TURNSCAN_ASSIGN(Placement placement,
+                  disturbances_of(sequence, request.speed_rad_s, memory, context));
   CalibrationChoice out;
   if (!moves_frames(placement)) {
-    TURNSCAN_ASSIGN(out, undoubted(sequence, request, context));
+    TURNSCAN_ASSIGN(out, undoubted(sequence, request, memory, context));
     if (!out.left_out.empty()) return out;  // they were found with the better calibration
   }
   correct(std::move(placement), out);
@@ -242,10 +249,12 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
-  if (request.mode == "recorded") return as_recorded(sequence, request, context);
+  PlatterMemory memory;  // it stands where it stood, whatever is asked about the recording
+  if (request.mode == "recorded") return as_recorded(sequence, request, memory, context);
   if (request.mode == "motion")
-    return from_motion_corrected(sequence, request, "--calibration motion was given", context);
-  if (request.mode == "auto") return automatic(sequence, request, context);
+    return from_motion_corrected(sequence, request, "--calibration motion was given", memory,
+                                 context);
+  if (request.mode == "auto") return automatic(sequence, request, memory, context);
   if (const auto way = free_ways().find(request.mode); way != free_ways().end())
     return by_free_registration(sequence, request, way->second, context);
   return fail(ErrorCode::kInvalidOption,
