@@ -15,6 +15,7 @@ Calibration some_calibration(std::uint64_t seed) {
   c.table.axis = Vec3d(random(0), -random(1) - 1, -random(2)).normalized();
   c.table.center_m = Vec3d(random(3), random(4), random(5));
   c.table.radius_m = 0.1 + random(6);
+  c.table.reach_m = 0.1 + random(20);
   c.table.speed_rad_s = random(7) - 0.5;
   c.axis_sigma_rad = random(8) * 1e-3;
   c.center_sigma_m = random(9) * 1e-3;
@@ -79,6 +80,7 @@ TEST(CalibrationFile, KeepsLengthsExactlyAndAnglesToARounding) {
   EXPECT_EQ(read->table.axis, c.table.axis);
   EXPECT_EQ(read->table.center_m, c.table.center_m);
   EXPECT_EQ(read->table.radius_m, c.table.radius_m);
+  EXPECT_EQ(read->table.reach_m, c.table.reach_m);
   EXPECT_EQ(read->start_s, c.start_s);
   EXPECT_EQ(read->notes, c.notes);
   EXPECT_EQ(read->depth->bias_m, c.depth->bias_m);
@@ -112,6 +114,7 @@ TEST(CalibrationFile, WithWrongFieldsIsRefused) {
             ErrorCode::kUnsupported);
   EXPECT_FALSE(parse_calibration(with("\"motion\"", "\"magic\"")));
   EXPECT_FALSE(parse_calibration(with("\"radius_m\": ", "\"radius_m\": -")));
+  EXPECT_FALSE(parse_calibration(with("\"reach_m\": ", "\"reach_m\": -")));
   EXPECT_FALSE(parse_calibration(with("\"angles_deg\": [", "\"angles_deg\": [null, ")));
   EXPECT_FALSE(parse_calibration(with("\"angles_deg\": [", "\"angles_deg\": [1, ")));
   EXPECT_FALSE(parse_calibration(with("\"axis\"", "\"axes\"")));

@@ -24,7 +24,8 @@ RecordingDescription full_description() {
   SensorInfo scanner = testing::scanner_header().sensors[0];
   scanner.viewpoint = {Vec3d(0, 0, 1), true};
   d.header.sensors.push_back(scanner);
-  d.header.turntable = TurntableInfo{Vec3d(0, -1, 0), Vec3d(0.01, 0.2, 0.9), 0.15, 10.4478 / 180.0};
+  d.header.turntable =
+      TurntableInfo{Vec3d(0, -1, 0), Vec3d(0.01, 0.2, 0.9), 0.15, 10.4478 / 180.0, 0.12};
   d.header.software = "turnscan 0.1.0";
   d.header.source = "somewhere\nfirst assumption\nsecond assumption";
   d.capture = {{"exposure_ms", "12.5"}, {"gain", "auto"}};
@@ -72,6 +73,7 @@ TEST(RecordingJson, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(back->header.turntable->axis, d.header.turntable->axis);
   EXPECT_EQ(back->header.turntable->center_m, d.header.turntable->center_m);
   EXPECT_EQ(back->header.turntable->radius_m, d.header.turntable->radius_m);
+  EXPECT_EQ(back->header.turntable->reach_m, d.header.turntable->reach_m);
   EXPECT_EQ(back->header.turntable->speed_rad_s, d.header.turntable->speed_rad_s);
   EXPECT_EQ(back->header.software, d.header.software);
   EXPECT_EQ(back->header.source, d.header.source);
@@ -115,6 +117,8 @@ TEST(RecordingJson, UnusableValuesAreRefused) {
   EXPECT_EQ(json_refusal(changed(good, "\"axis\": [0.0,-1.0,0.0]", "\"axis\": [0,0,0]")).code,
             ErrorCode::kFormat);
   EXPECT_EQ(json_refusal(changed(good, "\"radius_m\": 0.15", "\"radius_m\": -1")).code,
+            ErrorCode::kFormat);
+  EXPECT_EQ(json_refusal(changed(good, "\"reach_m\": 0.12", "\"reach_m\": 0")).code,
             ErrorCode::kFormat);
 }
 

@@ -27,7 +27,9 @@ SequenceSummary summary_of(const FrameSequence& sequence) {
   return summary.value_or(SequenceSummary{});
 }
 
-TurntableInfo table() { return {Vec3d(0, -1, 0), Vec3d(0, 0.1, 0.9), 0.15, std::nullopt}; }
+TurntableInfo table() {
+  return {Vec3d(0, -1, 0), Vec3d(0, 0.1, 0.9), 0.15, std::nullopt, std::nullopt};
+}
 
 std::vector<Frame> frames(std::uint32_t count) {
   std::vector<Frame> out;

@@ -84,7 +84,7 @@ std::vector<TriangleMesh> room_of(const RigOptions& o) {
   if (!o.room) return out;
   out.push_back(box({-0.9, -o.desk_m - 0.03, -0.6}, {0.9, -o.desk_m, 0.7}, 0.1));
   out.push_back(box({-3.0, -1.0, 1.1}, {3.0, 2.0, 1.2}, between(hash_key(o.seed, 90), -0.3, 0.3)));
-  out.push_back(tube({0, -o.desk_m, 0}, o.radius_m, o.desk_m - 0.0002, false));
+  if (o.drum) out.push_back(tube({0, -o.desk_m, 0}, o.radius_m, o.desk_m - 0.0002, false));
   for (int i = 0; i < o.clutter; ++i) {
     const auto random = [&](std::uint64_t k, double low, double high) {
       return between(hash_key(o.seed, 100 + std::uint64_t(i), k), low, high);

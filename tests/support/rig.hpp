@@ -18,7 +18,8 @@ struct RigOptions {
   double aim_x_m = 0.0, aim_z_m = 0.0;
   double radius_m = 0.15;
   bool platter = true;
-  bool room = true;           ///< desk, wall, sides of the platter
+  bool room = true;           ///< desk, wall
+  bool drum = true;           ///< sides of the platter, down to the desk; of a room
   int clutter = 0;            ///< things that stand about
   double desk_m = 0.03;       ///< how far the desk lies below the platter
   double noise_m = 0.0015;    ///< standard deviation of depth

@@ -1,5 +1,6 @@
 #pragma once
-// Whether this build runs under a sanitizer, which takes address space that limits would deny it.
+// Whether this build runs under a sanitizer, which takes address space that limits would deny it,
+// and many times as long.
 
 namespace turnscan::testing {
 
@@ -14,5 +15,8 @@ inline constexpr bool kSanitized = false;
 #else
 inline constexpr bool kSanitized = false;
 #endif
+
+/// How often to repeat what only statistics need: a sanitizer judges the code, not the figures.
+constexpr int repetitions(int many, int few = 1) { return kSanitized ? few : many; }
 
 }  // namespace turnscan::testing

@@ -44,10 +44,12 @@ struct SensorInfo {
 
 /// The turntable in the frame of sensor 0.
 struct TurntableInfo {
-  Vec3d axis = Vec3d::UnitY();     ///< unit vector, up
-  Vec3d center_m = Vec3d::Zero();  ///< on the platter's surface
-  std::optional<double> radius_m;
+  Vec3d axis = Vec3d::UnitY();        ///< unit vector, up
+  Vec3d center_m = Vec3d::Zero();     ///< on the platter's surface
+  std::optional<double> radius_m;     ///< of the platter
   std::optional<double> speed_rad_s;  ///< signed, counter-clockwise seen from above is positive
+  /// Where no platter was seen: the largest distance from the axis at which something turned.
+  std::optional<double> reach_m;
 };
 
 enum class FrameStatus { kOk, kDropped };

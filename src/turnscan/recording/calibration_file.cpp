@@ -163,13 +163,16 @@ Result<TurntableInfo> parse_table(const text::JsonObject& object) {
   TURNSCAN_ASSIGN(table.axis, object.vector("axis"));
   TURNSCAN_ASSIGN(table.center_m, object.vector("center_m"));
   TURNSCAN_ASSIGN(table.radius_m, object.optional_number("radius_m"));
+  TURNSCAN_ASSIGN(table.reach_m, object.optional_number("reach_m"));
   TURNSCAN_ASSIGN(table.speed_rad_s, object.optional_number("speed_rad_s"));
   TURNSCAN_ASSIGN(const auto degrees, object.optional_number("speed_deg_s"));
   if (degrees) table.speed_rad_s = radians_of(*degrees);
   const double length = table.axis.norm();
-  if (!(length > 1e-6 && length < 1e6) || (table.radius_m && !(*table.radius_m > 0.0)))
+  if (!(length > 1e-6 && length < 1e6) || (table.radius_m && !(*table.radius_m > 0.0)) ||
+      (table.reach_m && !(*table.reach_m > 0.0)))
     return fail(ErrorCode::kFormat,
-                "the axis has no length, or one beyond all measure, or the radius is not positive");
+                "the axis has no length, or one beyond all measure, or the radius or the reach is "
+                "not positive");
   if (!(table.center_m.norm() < 1e6))
     return fail(ErrorCode::kFormat, "the centre lies beyond all measure");
   // A unit vector stays as it is, to the last bit.
@@ -277,6 +280,7 @@ std::string calibration_json(const Calibration& c) {
   out["axis"] = text::json_of(c.table.axis);
   out["center_m"] = text::json_of(c.table.center_m);
   if (c.table.radius_m) out["radius_m"] = *c.table.radius_m;
+  if (c.table.reach_m) out["reach_m"] = *c.table.reach_m;
   if (c.table.speed_rad_s) out["speed_deg_s"] = degrees_of(*c.table.speed_rad_s);
   put_sigmas(out, c);
   put_reasons(out, c);

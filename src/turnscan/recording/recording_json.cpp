@@ -74,6 +74,7 @@ Result<TurntableInfo> parse_turntable(const text::JsonObject& object) {
   table.axis.normalize();
   TURNSCAN_ASSIGN(table.center_m, object.vector("center_m"));
   TURNSCAN_ASSIGN(table.radius_m, object.optional_number("radius_m"));
+  TURNSCAN_ASSIGN(table.reach_m, object.optional_number("reach_m"));
   TURNSCAN_ASSIGN(table.speed_rad_s, object.optional_number("speed_rad_s"));
   return table;
 }
@@ -186,8 +187,9 @@ std::string defect_of(const TurntableInfo& table) {
   if (!table.axis.allFinite() || !(table.axis.norm() > 1e-6)) return "its axis has no direction";
   if (!table.center_m.allFinite() || table.center_m.norm() > kMaxDistance_m)
     return "its centre is not within 1000 km";
-  if (table.radius_m && !(*table.radius_m > 0.0 && *table.radius_m <= kMaxDistance_m))
-    return fmt::format("its radius {} m is not within 0 to 1000 km", *table.radius_m);
+  for (const auto& [name, value] : {std::pair("radius", table.radius_m), {"reach", table.reach_m}})
+    if (value && !(*value > 0.0 && *value <= kMaxDistance_m))
+      return fmt::format("its {} {} m is not within 0 to 1000 km", name, *value);
   if (table.speed_rad_s && !(std::abs(*table.speed_rad_s) <= kMaxSpeed_rad_s))
     return fmt::format("its speed {:.3g} rad/s is beyond {:.0e} rad/s", *table.speed_rad_s,
                        kMaxSpeed_rad_s);
@@ -214,6 +216,7 @@ text::OrderedJson turntable_json(const TurntableInfo& table) {
   out["axis"] = text::json_of(table.axis);
   out["center_m"] = text::json_of(table.center_m);
   if (table.radius_m) out["radius_m"] = *table.radius_m;
+  if (table.reach_m) out["reach_m"] = *table.reach_m;
   if (table.speed_rad_s) out["speed_rad_s"] = *table.speed_rad_s;
   return out;
 }

@@ -10,6 +10,7 @@
 #include <turnscan/reconstruction/outliers/outliers_tree.hpp>
 
 #include "tests/reconstruction/outliers/depth_frames.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan::outliers {
 namespace {
@@ -76,9 +77,9 @@ double random_at(std::uint64_t seed, int column, int row) {
 }
 
 TEST(GridSearch, GivesTheMeanDistancesOfBruteForce) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (int seed = 1; seed <= testing::repetitions(3); ++seed) {
     Defects defects;
-    defects.seed = seed;
+    defects.seed = std::uint64_t(seed);
     const FramePoints frame = testing::object_frame(testing::kinect_v2(), defects);
     for (const int k : {1, 7, 10, 33}) expect_exact(frame, k);
   }

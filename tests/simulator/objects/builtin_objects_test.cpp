@@ -22,18 +22,13 @@ void expect_box(const TriangleMesh& mesh, const Vec3d& low, const Vec3d& high, d
   EXPECT_LE((box.max - high).cwiseAbs().maxCoeff(), tolerance) << box.max.transpose();
 }
 
-TEST(BuiltinObjects, AreClosedTwoManifoldAndOutward) {
+// One test, as the figures take a while to mesh.
+TEST(BuiltinObjects, AreClosedTwoManifoldOutwardOnThePlatterWithColoursAndAName) {
   for (const std::string& name : builtin_object_names()) {
     const TriangleMesh mesh = object(name);
     EXPECT_TRUE(test::closed_and_oriented(mesh)) << name;
     EXPECT_TRUE(test::one_ring_each(mesh)) << name;
     EXPECT_GT(test::volume_of(mesh), 0.0) << name;
-  }
-}
-
-TEST(BuiltinObjects, StandOnThePlatterWithColoursAndAName) {
-  for (const std::string& name : builtin_object_names()) {
-    const TriangleMesh mesh = object(name);
     EXPECT_NEAR(bounds(mesh.vertices).min.y(), 0.0, 1e-6) << name;
     EXPECT_EQ(mesh.colors.size(), mesh.vertices.size()) << name;
     EXPECT_EQ(mesh.name, name);

@@ -10,6 +10,7 @@
 #include <turnscan/turntable/checks/closure.hpp>
 
 #include "tests/support/rig.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan {
 namespace {
@@ -61,7 +62,7 @@ TEST(MeasureAxisOffset, IsSmallWhereTheRecordingIsRight) {
 
 TEST(MeasureAxisOffset, HasErrorsAsLargeAsItsDeviationsSay) {
   double tilt = 0.0, shift = 0.0;
-  constexpr int kRigs = 10;
+  constexpr int kRigs = testing::repetitions(10, 3);
   for (std::uint64_t seed = 11; seed < 11 + kRigs; ++seed) {
     const testing::Rig rig = turning_rig(seed);
     const auto offset = measure_axis_offset(letter_on(rig), {});
@@ -69,7 +70,8 @@ TEST(MeasureAxisOffset, HasErrorsAsLargeAsItsDeviationsSay) {
     tilt += std::pow((*offset)->tilt_rad / (*offset)->tilt_sigma_rad, 2) / kRigs;
     shift += std::pow((*offset)->shift_m / (*offset)->shift_sigma_m, 2) / kRigs;
   }
-  // The rms of ten rigs' errors over their deviations,.
+  if (kRigs < 10) return;
+  // The rms of ten rigs' errors over their deviations.
   EXPECT_GT(std::sqrt(tilt), 0.5);
   EXPECT_LT(std::sqrt(tilt), 2.0);
   EXPECT_GT(std::sqrt(shift), 0.5);

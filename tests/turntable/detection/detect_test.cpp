@@ -118,6 +118,7 @@ TEST(FitDepth, FindsOffsetAndScaleFromTwoDistances) {
   for (const double distance_m : {0.8, 1.1}) {
     testing::RigOptions options = testing::random_rig(5);
     options.frames = 4;
+    options.shrink = 2;
     options.distance_m = distance_m;
     AveragedScan scan = scan_of(options);
     for (float& z : scan.depth_m.pixels)

@@ -95,6 +95,11 @@ TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
   EXPECT_LT(axis_error_deg(rig, *found), 0.1);
   EXPECT_LT(line_error_mm(rig, *found), 0.15);
   EXPECT_LT(found->axis_sigma_rad, 0.15 * kRadiansPerDegree);
+  const double height_m = rig.truth().axis.dot(found->table.center_m - rig.truth().center_m);
+  EXPECT_LT(std::abs(height_m), 0.008);
+  EXPECT_FALSE(found->table.radius_m);
+  ASSERT_TRUE(found->table.reach_m);
+  EXPECT_NEAR(*found->table.reach_m, 0.09, 0.015);
 }
 
 TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {

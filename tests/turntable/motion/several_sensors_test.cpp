@@ -102,7 +102,7 @@ TEST(MotionOfSeveralSensors, SaysWhenTheObjectShowsNoHeading) {
 }
 
 TEST(MotionOfSeveralSensors, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
-  const TwoSensorScan scan = scan_of("doll", {{0, 15}, {-60, 35}}, 20);
+  const TwoSensorScan scan = scan_of("letter-a", {{0, 15}, {-60, 35}}, 16);
   const auto many = calibrate_from_motion(scan, {}, {}, {});
   set_thread_count(1);
   const auto one = calibrate_from_motion(scan, {}, {}, {});

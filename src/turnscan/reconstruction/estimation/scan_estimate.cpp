@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
+/// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
+constexpr double kBeyondReach = 1.15, kBeyondReach_m = 0.01;
 
 bool is_cropped(const SequenceHeader& header, const CropOptions& crop) {
   return crop.enabled && (header.turntable || crop.radius_m);
@@ -20,11 +22,19 @@ std::optional<double> known_radius(const SequenceHeader& header, const CropOptio
   return crop.radius_m || !header.turntable ? crop.radius_m : header.turntable->radius_m;
 }
 
+/// Where to crop sideways as far as the calibration tells; it knows a reach where it saw no
+/// platter.
+std::optional<double> calibrated_radius(const SequenceHeader& header, const CropOptions& crop) {
+  const auto known = known_radius(header, crop);
+  if (known || !header.turntable || !header.turntable->reach_m) return known;
+  return kBeyondReach * *header.turntable->reach_m + kBeyondReach_m;
+}
+
 /// Roughly the object and its noise, not the platter.
 Cylinder rough_cylinder(const SequenceHeader& header, const CropOptions& crop) {
   Cylinder rough;
   rough.margin_m = crop.margin_m.value_or(0.003);
-  rough.radius_m = known_radius(header, crop).value_or(1e3);
+  rough.radius_m = calibrated_radius(header, crop).value_or(1e3);
   rough.height_m = crop.height_m;
   return rough;
 }
@@ -34,12 +44,14 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   Cylinder cylinder;
   cylinder.height_m = crop.height_m;
   const std::optional<double> known = known_radius(header, crop);
-  const PlatterReturns platter = measure_platter(sample, std::min(known.value_or(0.5), 0.5));
-  const auto found = known ? known : find_platter_radius(sample, platter);
+  const std::optional<double> calibrated = calibrated_radius(header, crop);
+  const PlatterReturns platter = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
+  const auto found = calibrated ? calibrated : find_platter_radius(sample, platter);
   if (found) {
     estimate.choices.push_back({"crop-radius", mm(*found),
                                 crop.radius_m ? "given"
                                 : known       ? "the platter's radius"
+                                : calibrated  ? "15 % and 10mm beyond what was seen to turn"
                                               : "where the returns of the platter end"});
   } else {
     estimate.notes.emplace_back(

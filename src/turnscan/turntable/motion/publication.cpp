@@ -87,11 +87,13 @@ class Publication {
     }
     TurntableInfo axis;
     axis.axis = a, axis.center_m = state_.center;
-    TURNSCAN_ASSIGN(const ObjectBase base, find_base(data_, axis, sequence_));
+    TURNSCAN_ASSIGN(const ObjectBase base, find_base(data_, axis, state_.angle, sequence_));
     out.table.center_m = state_.center + base.height_m * a;
     out.height_sigma_m =
         base.ends ? std::max(kBaseSigma_m, kBaseNoises * data_.noise_m) : kSpreadingBaseSigma_m;
     out.height_found = "the lowest points of what turns";
+    if (!base.ends) out.undetermined.emplace_back("height");
+    out.table.reach_m = base.reach_m;
     const auto& table = sequence_.header().turntable;
     if (table && options_.use_table && table->radius_m) {
       out.table.radius_m = table->radius_m;

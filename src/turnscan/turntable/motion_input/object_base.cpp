@@ -1,105 +1,289 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <turnscan/core/median.hpp>
+#include <numbers>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/motion_input/object_base.hpp>
+#include <unordered_map>
 
 namespace turnscan::motion {
 
 namespace {
 
+constexpr double kLeastCell_m = 0.006;      ///< edge of a cell that turns with the object
+constexpr double kCellSpacings = 2.0;       ///< and at least so many distances between pixels
+constexpr std::uint32_t kLeastSupport = 3;  ///< frames that saw a cell
+constexpr double kLeastAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
+constexpr std::size_t kTurningFrames = 48, kMostPoints = 20000;
 constexpr double kSlice_m = 0.002;
-constexpr std::size_t kSlices = 300;
-constexpr double kGap_m = 0.008;      ///< hardly a point in it: the object has ended
-constexpr double kEmptyShare = 0.05;  ///< of a usual slice's points: mixed pixels are left
-constexpr std::size_t kUsual = 10;    ///< slices, the first ones
-constexpr double kDeskRatio = 4.0;    ///< a slice of so many times the usual points is a desk
-constexpr std::size_t kFrames = 8;
+constexpr std::size_t kSlices = 200;
+constexpr double kLeastGap_m = 0.006;   ///< without a surface: the object has ended
+constexpr double kGapRows = 1.8;        ///< and at least so many rows of pixels
+constexpr double kLeastWidth_m = 0.01;  ///< of a foot
+constexpr std::size_t kSpreadSlices = 3;
+constexpr double kSpreadShare = 0.25;   ///< of the disc within reach that a desk shows
+constexpr double kSpreadColumns = 2.0;  ///< times what an upright column within reach shows
+constexpr std::size_t kFrames = 15;
+constexpr double kLeastSeen = 0.7;  ///< of the frames, in a pixel that shows what stands still
+/// Noise deviations between the tenths at both ends of a pixel's depths: 2.6 where nothing moves.
+constexpr double kStillSigmas = 4.0;
 
-/// How many points of surfaces lie in each slice below a height, within a radius of the axis.
-class Slices {
+/// Heights above and distances from the axis' centre.
+struct AxisFrame {
+  Vec3d axis, center;
+
+  double height(const Vec3d& p) const { return axis.dot(p - center); }
+  double radius(const Vec3d& p) const { return axis.cross(p - center).norm(); }
+};
+
+constexpr double kNothing_m = 1e9;  ///< height of the lowest of no points
+
+struct TurningPoint {
+  Vec3d p;             ///< sensor frame
+  bool inner = false;  ///< within the outline of what turns
+};
+
+/// Lowest and outermost places that turn.
+struct Extent {
+  double low_m = 0.0, reach_m = 0.0;
+};
+
+/// Cells of the turning frame, and how many frames saw each, from how far around.
+class TurningCells {
  public:
-  Slices(const MotionData& data, const TurntableInfo& axis, double radius_m, double top)
-      : data_(data), axis_(axis), radius_m_(radius_m), top_(top) {}
+  TurningCells(const AxisFrame& frame, double cell_m) : frame_(frame), cell_m_(cell_m) {}
 
-  void add(const DepthImage& depth, const SensorInfo& sensor, const RayTable& rays) {
-    const int w = depth.width;
-    for (int y = 1; y + 1 < depth.height; ++y) {
-      for (int x = 1; x + 1 < w; ++x) {
-        const auto i = std::size_t(y) * std::size_t(w) + std::size_t(x);
-        const double z = metres(depth.pixels[i], sensor);
-        if (!(z > 0.0) || !on_surface(depth, sensor, i, z)) continue;
-        const Vec3d d = Vec3d(rays.x()[i] * z, rays.y()[i] * z, z) - axis_.center_m;
-        const double below = (top_ - d.dot(axis_.axis)) / kSlice_m;
-        if (below < 0.0 || below >= double(kSlices)) continue;
-        if (axis_.axis.cross(d).squaredNorm() < radius_m_ * radius_m_)
+  void add(const std::vector<TurningPoint>& points, double angle_rad, std::uint32_t number) {
+    const Eigen::AngleAxisd back(-angle_rad, frame_.axis);
+    for (const auto& [p, inner] : points) {
+      const Vec3d at = (back * (p - frame_.center)) / cell_m_;
+      if (!(at.cwiseAbs().maxCoeff() < 1e6)) continue;
+      Cell& cell = cells_[key_of(at)];
+      if (cell.frames == 0) cell.first_rad = angle_rad;
+      if (cell.last != number) ++cell.frames, cell.last = number;
+      cell.around_rad =
+          std::max(cell.around_rad, std::abs(std::remainder(angle_rad - cell.first_rad, kTurn)));
+      if (inner) cell.low_m = std::min(cell.low_m, frame_.height(p));
+      cell.reach_m = std::max(cell.reach_m, frame_.radius(p));
+    }
+  }
+
+  /// nullopt: no cell was seen often enough.
+  std::optional<Extent> extent() const {
+    std::optional<Extent> out;
+    for (const auto& [key, cell] : cells_) {
+      if (cell.frames < kLeastSupport || cell.around_rad < kLeastAround_rad) continue;
+      if (!out) out = Extent{cell.low_m, cell.reach_m};
+      out->low_m = std::min(out->low_m, cell.low_m);
+      out->reach_m = std::max(out->reach_m, cell.reach_m);
+    }
+    if (out && out->low_m == kNothing_m) return std::nullopt;
+    return out;
+  }
+
+ private:
+  struct Cell {
+    std::uint32_t frames = 0, last = 0;
+    double first_rad = 0.0, around_rad = 0.0;
+    double low_m = kNothing_m, reach_m = 0.0;
+  };
+
+  static std::uint64_t key_of(const Vec3d& at) {
+    std::uint64_t key = 0;
+    for (int k = 0; k < 3; ++k)
+      key = key << 21 | std::uint64_t(std::int64_t(std::floor(at[k])) + (1 << 20));
+    return key;
+  }
+
+  AxisFrame frame_;
+  double cell_m_;
+  std::unordered_map<std::uint64_t, Cell> cells_;
+};
+
+/// Depths of what stands still, as the medians of some frames; 0 elsewhere.
+class StillImage {
+ public:
+  static Result<StillImage> read(const MotionData& data, const FrameSequence& sequence) {
+    const SensorInfo& sensor = sequence.header().sensors.front();
+    StillImage out;
+    out.width_ = sensor.intrinsics.width, out.height_ = sensor.intrinsics.height;
+    const std::size_t pixels = std::size_t(out.width_) * std::size_t(out.height_);
+    std::vector<std::vector<std::uint16_t>> images;
+    const std::size_t count = std::min(kFrames, data.frames.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      TURNSCAN_ASSIGN(Frame frame,
+                      sequence.read(data.frames[k * data.frames.size() / count].position));
+      if (frame.depth.pixels.size() == pixels) images.push_back(std::move(frame.depth.pixels));
+    }
+    out.depth_.assign(pixels, 0.0f);
+    const double most = kStillSigmas * data.noise_m;
+    parallel_for(pixels, 4096,
+                 [&](std::size_t i) { out.depth_[i] = still(images, i, sensor, most); });
+    return out;
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double at(int x, int y) const {
+    return depth_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
+  }
+
+  /// Whether the pixel or one beside it shows something that stands still at about this depth.
+  bool touches(int x, int y, double z, double limit_m) const {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v)
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width_ - 1); ++u)
+        if (std::abs(at(u, v) - z) < limit_m) return true;
+    return false;
+  }
+
+  /// Whether the pixel, which stands still, shows a surface and not a mixture of two.
+  bool on_surface(int x, int y, double limit_m) const {
+    int near = 0;
+    for (const auto& [dx, dy] : {std::pair{0, -1}, {-1, 0}, {1, 0}, {0, 1}}) {
+      const double there = at(x + dx, y + dy);
+      if (!(there > 0.0)) continue;
+      if (std::abs(there - at(x, y)) > limit_m) return false;
+      ++near;
+    }
+    return near >= 2;
+  }
+
+ private:
+  static float still(const std::vector<std::vector<std::uint16_t>>& images, std::size_t i,
+                     const SensorInfo& sensor, double most_m) {
+    std::array<std::uint16_t, kFrames> values;
+    std::size_t n = 0;
+    for (const auto& image : images)
+      if (image[i] != kNoReturn && image[i] != kOutsideCrop) values[n++] = image[i];
+    if (n < 3 || double(n) < kLeastSeen * double(images.size())) return 0.0f;
+    std::sort(values.begin(), values.begin() + std::ptrdiff_t(n));
+    const double spread = values[n - 1 - n / 10] - values[n / 10];
+    if (spread * sensor.depth_unit_m > most_m) return 0.0f;
+    return float(values[n / 2] * sensor.depth_unit_m + sensor.depth_bias_m);
+  }
+
+  int width_ = 0, height_ = 0;
+  std::vector<float> depth_;
+};
+
+/// Whether at least three of the four pixels beside it, which is not at the border, show the same
+/// surface. A rim that mixes what stands still is one pixel wide.
+bool is_inner(const FrameSurface& surface, int x, int y, double limit_m) {
+  const auto at = [&](int u, int v) {
+    return double(surface.z[std::size_t(v) * std::size_t(surface.width) + std::size_t(u)]);
+  };
+  if (x < 1 || y < 1 || x + 1 >= surface.width || y + 1 >= surface.height) return false;
+  int same = 0;
+  for (const auto& [dx, dy] : {std::pair{0, -1}, {-1, 0}, {1, 0}, {0, 1}})
+    if (std::abs(at(x + dx, y + dy) - at(x, y)) < limit_m) ++same;
+  return same >= 3;
+}
+
+/// What turns, as a frame saw it, without what flickers at the rims of what stands still: a round
+/// foot turns about itself, too.
+std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFrame& frame,
+                                         const RayTable& rays, const StillImage& image) {
+  std::vector<TurningPoint> out;
+  if (!data.projective) {
+    const std::size_t step = 1 + frame.surface.points.size() / kMostPoints;
+    for (std::size_t i = 0; i < frame.surface.points.size(); i += step)
+      out.push_back({frame.surface.points[i].cast<double>(), true});
+    return out;
+  }
+  const FrameSurface& surface = frame.raw_surface;
+  for (int y = 0; y < surface.height; ++y) {
+    for (int x = 0; x < surface.width; ++x) {
+      const double z = surface.z[std::size_t(y) * std::size_t(surface.width) + std::size_t(x)];
+      const double pixel = z / data.camera.fx;
+      const int u = surface.left + x, v = surface.top + y;
+      if (!(z > 0.0) || image.touches(u, v, z, 1.5 * pixel + 3.0 * data.noise_m)) continue;
+      const std::size_t i = std::size_t(v) * std::size_t(data.camera.width) + std::size_t(u);
+      out.push_back({{rays.x()[i] * z, rays.y()[i] * z, z},
+                     is_inner(surface, x, y, 3.0 * pixel + 3.0 * data.noise_m)});
+    }
+  }
+  return out;
+}
+
+/// How many pixels of what stands still lie in each slice below a height, within reach of the axis.
+class StillSlices {
+ public:
+  StillSlices(const AxisFrame& frame, const Extent& turning) : frame_(frame), turning_(turning) {}
+
+  void add(const StillImage& image, const CameraIntrinsics& camera, const RayTable& rays,
+           double noise_m) {
+    for (int y = 1; y + 1 < image.height(); ++y) {
+      for (int x = 1; x + 1 < image.width(); ++x) {
+        const double z = image.at(x, y);
+        if (!(z > 0.0)) continue;
+        const auto i = std::size_t(y) * std::size_t(image.width()) + std::size_t(x);
+        const Vec3d p(rays.x()[i] * z, rays.y()[i] * z, z);
+        const double below = (turning_.low_m - frame_.height(p)) / kSlice_m;
+        if (below < 0.0 || below >= double(kSlices) || frame_.radius(p) > turning_.reach_m)
+          continue;
+        if (image.on_surface(x, y, 3.0 * z / camera.fx + 3.0 * noise_m))
           count_[std::size_t(below)] += 1.0;
       }
     }
   }
 
-  ObjectBase base() const {
-    std::vector<double> first(count_.begin(), count_.begin() + kUsual);
-    const double usual = median(first), least = std::max(2.0, kEmptyShare * usual);
+  /// spacing_m: between pixels. up: cosine of the angle between the axis and the way to the sensor.
+  ObjectBase base(double spacing_m, double up) const {
+    const double pixel = spacing_m * spacing_m, across = std::sqrt(1.0 - up * up);
+    const double column = kSlice_m * std::max(across, 0.1) / pixel;  // pixels per metre of width
+    const double least = std::max(1.5, kLeastWidth_m * column);
+    const double disc = std::numbers::pi * turning_.reach_m * turning_.reach_m * up / pixel;
+    const double spread = std::max(kSpreadShare * disc, kSpreadColumns * 2.0 * turning_.reach_m *
+                                                            column * double(kSpreadSlices));
+    const double gap = std::max(kLeastGap_m, kGapRows * spacing_m / std::max(across, 0.3));
     double end = 0.0, empty = 0.0;
-    for (std::size_t k = 0; k < kSlices && count_[k] < kDeskRatio * std::max(usual, 4.0); ++k) {
+    for (std::size_t k = 0; k < kSlices; ++k) {
+      double sum = 0.0;
+      for (std::size_t j = k; j < std::min(k + kSpreadSlices, kSlices); ++j) sum += count_[j];
+      if (sum > spread) return {turning_.low_m - double(k) * kSlice_m, false, turning_.reach_m};
       empty = count_[k] < least ? empty + kSlice_m : 0.0;
-      if (empty >= kGap_m) return {top_ - end, true};
+      if (empty >= gap) break;
       if (empty == 0.0) end = double(k + 1) * kSlice_m;
     }
-    return {top_ - end, false};
+    return {turning_.low_m - end, true, turning_.reach_m};
   }
 
  private:
-  static double metres(std::uint16_t value, const SensorInfo& sensor) {
-    if (value == kNoReturn || value == kOutsideCrop) return 0.0;
-    return value * sensor.depth_unit_m + sensor.depth_bias_m;
-  }
-
-  bool on_surface(const DepthImage& depth, const SensorInfo& sensor, std::size_t i,
-                  double z) const {
-    const double limit = 3.0 * z / sensor.intrinsics.fx + 4.5 * data_.noise_m;
-    const auto w = std::size_t(depth.width);
-    for (const std::size_t there : {i - w, i - 1, i + 1, i + w})
-      if (std::abs(metres(depth.pixels[there], sensor) - z) > limit) return false;
-    return true;
-  }
-
-  const MotionData& data_;
-  const TurntableInfo& axis_;
-  double radius_m_, top_;
+  AxisFrame frame_;
+  Extent turning_;
   std::vector<double> count_ = std::vector<double>(kSlices, 0.0);
 };
 
-/// The value that a share of them lies below.
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
+/// Where hardly a place was seen to turn: a two-hundredth of the points lie lower.
+double low_of_cloud(const MotionData& data, const AxisFrame& frame) {
+  std::vector<double> heights;
+  for (const Vec3f& p : data.cloud) heights.push_back(frame.height(p.cast<double>()));
+  const auto at = heights.begin() + std::ptrdiff_t(0.005 * double(heights.size() - 1));
+  std::nth_element(heights.begin(), at, heights.end());
   return *at;
 }
 
 }  // namespace
 
 Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
-                             const FrameSequence& sequence) {
-  std::vector<double> heights, radii;
-  for (const Vec3f& p : data.cloud) {
-    const Vec3d d = p.cast<double>() - axis.center_m;
-    heights.push_back(axis.axis.dot(d));
-    radii.push_back(axis.axis.cross(d).norm());
+                             std::span<const double> angles_rad, const FrameSequence& sequence) {
+  const AxisFrame frame{axis.axis, axis.center_m};
+  StillImage image;
+  if (data.projective) {
+    TURNSCAN_ASSIGN(image, StillImage::read(data, sequence));
   }
-  if (!data.projective) return ObjectBase{quantile(std::move(heights), 0.005), true};
-  const SensorInfo& sensor = sequence.header().sensors.front();
-  const RayTable rays(sensor.intrinsics);
-  Slices slices(data, axis, quantile(std::move(radii), 0.99), quantile(std::move(heights), 0.5));
-  const std::size_t count = std::min(kFrames, data.frames.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t position = data.frames[k * data.frames.size() / count].position;
-    TURNSCAN_ASSIGN(const Frame frame, sequence.read(position));
-    if (frame.depth.width == sensor.intrinsics.width &&
-        frame.depth.height == sensor.intrinsics.height)
-      slices.add(frame.depth, sensor, rays);
-  }
-  return slices.base();
+  TurningCells cells(frame, std::max(kLeastCell_m, kCellSpacings * data.spacing_m));
+  const RayTable rays(data.camera);
+  for (const std::size_t i : spread_subset(data.keys, kTurningFrames))
+    cells.add(turning_points(data, data.frames[i], rays, image), angles_rad[i],
+              std::uint32_t(i + 1));
+  const auto turning = cells.extent();
+  if (!turning) return ObjectBase{low_of_cloud(data, frame), false, std::nullopt};
+  if (!data.projective) return ObjectBase{turning->low_m, true, turning->reach_m};
+  StillSlices slices(frame, *turning);
+  slices.add(image, data.camera, rays, data.noise_m);
+  return slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0));
 }
 
 }  // namespace turnscan::motion

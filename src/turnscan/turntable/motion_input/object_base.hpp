@@ -1,21 +1,26 @@
 #pragma once
-// Where what turns ends below, when no platter says it.
+// Where what turns ends, below and sideways, when no platter says it.
 
+#include <optional>
+#include <span>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
 
 namespace turnscan::motion {
 
 struct ObjectBase {
   double height_m = 0.0;  ///< along the axis (unit), from its centre
-  bool ends = false;      ///< at a gap; else it spreads into a desk
+  bool ends = false;      ///< at a gap; else it spreads into a desk or a platter
+  /// Largest distance of what turns from the axis; nullopt: hardly a place was seen to turn.
+  std::optional<double> reach_m;
 };
 
-/// Height of the object's lowest points: from its middle
-/// down, all surface about the axis that is no wider than what turns belongs to it, also a round
-/// foot, which looks at rest, down to a gap or to where it spreads into a desk. Flying pixels,
-/// which lie on no surface, do not count. sequence: the one that data was loaded from. In scans of
-/// points, which have no background, a two-hundredth of them lie lower. Fails as reading does.
+/// The lowest and the outermost places that turn with the angles, which several frames must have
+/// seen: what flickers before a wall or on a desk turns with nothing. What stands still about the
+/// axis below them may be the object's round foot, or that of the turntable: it counts as the
+/// object where it touches what turns, down to a gap or to where it spreads into a desk. In scans
+/// of points, which have no background, nothing does.
+/// angles_rad: of data.frames. sequence: the one that data was loaded from. Fails as reading does.
 Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
-                             const FrameSequence& sequence);
+                             std::span<const double> angles_rad, const FrameSequence& sequence);
 
 }  // namespace turnscan::motion

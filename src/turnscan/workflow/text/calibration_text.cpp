@@ -53,6 +53,9 @@ std::string calibration_text(const Calibration& c) {
   if (c.table.radius_m)
     table.add(
         {"radius", figure(*c.table.radius_m, c.radius_sigma_m, 1e3, "mm", 2), c.radius_found});
+  if (c.table.reach_m && !c.table.radius_m)
+    table.add(
+        {"reach", fmt::format("{:.0f} mm", *c.table.reach_m * 1e3), "how far out something turns"});
   if (c.table.speed_rad_s)
     table.add({"speed",
                figure(*c.table.speed_rad_s, c.speed_sigma_rad_s, kDegreesPerRadian, "deg/s", 4),
