@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
 /// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
-constexpr double kBeyondReach = 1.15, kBeyondReach_m = 0.01;
+constexpr double kBeyondReach = 1.25, kBeyondReach_m = 0.015;
 
 bool is_cropped(const SequenceHeader& header, const CropOptions& crop) {
   return crop.enabled && (header.turntable || crop.radius_m);
@@ -51,7 +51,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
     estimate.choices.push_back({"crop-radius", mm(*found),
                                 crop.radius_m ? "given"
                                 : known       ? "the platter's radius"
-                                : calibrated  ? "15 % and 10mm beyond what was seen to turn"
+                                : calibrated  ? "25 % and 15mm beyond what was seen to turn"
                                               : "where the returns of the platter end"});
   } else {
     estimate.notes.emplace_back(

@@ -17,13 +17,16 @@ constexpr std::uint32_t kLeastSupport = 3;  ///< frames that saw a cell
 constexpr double kLeastAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
 constexpr std::size_t kTurningFrames = 48, kMostPoints = 20000;
 constexpr double kSlice_m = 0.002;
-constexpr std::size_t kSlices = 200;
+constexpr std::size_t kSlices = 204;
 constexpr double kLeastGap_m = 0.006;   ///< without a surface: the object has ended
 constexpr double kGapRows = 1.8;        ///< and at least so many rows of pixels
 constexpr double kLeastWidth_m = 0.01;  ///< of a foot
 constexpr std::size_t kSpreadSlices = 3;
-constexpr double kSpreadShare = 0.25;   ///< of the disc within reach that a desk shows
-constexpr double kSpreadColumns = 2.0;  ///< times what an upright column within reach shows
+constexpr double kSpreadShare = 0.12;   ///< of its disc that a desk or a platter shows
+constexpr double kSpreadColumns = 2.0;  ///< times what an upright column as wide shows
+constexpr double kLeastDesk_m = 0.05;   ///< radius of what may be one
+constexpr double kAbove_m = 0.008;      ///< where what stands still may touch what turns
+constexpr double kTouches_m = 0.01;     ///< from what turns down to the surface that it stands on
 constexpr std::size_t kFrames = 15;
 constexpr double kLeastSeen = 0.7;  ///< of the frames, in a pixel that shows what stands still
 /// Noise deviations between the tenths at both ends of a pixel's depths: 2.6 where nothing moves.
@@ -206,7 +209,7 @@ std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFra
   return out;
 }
 
-/// How many pixels of what stands still lie in each slice below a height, within reach of the axis.
+/// Pixels of what stands still in the slices below a height, within reach of the axis.
 class StillSlices {
  public:
   StillSlices(const AxisFrame& frame, const Extent& turning) : frame_(frame), turning_(turning) {}
@@ -219,11 +222,11 @@ class StillSlices {
         if (!(z > 0.0)) continue;
         const auto i = std::size_t(y) * std::size_t(image.width()) + std::size_t(x);
         const Vec3d p(rays.x()[i] * z, rays.y()[i] * z, z);
-        const double below = (turning_.low_m - frame_.height(p)) / kSlice_m;
-        if (below < 0.0 || below >= double(kSlices) || frame_.radius(p) > turning_.reach_m)
-          continue;
+        const double height = frame_.height(p), radius = frame_.radius(p);
+        const double below = (turning_.low_m + kAbove_m - height) / kSlice_m;
+        if (below < 0.0 || below >= double(kSlices) || radius > turning_.reach_m) continue;
         if (image.on_surface(x, y, 3.0 * z / camera.fx + 3.0 * noise_m))
-          count_[std::size_t(below)] += 1.0;
+          slices_[std::size_t(below)].add(height, radius);
       }
     }
   }
@@ -233,26 +236,57 @@ class StillSlices {
     const double pixel = spacing_m * spacing_m, across = std::sqrt(1.0 - up * up);
     const double column = kSlice_m * std::max(across, 0.1) / pixel;  // pixels per metre of width
     const double least = std::max(1.5, kLeastWidth_m * column);
-    const double disc = std::numbers::pi * turning_.reach_m * turning_.reach_m * up / pixel;
-    const double spread = std::max(kSpreadShare * disc, kSpreadColumns * 2.0 * turning_.reach_m *
-                                                            column * double(kSpreadSlices));
     const double gap = std::max(kLeastGap_m, kGapRows * spacing_m / std::max(across, 0.3));
-    double end = 0.0, empty = 0.0;
-    for (std::size_t k = 0; k < kSlices; ++k) {
-      double sum = 0.0;
-      for (std::size_t j = k; j < std::min(k + kSpreadSlices, kSlices); ++j) sum += count_[j];
-      if (sum > spread) return {turning_.low_m - double(k) * kSlice_m, false, turning_.reach_m};
-      empty = count_[k] < least ? empty + kSlice_m : 0.0;
+    const double top = turning_.low_m + kAbove_m;
+    double end = kAbove_m, empty = 0.0;
+    for (std::size_t k = 0; k + kSpreadSlices <= kSlices; ++k) {
+      Slice window;
+      for (std::size_t j = k; j < k + kSpreadSlices; ++j) window.add(slices_[j]);
+      // Of a disc as wide as what is seen at this height, and of an upright column as wide.
+      const double wide = window.wide_m();
+      const double disc = std::numbers::pi * wide * wide * up / pixel;
+      if (wide > kLeastDesk_m &&
+          window.pixels > std::max(kSpreadShare * disc,
+                                   kSpreadColumns * 2.0 * wide * column * double(kSpreadSlices)))
+        return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, turning_.reach_m};
+      if (double(k) * kSlice_m < kAbove_m) continue;
+      empty = slices_[k].pixels < least ? empty + kSlice_m : 0.0;
       if (empty >= gap) break;
       if (empty == 0.0) end = double(k + 1) * kSlice_m;
     }
-    return {turning_.low_m - end, true, turning_.reach_m};
+    return {top - end, true, turning_.reach_m};
   }
 
  private:
+  struct Slice {
+    double pixels = 0.0, heights_m = 0.0, squared_radii_m2 = 0.0;
+
+    void add(double height_m, double radius_m) { add({1.0, height_m, radius_m * radius_m}); }
+    void add(const Slice& other) {
+      pixels += other.pixels;
+      heights_m += other.heights_m;
+      squared_radii_m2 += other.squared_radii_m2;
+    }
+    /// Radius of the disc that has these pixels.
+    double wide_m() const {
+      return pixels > 0.0 ? std::sqrt(2.0 * squared_radii_m2 / pixels) : 0.0;
+    }
+  };
+
+  /// Mean height of the surface whose first pixels lie in slice k.
+  double surface_at(std::size_t k) const {
+    std::size_t most = k;
+    for (std::size_t j = k; j < std::min(k + 2 * kSpreadSlices, kSlices); ++j)
+      if (slices_[j].pixels > slices_[most].pixels) most = j;
+    Slice about;
+    for (std::size_t j = most > 0 ? most - 1 : 0; j < std::min(most + 2, kSlices); ++j)
+      about.add(slices_[j]);
+    return about.heights_m / about.pixels;
+  }
+
   AxisFrame frame_;
   Extent turning_;
-  std::vector<double> count_ = std::vector<double>(kSlices, 0.0);
+  std::vector<Slice> slices_ = std::vector<Slice>(kSlices);
 };
 
 /// Where hardly a place was seen to turn: a two-hundredth of the points lie lower.

@@ -9,7 +9,9 @@ namespace turnscan::motion {
 
 struct ObjectBase {
   double height_m = 0.0;  ///< along the axis (unit), from its centre
-  bool ends = false;      ///< at a gap; else it spreads into a desk or a platter
+  /// At a gap or on the surface that what turns stands on; else it spreads into a desk farther
+  /// down.
+  bool ends = false;
   /// Largest distance of what turns from the axis; nullopt: hardly a place was seen to turn.
   std::optional<double> reach_m;
 };
