@@ -117,7 +117,8 @@ class Term(harness.TestCase):
             before = self.processor_seconds(process.pid)
         except (OSError, IndexError):
             before = None
-        process.send_signal(signal.SIGTERM)
+        # Not send_signal(), which reaps a process that has already ended.
+        os.kill(process.pid, signal.SIGTERM)
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         process.communicate()

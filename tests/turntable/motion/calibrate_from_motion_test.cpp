@@ -5,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
@@ -100,6 +101,29 @@ TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
   EXPECT_FALSE(found->table.radius_m);
   ASSERT_TRUE(found->table.reach_m);
   EXPECT_NEAR(*found->table.reach_m, 0.09, 0.015);
+}
+
+// An object that reaches beyond its platter is not seen whole above it, so where it ends proves
+// nothing.
+TEST(CalibrateFromMotion, KeepsTheRecordingsHeightWhereTheObjectEndsElsewhere) {
+  testing::RigOptions o = rig_options("doll", 40, 1.1);
+  o.platter = false;
+  const testing::Rig rig(o);
+  SequenceHeader header = rig.header();
+  header.turntable = rig.truth();
+  header.turntable->radius_m = 0.045;
+  header.turntable->center_m -= 0.02 * header.turntable->axis;
+  SequenceView sequence(rig);
+  sequence.set_header(header);
+  const auto found = calibrate_from_motion(sequence, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  const double height_m = rig.truth().axis.dot(found->table.center_m - rig.truth().center_m);
+  EXPECT_NEAR(height_m, -0.02, 0.002);
+  EXPECT_EQ(found->height_found, "the recording's");
+  EXPECT_GE(found->height_sigma_m, 0.01);
+  EXPECT_EQ(found->undetermined, std::vector<std::string>{"height"});
+  EXPECT_EQ(found->table.radius_m, 0.045);
+  EXPECT_FALSE(found->table.reach_m);
 }
 
 TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {

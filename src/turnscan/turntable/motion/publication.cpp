@@ -14,6 +14,8 @@ namespace {
 /// How well an object's lowest points tell where it stands (bench/random_rigs): where it ends at a
 /// gap, at least and as a multiple of the noise, and where it spreads into a desk.
 constexpr double kBaseSigma_m = 0.004, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
+/// How well the height of a platter that the recording states is taken to hold.
+constexpr double kRecordedHeight_m = 0.01;
 /// Frames that tell a speed, less one.
 constexpr std::size_t kLeastStretch = 3;
 
@@ -71,35 +73,58 @@ class Publication {
 
   /// The axis meets the platter's surface, or else ends at the object's lowest points.
   Result<> set_height(Calibration& out) const {
-    const Vec3d a = state_.axis;
     if (data_.platter) {
-      const DetectedPlatter& p = *data_.platter;
-      const double along = p.axis.dot(p.center_m - state_.center) / p.axis.dot(a);
-      out.table.center_m = state_.center + along * a;
-      out.table.radius_m = p.radius_m;
-      out.radius_sigma_m = p.radius_sigma_m;
-      out.height_sigma_m = p.height_sigma_m;
-      out.rim_share = p.rim_share;
-      out.confidence = p.confidence;
-      out.height_found = "the platter's surface";
-      out.radius_found = "the platter's rim";
+      set_platter(*data_.platter, out);
       return {};
     }
     TurntableInfo axis;
-    axis.axis = a, axis.center_m = state_.center;
+    axis.axis = state_.axis, axis.center_m = state_.center;
     TURNSCAN_ASSIGN(const ObjectBase base, find_base(data_, axis, state_.angle, sequence_));
-    out.table.center_m = state_.center + base.height_m * a;
+    const auto& table = sequence_.header().turntable;
+    if (table && options_.use_table && table->radius_m)
+      set_recorded_platter(*table, base, out);
+    else
+      set_object(base, out);
+    return {};
+  }
+
+  void set_platter(const DetectedPlatter& p, Calibration& out) const {
+    const double along = p.axis.dot(p.center_m - state_.center) / p.axis.dot(state_.axis);
+    out.table.center_m = state_.center + along * state_.axis;
+    out.table.radius_m = p.radius_m;
+    out.radius_sigma_m = p.radius_sigma_m;
+    out.height_sigma_m = p.height_sigma_m;
+    out.rim_share = p.rim_share;
+    out.confidence = p.confidence;
+    out.height_found = "the platter's surface";
+    out.radius_found = "the platter's rim";
+  }
+
+  void set_object(const ObjectBase& base, Calibration& out) const {
+    out.table.center_m = state_.center + base.height_m * state_.axis;
     out.height_sigma_m =
         base.ends ? std::max(kBaseSigma_m, kBaseNoises * data_.noise_m) : kSpreadingBaseSigma_m;
     out.height_found = "the lowest points of what turns";
     if (!base.ends) out.undetermined.emplace_back("height");
     out.table.reach_m = base.reach_m;
-    const auto& table = sequence_.header().turntable;
-    if (table && options_.use_table && table->radius_m) {
-      out.table.radius_m = table->radius_m;
-      out.radius_found = "the recording's";
-    }
-    return {};
+  }
+
+  /// Only what turns above the recording's platter was looked at: the object may end elsewhere when
+  /// it reaches beyond. Its lowest points tell where they are about as high as that platter.
+  void set_recorded_platter(const TurntableInfo& table, const ObjectBase& base,
+                            Calibration& out) const {
+    set_object(base, out);
+    out.table.reach_m.reset();
+    out.table.radius_m = table.radius_m;
+    out.radius_found = "the recording's";
+    const double upright = table.axis.normalized().dot(state_.axis);
+    if (std::abs(upright) < 0.5) return;
+    const double along = table.axis.normalized().dot(table.center_m - state_.center) / upright;
+    if (base.ends && std::abs(base.height_m - along) < kRecordedHeight_m) return;
+    out.table.center_m = state_.center + along * state_.axis;
+    out.height_sigma_m = kRecordedHeight_m;
+    out.height_found = "the recording's";
+    if (base.ends) out.undetermined.emplace_back("height");
   }
 
   /// Frames of other sensors and dropped ones get theirs by time, or from their neighbours.
