@@ -1,4 +1,6 @@
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/scene/scene.hpp>
@@ -113,6 +115,12 @@ struct Rig::Impl {
   Scene room, moving;
   RayTable rays;
   std::vector<float> room_depth;
+  /// Every frame is rendered once: most stages read them several times.
+  struct Rendered {
+    std::once_flag once;
+    DepthImage depth;
+  };
+  std::unique_ptr<Rendered[]> rendered;
 
   Impl(RigOptions o, Scene r, Scene m)
       : options(std::move(o)),
@@ -131,6 +139,7 @@ struct Rig::Impl {
       frames.push_back(frame);
     }
     room_depth = trace(room, T_table_sensor, 0, 0, width(), height());
+    rendered = std::make_unique<Rendered[]>(frames.size());
   }
 
   int width() const { return header.sensors[0].intrinsics.width; }
@@ -209,6 +218,20 @@ struct Rig::Impl {
       z += uniform01(mix64(key ^ 2)) * std::min(0.08, step);
     return z + options.noise_m * standard_normal(key);
   }
+
+  DepthImage render(std::size_t position) const {
+    const std::vector<float> depth = depth_of(position);
+    DepthImage out(width(), height(), kNoReturn);
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) {
+        const auto i = std::size_t(y) * std::size_t(width()) + std::size_t(x);
+        if (!(depth[i] < 6.0f)) continue;
+        const double raw = std::round(measured(depth, x, y, position) / kUnit);
+        if (raw >= 1.0 && raw < 65535.0) out.pixels[i] = static_cast<std::uint16_t>(raw);
+      }
+    }
+    return out;
+  }
 };
 
 RigOptions random_rig(std::uint64_t seed) {
@@ -252,18 +275,11 @@ TurntableInfo Rig::truth() const {
 }
 
 Result<Frame> Rig::read(std::size_t position) const {
-  const std::vector<float> depth = impl_->depth_of(position);
   Frame frame;
   frame.info = impl_->frames.at(position);
-  frame.depth = DepthImage(impl_->width(), impl_->height(), kNoReturn);
-  for (int y = 0; y < impl_->height(); ++y) {
-    for (int x = 0; x < impl_->width(); ++x) {
-      const auto i = std::size_t(y) * std::size_t(impl_->width()) + std::size_t(x);
-      if (!(depth[i] < 6.0f)) continue;
-      const double raw = std::round(impl_->measured(depth, x, y, position) / kUnit);
-      if (raw >= 1.0 && raw < 65535.0) frame.depth.pixels[i] = static_cast<std::uint16_t>(raw);
-    }
-  }
+  Impl::Rendered& rendered = impl_->rendered[position];
+  std::call_once(rendered.once, [&] { rendered.depth = impl_->render(position); });
+  frame.depth = rendered.depth;
   return frame;
 }
 
