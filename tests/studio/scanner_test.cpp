@@ -85,6 +85,39 @@ TEST_F(Scanner, CalibratesRecordsAndShowsTheMesh) {
   EXPECT_TRUE(wait_for([&] { return points() > 1000 && points() < 20000; }));
 }
 
+TEST_F(Scanner, WhatIsKnownOfOneDeviceIsNotBelievedOfTheNext) {
+  const QString first = "virtual:letter-a?sensor=kinect-v2&room=desk&frames=6000";
+  const auto* speed = static_cast<QLineEdit*>(named(mode(), "option:speed"));
+  mode().set_device(first);
+  ASSERT_TRUE(type(named(mode(), "option:average-frames"), "4"));
+  ASSERT_TRUE(type(named(mode(), "option:speed"), "25deg/s"));
+  const QString typed = speed->text();
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Averaged scan"); }));
+  ASSERT_TRUE(click(button_with(mode(), "Averaged scan")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Calibrate"); }));
+  ASSERT_TRUE(click(button_with(mode(), "Calibrate")));
+  ASSERT_TRUE(wait_for([&] { return mode().calibration() != nullptr; }));
+  mode().save_calibration(folder.filePath("table.json"));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_TRUE(click(button_with(mode(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Play"); }));
+  EXPECT_NE(mode().calibration(), nullptr);
+  mode().set_device("virtual:cylinder?sensor=kinect-v1&frames=6000");
+  EXPECT_EQ(speed->text(), "");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  EXPECT_EQ(mode().calibration(), nullptr);
+  EXPECT_FALSE(enabled("Calibrate"));
+  ASSERT_TRUE(click(button_with(mode(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Play"); }));
+  // One that is loaded before a device plays is meant for it.
+  mode().load_calibration(folder.filePath("table.json"));
+  mode().set_device(first);
+  EXPECT_EQ(speed->text(), typed);
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  EXPECT_NE(mode().calibration(), nullptr);
+}
+
 TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   mode().set_device(
       "virtual:letter-a?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=200");

@@ -8,6 +8,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
@@ -34,6 +35,14 @@ struct RecordPanel::Options {
     return table;
   }
 };
+
+namespace {
+
+QString speed_settings(const QString& device) {
+  return "scanner/speed-of/" + QString::fromLatin1(QUrl::toPercentEncoding(device));
+}
+
+}  // namespace
 
 RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_unique<Options>()) {
   auto* layout = new QVBoxLayout(this);
@@ -87,7 +96,8 @@ void RecordPanel::build_options() {
   auto* layout = static_cast<QVBoxLayout*>(this->layout());
   layout->addWidget(add("turns", describe(capture.limits),
                         {"seconds", "frames", "until-stopped", "overlap", "device-timeout"}, this));
-  layout->addWidget(add("speed", options_->speed(), {}, this));
+  speed_ = new OptionForm(options_->speed(), {}, this);
+  layout->addWidget(speed_);
   auto* motor = new Section(tr("Motor"), false, this, Section::kNested);
   motor_ = new MotorPanel(motor);
   motor->body()->addWidget(motor_);
@@ -103,10 +113,21 @@ void RecordPanel::build_options() {
 
 void RecordPanel::set_folder(const QString& folder) { folder_->setText(shown_path(folder)); }
 
+void RecordPanel::set_device(const QString& uri) {
+  if (uri == device_) return;
+  const bool first = device_.isEmpty();
+  if (!first) speed_->store(speed_settings(device_));
+  device_ = uri;
+  if (first && !(speed_->values().isEmpty() && speed_->valid())) return;
+  speed_->reset_to_defaults();
+  speed_->restore(speed_settings(device_));
+}
+
 bool RecordPanel::reconstruct() const { return reconstruct_->isChecked(); }
 
 std::optional<RecordingRequest> RecordPanel::request() {
   QString problem = motor_->first_error();
+  if (problem.isEmpty()) problem = speed_->first_error();
   for (const auto& [name, form] : forms_)
     if (problem.isEmpty()) problem = form->first_error();
   if (motor_->turning()) problem = tr("The motor is being tried; stop it first");
@@ -168,6 +189,7 @@ void RecordPanel::store() const {
   settings.setValue("scanner/folder", folder_->text());
   settings.setValue("scanner/reconstruct", reconstruct_->isChecked());
   for (const auto& [name, form] : forms_) form->store("scanner/" + name);
+  if (!device_.isEmpty()) speed_->store(speed_settings(device_));
   motor_->store();
 }
 

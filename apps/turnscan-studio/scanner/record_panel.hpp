@@ -26,6 +26,8 @@ class RecordPanel : public QWidget {
   ~RecordPanel() override;
 
   void set_folder(const QString& folder);
+  /// Each device's table has its own speed; the one typed before the first device is that one's.
+  void set_device(const QString& uri);
   bool reconstruct() const;
   /// What is to be recorded; nullopt: something is wrong, and it is shown.
   std::optional<RecordingRequest> request();
@@ -44,6 +46,7 @@ class RecordPanel : public QWidget {
   QString progress_text(const LiveState& state) const;
 
   std::unique_ptr<Options> options_;
+  QString device_;
   QLineEdit* folder_;
   QCheckBox* reconstruct_;
   QPushButton* record_;
@@ -51,6 +54,7 @@ class RecordPanel : public QWidget {
   QLabel *text_, *seen_;
   MessageLabel* error_;
   MotorPanel* motor_;
+  OptionForm* speed_;
   std::vector<std::pair<QString, OptionForm*>> forms_;
 };
 

@@ -90,6 +90,9 @@ void ScannerMode::build_device() {
   section->body()->addLayout(row);
   section->body()->addWidget(live_text_);
   section->body()->addWidget(device_error_);
+  const auto chosen = [this] { record_->set_device(chosen_uri()); };
+  connect(device_, QOverload<int>::of(&QComboBox::activated), this, chosen);
+  connect(device_->lineEdit(), &QLineEdit::editingFinished, this, chosen);
   connect(play_, &QPushButton::clicked, this, &ScannerMode::toggle_play);
   connect(live_, &QPushButton::clicked, this, [this] { set_still(false); });
   connect(filter_, &QCheckBox::toggled, this, [this](bool on) {
@@ -124,6 +127,7 @@ void ScannerMode::list_devices() {
                    "virtual:empty?sensor=kinect-v2&realtime=1&room=desk");
   const QString last = QSettings().value("scanner/device").toString();
   if (!typed.isEmpty() || !last.isEmpty()) device_->setEditText(typed.isEmpty() ? last : typed);
+  record_->set_device(chosen_uri());
   quick_->start(tr("Look for devices"), this,
                 [this](const RunContext& context) -> Result<Finish> {
                   const auto drivers = list_drivers();
@@ -142,11 +146,19 @@ void ScannerMode::list_devices() {
 void ScannerMode::set_device(const QString& uri) {
   device_->setEditText(uri);
   device_->lineEdit()->setCursorPosition(0);
+  record_->set_device(chosen_uri());
 }
 
 QString ScannerMode::chosen_uri() const {
   const int known = device_->findText(device_->currentText());
   return known >= 0 ? device_->itemData(known).toString() : device_->currentText().trimmed();
+}
+
+void ScannerMode::take_device(const QString& uri) {
+  record_->set_device(uri);
+  if (!played_uri_.isEmpty() && uri != played_uri_ && !for_next_device_) forget_calibration();
+  played_uri_ = uri;
+  for_next_device_ = false;
 }
 
 void ScannerMode::toggle_play() {
@@ -158,11 +170,12 @@ void ScannerMode::toggle_play() {
     live_text_->setText(tr("Stopping"));
     return;
   }
+  take_device(chosen_uri());
   set_still(false);
   framed_ = false;
   play_->setText(tr("Stop"));
   live_text_->setText(tr("Opening %1").arg(device_->currentText()));
-  feed_->start(chosen_uri().toStdString());
+  feed_->start(played_uri_.toStdString());
   poll_->start();
 }
 

@@ -62,6 +62,9 @@ class ScannerMode : public Mode {
   void build_recording();
   void list_devices();
   QString chosen_uri() const;
+  /// A table and its speed are those of one device: what is known of another's is put away.
+  void take_device(const QString& uri);
+  void forget_calibration();
   void toggle_play();
   void poll();
   void ended();
@@ -85,6 +88,8 @@ class ScannerMode : public Mode {
   std::unique_ptr<PickTool> pick_tool_;
   std::shared_ptr<const AveragedScan> scan_;
   std::shared_ptr<const Calibration> calibration_;
+  QString played_uri_;
+  bool for_next_device_ = false;  ///< the calibration was loaded before a device played
   std::vector<Vec3d> picks_;
 
   JobRunner* quick_;

@@ -31,6 +31,10 @@ QString mm(double metres, int digits = 2) {
                                : QObject::tr("unknown");
 }
 
+QString first_steps() {
+  return QObject::tr("Put nothing on the table, take an averaged scan, then calibrate.");
+}
+
 }  // namespace
 
 void ScannerMode::build_calibration() {
@@ -47,8 +51,7 @@ void ScannerMode::build_calibration() {
   connect(calibrate_, &QPushButton::clicked, this, &ScannerMode::calibrate);
   QLayout* picking = make_pick_buttons(section);
   QLayout* files = make_calibration_files(section);
-  calibration_text_ =
-      quiet_label(tr("Put nothing on the table, take an averaged scan, then calibrate."), section);
+  calibration_text_ = quiet_label(first_steps(), section);
   calibration_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   calibration_error_ = new MessageLabel(section);
   auto* details = new Section(tr("Options"), false, section, Section::kNested);
@@ -238,6 +241,26 @@ void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibratio
   draw_calibration();
 }
 
+void ScannerMode::forget_calibration() {
+  pick_->setChecked(false);
+  picks_.clear();
+  for (int* item : {&scan_item_, &ring_item_, &picks_item_}) {
+    view().remove(*item);
+    *item = 0;
+  }
+  view().set_legend({});
+  scan_.reset();
+  calibration_.reset();
+  feed_->set_calibration(nullptr);
+  filter_->setChecked(false);
+  for (QWidget* widget :
+       std::initializer_list<QWidget*>{calibrate_, pick_, undo_pick_, save_, filter_})
+    widget->setEnabled(false);
+  calibration_error_->show_text({});
+  calibration_text_->setText(first_steps());
+  calibration_text_->setToolTip({});
+}
+
 void ScannerMode::draw_calibration() {
   view().remove(ring_item_);
   ItemStyle style;
@@ -250,7 +273,9 @@ void ScannerMode::draw_calibration() {
 void ScannerMode::load_calibration(const QString& path) {
   auto read = read_calibration(path.toStdString());
   calibration_error_->show_text(read ? QString() : QString::fromStdString(read.error().text()));
-  if (read) show_calibration(std::make_shared<const Calibration>(std::move(*read)));
+  if (!read) return;
+  show_calibration(std::make_shared<const Calibration>(std::move(*read)));
+  for_next_device_ = !feed_->running();
 }
 
 void ScannerMode::save_calibration(const QString& path) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 #include <turnscan/workflow/calibration/sensor_correction.hpp>
@@ -116,6 +118,44 @@ TEST(CalibrationChoiceOf, AutoMovesFramesBackAndRecordedOnlySaysWhatHappened) {
   ASSERT_TRUE(recorded);
   EXPECT_TRUE(recorded->poses.empty());
   EXPECT_NE(recorded->note.find("nothing was corrected"), std::string::npos) << recorded->note;
+}
+
+/// The recording without its angles and speed, with its table `shift_m` beside where it stands.
+SequenceView without_turning(const FrameSequence& recording, double shift_m) {
+  SequenceView out(recording);
+  SequenceHeader header = recording.header();
+  header.turntable->speed_rad_s.reset();
+  header.turntable->center_m.x() += shift_m;
+  out.set_header(header);
+  std::vector<FrameInfo> frames = recording.frames();
+  for (FrameInfo& frame : frames) frame.angle_rad.reset();
+  out.set_frames(frames);
+  return out;
+}
+
+TEST(CalibrationChoiceOf, OnlyTheTurningIsTakenFromMotionWhereTheRecordingKnowsItsTable) {
+  const MovedLetter letter(60, 60);
+  const SequenceView sequence = without_turning(letter, 0.0);
+  const auto choice = choose_calibration(sequence, {"auto", {}, false}, RunContext());
+  ASSERT_TRUE(choice) << choice.error().text();
+  ASSERT_TRUE(choice->calibration);
+  EXPECT_EQ(choice->calibration->table.center_m, letter.header().turntable->center_m);
+  EXPECT_EQ(choice->calibration->table.axis, letter.header().turntable->axis);
+  EXPECT_NEAR(*choice->calibration->table.speed_rad_s, *letter.header().turntable->speed_rad_s,
+              0.01 * std::abs(*letter.header().turntable->speed_rad_s));
+  EXPECT_EQ(choice->note.find("the recording does not say how its table turned"), 0u)
+      << choice->note;
+}
+
+TEST(CalibrationChoiceOf, ATableThatStandsElsewhereIsNotKeptForWantOfASpeed) {
+  const MovedLetter letter(60, 60);
+  const auto choice =
+      choose_calibration(without_turning(letter, 0.008), {"auto", {}, false}, RunContext());
+  ASSERT_TRUE(choice) << choice.error().text();
+  ASSERT_TRUE(choice->calibration);
+  const Vec3d off = choice->calibration->table.center_m - letter.header().turntable->center_m;
+  EXPECT_LT(off.cross(letter.header().turntable->axis).norm(), 0.001);
+  EXPECT_NE(choice->note.find("found from motion: axis to"), std::string::npos) << choice->note;
 }
 
 TEST(CalibrationChoiceOf, FramesThatAreLeftOutCountAsDropped) {

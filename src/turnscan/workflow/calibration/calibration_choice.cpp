@@ -42,15 +42,21 @@ Result<CalibrationChoice> by_free_registration(const FrameSequence& sequence,
   return out;
 }
 
-Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
-                                      const CalibrationRequest& request, const std::string& why,
-                                      const RunContext& context) {
+bool undetermined(const Calibration& found, std::string_view what) {
+  return std::find(found.undetermined.begin(), found.undetermined.end(), what) !=
+         found.undetermined.end();
+}
+
+Result<Calibration> motion_of(const FrameSequence& sequence, const CalibrationRequest& request,
+                              const RunContext& context) {
   FromMotionOptions options;
   options.speed_rad_s = request.speed_rad_s;
-  TURNSCAN_ASSIGN(Calibration found, calibrate_from_motion(sequence, options, {}, context));
+  return calibrate_from_motion(sequence, options, {}, context);
+}
+
+Result<CalibrationChoice> chosen_from_motion(Calibration found, const std::string& why) {
   for (const char* needed : {"axis", "centre"}) {
-    const auto& unknown = found.undetermined;
-    if (std::find(unknown.begin(), unknown.end(), needed) != unknown.end())
+    if (undetermined(found, needed))
       return fail(ErrorCode::kMissingData,
                   "the motion does not determine the turntable's {}: axis to {:.1f} deg, centre to "
                   "{:.1f} mm; let the sensor see the platter, or take more of a turn",
@@ -64,6 +70,13 @@ Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
     out.note += fmt::format("; not determined: {}", fmt::join(found.undetermined, ", "));
   out.calibration = std::move(found);
   return out;
+}
+
+Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
+                                      const CalibrationRequest& request, const std::string& why,
+                                      const RunContext& context) {
+  TURNSCAN_ASSIGN(Calibration found, motion_of(sequence, request, context));
+  return chosen_from_motion(std::move(found), why);
 }
 
 bool has_poses(const FrameSequence& sequence) {
@@ -186,16 +199,72 @@ Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
   return out;
 }
 
-/// From motion, and the frames moved to where they belong all the same.
+/// The frames of a calibration moved to where they belong all the same.
+Result<CalibrationChoice> corrected(const FrameSequence& sequence, CalibrationChoice choice,
+                                    PlatterMemory& memory, const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *choice.calibration));
+  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, memory, context));
+  correct(std::move(placement), choice);
+  return choice;
+}
+
 Result<CalibrationChoice> from_motion_corrected(const FrameSequence& sequence,
                                                 const CalibrationRequest& request,
                                                 const std::string& why, PlatterMemory& memory,
                                                 const RunContext& context) {
   TURNSCAN_ASSIGN(auto out, from_motion(sequence, request, why, context));
-  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *out.calibration));
-  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, memory, context));
-  correct(std::move(placement), out);
+  return corrected(sequence, std::move(out), memory, context);
+}
+
+/// The recording's table, turning as the motion says. Its deviations are not known.
+Calibration with_recorded_table(const TurntableInfo& table, const Calibration& found) {
+  Calibration out;
+  out.method = found.method;
+  out.table = table;
+  out.table.speed_rad_s = found.table.speed_rad_s;
+  if (!table.radius_m) out.table.reach_m = found.table.reach_m;
+  out.axis_found = out.center_found = out.height_found = "the recording's";
+  if (table.radius_m) out.radius_found = "the recording's";
+  out.speed_sigma_rad_s = found.speed_sigma_rad_s;
+  out.speed_found = found.speed_found, out.angles_found = found.angles_found;
+  out.angles_rad = found.angles_rad, out.angle_sigma_rad = found.angle_sigma_rad;
+  out.start_s = found.start_s;
   return out;
+}
+
+/// Where the recording knows its table but not how it turned: nullopt if the motion does not say
+/// it either, or if something then speaks against the table.
+Result<std::optional<CalibrationChoice>> turned_as_seen(const FrameSequence& sequence,
+                                                        const Calibration& found,
+                                                        PlatterMemory& memory,
+                                                        const RunContext& context) {
+  const auto& table = sequence.header().turntable;
+  // Where further sensors stand was found beside the table that the motion shows.
+  if (!table || undetermined(found, "angles") || !found.others.empty() ||
+      table->axis.normalized().dot(found.table.axis) < 0.9)
+    return std::nullopt;
+  CalibrationChoice out;
+  out.calibration = with_recorded_table(*table, found);
+  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *out.calibration));
+  TURNSCAN_ASSIGN(const auto why, doubt(*calibrated, memory, context));
+  if (why) return std::nullopt;
+  out.note = "the recording does not say how its table turned, so that was found from motion";
+  if (const auto speed = found.table.speed_rad_s)
+    out.note += fmt::format(": {:.2f} deg/s", *speed * kDegreesPerRadian);
+  return out;
+}
+
+/// The recording lacks a table, or how it turned.
+Result<CalibrationChoice> completed(const FrameSequence& sequence,
+                                    const CalibrationRequest& request, PlatterMemory& memory,
+                                    const RunContext& context) {
+  TURNSCAN_ASSIGN(Calibration found, motion_of(sequence, request, context));
+  TURNSCAN_ASSIGN(auto turned, turned_as_seen(sequence, found, memory, context));
+  if (!turned) {
+    TURNSCAN_ASSIGN(turned,
+                    chosen_from_motion(std::move(found), "the recording has no calibration"));
+  }
+  return corrected(sequence, std::move(*turned), memory, context);
 }
 
 /// The recording's own calibration, or one from motion where something speaks against it.
@@ -227,8 +296,7 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
   if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
-    auto found = from_motion_corrected(sequence, request, "the recording has no calibration",
-                                       memory, context);
+    auto found = completed(sequence, request, memory, context);
     if (found || found.error().code == ErrorCode::kCancelled) return found;
     return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
                 found.error().message);
