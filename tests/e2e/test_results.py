@@ -124,6 +124,36 @@ class Reconstruct(harness.TestCase):
         self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--max-error", "0mm",
                      says="max-error")
 
+    def test_holes_are_left_open_or_closed_flat_as_asked(self):
+        for method in ("volumetric", "poisson"):
+            self.ok("reconstruct", self.rec, "-o", "whole.ply", "--method", method)
+            done = self.ok("reconstruct", self.rec, "-o", "open.ply", "--holes", "open",
+                           "--method", method)
+            self.assertIn("left open", done.stdout)
+            self.ok("reconstruct", self.rec, "-o", "flat.ply", "--holes", "flat",
+                    "--hole-size", "1mm", "--method", method)
+            opened, flat, whole = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]
+                                   for n in ("open.ply", "flat.ply", "whole.ply"))
+            self.assertFalse(opened["watertight"])
+            self.assertTrue(flat["watertight"] and whole["watertight"])
+            self.assertLess(opened["triangles"], whole["triangles"])
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--method", "poisson",
+                     "--no-repair", "--holes", "open", says="holes")
+
+    def test_a_mesh_is_smoothed_and_cut_down_to_what_is_wanted(self):
+        self.ok("reconstruct", self.rec, "-o", "rough.ply")
+        self.ok("reconstruct", self.rec, "-o", "smooth.ply", "--smooth", "8mm")
+        rough, smooth = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]
+                         for n in ("rough.ply", "smooth.ply"))
+        self.assertTrue(smooth["watertight"])
+        self.assertLess(smooth["area_m2"], rough["area_m2"])
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--only-object", "2",
+                     says="only-object 2: there is only 1")
+        self.refused(FAILED, "reconstruct", self.rec, "-o", "m.ply", "--smallest-part", "5m",
+                     says="nothing is left")
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--smooth", "-1mm",
+                     says="smooth")
+
     def test_an_open_mesh_is_refused_unless_allowed(self):
         args = ("reconstruct", self.rec, "-o", "m.ply", "--method", "concave-hull", "--no-repair")
         self.refused(FAILED, *args, says="--allow-open")

@@ -25,7 +25,8 @@ std::vector<OptionGroup> describe_stages(ReconstructOptions& o) {
           {"refine", describe(o.refine)},
           {"base", describe(o.base)},
           {"surface", describe(o.surface)},
-          {"volumetric", describe(o.volumetric)}};
+          {"volumetric", describe(o.volumetric)},
+          {"finish", describe(o.finish)}};
 }
 
 OptionTable describe(ReconstructOptions& options) {

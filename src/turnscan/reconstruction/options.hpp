@@ -3,6 +3,7 @@
 
 #include <string>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/reconstruction/options/finish_options.hpp>
 #include <turnscan/reconstruction/options/outlier_options.hpp>
 #include <turnscan/reconstruction/options/point_options.hpp>
 #include <turnscan/reconstruction/options/surface_options.hpp>
@@ -24,6 +25,7 @@ struct ReconstructOptions {
   BaseOptions base;
   SurfaceOptions surface;
   VolumetricOptions volumetric;
+  FinishOptions finish;
   bool color = false;
   /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
   /// methods from points keep sums only, and the sink gets the later stages.

@@ -25,6 +25,13 @@ struct StageTime {
   double seconds = 0.0;
 };
 
+/// What a triangle rests on.
+enum class Evidence : std::uint8_t {
+  kMeasured,
+  kInvented,  ///< nothing measured it
+  kBase       ///< closed flat on the platter
+};
+
 struct ObjectResult {
   TriangleMesh mesh;
   MeshReport check;
@@ -35,6 +42,9 @@ struct ObjectResult {
   /// Per vertex, volumetric only: what its measurements weigh, over the median of the mesh, at most
   /// 1. 0 where nothing was measured.
   std::vector<float> confidence;
+  /// Per triangle; empty where it is not known, without the repair of methods from points.
+  std::vector<Evidence> evidence;
+  bool left_open = false;          ///< as asked for: not closed, and no fault
   std::vector<std::string> notes;  ///< what was repaired, for people
 };
 

@@ -1,5 +1,6 @@
 #include <mutex>
 #include <turnscan/reconstruction/estimation/first_frames.hpp>
+#include <turnscan/reconstruction/finishing/finishing.hpp>
 #include <turnscan/reconstruction/method.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/stream.hpp>
@@ -15,6 +16,10 @@ Result<> check_options(const ReconstructOptions& options) {
   TURNSCAN_TRY(objects_to_keep(options.components));
   if (options.voxels.size_m && options.voxels.grid)
     return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
+  if (options.finish.holes != Holes::kSmooth && !options.surface.repair &&
+      options.surface.method != SurfaceMethod::kVolumetric)
+    return fail(ErrorCode::kInvalidOption,
+                "holes: without the repair it is not known what was measured; leave --repair on");
   return {};
 }
 
@@ -82,6 +87,7 @@ class ReconstructionStream::Impl {
       out_.notes.push_back(fmt::format("the first {} frames show nothing on the platter",
                                        first_frames_.forgotten()));
     TURNSCAN_TRY(method_->finish(sink, context, out_));
+    TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
     return std::move(out_);
   }
 

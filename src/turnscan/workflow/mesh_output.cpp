@@ -16,7 +16,7 @@ Result<> check_mesh_file(const std::string& path) {
 
 Result<> check_watertight(const Reconstruction& r) {
   for (std::size_t i = 0; i < r.objects.size(); ++i) {
-    if (r.objects[i].check.watertight()) continue;
+    if (r.objects[i].check.watertight() || r.objects[i].left_open) continue;
     return fail(ErrorCode::kLibrary,
                 "object {}: the mesh is not watertight ({}); allow the repair, or take it as it is "
                 "with --allow-open",

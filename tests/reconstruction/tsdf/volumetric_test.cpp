@@ -310,6 +310,23 @@ TEST(Volumetric, KeepsAsManyObjectsAsAskedFor) {
   EXPECT_LT(bounds(one->objects[0].mesh.vertices).center().x(), 0.0);
 }
 
+TEST(Volumetric, MakesOneObjectOfWhatLiesCloserThanTheGap) {
+  const auto pair = [](const Vec3d& o, const Vec3d& d) {
+    return nearer(to_ball(o, d, Vec3d(-0.05, 0.025, 0), 0.025),
+                  to_ball(o, d, Vec3d(0.05, 0.02, 0), 0.02));
+  };
+  ReconstructOptions options = volumetric();
+  options.components.gap_m = 0.050;  // they are 55 mm apart
+  EXPECT_EQ(reconstruct(scan(pair, {}), options, {}, RunContext())->objects.size(), 2u);
+  options.components.gap_m = 0.060;
+  const auto one = reconstruct(scan(pair, {}), options, {}, RunContext());
+  ASSERT_EQ(one->objects.size(), 1u);
+  EXPECT_EQ(one->objects[0].check.components, 2);
+  EXPECT_TRUE(one->objects[0].check.watertight());
+  for (const std::string& note : one->objects[0].notes)
+    EXPECT_EQ(note.find("in the air"), std::string::npos) << note;
+}
+
 TEST(Volumetric, RefusesWhatItCannotDo) {
   const auto nothing = [](const Vec3d&, const Vec3d&) { return 0.0; };
   EXPECT_EQ(reconstruct(scan(nothing, {}), volumetric(), {}, RunContext()).error().code,

@@ -5,6 +5,7 @@
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/sparse_ldlt.hpp>
+#include <turnscan/geometry/mesh/vertex_neighbours.hpp>
 
 namespace turnscan {
 namespace {
@@ -16,44 +17,9 @@ using Triplet = Eigen::Triplet<double>;
 constexpr std::size_t kLargestPlateDegree = 64;
 constexpr std::size_t kMaxFactorBytes = std::size_t(6) << 30;
 
-/// Neighbours of every vertex along edges.
-class Adjacency {
- public:
-  explicit Adjacency(const TriangleMesh& mesh) : start_(mesh.vertices.size() + 1, 0) {
-    const mesh::EdgeTable edges(mesh.triangles, mesh.vertices.size());
-    const auto ends = [&](std::size_t e) {
-      const std::uint32_t h = edges.half_edges(e)[0];
-      const std::uint32_t g = mesh::next_in_triangle(h);
-      return std::pair(mesh.triangles[h / 3][h % 3], mesh.triangles[g / 3][g % 3]);
-    };
-    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
-      const auto [a, b] = ends(e);
-      if (a == b) continue;
-      ++start_[a + 1];
-      ++start_[b + 1];
-    }
-    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
-    neighbours_.resize(start_.back());
-    std::vector<std::size_t> cursor(start_.begin(), start_.end() - 1);
-    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
-      const auto [a, b] = ends(e);
-      if (a == b) continue;
-      neighbours_[cursor[a]++] = b;
-      neighbours_[cursor[b]++] = a;
-    }
-  }
-  std::span<const std::uint32_t> of(std::uint32_t v) const {
-    return std::span(neighbours_).subspan(start_[v], start_[v + 1] - start_[v]);
-  }
-
- private:
-  std::vector<std::size_t> start_;
-  std::vector<std::uint32_t> neighbours_;
-};
-
 /// Movable vertices that are connected, or that touch the same fixed vertex: the plate's term of
 /// that vertex couples them. Regions that touch no fixed vertex at all are left out.
-std::vector<std::vector<std::uint32_t>> find_regions(const Adjacency& adjacency,
+std::vector<std::vector<std::uint32_t>> find_regions(const mesh::VertexNeighbours& adjacency,
                                                      const std::vector<std::uint8_t>& movable) {
   std::vector<std::vector<std::uint32_t>> regions;
   std::vector<std::uint8_t> seen(movable.size(), 0);
@@ -81,7 +47,7 @@ std::vector<std::vector<std::uint32_t>> find_regions(const Adjacency& adjacency,
 /// 1998, "Interactive multi-resolution modeling on arbitrary meshes").
 class PlateSystem {
  public:
-  PlateSystem(const TriangleMesh& mesh, const Adjacency& adjacency,
+  PlateSystem(const TriangleMesh& mesh, const mesh::VertexNeighbours& adjacency,
               const std::vector<std::uint32_t>& region, const std::vector<std::uint32_t>& place,
               double tension)
       : mesh_(mesh), adjacency_(adjacency), region_(region), place_(place) {
@@ -156,7 +122,7 @@ class PlateSystem {
   }
 
   const TriangleMesh& mesh_;
-  const Adjacency& adjacency_;
+  const mesh::VertexNeighbours& adjacency_;
   const std::vector<std::uint32_t>& region_;
   const std::vector<std::uint32_t>& place_;  // vertex -> row, kNone for fixed ones
   Vec3d origin_;
@@ -184,7 +150,7 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
                 "relax: {} marks for {} vertices; give one for each vertex", movable.size(),
                 mesh.vertices.size());
   }
-  const Adjacency adjacency(mesh);
+  const mesh::VertexNeighbours adjacency(mesh);
   const auto regions = find_regions(adjacency, movable);
   std::vector<std::uint32_t> place(mesh.vertices.size(), mesh::kNone);
   for (const auto& region : regions) {

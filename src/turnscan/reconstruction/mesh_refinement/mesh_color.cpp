@@ -106,10 +106,10 @@ Result<bool> color_from_views(TriangleMesh& mesh, std::span<const views::DepthVi
   return any;
 }
 
-void paint_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+void paint_invented(TriangleMesh& mesh, const std::vector<Evidence>& evidence) {
   if (mesh.colors.empty()) mesh.colors.assign(mesh.vertices.size(), kPlain);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!marked[t]) continue;
+    if (evidence[t] != Evidence::kInvented) continue;
     for (const std::uint32_t v : mesh.triangles[t]) mesh.colors[v] = kInventedColor;
   }
 }

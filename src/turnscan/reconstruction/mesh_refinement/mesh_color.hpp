@@ -4,6 +4,7 @@
 #include <span>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/reconstruction/result.hpp>
 #include <turnscan/reconstruction/views/depth_view.hpp>
 
 namespace turnscan::mesh_refinement {
@@ -20,7 +21,7 @@ Result<bool> color_from_views(TriangleMesh& mesh, std::span<const views::DepthVi
 /// What is marked as invented: between magenta and red, as nothing else is.
 inline constexpr Rgb kInventedColor{255, 0, 144};
 
-/// Paints the vertices of the marked triangles; a mesh without colours becomes light grey first.
-void paint_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked);
+/// Paints the vertices of invented triangles; a mesh without colours becomes light grey first.
+void paint_invented(TriangleMesh& mesh, const std::vector<Evidence>& evidence);
 
 }  // namespace turnscan::mesh_refinement

@@ -51,7 +51,8 @@ OptionTable describe(ComponentOptions& o) {
       .number("min-object-share", o.min_share, Quantity::kNone, {0.0, 1.0},
               "Pieces with a smaller share of the largest piece's points are crumbs and go")
       .number("object-gap", o.gap_m, Quantity::kLength, {0.0, 1.0},
-              "Pieces closer than this are one object; automatic: from spacing and noise");
+              "Pieces closer than this are one object; automatic: what the volume separates is "
+              "separate, and with the methods from points by spacing and noise");
   return table;
 }
 

@@ -256,7 +256,7 @@ MethodEntry entry_of(SurfaceMethod method) {
   MethodEntry entry;
   entry.method = method;
   entry.option_stages = {"crop",       "outliers", "merge",  "voxels", "candidates",
-                         "components", "normals",  "refine", "base"};
+                         "components", "normals",  "refine", "base",   "finish"};
   entry.options = {"method", "repair"};
   entry.saveable_stages = {"merged", "voxels", "candidates", "refined", "oriented"};
   entry.create = &PointMethod::create;

@@ -66,7 +66,7 @@ class PointStages {
   Result<> refine();
   Result<> split_objects();
   Result<> build_surfaces();
-  Result<ObjectResult> build_surface(const PointCloud& object);
+  Result<ObjectResult> build_surface(const PointCloud& object, std::size_t measured);
 
   const voxels::MeasuredCells& measurements_;
   double spacing_m_;
@@ -78,7 +78,8 @@ class PointStages {
   voxels::VoxelGrid grid_;  ///< what is left of the measurements' voxels
   Components components_;
   Candidates candidates_;
-  std::vector<PointCloud> objects_;  ///< oriented points, with base
+  std::vector<PointCloud> objects_;    ///< oriented points, with base
+  std::vector<std::size_t> measured_;  ///< of these the first ones, without base
 };
 
 Result<> PointStages::choose_voxels() {
@@ -166,6 +167,7 @@ Result<> PointStages::split_objects() {
   PointCloud all;
   for (std::size_t o = 0; o < objects_.size(); ++o) {
     PointCloud& object = objects_[o];
+    measured_.push_back(object.size());
     if (options_.base.enabled && cylinder_) {
       const double reach = cylinder_->margin_m + 3.0 * grid_.size_m();
       const BaseResult base = close_base(object, grid_.size_m(), reach);
@@ -189,7 +191,7 @@ Result<> PointStages::split_objects() {
   return save("oriented", all);
 }
 
-Result<ObjectResult> PointStages::build_surface(const PointCloud& object) {
+Result<ObjectResult> PointStages::build_surface(const PointCloud& object, std::size_t measured) {
   ObjectResult result;
   surface::RepairedMesh repaired;
   const double reach = std::max(3.0 * grid_.size_m(), 1.5 * out_.frame_spacing_m);
@@ -213,9 +215,11 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object) {
     }
   }
   if (!options_.surface.repair) repaired.check = check_mesh(repaired.mesh);
+  surface::mark_base(repaired, object, measured);
   if (options_.color) surface::color_vertices(repaired.mesh, object);
   result.mesh = std::move(repaired.mesh);
   result.check = repaired.check;
+  result.evidence = std::move(repaired.evidence);
   result.invented_area_m2 = repaired.invented_area_m2;
   result.notes = std::move(repaired.notes);
   return result;
@@ -224,7 +228,7 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object) {
 Result<> PointStages::build_surfaces() {
   context_.begin_phase("surface", objects_.size());
   for (std::size_t o = 0; o < objects_.size(); ++o) {
-    auto built = build_surface(objects_[o]);
+    auto built = build_surface(objects_[o], measured_[o]);
     if (!built && built.error().code == ErrorCode::kCancelled)
       return tl::unexpected<Error>(built.error());
     if (!built) return fail(built.error().code, "object {}: {}", o + 1, built.error().message);

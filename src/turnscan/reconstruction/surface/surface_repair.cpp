@@ -41,15 +41,6 @@ struct MarkedPiece {
   Unsupported unsupported;
 };
 
-double area_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
-  double area = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (vertices[a] || vertices[b] || vertices[c]) area += triangle_area(mesh, t);
-  }
-  return area;
-}
-
 /// The piece with the most vertices near candidates.
 Result<MarkedPiece> main_piece(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
                                std::vector<std::string>& notes) {
@@ -154,7 +145,12 @@ Result<> deflate(MarkedPiece& piece, std::vector<std::string>& notes, const RunC
 RepairedMesh checked(MarkedPiece piece, std::vector<std::string> notes) {
   RepairedMesh out;
   out.check = check_mesh(piece.mesh);
-  out.invented_area_m2 = area_of(piece.mesh, piece.unsupported);
+  for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = piece.mesh.triangles[t];
+    const bool invented = piece.unsupported[a] || piece.unsupported[b] || piece.unsupported[c];
+    out.evidence.push_back(invented ? Evidence::kInvented : Evidence::kMeasured);
+    if (invented) out.invented_area_m2 += triangle_area(piece.mesh, t);
+  }
   out.mesh = std::move(piece.mesh);
   out.notes = std::move(notes);
   return out;
@@ -202,6 +198,23 @@ Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointClo
     return fail(ErrorCode::kLibrary, "the concave hull cannot be made watertight: {}",
                 out.check.text());
   return out;
+}
+
+void mark_base(RepairedMesh& repaired, const PointCloud& candidates, std::size_t added) {
+  const TriangleMesh& mesh = repaired.mesh;
+  if (added >= candidates.size() || repaired.evidence.empty()) return;
+  const KdTree tree(candidates.points);
+  std::vector<std::uint8_t> at_base(mesh.vertices.size(), 0);
+  parallel_for(at_base.size(), 1024, [&](std::size_t v) {
+    std::uint32_t index = 0;
+    float squared = 0.0f;
+    at_base[v] = tree.knn(mesh.vertices[v], 1, &index, &squared) > 0 && index >= added ? 1 : 0;
+  });
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (repaired.evidence[t] == Evidence::kMeasured && at_base[a] && at_base[b] && at_base[c])
+      repaired.evidence[t] = Evidence::kBase;
+  }
 }
 
 void color_vertices(TriangleMesh& mesh, const PointCloud& candidates) {

@@ -5,13 +5,16 @@
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/reconstruction/result.hpp>
 
 namespace turnscan::surface {
 
 struct RepairedMesh {
   TriangleMesh mesh;
   MeshReport check;
-  double invented_area_m2 = 0.0;   ///< of triangles farther than reach_m from any candidate
+  std::vector<Evidence>
+      evidence;  ///< per triangle: invented is what no candidate is within reach of
+  double invented_area_m2 = 0.0;
   std::vector<std::string> notes;  ///< what was done, for people
 };
 
@@ -26,6 +29,10 @@ Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& c
 /// A closed, 2-manifold, outward surface around a concave hull: wrapped on cells of cell_m.
 Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointCloud& candidates,
                                          double cell_m, double reach_m, const RunContext& context);
+
+/// Triangles near candidates become the base where those nearest to their corners were added to
+/// close it: the candidates from position `added` on.
+void mark_base(RepairedMesh& repaired, const PointCloud& candidates, std::size_t added);
 
 /// Colour of each vertex: the weighted mean of the three nearest candidates.
 void color_vertices(TriangleMesh& mesh, const PointCloud& candidates);

@@ -14,6 +14,12 @@ struct GroupingRules {
   /// Components that lie entirely above this height (y) are detached: no frame showed what holds
   /// them. nullopt: none are.
   std::optional<double> detached_above_m;
+  double gap_m = 0.0;  ///< components with vertices no farther apart are one object
+};
+
+struct ObjectComponents {
+  std::vector<TriangleMesh> components;
+  std::size_t detached = 0;  ///< of these; they are the last ones
 };
 
 /// Whether a closed mesh is more than nothing: not a hole within another component, which few
@@ -22,8 +28,8 @@ struct GroupingRules {
 bool encloses_volume(const TriangleMesh& mesh);
 
 /// Components of each object, largest object first: the one that stands, which may be the largest
-/// wherever it lies, then the detached ones that are nearest to it.
-std::vector<std::vector<TriangleMesh>> group_objects(std::vector<TriangleMesh> components,
-                                                     const GroupingRules& rules);
+/// wherever it lies, those close to it, then the detached ones that are nearest to it.
+std::vector<ObjectComponents> group_objects(std::vector<TriangleMesh> components,
+                                            const GroupingRules& rules);
 
 }  // namespace turnscan::tsdf

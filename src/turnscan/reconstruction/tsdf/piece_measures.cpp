@@ -21,24 +21,24 @@ void measure_confidence(VolumetricPiece& piece) {
     piece.confidence.push_back(typical > 0.0f ? std::min(1.0f, s / typical) : 0.0f);
 }
 
-std::vector<std::uint8_t> measure_invented(VolumetricPiece& piece, const VolumeScale& scale) {
+void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
   const auto& p = piece.mesh.vertices;
   const float base = scale.floor_m ? float(*scale.floor_m) : -1e30f;
-  std::vector<std::uint8_t> invented(piece.mesh.triangles.size(), 0);
-  for (std::size_t i = 0; i < invented.size(); ++i) {
+  piece.evidence.assign(piece.mesh.triangles.size(), Evidence::kMeasured);
+  for (std::size_t i = 0; i < piece.evidence.size(); ++i) {
     const auto& t = piece.mesh.triangles[i];
     const double area = triangle_area(piece.mesh, i);
     const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
     const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
     if (high < base && high - low < 0.1f * float(scale.cell_m)) {
+      piece.evidence[i] = Evidence::kBase;
       piece.base_area_m2 += area;
     } else if (std::any_of(t.begin(), t.end(),
                            [&](std::uint32_t v) { return piece.confidence[v] < kInvented; })) {
-      invented[i] = 1;
+      piece.evidence[i] = Evidence::kInvented;
       piece.invented_area_m2 += area;
     }
   }
-  return invented;
 }
 
 std::size_t count_points(const VolumetricInput& input, const Box& box) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/simplify.hpp>
@@ -60,16 +61,17 @@ class VolumetricReconstruction {
     GroupingRules rules;
     rules.min_share = min_share;
     rules.keep = std::size_t(input_.keep);
+    rules.gap_m = input_.gap_m;
     if (volume.floor_m)
       rules.detached_above_m = *volume.floor_m + volume.truncation_m + volume.cell_m;
     return rules;
   }
 
   /// Evens out and fits the components of an object, and makes one piece of them.
-  Result<> refine(const std::vector<TriangleMesh>& components, const EvenOutScale& grid) {
+  Result<> refine(const ObjectComponents& object, const EvenOutScale& grid) {
     VolumetricPiece piece;
     std::vector<TriangleMesh> refined;
-    for (const TriangleMesh& component : components) {
+    for (const TriangleMesh& component : object.components) {
       TURNSCAN_ASSIGN(const TriangleMesh even,
                       timed("even out", [&] { return even_out(component, grid, context_); }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
@@ -85,7 +87,7 @@ class VolumetricReconstruction {
       refined.push_back(std::move(fitted.mesh));
     }
     if (refined.empty()) return {};
-    piece.detached = refined.size() - 1;
+    piece.detached = std::min(object.detached, refined.size() - 1);
     piece.mesh = refined.size() == 1 ? std::move(refined[0]) : join_meshes(refined);
     out_.pieces.push_back(std::move(piece));
     return {};
@@ -120,8 +122,8 @@ class VolumetricReconstruction {
   /// What no frame measured, and how many points there are.
   void measure(VolumetricPiece& piece) const {
     measure_confidence(piece);
-    const std::vector<std::uint8_t> invented = measure_invented(piece, scale_.volume);
-    if (options_.mark_invented) mesh_refinement::paint_triangles(piece.mesh, invented);
+    measure_evidence(piece, scale_.volume);
+    if (options_.mark_invented) mesh_refinement::paint_invented(piece.mesh, piece.evidence);
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.volume.truncation_m;
     box.max.array() += scale_.volume.truncation_m;

@@ -22,18 +22,20 @@ struct VolumetricInput {
   std::optional<double> cell_m;  ///< distance between samples; nullopt: from the spacing
   std::optional<int> grid;       ///< or: samples along the longest side
   int keep = 0;                  ///< largest pieces that are kept; 0: all
+  double gap_m = 0.0;            ///< components closer than this are one piece
   std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
 };
 
 /// An object.
 struct VolumetricPiece {
   TriangleMesh mesh;
-  std::vector<float> support;     ///< per vertex: sum of the weights of its measurements
-  std::vector<float> confidence;  ///< per vertex: support over its median, at most 1
-  double invented_area_m2 = 0.0;  ///< where vertices have a fiftieth of the usual support or less
-  double base_area_m2 = 0.0;      ///< closed flat on the platter
-  std::size_t points = 0;         ///< measured, in the box of the piece
-  std::size_t detached = 0;       ///< components that no frame shows to be connected to the rest
+  std::vector<float> support;      ///< per vertex: sum of the weights of its measurements
+  std::vector<float> confidence;   ///< per vertex: support over its median, at most 1
+  std::vector<Evidence> evidence;  ///< per triangle
+  double invented_area_m2 = 0.0;   ///< where vertices have a fiftieth of the usual support or less
+  double base_area_m2 = 0.0;       ///< closed flat on the platter
+  std::size_t points = 0;          ///< measured, in the box of the piece
+  std::size_t detached = 0;        ///< components that no frame shows to be connected to the rest
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first

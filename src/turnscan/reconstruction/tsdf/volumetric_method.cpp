@@ -102,6 +102,7 @@ Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) 
   input.cell_m = in.options.voxels.size_m;
   input.grid = in.options.voxels.grid;
   TURNSCAN_ASSIGN(input.keep, objects_to_keep(in.options.components));
+  input.gap_m = in.options.components.gap_m.value_or(0.0);
   method->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m,
                          in.options.color};
   input.colored = in.options.color;
@@ -249,6 +250,7 @@ ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
   object.points = piece.points;
   object.invented_area_m2 = piece.invented_area_m2;
   object.confidence = std::move(piece.confidence);
+  object.evidence = std::move(piece.evidence);
   if (options_.color && object.mesh.colors.empty())
     object.notes.emplace_back("the recording has no colour");
   if (piece.base_area_m2 > 0.0)
@@ -309,9 +311,10 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
 MethodEntry volumetric_method() {
   MethodEntry entry;
   entry.method = SurfaceMethod::kVolumetric;
-  entry.option_stages = {"crop", "volumetric"};
+  entry.option_stages = {"crop", "volumetric", "finish"};
   entry.options = {"speed",      "pass", "colour",           "voxel-size",
-                   "voxel-grid", "keep", "min-object-share", "method"};
+                   "voxel-grid", "keep", "min-object-share", "object-gap",
+                   "method"};
   entry.saveable_stages = {"fitted"};
   entry.previews = true;
   entry.create = &VolumetricMethod::create;

@@ -13,11 +13,12 @@ std::string objects_text(const Reconstruction& r) {
              "invented", "watertight"});
   int number = 0;
   for (const ObjectResult& o : r.objects) {
-    table.add(
-        {std::to_string(++number), std::to_string(o.points), std::to_string(o.candidates),
-         std::to_string(o.check.vertices), std::to_string(o.check.triangles),
-         size_text(bounds(o.mesh.vertices)), fmt::format("{:.1f} cm3", o.check.volume_m3 * 1e6),
-         fmt::format("{:.1f} cm2", o.invented_area_m2 * 1e4), o.check.watertight() ? "yes" : "no"});
+    table.add({std::to_string(++number), std::to_string(o.points), std::to_string(o.candidates),
+               std::to_string(o.check.vertices), std::to_string(o.check.triangles),
+               size_text(bounds(o.mesh.vertices)),
+               o.check.closed ? fmt::format("{:.1f} cm3", o.check.volume_m3 * 1e6) : "open",
+               fmt::format("{:.1f} cm2", o.invented_area_m2 * 1e4),
+               o.check.watertight() ? "yes" : "no"});
   }
   return table.text();
 }
