@@ -18,13 +18,16 @@ using turnscan::TriangleMesh;
 
 namespace {
 
-/// Opens nothing but regular files: a reference to a pipe would wait for its writer.
+/// Knows nothing but regular files: a reference to a pipe would wait for its writer. The default
+/// opens a file to see whether it exists.
 class RegularFiles : public Assimp::DefaultIOSystem {
  public:
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
+  bool Exists(const char* file) const override {
     std::error_code error;
-    return std::filesystem::is_regular_file(file, error) ? DefaultIOSystem::Open(file, mode)
-                                                         : nullptr;
+    return std::filesystem::is_regular_file(file, error);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
   }
 };
 

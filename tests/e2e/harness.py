@@ -107,15 +107,20 @@ def shared_recording(name="cylinder", frames=60):
     return shared_demo(name, frames) / "recording"
 
 
-def png16(width, height, value):
-    """A grey 16-bit PNG of one value."""
+def png16(width, height, value, behind=0):
+    """A grey 16-bit PNG of one value, with so many zeros behind its rows."""
     def chunk(kind, body):
         return (struct.pack(">I", len(body)) + kind + body +
                 struct.pack(">I", zlib.crc32(kind + body)))
     row = b"\0" + struct.pack(">H", value) * width
+    packer = zlib.compressobj()
+    rows = packer.compress(row * height)
+    for at in range(0, behind, 1 << 20):
+        rows += packer.compress(bytes(min(1 << 20, behind - at)))
+    rows += packer.flush()
     return (b"\x89PNG\r\n\x1a\n" +
             chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 16, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(row * height)) + chunk(b"IEND", b""))
+            chunk(b"IDAT", rows) + chunk(b"IEND", b""))
 
 
 def foreign_scan(folder):

@@ -1,5 +1,6 @@
 """Hostile inputs and surroundings: nothing is lost, and nothing crashes."""
 
+import json
 import os
 import pathlib
 import random
@@ -97,6 +98,62 @@ class FarAway(harness.TestCase):
         for args in (("render", mesh, "-o", "r.png"), ("info", mesh),
                      ("simulate", mesh, "--unit", "m", "--coverage", "c.ply")):
             self.refused(FAILED, *args, says="from the origin")
+
+
+class WaitingFiles(harness.TestCase):
+    """Files that would keep a reader waiting, or working, for ever."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkfifo(self.dir / "pipe")
+
+    def test_a_reference_to_a_pipe(self):
+        (self.dir / "m.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "buffers": [{"uri": "pipe", "byteLength": 36}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}],
+            "scenes": [{"nodes": [0]}]}))
+        self.refused(FAILED, "info", "m.gltf", says="pipe")
+        (self.dir / "m.obj").write_text("mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.ok("info", "m.obj", "--unit", "m")
+
+    def test_a_pipe(self):
+        for args in (("info", "pipe"), ("import", "pipe", "-o", "r"), ("reconstruct", "pipe", "-o", "m.ply"),
+                     ("capture", "--device", "openni2:pipe", "-o", "r", "--frames", "2"),
+                     ("reconstruct", shared_recording(), "-o", "m.ply", "--turntable", "pipe")):
+            self.refused(FAILED, *args, says="pipe")
+
+    def test_more_behind_the_rows_of_an_image(self):
+        scan = harness.foreign_scan(self.dir / "scan")
+        (scan / "frame-000001.depth.png").write_bytes(png16(32, 24, 1000, behind=1 << 28))
+        self.refused(FAILED, "import", "scan", "-o", "r", "--depth-unit", "1mm", says="behind its rows")
+
+
+class HangUp(harness.TestCase):
+    def test_ends_a_capture_in_order(self):
+        process = start("capture", "--device", "virtual:letter-a?sensor=kinect-v2&realtime=1&frames=6000",
+                        "-o", "r", "--seconds", "300", cwd=self.dir)
+        index = self.dir / "r/frames.csv"
+        end = time.monotonic() + harness.HANG_S
+        while not index.exists() or index.read_text().count("\n") < 5:
+            self.assertIsNone(process.poll())
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+        os.kill(process.pid, signal.SIGHUP)
+        _, err = process.communicate(timeout=harness.HANG_S)
+        self.assertEqual(process.returncode, harness.CANCELLED, err)
+        self.assertIn("is complete", err)
+        self.assertGreaterEqual(json.loads(self.ok("info", "r", "--json").stdout)["frames"], 4)
+
+    def test_leaves_nothing_of_a_reconstruction(self):
+        process = start("reconstruct", shared_recording(), "-o", "m.ply", "--voxel-size", "0.6mm",
+                        cwd=self.dir)
+        process.stderr.readline()
+        os.kill(process.pid, signal.SIGHUP)
+        _, err = process.communicate(timeout=harness.HANG_S)
+        self.assertEqual(process.returncode, harness.CANCELLED, err)
+        self.assertEqual(self.files(), [])
 
 
 class Term(harness.TestCase):
