@@ -1,5 +1,7 @@
 #include <turnscan/simulator/virtual_scan_options.hpp>
 
+#include <turnscan/simulator/noise/noise.hpp>
+
 namespace turnscan {
 
 namespace {

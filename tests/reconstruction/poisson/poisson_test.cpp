@@ -487,7 +487,8 @@ TEST(Poisson, APlateSeenFromOneSideBecomesAClosedPieceAndStaysOne) {
   const auto mesh = poisson_surface(plate(), depth_of(6), RunContext());
   ASSERT_TRUE(mesh) << mesh.error().text();
   // Tightened its unseen side would lie on the seen one.
-  const auto finished = surface::repair_poisson(*mesh, plate(), 0.003, RunContext());
+  const auto finished =
+      surface::repair_poisson(*mesh, plate(), 0.003, surface::Parts::kMain, RunContext());
   ASSERT_TRUE(finished) << finished.error().text();
   EXPECT_TRUE(finished->check.watertight());
 }

@@ -54,7 +54,7 @@ TEST(RepairPoisson, ClosesASphereOfWhichAFifthWasNotSeenWithoutABalloon) {
   const PointCloud points = sphere_points(5000, 0.05, -0.6);
   const auto raw = poisson::poisson_surface(points, coarse(), RunContext());
   ASSERT_TRUE(raw);
-  const auto finished = repair_poisson(*raw, points, 0.004, RunContext());
+  const auto finished = repair_poisson(*raw, points, 0.004, Parts::kMain, RunContext());
   ASSERT_TRUE(finished) << finished.error().text();
   EXPECT_TRUE(finished->check.watertight());
   EXPECT_EQ(finished->check.components, 1);
@@ -70,17 +70,36 @@ TEST(RepairPoisson, DropsPiecesThatNoCandidateSupports) {
   for (const Vec3f& v : raw->vertices) both.vertices.push_back(v + Vec3f(0.3f, 0, 0));
   const auto n = static_cast<std::uint32_t>(raw->vertices.size());
   for (const auto& t : raw->triangles) both.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-  const auto finished = repair_poisson(both, points, 0.004, RunContext());
+  const auto finished = repair_poisson(both, points, 0.004, Parts::kAll, RunContext());
   ASSERT_TRUE(finished);
   EXPECT_EQ(finished->check.components, 1);
   EXPECT_LT(bounds(finished->mesh.vertices).max.x(), 0.06);
+}
+
+TEST(RepairPoisson, KeepsPartsThatCandidatesSupportIfWanted) {
+  const PointCloud one = sphere_points(5000, 0.05);
+  const auto raw = poisson::poisson_surface(one, coarse(), RunContext());
+  ASSERT_TRUE(raw);
+  TriangleMesh both = *raw;
+  PointCloud points = one;
+  for (const Vec3f& p : one.points) points.points.push_back(p + Vec3f(0.15f, 0, 0));
+  for (const Vec3f& v : raw->vertices) both.vertices.push_back(v + Vec3f(0.15f, 0, 0));
+  const auto n = static_cast<std::uint32_t>(raw->vertices.size());
+  for (const auto& t : raw->triangles) both.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  const auto all = repair_poisson(both, points, 0.004, Parts::kAll, RunContext());
+  const auto main = repair_poisson(both, points, 0.004, Parts::kMain, RunContext());
+  ASSERT_TRUE(all && main);
+  EXPECT_TRUE(all->check.watertight());
+  EXPECT_EQ(all->check.components, 2);
+  EXPECT_EQ(all->evidence.size(), all->mesh.triangles.size());
+  EXPECT_EQ(main->check.components, 1);
 }
 
 TEST(ConcaveHull, BecomesWatertightWhenWrapped) {
   const PointCloud points = sphere_points(4000, 0.05);
   const auto raw = concave_hull(points, 0.006, RunContext());
   ASSERT_TRUE(raw) << raw.error().text();
-  const auto finished = repair_concave_hull(*raw, points, 0.002, 0.006, RunContext());
+  const auto finished = repair_concave_hull(*raw, points, 0.002, 0.006, Parts::kMain, RunContext());
   ASSERT_TRUE(finished) << finished.error().text();
   EXPECT_TRUE(finished->check.watertight());
   for (const Vec3f& v : finished->mesh.vertices) EXPECT_NEAR(v.norm(), 0.05f, 0.003f);

@@ -74,6 +74,13 @@ Error at_port(Error error, const std::string& port) {
 
 }  // namespace
 
+Result<double> checked_angle(double deg) {
+  constexpr double kMost_deg = 3.6e8;
+  if (std::abs(deg) <= kMost_deg) return deg;
+  return fail(ErrorCode::kIo, "the table says that it stands at {:g} deg; check --motor-units",
+              deg);
+}
+
 std::string shown(std::string_view line) {
   constexpr std::size_t kMax = 60;
   std::string out;

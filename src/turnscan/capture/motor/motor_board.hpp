@@ -44,6 +44,9 @@ Result<std::unique_ptr<MotorBoard>> open_grbl_board(SerialPort& port, const Moto
                                                     std::string banner);
 bool is_grbl_banner(std::string_view line);
 
+/// The angle, unless it is more than a million turns: then a board has lost itself. Fails with kIo.
+Result<double> checked_angle(double deg);
+
 /// For messages: what came, printable and not too long.
 std::string shown(std::string_view line);
 

@@ -128,7 +128,7 @@ class GrblBoard : public MotorBoard {
   Result<BoardStatus> status() override {
     TURNSCAN_ASSIGN(const GrblStatus now, query());
     BoardStatus out;
-    out.angle_deg = now.x / units_per_deg_;
+    TURNSCAN_ASSIGN(out.angle_deg, checked_angle(now.x / units_per_deg_));
     if (now.state == "Run" || now.state == "Jog" || now.state == "Home") {
       out.state = MotorState::kTurning;
     } else if (now.state != "Idle" && now.state != "Check") {

@@ -72,7 +72,7 @@ class TextBoard : public MotorBoard {
     }
     const auto angle = parse_number(words[1]);
     if (!angle) return not_understood(answer);
-    out.angle_deg = *angle;
+    TURNSCAN_ASSIGN(out.angle_deg, checked_angle(*angle));
     return out;
   }
 

@@ -195,10 +195,12 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object, std::s
   ObjectResult result;
   surface::RepairedMesh repaired;
   const double reach = std::max(3.0 * grid_.size_m(), 1.5 * out_.frame_spacing_m);
+  // A gap that was asked for may join what no surface does.
+  const auto parts = options_.components.gap_m ? surface::Parts::kAll : surface::Parts::kMain;
   if (options_.surface.method == SurfaceMethod::kPoisson) {
     TURNSCAN_ASSIGN(TriangleMesh raw, poisson::poisson_surface(object, options_.surface, context_));
     if (options_.surface.repair) {
-      TURNSCAN_ASSIGN(repaired, surface::repair_poisson(raw, object, reach, context_));
+      TURNSCAN_ASSIGN(repaired, surface::repair_poisson(raw, object, reach, parts, context_));
     } else {
       repaired.mesh = std::move(raw);
     }
@@ -208,7 +210,7 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object, std::s
     TURNSCAN_ASSIGN(TriangleMesh raw, surface::concave_hull(object, alpha, context_));
     if (options_.surface.repair) {
       TURNSCAN_ASSIGN(repaired, surface::repair_concave_hull(raw, object, 0.8 * grid_.size_m(),
-                                                             reach, context_));
+                                                             reach, parts, context_));
     } else {
       repaired.mesh = std::move(raw);
       repaired.notes.push_back("a concave hull is not 2-manifold by nature; repair is off");

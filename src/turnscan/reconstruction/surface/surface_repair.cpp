@@ -41,22 +41,35 @@ struct MarkedPiece {
   Unsupported unsupported;
 };
 
-/// The piece with the most vertices near candidates.
+/// A piece beside the main one is a part of the object with at least this share of its vertices
+/// near candidates, and of the main piece's.
+constexpr double kSupportedPart = 0.5, kPartOfMain = 0.02;
+
+/// The piece with the most vertices near candidates, and of the others, if wanted, what is a part.
 Result<MarkedPiece> main_piece(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
-                               std::vector<std::string>& notes) {
+                               Parts parts, std::vector<std::string>& notes) {
   TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
   if (pieces.empty()) return fail(ErrorCode::kLibrary, "the surface has no triangles");
-  MarkedPiece best;
-  std::ptrdiff_t most = -1;
-  for (TriangleMesh& piece : pieces) {
-    Unsupported unsupported = find_unsupported(piece, tree, reach_m);
-    const std::ptrdiff_t near = std::count(unsupported.begin(), unsupported.end(), 0);
-    if (near > most) most = near, best = {std::move(piece), std::move(unsupported)};
+  std::vector<Unsupported> unsupported;
+  std::vector<double> near;
+  for (const TriangleMesh& piece : pieces) {
+    unsupported.push_back(find_unsupported(piece, tree, reach_m));
+    near.push_back(double(std::count(unsupported.back().begin(), unsupported.back().end(), 0)));
   }
-  if (pieces.size() > 1)
-    notes.push_back(
-        fmt::format("removed {} loose piece{}", pieces.size() - 1, pieces.size() == 2 ? "" : "s"));
-  return best;
+  const auto main = std::size_t(std::max_element(near.begin(), near.end()) - near.begin());
+  MarkedPiece out;
+  std::vector<TriangleMesh> kept;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool part = parts == Parts::kAll && near[i] >= kPartOfMain * near[main] &&
+                      near[i] >= kSupportedPart * double(pieces[i].vertices.size());
+    if (i != main && !part) continue;
+    kept.push_back(std::move(pieces[i]));
+    out.unsupported.insert(out.unsupported.end(), unsupported[i].begin(), unsupported[i].end());
+  }
+  out.mesh = kept.size() == 1 ? std::move(kept[0]) : join_meshes(kept);
+  if (const std::size_t removed = pieces.size() - kept.size(); removed > 0)
+    notes.push_back(fmt::format("removed {} loose piece{}", removed, removed == 1 ? "" : "s"));
+  return out;
 }
 
 /// Grows the mask over `rings` rings of neighbours.
@@ -159,11 +172,11 @@ RepairedMesh checked(MarkedPiece piece, std::vector<std::string> notes) {
 }  // namespace
 
 Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& candidates,
-                                    double reach_m, const RunContext& context) {
+                                    double reach_m, Parts parts, const RunContext& context) {
   const KdTree tree(candidates.points);
   std::vector<std::string> notes;
   context.begin_phase("repair", 3);
-  TURNSCAN_ASSIGN(MarkedPiece piece, main_piece(raw, tree, reach_m, notes));
+  TURNSCAN_ASSIGN(MarkedPiece piece, main_piece(raw, tree, reach_m, parts, notes));
   context.advance();
   MarkedPiece tight = piece;
   std::vector<std::string> tight_notes = notes;
@@ -181,7 +194,8 @@ Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& c
 }
 
 Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointCloud& candidates,
-                                         double cell_m, double reach_m, const RunContext& context) {
+                                         double cell_m, double reach_m, Parts parts,
+                                         const RunContext& context) {
   const KdTree tree(candidates.points);
   const MeshReport before = check_mesh(raw);
   std::vector<std::string> notes{
@@ -192,7 +206,7 @@ Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointClo
   WrapOptions options;
   options.cell_m = cell_m;
   TURNSCAN_ASSIGN(const TriangleMesh mesh, wrap(raw, options, context));
-  TURNSCAN_ASSIGN(MarkedPiece piece, main_piece(mesh, tree, reach_m, notes));
+  TURNSCAN_ASSIGN(MarkedPiece piece, main_piece(mesh, tree, reach_m, parts, notes));
   RepairedMesh out = checked(std::move(piece), std::move(notes));
   if (!out.check.watertight())
     return fail(ErrorCode::kLibrary, "the concave hull cannot be made watertight: {}",

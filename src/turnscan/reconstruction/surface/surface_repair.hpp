@@ -18,17 +18,21 @@ struct RepairedMesh {
   std::vector<std::string> notes;  ///< what was done, for people
 };
 
-/// Makes a Poisson surface one closed, 2-manifold, outward piece: pieces other than the one with
-/// the most vertices near candidates go; and where no candidate is within reach_m, what Poisson
-/// invented (blobs, sheets) is replaced by a smooth and tight continuation of its surroundings if
-/// it swells beyond them.
-/// Fails with kLibrary, saying what is wrong, when the result would not be watertight.
+/// Which pieces of a surface are kept: the one with the most vertices near candidates, or also
+/// others most of which are near candidates, as an object has them whose parts lie apart.
+enum class Parts { kMain, kAll };
+
+/// Makes a Poisson surface closed, 2-manifold and outward: other pieces go; and where no candidate
+/// is within reach_m, what Poisson invented (blobs, sheets) is replaced by a smooth and tight
+/// continuation of its surroundings if it swells beyond them. Fails with kLibrary, saying what is
+/// wrong, when the result would not be watertight.
 Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& candidates,
-                                    double reach_m, const RunContext& context);
+                                    double reach_m, Parts parts, const RunContext& context);
 
 /// A closed, 2-manifold, outward surface around a concave hull: wrapped on cells of cell_m.
 Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointCloud& candidates,
-                                         double cell_m, double reach_m, const RunContext& context);
+                                         double cell_m, double reach_m, Parts parts,
+                                         const RunContext& context);
 
 /// Triangles near candidates become the base where those nearest to their corners were added to
 /// close it: the candidates from position `added` on.
