@@ -42,6 +42,17 @@ class Help(harness.TestCase):
             self.assertEqual(len(names), len(set(names)), f"{command}: {names}")
 
 
+    def test_help_lists_the_options_of_the_chosen_method(self):
+        own = {"volumetric": "--fit", "poisson": "--poisson-samples", "concave-hull": "--alpha"}
+        for command in ("reconstruct", "scan", "demo"):
+            self.assertIn("--method poisson or concave-hull --help", self.ok(command, "--help").stdout)
+            for method in own:
+                out = self.ok(command, "--method", method, "--help").stdout
+                self.assertIn("--keep-box", out)  # of all
+                for name, option in own.items():
+                    self.assertEqual(name == method, f"  {option} " in out, f"{method}: {option}")
+
+
 class WrongUsage(harness.TestCase):
     def wrong(self, *args, says=()):
         result = run(*args, cwd=self.dir)

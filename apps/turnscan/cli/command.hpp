@@ -10,6 +10,7 @@
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/workflow/file_roles.hpp>
 #include <utility>
+#include <vector>
 
 namespace turnscan::cli {
 
@@ -53,12 +54,19 @@ class Session {
   std::string text_;
 };
 
+/// What --help leaves out, given the options beside it.
+struct HelpScope {
+  std::vector<std::string> hidden;  ///< long names, without dashes
+  std::string note;                 ///< what is left out and how to see it
+};
+
 class Command {
  public:
   virtual ~Command() = default;
   virtual void declare(CommandLine& line) = 0;
   /// What run() will read and write; the program refuses outputs over inputs.
   virtual FileRoles files() const = 0;
+  virtual HelpScope help_scope() const { return {}; }
   /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else failed.
   virtual Result<> run(Session& session) = 0;
 };

@@ -220,6 +220,12 @@ Result<> CommandLine::apply() {
   return {};
 }
 
+void CommandLine::hide(const std::vector<std::string>& names) {
+  for (const Bound& bound : bound_)
+    if (std::find(names.begin(), names.end(), bound.field->name) != names.end())
+      bound.option->group("");
+}
+
 std::vector<std::string> CommandLine::files_read() const {
   std::vector<std::string> files{config_path_};
   for (const FileOption& file : file_options_) files.push_back(file.path);

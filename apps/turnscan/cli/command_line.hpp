@@ -74,6 +74,9 @@ class CommandLine {
   /// Called after parsing: sets the fields from the TOML file, then from the command line.
   Result<> apply();
 
+  /// Leaves options, by their long names without dashes, out of --help.
+  void hide(const std::vector<std::string>& names);
+
   /// The files that apply() has read.
   std::vector<std::string> files_read() const;
 

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
+constexpr std::size_t kListWidth = 76, kNoteWidth = 100;  // of lines of --help
 
 struct RunOptions {
   int threads = 0;
@@ -50,7 +51,8 @@ class HelpFormatter : public CLI::Formatter {
   }
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream out;
-    CLI::detail::format_help(out, command->get_name(), wrapped(command->get_description(), 76), 16);
+    CLI::detail::format_help(out, command->get_name(),
+                             wrapped(command->get_description(), kListWidth), 16);
     return out.str();
   }
 };
@@ -278,12 +280,23 @@ int Program::run_command(Entry& entry) {
   return code;
 }
 
+std::string Program::help() {
+  for (Entry& entry : parts_->entries) {
+    if (!parts_->app.got_subcommand(entry.app)) continue;
+    if (!entry.line.apply()) break;  // help is due with wrong options, too
+    const HelpScope scope = entry.command->help_scope();
+    entry.line.hide(scope.hidden);
+    if (!scope.note.empty()) entry.app->footer("\n" + wrapped(scope.note, kNoteWidth));
+  }
+  return parts_->app.help();
+}
+
 int Program::run(int argc, char** argv) {
   CLI::App& app = parts_->app;
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return put_text(app.help());
+    return put_text(help());
   } catch (const CLI::CallForVersion& version_text) {
     return put_text(std::string(version_text.what()) + "\n");
   } catch (const CLI::ParseError& error) {

@@ -25,6 +25,8 @@ class Program {
   struct Entry;
 
   int run_command(Entry& entry);
+  /// Of the program or the chosen command.
+  std::string help();
   std::string reference() const;
 
   struct Parts;

@@ -11,6 +11,7 @@
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "commands/demo_scene.hpp"
+#include "commands/stage_arguments.hpp"
 
 namespace turnscan::cli {
 
@@ -38,12 +39,13 @@ class DemoCommand : public Command {
     line.allow_config();
     line.group("demo", "Demo", describe(object_, scene_.picture_size_px));
     line.group("virtual-scan", "Virtual camera", describe(scene_.scan));
-    for (OptionGroup& stage : describe_stages(scene_.reconstruct))
-      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
+    declare_stages(line, scene_.reconstruct);
     line.group("evaluation", "Evaluation", describe(scene_.evaluate));
   }
 
   FileRoles files() const override { return {}; }
+
+  HelpScope help_scope() const override { return stages_help_scope(scene_.reconstruct); }
 
   Result<> run(Session& session) override {
     // "1.5mm" is short for "gaussian:1.5mm".

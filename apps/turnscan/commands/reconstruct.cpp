@@ -7,6 +7,7 @@
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
+#include "commands/stage_arguments.hpp"
 
 namespace turnscan::cli {
 
@@ -38,8 +39,7 @@ class ReconstructCommand : public Command {
         "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
-    for (OptionGroup& stage : describe_stages(request_.options))
-      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
+    declare_stages(line, request_.options);
   }
 
   FileRoles files() const override {
@@ -47,6 +47,8 @@ class ReconstructCommand : public Command {
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
     return files;
   }
+
+  HelpScope help_scope() const override { return stages_help_scope(request_.options); }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());

@@ -3,6 +3,7 @@
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "commands/capture_arguments.hpp"
+#include "commands/stage_arguments.hpp"
 
 namespace turnscan::cli {
 
@@ -25,14 +26,15 @@ class ScanCommand : public Command {
     declare_capture(line, request_.setup);
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Work while frames come", describe(request_.ahead));
-    for (OptionGroup& stage : describe_stages(request_.reconstruct))
-      line.group(stage.name, "Stage " + stage.name, std::move(stage.table));
+    declare_stages(line, request_.reconstruct);
   }
 
   FileRoles files() const override {
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file),
             {request_.mesh, request_.report}};
   }
+
+  HelpScope help_scope() const override { return stages_help_scope(request_.reconstruct); }
 
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;

@@ -150,15 +150,21 @@ OptionTable& OptionTable::number(const std::string& name, std::optional<int>& va
 
 OptionTable& OptionTable::text(const std::string& name, std::string& value,
                                const std::string& help) {
+  return text(name, value, help, [](std::string_view) { return Result<>(); });
+}
+
+OptionTable& OptionTable::text(const std::string& name, std::string& value, const std::string& help,
+                               const std::function<Result<>(std::string_view)>& readable) {
   OptionField f;
   f.name = name;
   f.help = help;
   f.get = [&value] { return value; };
-  f.set = [&value](std::string_view text) -> Result<> {
+  f.set = [&value, readable](std::string_view text) -> Result<> {
+    TURNSCAN_TRY(readable(text));
     value = std::string(text);
     return {};
   };
-  f.check = [] { return Result<>(); };
+  f.check = [&value, readable] { return readable(value); };
   return add(std::move(f));
 }
 

@@ -51,6 +51,9 @@ class OptionTable {
   OptionTable& number(const std::string& name, std::optional<int>& value, Range range,
                       const std::string& help);
   OptionTable& text(const std::string& name, std::string& value, const std::string& help);
+  /// readable(text) succeeds, or its error names the field and says what is allowed.
+  OptionTable& text(const std::string& name, std::string& value, const std::string& help,
+                    const std::function<Result<>(std::string_view)>& readable);
   /// Enumeration: choices[i] stands for static_cast<E>(i).
   template <class E>
   OptionTable& choice(const std::string& name, E& value, const std::vector<std::string>& choices,

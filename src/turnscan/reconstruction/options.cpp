@@ -35,20 +35,25 @@ OptionTable describe(ReconstructOptions& options) {
   return table;
 }
 
-std::vector<std::string> unused_options(const ReconstructOptions& options) {
-  const MethodEntry& method = method_entry(options.surface.method);
-  ReconstructOptions given = options, standard;
-  const auto stages = describe_stages(given), defaults = describe_stages(standard);
+std::vector<std::string> options_of_others(SurfaceMethod method) {
+  const MethodEntry& entry = method_entry(method);
+  ReconstructOptions standard;
   std::vector<std::string> names;
-  for (std::size_t s = 0; s < stages.size(); ++s) {
-    if (contains(method.option_stages, stages[s].name)) continue;
-    for (std::size_t f = 0; f < stages[s].table.fields().size(); ++f) {
-      const OptionField& field = stages[s].table.fields()[f];
-      if (!contains(method.options, field.name) &&
-          field.get() != defaults[s].table.fields()[f].get())
-        names.push_back(field.name);
-    }
+  for (const OptionGroup& stage : describe_stages(standard)) {
+    if (contains(entry.option_stages, stage.name)) continue;
+    for (const OptionField& field : stage.table.fields())
+      if (!contains(entry.options, field.name)) names.push_back(field.name);
   }
+  return names;
+}
+
+std::vector<std::string> unused_options(const ReconstructOptions& options) {
+  ReconstructOptions given = options, standard;
+  const OptionTable table = describe(given), defaults = describe(standard);
+  std::vector<std::string> names = options_of_others(options.surface.method);
+  std::erase_if(names, [&](const std::string& name) {
+    return table.find(name)->get() == defaults.find(name)->get();
+  });
   return names;
 }
 

@@ -36,7 +36,9 @@ struct ReconstructOptions {
 std::vector<OptionGroup> describe_stages(ReconstructOptions& options);
 OptionTable describe(ReconstructOptions& options);
 
-/// Names of the options that are not at their defaults although the method does not use them.
+/// Names of the options that the method does not use.
+std::vector<std::string> options_of_others(SurfaceMethod method);
+/// Those of them that are not at their defaults.
 std::vector<std::string> unused_options(const ReconstructOptions& options);
 
 /// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented;

@@ -29,7 +29,8 @@ struct StageTime {
 enum class Evidence : std::uint8_t {
   kMeasured,
   kInvented,  ///< nothing measured it
-  kBase       ///< closed flat on the platter
+  kBase,      ///< closed flat on the platter
+  kCut        ///< the face of a cut that was asked for
 };
 
 struct ObjectResult {

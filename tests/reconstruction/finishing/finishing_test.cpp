@@ -148,5 +148,56 @@ TEST(FinishObjects, SmoothsAndStaysClosedAndStopsWhenCancelled) {
   EXPECT_EQ(finish_objects(options, rough, context).error().code, ErrorCode::kCancelled);
 }
 
+TEST(FinishObjects, KeepsABoxWithFlatFacesThatAreNotInvented) {
+  Reconstruction r = of({ball()});
+  FinishOptions options;
+  options.keep_box = "-2cm,-1cm,,2cm,,";
+  ASSERT_TRUE(finish_objects(options, r, {}));
+  const ObjectResult& object = r.objects[0];
+  EXPECT_TRUE(object.check.watertight()) << object.check.text();
+  const Box box = bounds(object.mesh.vertices);
+  EXPECT_NEAR(box.min.x(), -0.02, 1e-5);
+  EXPECT_NEAR(box.max.x(), 0.02, 1e-5);
+  EXPECT_NEAR(box.min.y(), -0.01, 1e-5);
+  EXPECT_NEAR(box.max.y(), kRadius, 1e-4);
+  EXPECT_NEAR(box.max.z(), kRadius, 1e-3);
+  ASSERT_EQ(object.evidence.size(), object.mesh.triangles.size());
+  ASSERT_EQ(object.confidence.size(), object.mesh.vertices.size());
+  EXPECT_GT(std::count(object.evidence.begin(), object.evidence.end(), Evidence::kCut), 0);
+  EXPECT_LT(object.invented_area_m2, 0.4 * 2.0 * 3.14 * kRadius * kRadius);
+  EXPECT_NE(object.notes.back().find("flat faces"), std::string::npos);
+}
+
+TEST(FinishObjects, CutsAwayOneSideOfAPlaneAndThenSmallParts) {
+  Reconstruction r = of({ball(), ball({0.3, 0.0, 0.0}, 0.004)});
+  FinishOptions options;
+  options.cut_plane = ",,,0,1,0";
+  ASSERT_TRUE(finish_objects(options, r, {}));
+  ASSERT_EQ(r.objects.size(), 2u);
+  EXPECT_NEAR(bounds(r.objects[0].mesh.vertices).max.y(), 0.0, 1e-5);
+  options.cut_plane = "0.2m,0,0,1,0,0";
+  ASSERT_TRUE(finish_objects(options, r, {}));
+  EXPECT_EQ(r.objects.size(), 1u);
+  options.cut_plane = "1m,0,0,-1,0,0";
+  const auto nothing = finish_objects(options, r, {});
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().code, ErrorCode::kTooFewPoints);
+}
+
+TEST(FinishObjects, SaysWhatABoxAndAPlaneMustLookLike) {
+  FinishOptions options;
+  const OptionTable table = describe(options);
+  for (const char* bad : {"1cm", "1,2,3,4,5,6", "2cm,,,1cm,,", "1cm,,,1cm,,", "nan,,,,,", ",,,,,,"})
+    EXPECT_FALSE(table.set("keep-box", bad)) << bad;
+  for (const char* bad : {"1cm", "0,0,0,0,0,0", ",,,,,", "0,0,0,1,x,0", "1,0,0,1,0,0"})
+    EXPECT_FALSE(table.set("cut-plane", bad)) << bad;
+  EXPECT_TRUE(options.keep_box.empty() && options.cut_plane.empty());
+  EXPECT_TRUE(table.set("keep-box", ",2mm,,,,"));
+  EXPECT_TRUE(table.set("cut-plane", "0,1cm,0,0,-1,0.5"));
+  options.cut_plane = "nonsense";
+  EXPECT_FALSE(table.check());
+  EXPECT_FALSE(kept_half_spaces(options));
+}
+
 }  // namespace
 }  // namespace turnscan

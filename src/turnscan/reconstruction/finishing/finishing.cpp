@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/geometry/mesh/clip.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/low_pass.hpp>
 #include <turnscan/geometry/mesh/mesh_edit.hpp>
@@ -136,6 +137,40 @@ Result<> settle_holes(const FinishOptions& options, ObjectResult& object,
               : flatten_holes(object, patches, context);
 }
 
+/// What a clipped mesh's parts are known to be.
+void take(ClippedMesh clipped, ObjectResult& object) {
+  if (!object.evidence.empty()) {
+    std::vector<Evidence> evidence;
+    for (const std::uint32_t t : clipped.source)
+      evidence.push_back(t == ClippedMesh::kCutFace ? Evidence::kCut : object.evidence[t]);
+    object.evidence = std::move(evidence);
+  }
+  if (!object.confidence.empty()) {
+    std::vector<float> confidence;
+    for (const auto& [a, b] : clipped.vertex_source)
+      confidence.push_back(std::min(object.confidence[a], object.confidence[b]));
+    object.confidence = std::move(confidence);
+  }
+  object.mesh = std::move(clipped.mesh);
+}
+
+Result<> cut(ObjectResult& object, const std::vector<HalfSpace>& kept, const RunContext& context) {
+  double area_m2 = 0.0;
+  bool outlines_cross = false;
+  for (const HalfSpace& half_space : kept) {
+    TURNSCAN_TRY(context.check());
+    TURNSCAN_ASSIGN(ClippedMesh clipped, clip(object.mesh, half_space));
+    area_m2 += clipped.cut_area_m2;
+    outlines_cross = outlines_cross || clipped.outlines_cross;
+    take(std::move(clipped), object);
+  }
+  if (area_m2 > 0.0)
+    object.notes.push_back(fmt::format("cut as asked for, with {:.1f} cm^2 of flat faces{}",
+                                       area_m2 * 1e4,
+                                       outlines_cross ? ", some of which cross each other" : ""));
+  return {};
+}
+
 double invented_area(const ObjectResult& object) {
   double area_m2 = 0.0;
   for (std::size_t t = 0; t < object.evidence.size(); ++t)
@@ -143,13 +178,14 @@ double invented_area(const ObjectResult& object) {
   return area_m2;
 }
 
-Result<> finish_object(const FinishOptions& options, ObjectResult& object,
-                       const RunContext& context) {
+Result<> finish_object(const FinishOptions& options, const std::vector<HalfSpace>& kept,
+                       ObjectResult& object, const RunContext& context) {
   TURNSCAN_TRY(context.check());
   TURNSCAN_TRY(settle_holes(options, object, context));
   if (options.smooth_m > 0.0) {
     TURNSCAN_ASSIGN(object.mesh, low_pass(object.mesh, options.smooth_m, context));
   }
+  TURNSCAN_TRY(cut(object, kept, context));
   if (options.smallest_part_m > 0.0) {
     TURNSCAN_ASSIGN(const std::size_t parts, drop_small_parts(object, options.smallest_part_m));
     if (parts > 0)
@@ -180,19 +216,22 @@ Result<> finish_objects(const FinishOptions& options, Reconstruction& reconstruc
       return others;
     });
   }
-  if (options.holes == Holes::kSmooth && !(options.smooth_m > 0.0) &&
+  TURNSCAN_ASSIGN(const std::vector<HalfSpace> kept, kept_half_spaces(options));
+  if (options.holes == Holes::kSmooth && !(options.smooth_m > 0.0) && kept.empty() &&
       !(options.smallest_part_m > 0.0))
     return {};
   const StageTimer timer(reconstruction.stages, "finish");
   context.begin_phase("finish", objects.size());
   for (ObjectResult& object : objects) {
-    TURNSCAN_TRY(finish_object(options, object, context));
+    TURNSCAN_TRY(finish_object(options, kept, object, context));
     context.advance();
   }
   std::erase_if(objects, [](const ObjectResult& object) { return object.mesh.triangles.empty(); });
   if (objects.empty())
-    return fail(ErrorCode::kTooFewPoints,
-                "nothing is left: all parts are smaller than --smallest-part or --hole-size");
+    return fail(
+        ErrorCode::kTooFewPoints,
+        "nothing is left: all parts are smaller than --smallest-part or --hole-size, or cut "
+        "away");
   return {};
 }
 

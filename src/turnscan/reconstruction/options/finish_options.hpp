@@ -1,7 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/geometry/mesh/clip.hpp>
+#include <vector>
 
 namespace turnscan {
 
@@ -14,7 +17,16 @@ struct FinishOptions {
   double smooth_m = 0.0;         ///< half of the height of waves of this length stays; 0: off
   double smallest_part_m = 0.0;  ///< parts whose longest side is shorter are dropped
   std::optional<int> object;     ///< the only one that is kept, counted from 1 by size
+  /// "X0,Y0,Z0,X1,Y1,Z1", table frame: what lies outside is cut away; an empty entry does not
+  /// limit. Empty: nothing is.
+  std::string keep_box;
+  /// "X,Y,Z,NX,NY,NZ": a place on a plane, table frame, and the direction in which all is cut away.
+  std::string cut_plane;
 };
 OptionTable describe(FinishOptions& options);
+
+/// What the box and the plane leave. Fails with kInvalidOption when a text has not that form, the
+/// box is empty or the direction is zero.
+Result<std::vector<HalfSpace>> kept_half_spaces(const FinishOptions& options);
 
 }  // namespace turnscan
