@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/median.hpp>
 #include <turnscan/geometry/search/knn.hpp>
+#include <turnscan/reconstruction/estimation/object_reach.hpp>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/length_text.hpp>
@@ -11,6 +12,8 @@ namespace {
 
 constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
+/// Cells in which the object's points hang together, in distances between the points of a frame.
+constexpr double kCellSpacings = 3.0;
 /// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
 constexpr double kBeyondReach = 1.25, kBeyondReach_m = 0.015;
 
@@ -37,6 +40,21 @@ Cylinder rough_cylinder(const SequenceHeader& header, const CropOptions& crop) {
   rough.radius_m = calibrated_radius(header, crop).value_or(1e3);
   rough.height_m = crop.height_m;
   return rough;
+}
+
+/// An object may be wider than its platter.
+void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
+                           ScanEstimate& estimate) {
+  const auto reach = reach_beyond(sample, cylinder, kCellSpacings * estimate.spacing_m);
+  if (!reach) return;
+  const double platter = cylinder.radius_m;
+  cylinder.radius_m = kBeyondReach * *reach + kBeyondReach_m;
+  for (Choice& choice : estimate.choices)
+    if (choice.option == "crop-radius")
+      choice = {"crop-radius", mm(cylinder.radius_m),
+                fmt::format("the object reaches {} from the axis, beyond the platter's {}; 25 % "
+                            "and 15mm more",
+                            mm(*reach), mm(platter))};
 }
 
 void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
@@ -73,6 +91,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(
       {"crop-margin", mm(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});
+  if (known && !crop.radius_m) take_in_all_of_object(sample, cylinder, estimate);
   estimate.cylinder = cylinder;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/tsdf/guessed_threads.hpp>
 #include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
 #include <turnscan/reconstruction/tsdf/outside_flood.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
@@ -12,6 +13,7 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr int kMostExtensions = 8;
+constexpr int kThreadRadius = 2;                   // samples
 constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
 
 /// Calls body(i, j, k) for each sample of a brick.
@@ -38,6 +40,7 @@ class HoleClosing {
       TURNSCAN_TRY(relax(round == 0 ? kFirstRounds : kMoreRounds));
       if (!extend(fill)) break;
     }
+    TURNSCAN_TRY(cut_threads());
     if (scale_.floor_m) extend_walls_to_platter();
     TURNSCAN_TRY(context_.check());
     fill_enclosed();
@@ -205,6 +208,26 @@ class HoleClosing {
       if ((values[sample_in_brick(s[0], s[1], s[2])] < 0.0f) != negative) return true;
     }
     return false;
+  }
+
+  /// Between rims of what was seen the harmonic function leaves threads and fins.
+  Result<> cut_threads() {
+    const SampleBits threads = guessed_threads(v_, guessed_, kThreadRadius);
+    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
+      const BrickBits& cut = threads.brick(b);
+      if (v_.slot[b] < 0) {
+        if (std::all_of(cut.begin(), cut.end(), [](auto w) { return w == ~std::uint64_t(0); }))
+          v_.uniform[b] = 1.0f;
+        continue;
+      }
+      const std::size_t first = v_.first_sample(b);
+      for (std::size_t c = 0; c < kBrickSamples; ++c) {
+        if ((cut[c >> 6] >> (c & 63) & 1) == 0) continue;
+        v_.value[first + c] = float(v_.truncation_m);
+        v_.weight[first + c] = 1e-6f;  // outside from now on
+      }
+    }
+    return relax(kMoreRounds);
   }
 
   /// Walls go on straight down from the floor, and end at y = 0.

@@ -9,7 +9,8 @@ OptionTable describe(CropOptions& o) {
       .number("crop-margin", o.margin_m, Quantity::kLength, {-0.05, 0.2},
               "Height above the platter below which returns are dropped")
       .number("crop-radius", o.radius_m, Quantity::kLength, {1e-3, 100.0},
-              "Radius of the cylinder; automatic: the platter's")
+              "Radius of the cylinder; automatic: the platter's, or more where the object reaches "
+              "beyond it")
       .number("crop-height", o.height_m, Quantity::kLength, {1e-3, 100.0},
               "Height of the cylinder");
   return table;

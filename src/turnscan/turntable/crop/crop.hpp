@@ -11,7 +11,7 @@ struct CropOptions {
   bool enabled = true;
   /// Lowest height above the platter that is kept; nullopt: found from the platter's own returns.
   std::optional<double> margin_m;
-  /// Radius of the cylinder; nullopt: the platter's radius.
+  /// Radius of the cylinder; nullopt: the platter's, or more where the object reaches beyond it.
   std::optional<double> radius_m;
   double height_m = 2.0;  ///< height of the cylinder
 };

@@ -1,0 +1,30 @@
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/tsdf/guessed_threads.hpp>
+
+namespace turnscan::tsdf {
+
+SampleBits guessed_threads(const Volume& volume, const std::vector<std::size_t>& guessed,
+                           int radius) {
+  SampleBits inside(volume.bricks), unknown(volume.bricks);
+  for (const std::size_t b : guessed) unknown.brick(b).fill(~std::uint64_t(0));
+  parallel_for(volume.brick_count(), 64, [&](std::size_t b) {
+    if (volume.slot[b] < 0) {
+      if (volume.uniform[b] < 0.0f) inside.brick(b).fill(~std::uint64_t(0));
+      return;
+    }
+    const std::size_t first = volume.first_sample(b);
+    for (std::size_t c = 0; c < kBrickSamples; ++c) {
+      const std::uint64_t bit = std::uint64_t(1) << (c & 63);
+      if (volume.value[first + c] < 0.0f) inside.brick(b)[c >> 6] |= bit;
+      if (volume.weight[first + c] <= 0.0f) unknown.brick(b)[c >> 6] |= bit;
+    }
+  });
+  const SampleBits guessed_outside = unknown.minus(inside);
+  SampleBits eroded = guessed_outside;
+  for (int i = 0; i < radius; ++i) eroded = eroded.grown(inside).joined(guessed_outside);
+  SampleBits opened = inside.minus(eroded);
+  for (int i = 0; i < radius; ++i) opened = opened.grown(inside);
+  return unknown.minus(guessed_outside).minus(opened);
+}
+
+}  // namespace turnscan::tsdf
