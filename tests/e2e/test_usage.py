@@ -41,9 +41,8 @@ class Help(harness.TestCase):
             names = re.findall(r"(?m)^  (?:-\w, )?--([\w-]+)", self.ok(command, "--help").stdout)
             self.assertEqual(len(names), len(set(names)), f"{command}: {names}")
 
-
     def test_help_lists_the_options_of_the_chosen_method(self):
-        own = {"volumetric": "--fit", "poisson": "--poisson-samples", "concave-hull": "--alpha"}
+        own = {"volumetric": "--truncation", "poisson": "--poisson-samples", "concave-hull": "--alpha"}
         for command in ("reconstruct", "scan", "demo"):
             self.assertIn("--method poisson or concave-hull --help", self.ok(command, "--help").stdout)
             for method in own:
