@@ -37,7 +37,7 @@ class HoleClosing {
                     HarmonicFill::solve(v_, scale_.floor_m.has_value(), context_));
     adopt(fill);
     for (int round = 0; round < kMostExtensions; ++round) {
-      TURNSCAN_TRY(relax(round == 0 ? kFirstRounds : kMoreRounds));
+      TURNSCAN_TRY(relax(unknown_bricks(), round == 0 ? kFirstRounds : kMoreRounds));
       if (!extend(fill)) break;
     }
     TURNSCAN_TRY(cut_threads());
@@ -135,12 +135,16 @@ class HoleClosing {
     });
   }
 
-  /// Rounds of Jacobi over what is unknown.
-  Result<> relax(int rounds) {
-    std::vector<std::size_t> work;
+  std::vector<std::size_t> unknown_bricks() const {
+    std::vector<std::size_t> out;
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
-      if (v_.slot[b] >= 0 && has_unknown_[b]) work.push_back(b);
+      if (v_.slot[b] >= 0 && has_unknown_[b]) out.push_back(b);
     }
+    return out;
+  }
+
+  /// Rounds of Jacobi over what is unknown in some bricks.
+  Result<> relax(const std::vector<std::size_t>& work, int rounds) {
     std::vector<float> next(work.size() * kBrickSamples);
     for (int round = 0; round < rounds; ++round) {
       TURNSCAN_TRY(context_.check());
@@ -213,21 +217,44 @@ class HoleClosing {
   /// Between rims of what was seen the harmonic function leaves threads and fins.
   Result<> cut_threads() {
     const SampleBits threads = guessed_threads(v_, guessed_, kThreadRadius);
+    std::vector<std::uint8_t> beside(v_.brick_count(), 0);
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
-      const BrickBits& cut = threads.brick(b);
-      if (v_.slot[b] < 0) {
-        if (std::all_of(cut.begin(), cut.end(), [](auto w) { return w == ~std::uint64_t(0); }))
-          v_.uniform[b] = 1.0f;
-        continue;
-      }
-      const std::size_t first = v_.first_sample(b);
-      for (std::size_t c = 0; c < kBrickSamples; ++c) {
-        if ((cut[c >> 6] >> (c & 63) & 1) == 0) continue;
-        v_.value[first + c] = float(v_.truncation_m);
-        v_.weight[first + c] = 1e-6f;  // outside from now on
+      if (cut(b, threads.brick(b))) mark_around(b, beside);
+    }
+    std::vector<std::size_t> work = unknown_bricks();
+    std::erase_if(work, [&](std::size_t b) { return beside[b] == 0; });
+    return relax(work, kMoreRounds);
+  }
+
+  /// Makes samples of a brick outside for good. Whether there were any.
+  bool cut(std::size_t b, const BrickBits& bits) {
+    if (v_.slot[b] < 0) {
+      const bool all =
+          std::all_of(bits.begin(), bits.end(), [](auto w) { return w == ~std::uint64_t(0); });
+      if (all) v_.uniform[b] = 1.0f;
+      return all;
+    }
+    bool any = false;
+    const std::size_t first = v_.first_sample(b);
+    for (std::size_t c = 0; c < kBrickSamples; ++c) {
+      if ((bits[c >> 6] >> (c & 63) & 1) == 0) continue;
+      v_.value[first + c] = float(v_.truncation_m);
+      v_.weight[first + c] = 1e-6f;  // known from now on
+      any = true;
+    }
+    return any;
+  }
+
+  void mark_around(std::size_t b, std::vector<std::uint8_t>& marks) const {
+    const GridCoords at = v_.bricks.coords(b);
+    for (int k = -1; k <= 1; ++k) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const GridCoords next{at[0] + i, at[1] + j, at[2] + k};
+          if (v_.bricks.contains(next)) marks[v_.bricks.at(next)] = 1;
+        }
       }
     }
-    return relax(kMoreRounds);
   }
 
   /// Walls go on straight down from the floor, and end at y = 0.
