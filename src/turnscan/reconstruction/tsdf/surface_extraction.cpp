@@ -1,6 +1,56 @@
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 
 namespace turnscan::tsdf {
+
+namespace {
+
+SampleBits unseen_samples(const Volume& volume) {
+  SampleBits out(volume.bricks);
+  parallel_for(volume.brick_count(), 64, [&](std::size_t b) {
+    if (volume.slot[b] < 0) {
+      if (volume.uniform[b] == 0.0f) out.brick(b).fill(~std::uint64_t(0));
+      return;
+    }
+    const float* weights = &volume.weight[volume.first_sample(b)];
+    for (std::size_t c = 0; c < kBrickSamples; ++c)
+      if (weights[c] <= 0.0f) out.brick(b)[c >> 6] |= std::uint64_t(1) << (c & 63);
+  });
+  return out;
+}
+
+}  // namespace
+
+UnseenSpace::UnseenSpace(const Volume& volume)
+    : origin_m_(volume.origin_m),
+      cell_m_(volume.cell_m),
+      bricks_(volume.bricks),
+      samples_(unseen_samples(volume)) {}
+
+bool UnseenSpace::contains(const Vec3f& p) const {
+  const Vec3d at = (p.cast<double>() - origin_m_) / cell_m_;
+  const GridCoords& bricks = bricks_.size();
+  GridCoords first;
+  for (int k = 0; k < 3; ++k) {
+    if (!(at[k] >= 0.0) || at[k] >= double(bricks[std::size_t(k)] * kBrickSide - 1)) return false;
+    first[std::size_t(k)] = int(at[k]);
+  }
+  double share = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    GridCoords s;
+    double weight = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const int next = corner >> k & 1;
+      s[std::size_t(k)] = first[std::size_t(k)] + next;
+      const double along = at[k] - double(first[std::size_t(k)]);
+      weight *= next == 1 ? along : 1.0 - along;
+    }
+    const std::size_t c = sample_in_brick(s[0], s[1], s[2]);
+    const BrickBits& bits = samples_.brick(bricks_.at({s[0] >> 3, s[1] >> 3, s[2] >> 3}));
+    if ((bits[c >> 6] >> (c & 63) & 1) != 0) share += weight;
+  }
+  return share >= 0.5;
+}
 
 Result<ExtractedSurface> extract_surface(const Integrator& integrator, const VolumeScale& scale,
                                          Box box, std::vector<StageTime>& times,
@@ -11,10 +61,11 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   if (scale.floor_m) box.min.y() = -0.25 * scale.cell_m;  // the lowest layer is at -0.5
   TURNSCAN_ASSIGN(Volume volume, timed(times, "distances",
                                        [&] { return integrator.extract_volume(box, context); }));
-  ExtractedSurface out;
-  out.grid.origin_m = volume.origin_m;
-  out.grid.cell_m = volume.cell_m;
-  if (scale.floor_m) out.grid.flat_m = 0.0f;
+  EvenOutScale marched;
+  marched.origin_m = volume.origin_m;
+  marched.cell_m = volume.cell_m;
+  if (scale.floor_m) marched.flat_m = 0.0f;
+  ExtractedSurface out{{}, marched, UnseenSpace(volume)};
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));
     return close_holes(volume, scale, context);

@@ -3,12 +3,29 @@
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
+#include <turnscan/reconstruction/tsdf/sample_bits.hpp>
 
 namespace turnscan::tsdf {
+
+/// Where no view looked: neither surface nor free space, nor behind what was measured.
+class UnseenSpace {
+ public:
+  /// Of a volume whose holes are not closed.
+  explicit UnseenSpace(const Volume& volume);
+  /// By most of the eight samples around; false beyond the volume.
+  bool contains(const Vec3f& p) const;
+
+ private:
+  Vec3d origin_m_;
+  double cell_m_;
+  GridIndex bricks_;
+  SampleBits samples_;
+};
 
 struct ExtractedSurface {
   TriangleMesh mesh;  ///< closed, 2-manifold, outward; may be empty
   EvenOutScale grid;  ///< that it was marched on
+  UnseenSpace unseen;
 };
 
 /// The zero set of what was integrated in and around the box, smoothed, its holes closed. Adds to

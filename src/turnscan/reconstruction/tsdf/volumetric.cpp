@@ -4,6 +4,7 @@
 #include <turnscan/geometry/mesh/simplify.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
+#include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/measured_points.hpp>
 #include <turnscan/reconstruction/tsdf/object_grouping.hpp>
@@ -36,7 +37,7 @@ class VolumetricReconstruction {
                     extract_surface(integrator, scale_.volume, box, out_.stages, context_));
     TURNSCAN_ASSIGN(std::vector<TriangleMesh> components, split_components(surface.mesh));
     for (const auto& object : group_objects(std::move(components), grouping_rules(min_share)))
-      TURNSCAN_TRY(refine(object, surface.grid));
+      TURNSCAN_TRY(refine(object, surface));
     if (out_.pieces.empty())
       return fail(
           ErrorCode::kTooFewPoints,
@@ -68,12 +69,13 @@ class VolumetricReconstruction {
   }
 
   /// Evens out and fits the components of an object, and makes one piece of them.
-  Result<> refine(const ObjectComponents& object, const EvenOutScale& grid) {
+  Result<> refine(const ObjectComponents& object, const ExtractedSurface& surface) {
     VolumetricPiece piece;
     std::vector<TriangleMesh> refined;
     for (const TriangleMesh& component : object.components) {
-      TURNSCAN_ASSIGN(const TriangleMesh even,
-                      timed("even out", [&] { return even_out(component, grid, context_); }));
+      TURNSCAN_ASSIGN(const TriangleMesh even, timed("even out", [&] {
+                        return even_out(component, surface.grid, context_);
+                      }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
@@ -82,6 +84,8 @@ class VolumetricReconstruction {
           return sharpen_mesh(fitted.mesh, input_.views, input_.filter_share, fit_scale(),
                               context_);
         }));
+      if (options_.fit)
+        TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface.unseen); }));
       if (!encloses_volume(fitted.mesh)) continue;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
       refined.push_back(std::move(fitted.mesh));
@@ -91,6 +95,14 @@ class VolumetricReconstruction {
     piece.mesh = refined.size() == 1 ? std::move(refined[0]) : join_meshes(refined);
     out_.pieces.push_back(std::move(piece));
     return {};
+  }
+
+  Result<> close_unseen(MeshFit& fitted, const UnseenSpace& unseen) const {
+    mesh_refinement::PlateClosing closing;
+    closing.unseen = [&](const Vec3f& p) { return unseen.contains(p); };
+    closing.cell_m = scale_.volume.cell_m;
+    if (scale_.volume.floor_m) closing.floor_m = float(*scale_.volume.floor_m);
+    return mesh_refinement::close_as_plate(fitted.mesh, fitted.support, closing, context_);
   }
 
   /// If asked for; then the support is measured again.

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
+#include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
+
+namespace turnscan::mesh_refinement {
+
+namespace {
+
+constexpr float kLooseShare = 0.02f;  ///< of the typical support: what counts as invented
+constexpr int kMostContacts = 4;      ///< solutions, each with the contacts of those before it
+constexpr int kContactRounds = 6;     ///< of averaging where the plate touches what was seen
+constexpr float kNearCells = 1.5f;    ///< the rim lies in what was seen
+/// Of a membrane: as long as some 30 edges it is as stiff as a plate. Wide openings are spanned.
+constexpr double kTension = 0.001;
+
+using Marks = std::vector<std::uint8_t>;
+
+class PlateCloser {
+ public:
+  PlateCloser(TriangleMesh& mesh, const std::vector<float>& support, const PlateClosing& closing,
+              const RunContext& context)
+      : mesh_(mesh), closing_(closing), context_(context), neighbours_(mesh) {
+    const float least = kLooseShare * typical_support(support);
+    loose_.resize(mesh.vertices.size());
+    for (std::size_t v = 0; v < loose_.size(); ++v)
+      loose_[v] = support[v] < least && !stands(mesh.vertices[v]) ? 1 : 0;
+  }
+
+  Result<> run() {
+    if (std::find(loose_.begin(), loose_.end(), 1) == loose_.end()) return {};
+    const std::vector<Vec3f> start = mesh_.vertices;
+    const Marks before = winding_faults(mesh_, closing_.cell_m);
+    TURNSCAN_TRY(bend(start));
+    even_contacts();
+    for (const float share : {0.5f, 0.0f}) {
+      TURNSCAN_TRY(context_.check());
+      if (!draw_back(start, share, before)) break;
+    }
+    mesh_.normals.clear();
+    return {};
+  }
+
+ private:
+  bool stands(const Vec3f& p) const { return closing_.floor_m && p.y() < *closing_.floor_m; }
+
+  /// Solves for the plate until no more vertices touch what was seen.
+  Result<> bend(const std::vector<Vec3f>& start) {
+    Marks free = loose_;
+    contact_.assign(loose_.size(), 0);
+    RelaxOptions plate;
+    plate.tension = kTension;
+    for (int round = 0; round < kMostContacts; ++round) {
+      TURNSCAN_ASSIGN(const TriangleMesh bent, relax(mesh_, free, plate, context_));
+      Marks touches(loose_.size(), 0);
+      parallel_for(loose_.size(), 1024, [&](std::size_t v) {
+        if (!free[v]) return;
+        const float share = free_share(start[v], bent.vertices[v]);
+        mesh_.vertices[v] = start[v] + share * (bent.vertices[v] - start[v]);
+        touches[v] = share < 1.0f ? 1 : 0;
+      });
+      const Marks again = loose_around(touches);
+      if (std::find(again.begin(), again.end(), 1) == again.end()) break;
+      for (std::size_t v = 0; v < free.size(); ++v) {
+        contact_[v] |= touches[v];
+        free[v] = again[v] && !contact_[v] ? 1 : 0;
+      }
+    }
+    return {};
+  }
+
+  /// All loose vertices that hang together with those.
+  Marks loose_around(const Marks& seeds) const {
+    Marks out(loose_.size(), 0);
+    std::vector<std::uint32_t> queue;
+    const auto add = [&](std::uint32_t v) {
+      if (!loose_[v] || out[v]) return;
+      out[v] = 1;
+      queue.push_back(v);
+    };
+    for (std::uint32_t v = 0; v < seeds.size(); ++v)
+      if (seeds[v]) add(v);
+    for (std::size_t i = 0; i < queue.size(); ++i) neighbours_.each(queue[i], add);
+    return out;
+  }
+
+  /// How much of the way from a place to another lies where nothing was seen, or near the place.
+  float free_share(const Vec3f& from, const Vec3f& to) const {
+    const float length = (to - from).norm(), step = 0.5f * float(closing_.cell_m);
+    const int steps = int(std::ceil(length / step));
+    const float near = kNearCells * float(closing_.cell_m);
+    for (int i = 1; i <= steps; ++i) {
+      const float share = float(i) / float(steps);
+      const Vec3f p = from + share * (to - from);
+      if (!stands(p) && (share * length < near || closing_.unseen(p))) continue;
+      return float(i - 1) / float(steps);
+    }
+    return 1.0f;
+  }
+
+  /// Where the plate touches what was seen it would show that in steps of a voxel.
+  void even_contacts() {
+    std::vector<std::uint32_t> touching;
+    for (std::uint32_t v = 0; v < contact_.size(); ++v)
+      if (contact_[v]) touching.push_back(v);
+    std::vector<Vec3f> next(touching.size());
+    for (int round = 0; round < kContactRounds; ++round) {
+      parallel_for(touching.size(), 1024, [&](std::size_t k) {
+        const std::uint32_t v = touching[k];
+        const Vec3f mean = neighbours_.mean(mesh_.vertices, v, Vec3f(Vec3f::Zero()));
+        next[k] = 0.5f * (mesh_.vertices[v] + mean);
+        if (stands(next[k])) next[k] = mesh_.vertices[v];
+      });
+      for (std::size_t k = 0; k < touching.size(); ++k) mesh_.vertices[touching[k]] = next[k];
+    }
+  }
+
+  /// Parts that pass through surface where none did before go back to a share of their way. Whether
+  /// there were any.
+  bool draw_back(const std::vector<Vec3f>& start, float share, const Marks& before) {
+    const Marks faults = winding_faults(mesh_, closing_.cell_m);
+    Marks crossing(loose_.size(), 0);
+    for (std::size_t t = 0; t < faults.size(); ++t)
+      if (faults[t] && !before[t])
+        for (const std::uint32_t v : mesh_.triangles[t]) crossing[v] = 1;
+    const Marks back = loose_around(crossing);
+    for (std::size_t v = 0; v < back.size(); ++v)
+      if (back[v]) mesh_.vertices[v] = start[v] + share * (mesh_.vertices[v] - start[v]);
+    return std::find(back.begin(), back.end(), 1) != back.end();
+  }
+
+  TriangleMesh& mesh_;
+  const PlateClosing& closing_;
+  const RunContext& context_;
+  MeshNeighbours neighbours_;
+  Marks loose_;    ///< may move
+  Marks contact_;  ///< stays at the border of what was seen
+};
+
+}  // namespace
+
+Result<> close_as_plate(TriangleMesh& mesh, const std::vector<float>& support,
+                        const PlateClosing& closing, const RunContext& context) {
+  return PlateCloser(mesh, support, closing, context).run();
+}
+
+}  // namespace turnscan::mesh_refinement

@@ -1,0 +1,27 @@
+#pragma once
+// Surface that nothing measured, as a thin plate that continues what is around it.
+
+#include <functional>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan::mesh_refinement {
+
+struct PlateClosing {
+  /// Whether surface may be invented at a place: no view has looked there. Called from many
+  /// threads.
+  std::function<bool(const Vec3f&)> unseen;
+  double cell_m = 0.001;           ///< the voxel size; unseen() is as coarse
+  std::optional<float> floor_m{};  ///< what lies below this height stays
+};
+
+/// Moves vertices with less than a fiftieth of the typical support to where they continue the rest
+/// tangentially with least bending (relax()), but not farther than where no view looked: what
+/// would pass on stays at the border, and the others are solved again. Parts that would pass
+/// through other surface (winding_faults()) move half as far, or not. Fails with kCancelled, and as
+/// relax() does.
+Result<> close_as_plate(TriangleMesh& mesh, const std::vector<float>& support,
+                        const PlateClosing& closing, const RunContext& context);
+
+}  // namespace turnscan::mesh_refinement

@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
+
+namespace turnscan::mesh_refinement {
+namespace {
+
+constexpr int kSheetRings = 30, kSheetAround = 96;
+constexpr float kSheetRing_m = 0.001f;
+
+/// A closed body of two discs of rings, one over the other, with heights by the distance from the
+/// axis, joined at their outline. First the upper disc's vertices, its middle the first of them.
+TriangleMesh lens(const std::function<float(float)>& height) {
+  TriangleMesh mesh;
+  for (const float side : {1.0f, -1.0f}) {
+    mesh.vertices.emplace_back(0.0f, side * height(0.0f), 0.0f);
+    for (int r = 1; r <= kSheetRings; ++r) {
+      for (int a = 0; a < kSheetAround; ++a) {
+        const double turn = 2.0 * std::numbers::pi * a / kSheetAround;
+        const float radius = kSheetRing_m * float(r);
+        mesh.vertices.emplace_back(radius * float(std::cos(turn)), side * height(radius),
+                                   radius * float(std::sin(turn)));
+      }
+    }
+  }
+  const auto half = std::uint32_t(1 + kSheetRings * kSheetAround);
+  const auto at = [&](int r, int a) {
+    return r == 0 ? 0u : std::uint32_t(1 + (r - 1) * kSheetAround + a % kSheetAround);
+  };
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({half + a, half + c, half + b});
+  };
+  for (int r = 0; r < kSheetRings; ++r) {
+    for (int a = 0; a < kSheetAround; ++a) {
+      add(at(r, a), at(r + 1, a + 1), at(r + 1, a));
+      if (r > 0) add(at(r, a), at(r, a + 1), at(r + 1, a + 1));
+    }
+  }
+  for (int a = 0; a < kSheetAround; ++a) {
+    const std::uint32_t p = at(kSheetRings, a), q = at(kSheetRings, a + 1);
+    mesh.triangles.push_back({p, q, half + p});
+    mesh.triangles.push_back({q, half + q, half + p});
+  }
+  return mesh;
+}
+
+/// 1 where the distance from the axis is at least so much.
+std::vector<float> measured_beyond(const TriangleMesh& mesh, float radius_m) {
+  std::vector<float> support;
+  for (const Vec3f& p : mesh.vertices)
+    support.push_back(std::hypot(p.x(), p.z()) >= radius_m ? 1.0f : 0.0f);
+  return support;
+}
+
+constexpr float kCap_m = 0.0145f;
+constexpr float kBallRadius_m = 0.04f;
+
+float ball_height(float r) { return std::sqrt(kBallRadius_m * kBallRadius_m - r * r) - 0.02f; }
+
+/// A ball's upper and lower part, the caps cut off flat where nothing was measured.
+TriangleMesh flat_capped() {
+  return lens([](float r) { return ball_height(std::max(r, kCap_m)); });
+}
+
+PlateClosing anywhere() {
+  PlateClosing closing;
+  closing.unseen = [](const Vec3f&) { return true; };
+  return closing;
+}
+
+TEST(PlateClosing, GoesOnAsWhatIsAroundItDoes) {
+  TriangleMesh mesh = flat_capped();
+  ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), anywhere(), {}));
+  const float was = ball_height(0.0f) - ball_height(kCap_m);
+  EXPECT_NEAR(mesh.vertices[0].y(), ball_height(0.0f), 0.25f * was);
+}
+
+TEST(PlateClosing, LeavesWhatWasMeasuredAlone) {
+  const TriangleMesh before = flat_capped();
+  TriangleMesh mesh = before;
+  const std::vector<float> support = measured_beyond(mesh, kCap_m);
+  ASSERT_TRUE(close_as_plate(mesh, support, anywhere(), {}));
+  for (std::size_t v = 0; v < support.size(); ++v)
+    if (support[v] > 0.0f) {
+      EXPECT_EQ(mesh.vertices[v], before.vertices[v]);
+    }
+  TriangleMesh all = before;
+  ASSERT_TRUE(close_as_plate(all, std::vector<float>(support.size(), 1.0f), anywhere(), {}));
+  EXPECT_EQ(all.vertices, before.vertices);
+}
+
+TEST(PlateClosing, DoesNotGoWhereAViewSawNothing) {
+  TriangleMesh mesh = flat_capped();
+  PlateClosing closing = anywhere();
+  closing.cell_m = 0.0004;
+  const float limit = ball_height(kCap_m) + 0.001f;
+  closing.unseen = [&](const Vec3f& p) { return p.y() < limit; };
+  ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), closing, {}));
+  float highest = 0.0f;
+  for (const Vec3f& p : mesh.vertices)
+    if (std::hypot(p.x(), p.z()) < kCap_m) highest = std::max(highest, p.y());
+  EXPECT_LT(highest, limit + 0.0002f);
+  EXPECT_GT(highest, limit - 0.0004f);
+}
+
+TEST(PlateClosing, LeavesWhatStandsOnThePlatter) {
+  const TriangleMesh before = flat_capped();
+  TriangleMesh mesh = before;
+  PlateClosing closing = anywhere();
+  closing.floor_m = 0.0f;
+  ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), closing, {}));
+  for (std::size_t v = 0; v < before.vertices.size(); ++v)
+    if (before.vertices[v].y() < 0.0f) {
+      EXPECT_EQ(mesh.vertices[v], before.vertices[v]);
+    }
+  EXPECT_GT(mesh.vertices[0].y(), before.vertices[0].y());
+}
+
+TEST(PlateClosing, DoesNotPassThroughOtherSurface) {
+  // Both sides lead inwards, and as plates they would meet beyond each other.
+  const auto hollow = [](float r) { return 0.0006f + 0.5f * (std::max(r, kCap_m) - kCap_m); };
+  TriangleMesh mesh = lens(hollow);
+  PlateClosing closing = anywhere();
+  closing.cell_m = 0.0005;
+  ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), closing, {}));
+  const auto faults = winding_faults(mesh, closing.cell_m);
+  EXPECT_EQ(std::count(faults.begin(), faults.end(), 1), 0);
+  EXPECT_GT(mesh.vertices[0].y(), 0.0f);
+}
+
+TEST(PlateClosing, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
+  TriangleMesh one = flat_capped(), two = one, none = one;
+  const std::vector<float> support = measured_beyond(one, kCap_m);
+  set_thread_count(1);
+  ASSERT_TRUE(close_as_plate(one, support, anywhere(), {}));
+  set_thread_count(0);
+  ASSERT_TRUE(close_as_plate(two, support, anywhere(), {}));
+  EXPECT_EQ(one.vertices, two.vertices);
+  const RunContext context;
+  context.cancel();
+  const auto result = close_as_plate(none, support, anywhere(), context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan::mesh_refinement
