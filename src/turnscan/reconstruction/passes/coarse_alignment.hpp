@@ -1,0 +1,18 @@
+#pragma once
+// Quick alignment of two thinned surfaces, from a rough start.
+
+#include <span>
+#include <turnscan/reconstruction/passes/prepared_pass.hpp>
+
+namespace turnscan::passes {
+
+/// One step a reach: pairs, in both directions, farther apart than that do not count, and their
+/// weight falls with the distance to the tangent plane as Tukey's. Directions that the pairs do
+/// not hold stay as they are.
+Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
+                  std::span<const double> reaches_m);
+
+/// exp of a rotation vector and a translation, about the point `center`.
+Pose motion_about(const Vec3d& center, const Eigen::Matrix<double, 6, 1>& step);
+
+}  // namespace turnscan::passes

@@ -1,0 +1,44 @@
+#pragma once
+// Brings the passes of one object together: finds how it lay in each, from its shape alone, or says
+// why its shape does not tell.
+
+#include <span>
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/passes/pass_surface.hpp>
+
+namespace turnscan::passes {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+struct PassMotion {
+  bool joined = false;
+  std::string reason;                    ///< why it was not joined: one clause, for people
+  Pose T_first_pass = Pose::Identity();  ///< from this pass's table frame to the first one's
+  /// Of a rotation vector (rad) and a translation (m) that follow the motion, in the first pass's
+  /// frame, about `center`: T = exp(error about center) * T_first_pass. Zero for the first.
+  Matrix6 covariance = Matrix6::Zero();
+  Vec3d center = Vec3d::Zero();
+  double sigma_m = 0.0;     ///< stated deviation of the motion, rms over the pass's surface
+  double sigma_rad = 0.0;   ///< of its rotation
+  double overlap_m2 = 0.0;  ///< of its surface that agrees with another pass's
+  double against_m2 = 0.0;  ///< of its surface that lies where another pass saw nothing
+  double residual_m = 0.0;  ///< deviation of the surfaces from each other where they overlap
+};
+
+struct JoinOptions {
+  double min_overlap = 0.08;    ///< of the smaller of two surfaces, that has to agree
+  double max_against = 0.06;    ///< of what agrees, that may lie in empty space
+  double max_sigma_m = 0.0005;  ///< a motion known less well is undetermined
+};
+
+/// One motion a pass; the first is where it is. A pass whose motion is not determined, or that does
+/// not fit, is not joined and has a reason; the others are joined without it. Passes that overlap
+/// only with passes that are joined are found through them. Each pass needs points and normals.
+/// Fails with kTooFewPoints for fewer than two passes or a pass with fewer than 200 points, and
+/// with kCancelled. Begins the phase "join passes". The same bytes for any number of threads.
+Result<std::vector<PassMotion>> join_passes(std::span<const PassSurface> passes,
+                                            const JoinOptions& options, const RunContext& context);
+
+}  // namespace turnscan::passes

@@ -1,0 +1,211 @@
+#include <turnscan/reconstruction/passes/joint_adjustment.hpp>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <map>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/passes/coarse_alignment.hpp>
+
+namespace turnscan::passes {
+
+namespace {
+
+constexpr float kPlaneCos = 0.85f;
+constexpr double kTukey = 4.0, kLeastSigma = 3e-5, kConverged = 3e-6;
+/// Errors of a fitted mesh are alike over several of its cells, and where the same frames saw it.
+constexpr double kBlock = 0.012;
+constexpr std::size_t kFewestPairs = 50;
+
+/// A point and a tangent plane of another pass, in the first pass's frame.
+struct PlanePair {
+  Vec3f point, normal;
+  float distance = 0.0f, weight = 0.0f;  ///< weight 0: no partner
+};
+
+struct DirectedPairs {
+  std::size_t source, target;
+  std::vector<PlanePair> pairs;
+};
+
+using Row = Eigen::Matrix<double, 12, 1>;
+
+/// Of the source's step, then of the target's.
+Row row_of(const PlanePair& pair, const Vec3d& center) {
+  const Vec3d n = pair.normal.cast<double>(), p = pair.point.cast<double>() - center;
+  Row row;
+  row << p.cross(n), n, -p.cross(n), -n;
+  return row;
+}
+
+class JointAdjustment {
+ public:
+  JointAdjustment(std::span<const PreparedPass* const> passes, std::span<const PassPair> pairs,
+                  std::vector<Pose> poses, const AdjustEffort& effort)
+      : passes_(passes), effort_(effort) {
+    out_.T_first_pass = std::move(poses);
+    out_.center = bounds(passes[0]->surface->points).center();
+    for (const PassPair& pair : pairs) {
+      directed_.push_back({pair.a, pair.b, {}});
+      directed_.push_back({pair.b, pair.a, {}});
+    }
+  }
+
+  Result<Adjustment> run(double reach_m, const RunContext& context) {
+    for (int i = 0; i < effort_.iterations; ++i) {
+      TURNSCAN_TRY(context.check());
+      TURNSCAN_TRY(pair_up(reach_m));
+      reach_m = std::max(3.0 * kTukey * out_.sigma_m, 0.5 * reach_m);
+      if (step() < kConverged && i > 3) break;
+    }
+    state_covariance();
+    return std::move(out_);
+  }
+
+ private:
+  std::size_t unknowns() const { return 6 * (passes_.size() - 1); }
+
+  Result<> pair_up(double reach_m) {
+    std::vector<float> distances;
+    for (DirectedPairs& directed : directed_) {
+      find_partners(directed, reach_m);
+      for (const PlanePair& pair : directed.pairs)
+        if (pair.weight > 0.0f) distances.push_back(std::abs(pair.distance));
+    }
+    out_.pairs = distances.size();
+    if (out_.pairs < kFewestPairs)
+      return fail(ErrorCode::kTooFewPoints, "the passes' surfaces do not meet");
+    out_.sigma_m = std::max(kLeastSigma, 1.4826 * median(distances));
+    return {};
+  }
+
+  void find_partners(DirectedPairs& directed, double reach_m) const {
+    const PassSurface& source = *passes_[directed.source]->surface;
+    const PreparedPass& target = *passes_[directed.target];
+    const Eigen::Isometry3f T_first_target = out_.T_first_pass[directed.target].cast<float>();
+    const Eigen::Isometry3f T =
+        (out_.T_first_pass[directed.target].inverse() * out_.T_first_pass[directed.source])
+            .cast<float>();
+    const std::size_t stride = std::max<std::size_t>(1, source.points.size() / effort_.sources);
+    directed.pairs.assign(source.points.size() / stride, {});
+    parallel_for(directed.pairs.size(), 256, [&](std::size_t k) {
+      const std::size_t i = k * stride;
+      const Vec3f q = T * source.points[i], nq = T.linear() * source.normals[i];
+      std::uint32_t near = 0;
+      float squared = 0.0f;
+      if (target.tree.knn(q, 1, &near, &squared, float(reach_m)) == 0) return;
+      const Vec3f& np = target.surface->normals[near];
+      if (np.dot(nq) < kPlaneCos) return;
+      const Vec3f n = (np + nq).normalized(), apart = target.surface->points[near] - q;
+      const float r = n.dot(apart);
+      // At the rim of what the target measured its nearest point lies beside.
+      if ((apart - r * n).squaredNorm() > target.beside_m * target.beside_m) return;
+      const float wq = source.weights[i], wp = target.surface->weights[near];
+      directed.pairs[k] = {T_first_target * q, T_first_target.linear() * n, r,
+                           source.areas[i] * wq * wp / (wq + wp)};
+    });
+  }
+
+  double tukey(const PlanePair& pair) const {
+    const double u = double(pair.distance) / (kTukey * out_.sigma_m);
+    return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) * double(pair.weight) : 0.0;
+  }
+
+  /// Adds a 12-vector or 12 x 12 matrix of two passes where their unknowns are; the first has none.
+  template <class Add>
+  void scatter(const DirectedPairs& directed, const Add& add) const {
+    const std::array<std::size_t, 2> pass{directed.source, directed.target};
+    for (std::size_t i = 0; i < 2; ++i)
+      if (pass[i] > 0) add(Eigen::Index(6 * (pass[i] - 1)), Eigen::Index(6 * i));
+  }
+
+  void accumulate() {
+    normal_.setZero(Eigen::Index(unknowns()), Eigen::Index(unknowns()));
+    gradient_.setZero(Eigen::Index(unknowns()));
+    for (const DirectedPairs& directed : directed_) {
+      Eigen::Matrix<double, 12, 12> m = Eigen::Matrix<double, 12, 12>::Zero();
+      Row v = Row::Zero();
+      for (const PlanePair& pair : directed.pairs) {
+        const double w = tukey(pair);
+        if (!(w > 0.0)) continue;
+        const Row row = row_of(pair, out_.center);
+        m.noalias() += (w * row) * row.transpose();
+        v += w * double(pair.distance) * row;
+      }
+      scatter(directed, [&](Eigen::Index at, Eigen::Index from) {
+        gradient_.segment<6>(at) += v.segment<6>(from);
+        scatter(directed, [&](Eigen::Index to, Eigen::Index other) {
+          normal_.block<6, 6>(at, to) += m.block<6, 6>(from, other);
+        });
+      });
+    }
+  }
+
+  /// How far the farthest of the passes moved, at the size of the object.
+  double step() {
+    accumulate();
+    Eigen::MatrixXd damped = normal_;
+    damped.diagonal() *= 1.0 + 1e-9;
+    const Eigen::VectorXd x = damped.ldlt().solve(gradient_);
+    double largest = 0.0;
+    for (std::size_t k = 1; k < passes_.size(); ++k) {
+      const Eigen::Matrix<double, 6, 1> own = x.segment<6>(Eigen::Index(6 * (k - 1)));
+      largest =
+          std::max(largest, own.head<3>().norm() * passes_[k]->extent_m + own.tail<3>().norm());
+      Pose& T = out_.T_first_pass[k];
+      T = motion_about(out_.center, own) * T;
+      T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+    }
+    return largest;
+  }
+
+  /// H^-1 (sum of g g^T over blocks of the surface) H^-1 (Huber 1967), g a block's gradient.
+  void state_covariance() {
+    using Key = std::array<int, 4>;
+    std::map<Key, Eigen::VectorXd> blocks;
+    for (std::size_t d = 0; d < directed_.size(); ++d) {
+      for (const PlanePair& pair : directed_[d].pairs) {
+        const double w = tukey(pair);
+        if (!(w > 0.0)) continue;
+        const Eigen::Vector3i at = (pair.point / float(kBlock)).array().floor().cast<int>();
+        // Both directions compare the same two surfaces.
+        auto& block = blocks[{int(d / 2), at.x(), at.y(), at.z()}];
+        if (block.size() == 0) block.setZero(Eigen::Index(unknowns()));
+        const Row g = w * double(pair.distance) * row_of(pair, out_.center);
+        scatter(directed_[d], [&](Eigen::Index to, Eigen::Index from) {
+          block.segment<6>(to) += g.segment<6>(from);
+        });
+      }
+    }
+    accumulate();
+    Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(normal_.rows(), normal_.cols());
+    for (const auto& [key, g] : blocks) middle += g * g.transpose();
+    const Eigen::MatrixXd inverse =
+        normal_.ldlt().solve(Eigen::MatrixXd::Identity(normal_.rows(), normal_.cols()));
+    const Eigen::MatrixXd covariance = inverse * middle * inverse;
+    for (std::size_t k = 0; k < passes_.size(); ++k) {
+      const auto at = Eigen::Index(6 * (k == 0 ? 0 : k - 1));
+      out_.covariances.push_back(k == 0 ? Matrix6(Matrix6::Zero())
+                                        : Matrix6(covariance.block<6, 6>(at, at)));
+      out_.information.push_back(k == 0 ? Matrix6(Matrix6::Zero())
+                                        : Matrix6(normal_.block<6, 6>(at, at)));
+    }
+  }
+
+  std::span<const PreparedPass* const> passes_;
+  AdjustEffort effort_;
+  std::vector<DirectedPairs> directed_;
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd gradient_;
+  Adjustment out_;
+};
+
+}  // namespace
+
+Result<Adjustment> adjust(std::span<const PreparedPass* const> passes,
+                          std::span<const PassPair> pairs, std::vector<Pose> T_first_pass,
+                          double reach_m, const AdjustEffort& effort, const RunContext& context) {
+  return JointAdjustment(passes, pairs, std::move(T_first_pass), effort).run(reach_m, context);
+}
+
+}  // namespace turnscan::passes

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/passes/motion_votes.hpp>
+
+namespace turnscan::passes {
+
+namespace {
+
+constexpr double kRotationSpacing = 14.0 * std::numbers::pi / 180.0;
+constexpr int kSide = 20;         // cells of the translations, each way
+constexpr int kFaceBins = 8;      // of normals, along an edge of a cube
+constexpr float kVoteCos = 0.9f;  // normals this near to each other may be the same place
+
+int normal_bin(const Vec3f& n) {
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  const float scale = 0.5f * kFaceBins / std::abs(n[axis]);
+  const auto bin = [&](float v) {
+    return std::clamp(int(v * scale + 0.5f * kFaceBins), 0, kFaceBins - 1);
+  };
+  const int face = 2 * axis + (n[axis] < 0.0f ? 1 : 0);
+  return (face * kFaceBins + bin(n[(axis + 1) % 3])) * kFaceBins + bin(n[(axis + 2) % 3]);
+}
+
+Vec3f bin_direction(int bin) {
+  const int v = bin % kFaceBins, u = bin / kFaceBins % kFaceBins;
+  const int face = bin / (kFaceBins * kFaceBins), axis = face / 2;
+  Vec3f n;
+  n[axis] = face % 2 == 1 ? -1.0f : 1.0f;
+  n[(axis + 1) % 3] = (float(u) + 0.5f) * 2.0f / kFaceBins - 1.0f;
+  n[(axis + 2) % 3] = (float(v) + 0.5f) * 2.0f / kFaceBins - 1.0f;
+  return n.normalized();
+}
+
+/// The points of a surface by the directions that their normals may have, in cells of translation.
+class NormalIndex {
+ public:
+  NormalIndex(const Samples& samples, const Vec3f& center, float per_cell) {
+    lists_.resize(6 * kFaceBins * kFaceBins);
+    for (int bin = 0; bin < int(lists_.size()); ++bin) {
+      const Vec3f direction = bin_direction(bin);
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        if (samples.normals[i].dot(direction) > kVoteCos)
+          lists_[std::size_t(bin)].push_back((samples.points[i] - center) * per_cell);
+    }
+  }
+  const std::vector<Vec3f>& at(const Vec3f& normal) const {
+    return lists_[std::size_t(normal_bin(normal))];
+  }
+
+ private:
+  std::vector<std::vector<Vec3f>> lists_;
+};
+
+struct Peak {
+  float votes = 0.0f;
+  Vec3f cell = Vec3f::Zero();
+};
+
+/// The votes for translations under one rotation.
+class VoteBox {
+ public:
+  VoteBox() : votes_(std::size_t(kSide) * kSide * kSide), blurred_(votes_.size()) {}
+
+  void clear() { std::fill(votes_.begin(), votes_.end(), 0.0f); }
+  void add(const Vec3f& cell, float weight) {
+    const Eigen::Vector3i c = (cell.array() + 0.5f * kSide).floor().cast<int>();
+    if ((c.array() < 1).any() || (c.array() >= kSide - 1).any()) return;
+    votes_[std::size_t(c.x() + kSide * (c.y() + kSide * c.z()))] += weight;
+  }
+  /// Sums over neighbouring cells, and the two places with the largest.
+  std::array<Peak, 2> peaks() {
+    for (const int stride : {1, kSide, kSide * kSide}) blur(stride);
+    std::array<Peak, 2> out;
+    out[0] = highest(nullptr);
+    out[1] = highest(&out[0].cell);
+    return out;
+  }
+
+ private:
+  void blur(int stride) {
+    const auto n = std::ptrdiff_t(votes_.size());
+    for (std::ptrdiff_t i = stride; i < n - stride; ++i)
+      blurred_[std::size_t(i)] = votes_[std::size_t(i - stride)] + 2.0f * votes_[std::size_t(i)] +
+                                 votes_[std::size_t(i + stride)];
+    votes_.swap(blurred_);
+  }
+  Peak highest(const Vec3f* apart_from) const {
+    Peak peak;
+    for (int z = 1; z < kSide - 1; ++z) {
+      for (int y = 1; y < kSide - 1; ++y) {
+        for (int x = 1; x < kSide - 1; ++x) {
+          const float v = votes_[std::size_t(x + kSide * (y + kSide * z))];
+          if (v <= peak.votes) continue;
+          const Vec3f cell =
+              (Vec3f(float(x), float(y), float(z)).array() + 0.5f - 0.5f * kSide).matrix();
+          if (apart_from != nullptr && (cell - *apart_from).cwiseAbs().maxCoeff() < 2.5f) continue;
+          peak = {v, cell};
+        }
+      }
+    }
+    return peak;
+  }
+
+  std::vector<float> votes_, blurred_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad) {
+  const double pi = std::numbers::pi, golden = pi * (3.0 - std::sqrt(5.0));
+  const int directions = int(std::ceil(4.0 * pi / (spacing_rad * spacing_rad)));
+  const int spins = int(std::ceil(2.0 * pi / spacing_rad));
+  std::vector<Eigen::Matrix3f> out;
+  for (int i = 0; i < directions; ++i) {
+    const double y = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - y * y);
+    const Vec3d up(r * std::cos(golden * i), y, r * std::sin(golden * i));
+    const Eigen::Quaterniond tip = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitY(), up);
+    for (int k = 0; k < spins; ++k)
+      out.push_back((tip * Eigen::AngleAxisd(2.0 * pi * k / spins, Vec3d::UnitY()))
+                        .toRotationMatrix()
+                        .cast<float>());
+  }
+  return out;
+}
+
+Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b, double extent_m,
+                                              std::size_t count, const RunContext& context) {
+  const std::vector<Eigen::Matrix3f> rotations = rotation_grid(kRotationSpacing);
+  const Vec3f center_a = bounds(a.points).center().cast<float>();
+  const Vec3f center_b = bounds(b.points).center().cast<float>();
+  const auto per_cell = float(kSide / extent_m);
+  const NormalIndex index(a, center_a, per_cell);
+  std::vector<std::array<Peak, 2>> peaks(rotations.size());
+  constexpr std::size_t kChunk = 32;
+  const std::size_t chunks = (rotations.size() + kChunk - 1) / kChunk;
+  TURNSCAN_TRY(parallel_for(chunks, 1, context, [&](std::size_t chunk) {
+    VoteBox box;
+    for (std::size_t r = chunk * kChunk; r < std::min(rotations.size(), (chunk + 1) * kChunk);
+         ++r) {
+      box.clear();
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        const std::vector<Vec3f>& partners = index.at(rotations[r] * b.normals[i]);
+        const Vec3f q = rotations[r] * ((b.points[i] - center_b) * per_cell);
+        // Of a plane all points are partners of each other.
+        const float weight = 1.0f / std::sqrt(1.0f + float(partners.size()));
+        for (const Vec3f& p : partners) box.add(p - q, weight);
+      }
+      peaks[r] = box.peaks();
+    }
+  }));
+  std::vector<VotedMotion> out;
+  for (std::size_t r = 0; r < peaks.size(); ++r) {
+    for (const Peak& peak : peaks[r]) {
+      VotedMotion& motion = out.emplace_back();
+      motion.votes = peak.votes;
+      const Vec3f t = center_a + peak.cell / per_cell - rotations[r] * center_b;
+      motion.T_a_b.linear() = rotations[r].cast<double>();
+      motion.T_a_b.translation() = t.cast<double>();
+    }
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const VotedMotion& x, const VotedMotion& y) { return x.votes > y.votes; });
+  if (out.size() > count) out.resize(count);
+  return out;
+}
+
+}  // namespace turnscan::passes

@@ -1,0 +1,23 @@
+#pragma once
+// The global search: for each of a few thousand rotations, every pair of points whose normals then
+// agree votes for the translation that brings it together (a generalised Hough transform).
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/passes/samples.hpp>
+
+namespace turnscan::passes {
+
+/// Rotations, any one of which has one of them within about 0.75 * spacing_rad.
+std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad);
+
+struct VotedMotion {
+  Pose T_a_b = Pose::Identity();
+  float votes = 0.0f;
+};
+
+/// The `count` motions with the most votes, at most two a rotation, best first. extent_m: of the
+/// larger one of the two surfaces. Fails with kCancelled.
+Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b, double extent_m,
+                                              std::size_t count, const RunContext& context);
+
+}  // namespace turnscan::passes

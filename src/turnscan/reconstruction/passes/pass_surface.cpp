@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <turnscan/reconstruction/passes/pass_surface.hpp>
+
+namespace turnscan::passes {
+
+namespace {
+
+/// The volume ends in rags where less than this share of the usual measurements is behind it.
+constexpr float kLeastConfidence = 0.1f;
+constexpr int kRagRings = 2;
+
+/// The corners of triangles that hold a marked vertex are marked, too.
+void widen(const TriangleMesh& mesh, std::vector<bool>& marked) {
+  const std::vector<bool> before = marked;
+  for (const auto& t : mesh.triangles) {
+    if (before[t[0]] || before[t[1]] || before[t[2]])
+      for (const std::uint32_t v : t) marked[v] = true;
+  }
+}
+
+std::vector<bool> unmeasured(const ObjectResult& object) {
+  const TriangleMesh& mesh = object.mesh;
+  std::vector<bool> out(mesh.vertices.size(), false);
+  for (std::size_t i = 0; i < object.evidence.size(); ++i) {
+    if (object.evidence[i] == Evidence::kMeasured) continue;
+    for (const std::uint32_t v : mesh.triangles[i]) out[v] = true;
+  }
+  for (std::size_t v = 0; v < object.confidence.size(); ++v)
+    if (object.confidence[v] < kLeastConfidence) out[v] = true;
+  for (int ring = 0; ring < kRagRings; ++ring) widen(mesh, out);
+  return out;
+}
+
+}  // namespace
+
+PassSurface measured_surface(const ObjectResult& object) {
+  const TriangleMesh& mesh = object.mesh;
+  std::vector<Vec3f> twice_area(mesh.vertices.size(), Vec3f::Zero());
+  std::vector<float> areas(mesh.vertices.size(), 0.0f);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3f normal =
+        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    for (const std::uint32_t v : {a, b, c}) {
+      twice_area[v] += normal;
+      areas[v] += normal.norm() / 6.0f;
+    }
+  }
+  const std::vector<bool> left_out = unmeasured(object);
+  PassSurface out;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const float length = twice_area[v].norm();
+    if (left_out[v] || !(length > 0.0f)) continue;
+    out.points.push_back(mesh.vertices[v]);
+    out.normals.push_back(twice_area[v] / length);
+    out.areas.push_back(areas[v]);
+    out.weights.push_back(object.confidence.empty() ? 1.0f : object.confidence[v]);
+  }
+  return out;
+}
+
+}  // namespace turnscan::passes

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <tests/reconstruction/passes/lumpy_object.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/random.hpp>
+#include <turnscan/reconstruction/passes/joint_adjustment.hpp>
+
+namespace turnscan::passes {
+namespace {
+
+using namespace turnscan::testing;
+
+Eigen::Matrix3d tipped(double tip_deg, double yaw_deg) {
+  const double degree = std::numbers::pi / 180.0;
+  return (Eigen::AngleAxisd(yaw_deg * degree, Vec3d::UnitY()) *
+          Eigen::AngleAxisd(tip_deg * degree, Vec3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// An object in several poses.
+struct Scene {
+  std::vector<Pose> T_table_object;
+  std::vector<PassSurface> surfaces;
+
+  Scene(const RadiusOf& radius, const std::vector<Eigen::Matrix3d>& rotations,
+        double noise_m = 2e-4) {
+    const TriangleMesh object = star_mesh(radius);
+    for (std::size_t k = 0; k < rotations.size(); ++k) {
+      T_table_object.push_back(set_down(object, rotations[k]));
+      surfaces.push_back(pass_of(object, T_table_object.back(), noise_m, k + 1));
+    }
+  }
+  double error_m(const PassMotion& motion, std::size_t k) const {
+    const Pose truth = T_table_object[0] * T_table_object[k].inverse();
+    double sum = 0.0;
+    for (const Vec3f& p : surfaces[k].points)
+      sum += (motion.T_first_pass * p.cast<double>() - truth * p.cast<double>()).squaredNorm();
+    return std::sqrt(sum / double(surfaces[k].points.size()));
+  }
+};
+
+std::vector<PassMotion> join(const std::vector<PassSurface>& surfaces) {
+  auto motions = join_passes(surfaces, {}, {});
+  EXPECT_TRUE(motions.has_value());
+  return motions ? *motions : std::vector<PassMotion>(surfaces.size());
+}
+
+TEST(JoinPasses, TheMotionOfALumpyObjectIsFoundHoweverItWasTipped) {
+  for (const auto& [tip, yaw] : {std::pair(90.0, 70.0), {180.0, 200.0}}) {
+    const Scene scene(lumpy_radius, {tipped(0, 0), tipped(tip, yaw)});
+    const auto motions = join(scene.surfaces);
+    EXPECT_TRUE(motions[1].joined) << motions[1].reason;
+    EXPECT_LT(scene.error_m(motions[1], 1), 5e-5);
+    EXPECT_LT(motions[1].sigma_m, 1e-4);
+    EXPECT_GT(motions[1].overlap_m2, 0.005);
+  }
+}
+
+TEST(JoinPasses, ABallIsNotJoined) {
+  const Scene scene(ball_radius, {tipped(0, 0), tipped(90, 30)});
+  const auto motions = join(scene.surfaces);
+  EXPECT_FALSE(motions[1].joined);
+  EXPECT_NE(motions[1].reason.find("any turn about the axis"), std::string::npos)
+      << motions[1].reason;
+}
+
+TEST(JoinPasses, AVaseIsNotJoinedAndItsAxisIsNamed) {
+  const Scene scene(vase_radius, {tipped(90, 0), tipped(0, 30)});
+  const auto motions = join(scene.surfaces);
+  EXPECT_FALSE(motions[1].joined);
+  const std::string& reason = motions[1].reason;
+  const auto axis = reason.find("any turn about the axis (");
+  ASSERT_NE(axis, std::string::npos) << reason;
+  // Lying, its axis is z: the third component is nearly 1.
+  EXPECT_NE(reason.find("00)", axis), std::string::npos) << reason;
+}
+
+TEST(JoinPasses, DifferentObjectsAreNotJoined) {
+  const Scene one(lumpy_radius, {tipped(0, 0)});
+  const Scene other(
+      [](const Vec3d& d) {
+        return 1.3 * lumpy_radius({d.z(), -d.x(), d.y() + 0.3});
+      },
+      {tipped(60, 20)});
+  const auto motions = join({one.surfaces[0], other.surfaces[0]});
+  EXPECT_FALSE(motions[1].joined);
+  EXPECT_NE(motions[1].reason.find("different objects"), std::string::npos) << motions[1].reason;
+}
+
+TEST(JoinPasses, ThreePassesAgreeWithEachOther) {
+  const Scene scene(lumpy_radius, {tipped(0, 0), tipped(90, 50), tipped(180, 10)});
+  const auto motions = join(scene.surfaces);
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_TRUE(motions[k].joined) << motions[k].reason;
+    EXPECT_LT(scene.error_m(motions[k], k), 5e-5);
+  }
+}
+
+TEST(JoinPasses, APassThatDoesNotFitIsLeftBesideTheOthers) {
+  Scene scene(lumpy_radius, {tipped(0, 0), tipped(90, 50)});
+  const Scene other(
+      [](const Vec3d& d) {
+        return 1.3 * lumpy_radius({d.z(), -d.x(), d.y() + 0.3});
+      },
+      {tipped(60, 20)});
+  scene.surfaces.insert(scene.surfaces.begin() + 1, other.surfaces[0]);
+  const auto motions = join(scene.surfaces);
+  EXPECT_TRUE(motions[0].joined);
+  EXPECT_FALSE(motions[1].joined);
+  EXPECT_TRUE(motions[2].joined) << motions[2].reason;
+}
+
+/// Square of the error over what the covariance states, 6 on average.
+double normalised_error(const Pose& truth, const Adjustment& adjusted) {
+  const Pose error = adjusted.T_first_pass[1] * truth.inverse();
+  const Eigen::AngleAxisd turn(error.linear());
+  Eigen::Matrix<double, 6, 1> x;
+  x << turn.angle() * turn.axis(), error * adjusted.center - adjusted.center;
+  return x.dot(adjusted.covariances[1].inverse() * x);
+}
+
+/// Errors that neighbours share, as those of a fitted mesh: waves of 20 mm in random directions.
+double wavy_error(const Vec3f& p, std::uint64_t seed) {
+  constexpr std::uint64_t kWaves = 30;
+  double sum = 0.0;
+  for (std::uint64_t w = 0; w < kWaves; ++w) {
+    const auto draw = [&](std::uint64_t k) { return standard_normal(hash_key(seed, w, k)); };
+    const Vec3d direction = Vec3d(draw(0), draw(1), draw(2)).normalized();
+    sum +=
+        std::cos(2.0 * std::numbers::pi / 0.02 * direction.dot(p.cast<double>()) + 9.0 * draw(3));
+  }
+  return 2e-4 * std::sqrt(2.0 / double(kWaves)) * sum;
+}
+
+TEST(JoinPasses, StatedDeviationsAreThoseOfRepeatedScans) {
+  const Scene scene(lumpy_radius, {tipped(0, 0), tipped(90, 50)}, 0.0);
+  const Pose truth = scene.T_table_object[0] * scene.T_table_object[1].inverse();
+  double sum = 0.0;
+  constexpr std::uint64_t kScans = 12;
+  for (std::uint64_t i = 0; i < kScans; ++i) {
+    std::vector<PassSurface> noisy = scene.surfaces;
+    for (std::size_t k = 0; k < 2; ++k) {
+      noisy[k].views.clear();
+      for (std::size_t v = 0; v < noisy[k].points.size(); ++v)
+        noisy[k].points[v] +=
+            float(wavy_error(noisy[k].points[v], 2 * i + k)) * noisy[k].normals[v];
+    }
+    const PreparedPass a(noisy[0]), b(noisy[1]);
+    const std::array<const PreparedPass*, 2> both{&a, &b};
+    const PassPair pair{0, 1};
+    const auto adjusted = adjust(both, {&pair, 1}, {Pose::Identity(), truth}, 0.006, {}, {});
+    ASSERT_TRUE(adjusted.has_value());
+    sum += normalised_error(truth, *adjusted);
+  }
+  EXPECT_GT(sum / double(kScans), 3.0);
+  EXPECT_LT(sum / double(kScans), 12.0);
+}
+
+TEST(JoinPasses, TheBytesDoNotDependOnTheNumberOfThreads) {
+  const Scene scene(lumpy_radius, {tipped(0, 0), tipped(120, 50)});
+  set_thread_count(1);
+  const auto one = join(scene.surfaces);
+  set_thread_count(0);
+  const auto all = join(scene.surfaces);
+  EXPECT_EQ(one[1].T_first_pass.matrix(), all[1].T_first_pass.matrix());
+  EXPECT_EQ(one[1].covariance, all[1].covariance);
+}
+
+TEST(JoinPasses, OnePassOrOneWithoutPointsIsRefused) {
+  const Scene scene(lumpy_radius, {tipped(0, 0)});
+  EXPECT_EQ(join_passes(scene.surfaces, {}, {}).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(join_passes(std::vector{scene.surfaces[0], PassSurface()}, {}, {}).error().code,
+            ErrorCode::kTooFewPoints);
+}
+
+TEST(JoinPasses, ACancelledJoinHasNoResult) {
+  const Scene scene(lumpy_radius, {tipped(0, 0), tipped(90, 0)});
+  const RunContext context;
+  context.cancel();
+  EXPECT_EQ(join_passes(scene.surfaces, {}, context).error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan::passes
