@@ -71,8 +71,9 @@ ReconstructOptions with(SurfaceMethod method) {
 
 /// Hands over the frames in calls of so many.
 Result<Reconstruction> streamed(const MemorySequence& sequence, const ReconstructOptions& options,
-                                std::size_t per_call) {
-  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options));
+                                std::size_t per_call,
+                                const std::vector<PassPlacement>& passes = {}) {
+  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options, passes));
   const auto& all = sequence.data;
   for (std::size_t i = 0; i < all.size(); i += per_call) {
     const std::size_t end = std::min(all.size(), i + per_call);
@@ -253,6 +254,77 @@ TEST(ReconstructionStream, PassesWithPosesOfTheirOwnComeTogether) {
   const auto result = streamed(sequence, with(SurfaceMethod::kVolumetric), 40);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->frames, 40u);
+}
+
+/// The ball in two passes: in the second it stands on its head.
+struct TwoPasses {
+  MemorySequence frames = ball(128);
+  std::vector<PassPlacement> placements;
+
+  TwoPasses() {
+    for (std::uint32_t f = 64; f < 128; ++f) frames.data[f].info.pass = 1;
+    frames.infos.clear();
+    for (const Frame& frame : frames.data) frames.infos.push_back(frame.info);
+    PassPlacement placement;
+    placement.turntable = frames.header().turntable;
+    placement.name = "upright";
+    placements.assign(2, placement);
+    placements[1].name = "on its head";
+    placements[1].T_object_table = Eigen::Translation3d(kCenter) *
+                                   Eigen::AngleAxisd(std::numbers::pi, Vec3d::UnitZ()) *
+                                   Eigen::Translation3d(-kCenter);
+  }
+};
+
+TEST(ReconstructionStream, WhatTouchedThePlatterInOnePassIsMeasuredInAnother) {
+  const TwoPasses two;
+  for (const SurfaceMethod method : {SurfaceMethod::kVolumetric, SurfaceMethod::kPoisson}) {
+    const auto alone = streamed(ball(64), with(method), 64);
+    ASSERT_TRUE(alone) << alone.error().message;
+    const double bottom = kCenter.y() - kBallRadius;
+    EXPECT_GT(bounds(alone->objects.at(0).mesh.vertices).min.y(), bottom + 0.004);
+    const auto fused = streamed(two.frames, with(method), 40, two.placements);
+    ASSERT_TRUE(fused) << fused.error().message;
+    ASSERT_EQ(fused->objects.size(), 1u);
+    const ObjectResult& object = fused->objects[0];
+    EXPECT_TRUE(object.check.watertight());
+    EXPECT_LT(object.invented_area_m2, 0.5 * alone->objects[0].invented_area_m2);
+    EXPECT_NEAR(bounds(object.mesh.vertices).min.y(), bottom, 0.001);
+    for (const Vec3f& p : object.mesh.vertices)
+      EXPECT_NEAR((p.cast<double>() - kCenter).norm(), kBallRadius, 0.0015);
+    ASSERT_EQ(fused->passes.size(), 2u);
+    EXPECT_EQ(fused->passes[1].name, "on its head");
+    EXPECT_EQ(fused->passes[1].frames, 64u);
+  }
+}
+
+TEST(ReconstructionStream, FusedPassesGiveTheSameBytesHoweverTheyCome) {
+  const TwoPasses two;
+  const ReconstructOptions options = with(SurfaceMethod::kVolumetric);
+  set_thread_count(1);
+  const auto whole = reconstruct(two.frames, options, {}, RunContext(), two.placements);
+  set_thread_count(0);
+  for (const std::size_t per_call : {1u, 50u, 128u})
+    expect_same(whole, streamed(two.frames, options, per_call, two.placements));
+}
+
+TEST(ReconstructionStream, APassOfWhichOnlyAFewFramesAreThereIsFusedToo) {
+  TwoPasses two;
+  two.frames.data.resize(64 + 20);
+  const auto fused = streamed(two.frames, with(SurfaceMethod::kVolumetric), 100, two.placements);
+  ASSERT_TRUE(fused) << fused.error().message;
+  EXPECT_EQ(fused->frames, 84u);
+  EXPECT_EQ(fused->passes.at(1).frames, 20u);
+}
+
+TEST(ReconstructionStream, FramesOfAPassWithoutAPlaceAreRefused) {
+  TwoPasses two;
+  const auto options = with(SurfaceMethod::kVolumetric);
+  EXPECT_FALSE(streamed(two.frames, options, 64, {two.placements[0]}));
+  std::swap(two.frames.data[10], two.frames.data[100]);
+  const auto mixed = streamed(two.frames, options, 64, two.placements);
+  ASSERT_FALSE(mixed);
+  EXPECT_EQ(mixed.error().code, ErrorCode::kFormat);
 }
 
 /// Upright profiles of a ball on the platter, as a line scanner gives them: no grid.

@@ -37,6 +37,12 @@ class ReconstructCommand : public Command {
         "motion where the "
         "recording has none, or one that does not fit one turn later. For comparison also free "
         "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
+    line.repeatable(
+        "--pass-pose", "PASS=POSE", pass_poses_,
+        "Where a pass lies that is fused with the first one: the number of the pass and the pose "
+        "of its table in the frame of the first pass's table, as a file with the rows of a 4x4 "
+        "matrix in metres, or as RX,RY,RZ,TX,TY,TZ: turned about the fixed axes x, then y, then z, "
+        "then shifted, e.g. 1=180deg,0deg,30deg,0mm,200mm,0mm; once for each pass but the first");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
     declare_stages(line, request_.options);
@@ -45,6 +51,8 @@ class ReconstructCommand : public Command {
   FileRoles files() const override {
     FileRoles files{{recording_, request_.turntable}, {files_.mesh, files_.report}};
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
+    for (const std::string& text : pass_poses_)
+      files.inputs.push_back(text.substr(text.find('=') + 1));
     return files;
   }
 
@@ -67,6 +75,10 @@ class ReconstructCommand : public Command {
   Result<> check_files() {
     TURNSCAN_TRY(check_outputs(files_));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
+    for (const std::string& text : pass_poses_) {
+      TURNSCAN_ASSIGN(PassPose pose, parse_pass_pose(text));
+      request_.pass_poses.push_back(std::move(pose));
+    }
     return {};
   }
 
@@ -97,7 +109,7 @@ class ReconstructCommand : public Command {
   }
 
   std::string recording_;
-  std::vector<std::string> save_stages_;
+  std::vector<std::string> save_stages_, pass_poses_;
   ReconstructFiles files_;
   ReconstructRequest request_;
 };

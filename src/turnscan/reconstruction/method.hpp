@@ -13,6 +13,12 @@
 
 namespace turnscan {
 
+/// A pass, and what its first frames told.
+struct PassInput {
+  Pose T_object_table = Pose::Identity();
+  const estimation::ScanEstimate& estimate;
+};
+
 /// One thread adds and finishes; preview() may be called from others between begin() and finish().
 class Method {
  public:
@@ -25,6 +31,9 @@ class Method {
   /// Of a call that fails no frame is added.
   virtual Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                        const RunContext& context, Reconstruction& out) = 0;
+
+  /// The frames that follow are of another pass. Of methods that were made with a T_object_table.
+  virtual Result<> begin_pass(const PassInput& pass, const RunContext& context) = 0;
 
   /// The frames that the estimate was made from have been added. Fails with kCancelled.
   virtual Result<> begin(const RunContext&) { return {}; }
@@ -47,6 +56,8 @@ struct MethodInput {
   const estimation::ScanEstimate& estimate;
   std::span<const Frame> first_frames;  ///< those of the estimate, which will be added first
   bool whole = false;                   ///< there will be no others
+  /// Where there are several passes: of the first. Otherwise all is in the table frame.
+  std::optional<Pose> T_object_table;
 };
 
 struct MethodEntry {

@@ -13,8 +13,10 @@ constexpr std::size_t kFramesAtOnce = 64;
 }  // namespace
 
 Result<Reconstruction> reconstruct(const FrameSequence& sequence, const ReconstructOptions& options,
-                                   const StageSink& sink, const RunContext& context) {
-  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options));
+                                   const StageSink& sink, const RunContext& context,
+                                   std::vector<PassPlacement> passes) {
+  TURNSCAN_ASSIGN(auto stream,
+                  ReconstructionStream::create(sequence.header(), options, std::move(passes)));
   TURNSCAN_TRY(context.check());
   const auto& frames = sequence.frames();
   context.begin_phase("read frames", frames.size());

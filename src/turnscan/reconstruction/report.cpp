@@ -40,6 +40,17 @@ Json object_json(const ObjectResult& o) {
           {"notes", o.notes}};
 }
 
+Json passes_json(const Reconstruction& r) {
+  Json passes = Json::array();
+  for (const FusedPass& pass : r.passes) {
+    Json rows = Json::array();
+    const auto& m = pass.T_object_table.matrix();
+    for (int i = 0; i < 4; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2), m(i, 3)});
+    passes.push_back({{"name", pass.name}, {"frames", pass.frames}, {"T_object_table", rows}});
+  }
+  return passes;
+}
+
 double peak_memory_bytes() {
   struct rusage own {
   }, children{};
@@ -72,6 +83,7 @@ std::string report_json(const Reconstruction& r, const ReconstructOptions& optio
                        {"version", version()},
                        {"frames", r.frames},
                        {"dropped_frames", r.dropped_frames},
+                       {"passes", passes_json(r)},
                        {"returns", r.returns},
                        {"points_in_crop", r.inside_crop},
                        {"points", r.points},

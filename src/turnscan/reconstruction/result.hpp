@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <turnscan/core/point_cloud.hpp>
+#include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
@@ -49,10 +50,18 @@ struct ObjectResult {
   std::vector<std::string> notes;  ///< what was repaired, for people
 };
 
+/// One of several passes that were fused.
+struct FusedPass {
+  std::string name;
+  Pose T_object_table = Pose::Identity();
+  std::size_t frames = 0;
+};
+
 struct Reconstruction {
   std::vector<ObjectResult> objects;  ///< largest first
   std::vector<Choice> choices;
   std::vector<StageTime> stages;
+  std::vector<FusedPass> passes;  ///< empty: there was but one
   std::vector<std::string> notes;
   std::size_t frames = 0, dropped_frames = 0;
   std::uint64_t returns = 0;      ///< of all frames, before the crop

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <mutex>
 #include <turnscan/reconstruction/estimation/first_frames.hpp>
 #include <turnscan/reconstruction/finishing/finishing.hpp>
@@ -44,22 +45,30 @@ Result<> check_pass(const FrameInfo& info, const FrameInfo& first) {
 /// method works on them.
 class ReconstructionStream::Impl {
  public:
-  Impl(const SequenceHeader& header, const ReconstructOptions& options)
+  Impl(const SequenceHeader& header, const ReconstructOptions& options,
+       std::vector<PassPlacement> passes)
       : header_(header),
         options_(options),
+        passes_(std::move(passes)),
         entry_(method_entry(options_.surface.method)),
         rays_(ray_tables(header_)),
-        poser_(header_, options_.merge.speed_rad_s),
-        first_frames_(header_, rays_, options_.crop, options_.color) {}
+        poser_(header_, options_.merge.speed_rad_s) {
+    first_frames_.emplace(header_, rays_, options_.crop, options_.color);
+    for (const PassPlacement& pass : passes_)
+      out_.passes.push_back({pass.name, pass.T_object_table, 0});
+  }
 
   Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
                const RunContext& context) {
     const StageTimer timer(out_.stages, "frames");
     TURNSCAN_ASSIGN(const Selection selected, select(infos));
-    if (method_) {
-      TURNSCAN_TRY(method_->add(selected.frames, read, context, out_));
-    } else {
-      TURNSCAN_TRY(buffer_until_scale_known(selected.frames, read, context));
+    std::span<const PosedFrame> frames(selected.frames);
+    while (!frames.empty()) {
+      const std::size_t count = frames_of_one_pass(frames);
+      if (!passes_.empty()) TURNSCAN_TRY(begin_pass(frames.front().info.pass, context));
+      TURNSCAN_TRY(add_of_pass(frames.first(count), read, context));
+      if (!passes_.empty()) out_.passes[pass_].frames += count;
+      frames = frames.subspan(count);
     }
     out_.dropped_frames += selected.dropped;
     context.advance(selected.dropped + selected.left_out);
@@ -80,12 +89,12 @@ class ReconstructionStream::Impl {
 
   Result<Reconstruction> finish(const StageSink& sink, const RunContext& context) {
     TURNSCAN_TRY(context.check());
-    if (!method_) TURNSCAN_TRY(start_with_what_is_there(context));
+    if (first_frames_) TURNSCAN_TRY(start_with_what_is_there(context));
     for (const std::string& name : unused_options(options_))
       out_.notes.push_back(fmt::format("option {}: this method does not use it", name));
-    if (first_frames_.forgotten() > 0)
-      out_.notes.push_back(fmt::format("the first {} frames show nothing on the platter",
-                                       first_frames_.forgotten()));
+    if (forgotten_ > 0)
+      out_.notes.push_back(
+          fmt::format("the first {} frames show nothing on the platter", forgotten_));
     TURNSCAN_TRY(method_->finish(sink, context, out_));
     TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
     return std::move(out_);
@@ -102,6 +111,7 @@ class ReconstructionStream::Impl {
   Result<Selection> select(const std::vector<FrameInfo>& infos) {
     Selection out;
     const std::optional<int>& pass = options_.merge.pass;
+    std::uint32_t last = pass_;
     for (std::size_t i = 0; i < infos.size(); ++i) {
       TURNSCAN_TRY(check_sensor(infos[i], header_));
       if (pass && infos[i].pass != std::uint32_t(*pass)) {
@@ -109,7 +119,7 @@ class ReconstructionStream::Impl {
         continue;
       }
       if (!first_) first_ = infos[i];
-      TURNSCAN_TRY(check_pass(infos[i], *first_));
+      TURNSCAN_TRY(passes_.empty() ? check_pass(infos[i], *first_) : check_placed(infos[i], last));
       TURNSCAN_ASSIGN(const Pose pose, poser_(infos[i]));
       if (infos[i].status == FrameStatus::kDropped)
         ++out.dropped;
@@ -119,23 +129,61 @@ class ReconstructionStream::Impl {
     return out;
   }
 
+  /// Passes come one after another; last: of the frame before.
+  Result<> check_placed(const FrameInfo& info, std::uint32_t& last) const {
+    if (info.pass >= passes_.size())
+      return fail(ErrorCode::kInvalidOption, "frame {} is of pass {}, which has no place",
+                  info.index, info.pass);
+    if (info.pass < last)
+      return fail(ErrorCode::kFormat, "frame {} of pass {} comes after those of pass {}",
+                  info.index, info.pass, last);
+    last = info.pass;
+    return {};
+  }
+
+  /// How many frames there are before those of another pass, if passes are fused.
+  std::size_t frames_of_one_pass(std::span<const PosedFrame> frames) const {
+    if (passes_.empty()) return frames.size();
+    const auto next = std::find_if(frames.begin(), frames.end(), [&](const PosedFrame& frame) {
+      return frame.info.pass != frames.front().info.pass;
+    });
+    return std::size_t(next - frames.begin());
+  }
+
+  /// Its own table crops it, and has to be found in its first frames.
+  Result<> begin_pass(std::uint32_t pass, const RunContext& context) {
+    if (pass == pass_ && pass_header_) return {};
+    if (pass_header_ && first_frames_) TURNSCAN_TRY(start_with_what_is_there(context));
+    pass_ = pass;
+    pass_header_ = header_;
+    pass_header_->turntable = passes_[pass].turntable;
+    first_frames_.emplace(*pass_header_, rays_, options_.crop, options_.color);
+    return {};
+  }
+
+  Result<> add_of_pass(std::span<const PosedFrame> frames, const FrameReader& read,
+                       const RunContext& context) {
+    if (first_frames_) return buffer_until_scale_known(frames, read, context);
+    return method_->add(frames, read, context, out_);
+  }
+
   /// Keeps frames until there are enough to estimate the scale; what is left of them then goes to
   /// the method.
   Result<> buffer_until_scale_known(std::span<const PosedFrame> frames, const FrameReader& read,
                                     const RunContext& context) {
-    while (!method_) {
-      TURNSCAN_ASSIGN(const std::size_t kept, first_frames_.keep(frames, read, context));
+    while (first_frames_) {
+      TURNSCAN_ASSIGN(const std::size_t kept, first_frames_->keep(frames, read, context));
       frames = frames.subspan(kept);
-      TURNSCAN_ASSIGN(const bool enough, first_frames_.enough());
+      TURNSCAN_ASSIGN(const bool enough, first_frames_->enough());
       if (!enough) {
         if (frames.empty()) return {};
         continue;
       }
-      const auto estimate = first_frames_.estimate();
+      const auto estimate = first_frames_->estimate();
       if (estimate) {
         TURNSCAN_TRY(start_method(*estimate, false, context));
       } else if (estimate.error().code == ErrorCode::kTooFewPoints) {
-        first_frames_.ask_for_more();
+        first_frames_->ask_for_more();
       } else {
         return tl::unexpected<Error>(estimate.error());
       }
@@ -145,41 +193,69 @@ class ReconstructionStream::Impl {
 
   /// The scan has ended before its scale was known.
   Result<> start_with_what_is_there(const RunContext& context) {
-    const bool none = first_frames_.frames().empty();
+    const bool none = first_frames_->frames().empty();
     if (none && options_.merge.pass && !first_)
       return fail(ErrorCode::kInvalidOption, "the recording has no frame of pass {}",
                   *options_.merge.pass);
     if (none) return fail(ErrorCode::kTooFewPoints, "the recording has no frame that can be used");
-    TURNSCAN_ASSIGN(const auto estimate, first_frames_.estimate());
-    return start_method(estimate, true, context);
+    TURNSCAN_ASSIGN(const auto estimate, first_frames_->estimate());
+    return start_method(estimate, passes_.empty(), context);
   }
 
-  /// Makes the method and adds the frames that waited for it. whole: there will be no others.
+  /// Makes the method, or tells it of the next pass, and adds the frames that waited for it. whole:
+  /// there will be no others.
   Result<> start_method(const estimation::ScanEstimate& estimate, bool whole,
                         const RunContext& context) {
+    const bool first = method_ == nullptr;
+    if (first) {
+      TURNSCAN_TRY(make_method(estimate, whole));
+    } else {
+      note_pass(estimate);
+      TURNSCAN_TRY(method_->begin_pass({passes_[pass_].T_object_table, estimate}, context));
+    }
+    const std::vector<Frame>& frames = first_frames_->frames();
+    TURNSCAN_TRY(method_->add(
+        first_frames_->posed_frames(), [&](std::size_t i) -> Result<Frame> { return frames[i]; },
+        context, out_));
+    forgotten_ += first_frames_->forgotten();
+    first_frames_.reset();
+    return first ? method_->begin(context) : Result<>();
+  }
+
+  Result<> make_method(const estimation::ScanEstimate& estimate, bool whole) {
     out_.frame_spacing_m = estimate.spacing_m;
     out_.sensor_noise_m = estimate.noise_m;
     out_.choices = estimate.choices;
     out_.notes = estimate.notes;
-    const std::vector<Frame>& frames = first_frames_.frames();
-    {
-      const std::lock_guard lock(mutex_);
-      TURNSCAN_ASSIGN(method_, entry_.create({header_, options_, rays_, estimate, frames, whole}));
+    std::optional<Pose> T_object_table;
+    if (!passes_.empty()) T_object_table = passes_[pass_].T_object_table;
+    const std::lock_guard lock(mutex_);
+    TURNSCAN_ASSIGN(method_, entry_.create({header_, options_, rays_, estimate,
+                                            first_frames_->frames(), whole, T_object_table}));
+    return {};
+  }
+
+  /// What a further pass's first frames led to.
+  void note_pass(const estimation::ScanEstimate& estimate) {
+    for (Choice choice : estimate.choices) {
+      choice.reason = fmt::format("{}: {}", passes_[pass_].name, choice.reason);
+      out_.choices.push_back(std::move(choice));
     }
-    TURNSCAN_TRY(method_->add(
-        first_frames_.posed_frames(), [&](std::size_t i) -> Result<Frame> { return frames[i]; },
-        context, out_));
-    first_frames_.clear();
-    return method_->begin(context);
+    for (const std::string& note : estimate.notes)
+      out_.notes.push_back(fmt::format("{}: {}", passes_[pass_].name, note));
   }
 
   SequenceHeader header_;
   ReconstructOptions options_;
+  std::vector<PassPlacement> passes_;  ///< that are fused
   const MethodEntry& entry_;
   std::vector<RayTable> rays_;  ///< per sensor
   FramePoser poser_;
-  std::optional<FrameInfo> first_;  ///< of those used, dropped ones too
-  estimation::FirstFrames first_frames_;
+  std::optional<FrameInfo> first_;                       ///< of those used, dropped ones too
+  std::uint32_t pass_ = 0;                               ///< whose frames are being added
+  std::optional<SequenceHeader> pass_header_;            ///< with its table, if passes are fused
+  std::optional<estimation::FirstFrames> first_frames_;  ///< until their scale is known
+  std::size_t forgotten_ = 0;
   std::mutex mutex_;  ///< guards the pointer method_
   std::unique_ptr<Method> method_;
   Reconstruction out_;
@@ -191,9 +267,13 @@ ReconstructionStream& ReconstructionStream::operator=(ReconstructionStream&&) no
 ReconstructionStream::~ReconstructionStream() = default;
 
 Result<ReconstructionStream> ReconstructionStream::create(const SequenceHeader& header,
-                                                          const ReconstructOptions& options) {
+                                                          const ReconstructOptions& options,
+                                                          std::vector<PassPlacement> passes) {
   TURNSCAN_TRY(check_options(options));
-  return ReconstructionStream(std::make_unique<Impl>(header, options));
+  if (!passes.empty() && options.merge.pass)
+    return fail(ErrorCode::kInvalidOption, "pass = {}: all passes are fused; leave it out",
+                *options.merge.pass);
+  return ReconstructionStream(std::make_unique<Impl>(header, options, std::move(passes)));
 }
 
 Result<> ReconstructionStream::add(const std::vector<FrameInfo>& infos, const FrameReader& read,

@@ -7,6 +7,7 @@
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/frame_reader.hpp>
 #include <turnscan/reconstruction/options.hpp>
+#include <turnscan/reconstruction/pass_placement.hpp>
 #include <turnscan/reconstruction/result.hpp>
 
 namespace turnscan {
@@ -14,10 +15,13 @@ namespace turnscan {
 /// One thread adds and finishes; others may ask for previews meanwhile.
 class ReconstructionStream {
  public:
-  /// Sensors and turntable must be known; the header is copied. Fails with kInvalidOption as
-  /// reconstruct() does.
+  /// Sensors and turntable must be known; the header is copied. passes: of several that are fused,
+  /// by FrameInfo::pass; empty: there is one. Their frames come pass after pass, and have poses of
+  /// their own (FrameInfo::T_table_sensor) where the table is not the header's. Fails with
+  /// kInvalidOption as reconstruct() does.
   static Result<ReconstructionStream> create(const SequenceHeader& header,
-                                             const ReconstructOptions& options);
+                                             const ReconstructOptions& options,
+                                             std::vector<PassPlacement> passes = {});
   ReconstructionStream(ReconstructionStream&&) noexcept;
   ReconstructionStream& operator=(ReconstructionStream&&) noexcept;
   ~ReconstructionStream();
@@ -31,10 +35,11 @@ class ReconstructionStream {
                const RunContext& context);
   Result<> add(const std::vector<Frame>& frames, const RunContext& context = RunContext());
 
-  /// A rough closed mesh of what was added so far, in the table frame, in bounded time (some 4,000
-  /// bricks of samples whatever the scan) and without waiting for more than the 16 frames that are
-  /// being summed. From any thread, while another one adds; not while it finishes. An empty mesh
-  /// until the scale is known. Volumetric method only: kInvalidOption with others; kCancelled.
+  /// A rough closed mesh of what was added so far, in the table's or the object's frame, in bounded
+  /// time (some 4,000 bricks of samples whatever the scan) and without waiting for more than the 16
+  /// frames that are being summed. From any thread, while another one adds; not while it finishes.
+  /// An empty mesh until the scale is known. Volumetric method only: kInvalidOption with others;
+  /// kCancelled.
   Result<TriangleMesh> preview(const RunContext& context = RunContext()) const;
 
   /// The meshes of what was added. Once; afterwards the stream is empty. Fails as reconstruct().

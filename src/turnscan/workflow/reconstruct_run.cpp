@@ -7,6 +7,7 @@
 #include <turnscan/workflow/calibration/turntable_file.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/passes/placed_passes.hpp>
 
 namespace turnscan {
 
@@ -23,6 +24,20 @@ Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const s
   return out;
 }
 
+namespace {
+
+Result<Reconstruction> reconstruct_calibrated(const CalibratedFrames& calibrated,
+                                              const ReconstructRequest& request,
+                                              const StageSink& sink, const RunContext& context) {
+  if (request.pass_poses.empty())
+    return reconstruct(*calibrated.frames, calibrated.options, sink, context);
+  TURNSCAN_ASSIGN(const PlacedPasses placed,
+                  place_passes(*calibrated.frames, request.pass_poses, calibrated.options));
+  return reconstruct(placed.frames, calibrated.options, sink, context, placed.placements);
+}
+
+}  // namespace
+
 Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
                                           const ReconstructRequest& request,
                                           const RunContext& context) {
@@ -36,8 +51,7 @@ Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
     if (request.stages.count(stage) > 0) run.stages[stage] = cloud;
     return {};
   };
-  TURNSCAN_ASSIGN(run.reconstruction,
-                  reconstruct(*calibrated.frames, calibrated.options, sink, context));
+  TURNSCAN_ASSIGN(run.reconstruction, reconstruct_calibrated(calibrated, request, sink, context));
   run.choice = std::move(calibrated.choice);
   std::vector<std::string>& notes = run.reconstruction.notes;
   if (!run.choice.note.empty()) notes.insert(notes.begin(), run.choice.note);

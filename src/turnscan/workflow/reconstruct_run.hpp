@@ -13,6 +13,7 @@
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
+#include <turnscan/workflow/passes/pass_pose.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -23,6 +24,8 @@ struct ReconstructRequest {
   std::string turntable;             ///< see with_turntable(); empty: the recording's
   std::set<std::string> stages;      ///< names of saveable_stages() whose clouds are wanted
   bool allow_open = false;           ///< a mesh that is not watertight is no failure
+  /// Where the passes lie that are fused with the first, by their number in the recording.
+  std::vector<PassPose> pass_poses;
 };
 
 struct ReconstructRun {

@@ -117,6 +117,65 @@ TEST(CloseHoles, WhatWasNotSeenNeitherSinksInNorBulges) {
   }
 }
 
+TEST(CloseHoles, WhatNoPassSawEndsFlatOnALeaningPlatter) {
+  constexpr int kAcross = 6, kHalf = 4 * kAcross;
+  Volume volume;
+  volume.cell_m = 1.0;
+  volume.truncation_m = 3.0;
+  volume.origin_m = Vec3d::Constant(-kHalf);
+  volume.set_bricks({kAcross, kAcross, kAcross});
+  VolumeScale scale;
+  scale.cell_m = 1.0, scale.truncation_m = 3.0;
+  scale.platters = {{Vec3d(0.36, 0.8, 0.48), -6.0}};
+  // A ball of 15 cells around the origin, cut by the platter; the lowest 4 cells above it were not
+  // seen. Distances are known 3 cells deep; far bricks have no samples.
+  const auto known = [&](const Vec3d& p) {
+    return scale.platters[0].above(p) > 4.0 && p.norm() - 15.0 > -3.0;
+  };
+  for (std::size_t b = 0; b < volume.slot.size(); ++b) {
+    const GridCoords at = volume.bricks.coords(b);
+    bool any = false, free = true;
+    for (std::size_t s = 0; s < 512; ++s) {
+      const Vec3d p = volume.position(8 * at[0] + int(s % 8), 8 * at[1] + int(s / 8 % 8),
+                                      8 * at[2] + int(s / 64));
+      any |= known(p) && p.norm() < 18.0;
+      free &= known(p) && p.norm() >= 18.0;
+    }
+    volume.uniform[b] = free ? 1.0f : 0.0f;
+    if (!any) continue;
+    volume.allocate(b, 3.0f);
+    for (std::size_t s = 0; s < 512; ++s) {
+      const Vec3d p = volume.position(8 * at[0] + int(s % 8), 8 * at[1] + int(s / 8 % 8),
+                                      8 * at[2] + int(s / 64));
+      if (!known(p)) continue;
+      volume.value[volume.first_sample(b) + s] = float(std::min(p.norm() - 15.0, 3.0));
+      volume.weight[volume.first_sample(b) + s] = 1.0f;
+    }
+  }
+  ASSERT_TRUE(close_holes(volume, scale, RunContext()));
+  for (int k = 0; k < 2 * kHalf; ++k) {
+    for (int j = 0; j < 2 * kHalf; ++j) {
+      for (int i = 0; i < 2 * kHalf; ++i) {
+        const Vec3d p = volume.position(i, j, k);
+        const std::size_t b = volume.bricks.at({i / 8, j / 8, k / 8});
+        const float value =
+            volume.slot[b] < 0 ? 3.0f * volume.uniform[b] : volume.value[sample(volume, i, j, k)];
+        const double above = scale.platters[0].above(p);
+        if (above < 0.0) {
+          EXPECT_GE(value, 0.0f) << p.transpose();
+        }
+        // Walls go on down, within a cell or two.
+        if (above > 0.5 && p.norm() < 12.0) {
+          EXPECT_LT(value, 0.0f) << p.transpose();
+        }
+        if (above > 0.5 && p.norm() > 19.0) {
+          EXPECT_GT(value, 0.0f) << p.transpose();
+        }
+      }
+    }
+  }
+}
+
 TEST(CloseHoles, StopsWhenItIsCancelled) {
   Volume volume = sponge(0.3, 1);
   std::fill(volume.weight.begin(), volume.weight.begin() + 4096, 0.0f);

@@ -56,7 +56,8 @@ class PointMethod final : public Method {
   explicit PointMethod(const MethodInput& input)
       : options_(input.options),
         estimate_(input.estimate),
-        recipe_{&input.header, input.rays, input.estimate.cylinder, input.options.outliers},
+        recipe_{&input.header, input.rays, input.estimate.cylinder, input.options.outliers,
+                input.T_object_table},
         profiles_(!any_grid(input.first_frames)),
         whole_(input.whole) {}
 
@@ -66,6 +67,7 @@ class PointMethod final : public Method {
 
   Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                const RunContext& context, Reconstruction& out) override;
+  Result<> begin_pass(const PassInput& pass, const RunContext& context) override;
   Result<> finish(const StageSink& sink, const RunContext& context, Reconstruction& out) override;
 
  private:
@@ -106,7 +108,9 @@ Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader&
   std::vector<Viewpoint> viewpoints;
   for (const PosedFrame& frame : frames) {
     const Viewpoint& own = recipe_.header->sensors[frame.info.sensor].viewpoint;
-    viewpoints.push_back(own.transformed(frame.T_table_sensor));
+    viewpoints.push_back(own.transformed(recipe_.T_object_table
+                                             ? *recipe_.T_object_table * frame.T_table_sensor
+                                             : frame.T_table_sensor));
   }
   TURNSCAN_TRY(add_parts(parts, viewpoints, context));
   for (const voxels::FramePart& part : parts) {
@@ -114,6 +118,12 @@ Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader&
     out.returns += part.returns;
     out.inside_crop += part.inside_crop;
   }
+  return {};
+}
+
+Result<> PointMethod::begin_pass(const PassInput& pass, const RunContext& /*context*/) {
+  recipe_.cylinder = pass.estimate.cylinder;
+  recipe_.T_object_table = pass.T_object_table;
   return {};
 }
 
@@ -247,8 +257,9 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
     TURNSCAN_ASSIGN(measured, measure(context, out));
     sums_.reset();
   }
-  return reconstruct_points(measured, scale_->spacing_m, estimate_.cylinder, options_, sink,
-                            context, out);
+  // The platter of a pass is no floor for what other passes saw.
+  const auto cylinder = recipe_.T_object_table ? std::nullopt : estimate_.cylinder;
+  return reconstruct_points(measured, scale_->spacing_m, cylinder, options_, sink, context, out);
 }
 
 /// Of both methods, which differ in the surface alone.

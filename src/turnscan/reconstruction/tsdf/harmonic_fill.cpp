@@ -47,10 +47,11 @@ bool boundary_of_cell(const Volume& volume, std::size_t brick, int p, int q, int
 
 }  // namespace
 
-Result<HarmonicFill> HarmonicFill::solve(const Volume& volume, bool on_platter,
+Result<HarmonicFill> HarmonicFill::solve(const Volume& volume, const VolumeScale& scale,
                                          const RunContext& context) {
-  HarmonicFill fill(finest_level(volume), float(volume.truncation_m), on_platter);
+  HarmonicFill fill(finest_level(volume), float(volume.truncation_m), scale.floor_m.has_value());
   auto& levels = fill.levels_;
+  mark_below(volume, scale.platters, levels[0]);
   const auto longest = [](const FillLevel& level) {
     const GridCoords& size = level.cells.size();
     return std::max({size[0], size[1], size[2]});
@@ -96,35 +97,58 @@ HarmonicFill::FillLevel HarmonicFill::finest_level(const Volume& volume) {
       const int p = c & 1, q = c >> 1 & 1, r = c >> 2;
       const std::size_t cell = level.at(2 * at[0] + p, 2 * at[1] + q, 2 * at[2] + r);
       if (volume.slot[b] < 0) {
-        level.fixed[cell] = volume.uniform[b] != 0.0f ? 1 : 0;
+        if (volume.uniform[b] != 0.0f) level.state[cell] = CellState::kFixed;
         level.value[cell] = volume.uniform[b] * outside;
         continue;
       }
-      level.fixed[cell] = boundary_of_cell(volume, b, p, q, r, level.value[cell]) ? 1 : 0;
+      if (boundary_of_cell(volume, b, p, q, r, level.value[cell]))
+        level.state[cell] = CellState::kFixed;
     }
   }
   return level;
 }
 
-/// Cells of twice the side: fixed at the mean of those in them that are.
+void HarmonicFill::mark_below(const Volume& volume, std::span<const Platter> platters,
+                              FillLevel& level) {
+  if (platters.empty()) return;
+  const GridCoords& size = level.cells.size();
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        CellState& state = level.state[level.at(i, j, k)];
+        const Vec3d middle =
+            volume.origin_m + volume.cell_m * (4.0 * Vec3d(i, j, k).array() + 1.5).matrix();
+        if (state == CellState::kUnknown && below_platters(platters, middle) > 0.0)
+          state = CellState::kBelowPlatter;
+      }
+    }
+  }
+}
+
+/// Cells of twice the side: fixed at the mean of those in them that are; below a platter where none
+/// of them is and no other, either.
 HarmonicFill::FillLevel HarmonicFill::halved(const FillLevel& fine) {
   const GridCoords& size = fine.cells.size();
   FillLevel out({(size[0] + 1) / 2, (size[1] + 1) / 2, (size[2] + 1) / 2});
   std::vector<float> sum(out.value.size(), 0.0f);
   std::vector<int> count(out.value.size(), 0);
+  std::fill(out.state.begin(), out.state.end(), CellState::kBelowPlatter);
   for (int k = 0; k < size[2]; ++k) {
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
-        if (!fine.fixed[fine.at(i, j, k)]) continue;
+        const CellState state = fine.state[fine.at(i, j, k)];
         const std::size_t up = out.at(i / 2, j / 2, k / 2);
+        if (state == CellState::kUnknown) out.state[up] = CellState::kUnknown;
+        if (state != CellState::kFixed) continue;
         sum[up] += fine.value[fine.at(i, j, k)];
         ++count[up];
       }
     }
   }
   for (std::size_t c = 0; c < sum.size(); ++c) {
-    out.fixed[c] = count[c] > 0 ? 1 : 0;
-    if (count[c] > 0) out.value[c] = sum[c] / float(count[c]);
+    if (count[c] == 0) continue;
+    out.state[c] = CellState::kFixed;
+    out.value[c] = sum[c] / float(count[c]);
   }
   return out;
 }
@@ -135,7 +159,8 @@ void HarmonicFill::prolong(const FillLevel& coarse, FillLevel& fine) {
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
         const std::size_t c = fine.at(i, j, k);
-        if (!fine.fixed[c]) fine.value[c] = coarse.value[coarse.at(i / 2, j / 2, k / 2)];
+        if (fine.state[c] != CellState::kFixed)
+          fine.value[c] = coarse.value[coarse.at(i / 2, j / 2, k / 2)];
       }
     }
   }
@@ -148,14 +173,20 @@ void HarmonicFill::relax(FillLevel& g) const {
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
         const std::size_t c = g.at(i, j, k);
-        if (g.fixed[c]) continue;
+        if (g.state[c] == CellState::kFixed) continue;
         const float below = on_platter_ ? g.value[c] : outside_;
-        float sum = i > 0 ? g.value[g.at(i - 1, j, k)] : outside_;
-        sum += i + 1 < size[0] ? g.value[g.at(i + 1, j, k)] : outside_;
-        sum += j > 0 ? g.value[g.at(i, j - 1, k)] : below;
-        sum += j + 1 < size[1] ? g.value[g.at(i, j + 1, k)] : outside_;
-        sum += k > 0 ? g.value[g.at(i, j, k - 1)] : outside_;
-        sum += k + 1 < size[2] ? g.value[g.at(i, j, k + 1)] : outside_;
+        const bool mirrors = g.state[c] == CellState::kUnknown;
+        const auto beside = [&](int x, int y, int z) {
+          const std::size_t other = g.at(x, y, z);
+          return mirrors && g.state[other] == CellState::kBelowPlatter ? g.value[c]
+                                                                       : g.value[other];
+        };
+        float sum = i > 0 ? beside(i - 1, j, k) : outside_;
+        sum += i + 1 < size[0] ? beside(i + 1, j, k) : outside_;
+        sum += j > 0 ? beside(i, j - 1, k) : below;
+        sum += j + 1 < size[1] ? beside(i, j + 1, k) : outside_;
+        sum += k > 0 ? beside(i, j, k - 1) : outside_;
+        sum += k + 1 < size[2] ? beside(i, j, k + 1) : outside_;
         g.value[c] = sum / 6.0f;
       }
     }

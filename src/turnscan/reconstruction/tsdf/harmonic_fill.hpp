@@ -10,8 +10,10 @@ namespace turnscan::tsdf {
 /// coarse to fine.
 class HarmonicFill {
  public:
-  /// Beyond the volume everything is outside, but under a platter. Fails with kCancelled.
-  static Result<HarmonicFill> solve(const Volume& volume, bool on_platter,
+  /// Beyond the volume everything is outside, but under a platter. What is not known below one of
+  /// the platters of several passes continues the rest, and says nothing to it. Fails with
+  /// kCancelled.
+  static Result<HarmonicFill> solve(const Volume& volume, const VolumeScale& scale,
                                     const RunContext& context);
 
   /// Of a cell; beyond the volume that of the nearest one.
@@ -20,14 +22,15 @@ class HarmonicFill {
   float at_sample(int i, int j, int k) const;
 
  private:
+  enum class CellState : std::uint8_t { kUnknown, kFixed, kBelowPlatter };
   /// The cells, or the coarser ones of a level above them.
   struct FillLevel {
     GridIndex cells;
     std::vector<float> value;
-    std::vector<std::uint8_t> fixed;
+    std::vector<CellState> state;
 
     explicit FillLevel(const GridCoords& size)
-        : cells(size), value(cells.count(), 0.0f), fixed(cells.count(), 0) {}
+        : cells(size), value(cells.count(), 0.0f), state(cells.count(), CellState::kUnknown) {}
     std::size_t at(int i, int j, int k) const { return cells.at({i, j, k}); }
   };
 
@@ -36,6 +39,7 @@ class HarmonicFill {
     levels_.push_back(std::move(finest));
   }
   static FillLevel finest_level(const Volume& volume);
+  static void mark_below(const Volume& volume, std::span<const Platter> platters, FillLevel& level);
   static FillLevel halved(const FillLevel& fine);
   static void prolong(const FillLevel& coarse, FillLevel& fine);
   void relax(FillLevel& level) const;

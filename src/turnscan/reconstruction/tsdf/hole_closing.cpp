@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMostExtensions = 8;
 constexpr int kThreadRadius = 2;                   // samples
+constexpr float kBelowPlatter = -1.0f;             // weight of an unknown sample there, for a time
 constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
 
 /// Calls body(i, j, k) for each sample of a brick.
@@ -33,8 +34,7 @@ class HoleClosing {
 
   Result<> run() {
     if (scale_.floor_m) forget_below_floor();
-    TURNSCAN_ASSIGN(const HarmonicFill fill,
-                    HarmonicFill::solve(v_, scale_.floor_m.has_value(), context_));
+    TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
     for (int round = 0; round < kMostExtensions; ++round) {
       TURNSCAN_TRY(relax(unknown_bricks(), round == 0 ? kFirstRounds : kMoreRounds));
@@ -42,6 +42,7 @@ class HoleClosing {
     }
     TURNSCAN_TRY(cut_threads());
     if (scale_.floor_m) extend_walls_to_platter();
+    if (!scale_.platters.empty()) end_on_platters();
     TURNSCAN_TRY(context_.check());
     fill_enclosed();
     return {};
@@ -83,7 +84,40 @@ class HoleClosing {
         v_.value[s] =
             fill.at_sample(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k);
     });
-    if (known <= 0.0f) has_unknown_[b] = 1;
+    if (known > 0.0f) return;
+    has_unknown_[b] = 1;
+    mark_below_platters(b);
+  }
+
+  /// Unknown samples below the platter of any pass say nothing to those around them.
+  void mark_below_platters(std::size_t b) {
+    if (scale_.platters.empty()) return;
+    for_each_unknown(b, [&](std::size_t s, const Vec3d& p) {
+      if (below_platters(scale_.platters, p) > 0.0) v_.weight[s] = kBelowPlatter;
+    });
+  }
+
+  /// Calls body(sample, position) for each unknown sample of a brick with samples.
+  template <class Body>
+  void for_each_unknown(std::size_t b, const Body& body) {
+    const GridCoords at = v_.bricks.coords(b);
+    for_each_in_brick([&](int i, int j, int k) {
+      const std::size_t s = v_.first_sample(b) + sample_in_brick(i, j, k);
+      if (v_.weight[s] <= 0.0f)
+        body(s,
+             v_.position(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k));
+    });
+  }
+
+  /// What no view saw ends flat on the platters.
+  void end_on_platters() {
+    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
+      if (v_.slot[b] < 0 || !has_unknown_[b]) continue;
+      for_each_unknown(b, [&](std::size_t s, const Vec3d& p) {
+        v_.value[s] = std::max(v_.value[s], float(below_platters(scale_.platters, p)));
+        v_.weight[s] = 0.0f;
+      });
+    }
   }
 
   /// Signs for bricks without samples, samples for those through which the surface may go, and
@@ -97,7 +131,7 @@ class HoleClosing {
         continue;
       }
       if (v_.uniform[b] > 0.0f) continue;
-      const auto [negative, positive] = signs_around(fill, v_.bricks.coords(b));
+      const auto [negative, positive] = unseen_signs(fill, v_.bricks.coords(b));
       if (negative && positive) {
         crossed.push_back(b);
       } else {
@@ -112,6 +146,22 @@ class HoleClosing {
   struct Signs {
     bool negative = false, positive = false;
   };
+
+  /// Signs of a brick without samples that no view saw. Below a platter there is nothing, but
+  /// beside it samples are needed, with which the rest ends there.
+  Signs unseen_signs(const HarmonicFill& fill, const GridCoords& at) const {
+    Signs out = signs_around(fill, at);
+    const double half = 0.5 * (kBrickSide - 1);
+    const Vec3d middle = v_.position(at[0] * kBrickSide, at[1] * kBrickSide, at[2] * kBrickSide) +
+                         Vec3d::Constant(half * v_.cell_m);
+    for (const Platter& platter : scale_.platters) {
+      const double above = platter.above(middle) / (v_.cell_m * platter.up.lpNorm<1>());
+      out.positive |= above < half + 1.0;
+      out.negative &= above > -half - kBrickSide;
+    }
+    return out;
+  }
+
   static Signs signs_around(const HarmonicFill& fill, const GridCoords& at) {
     Signs out;
     for (int k = -1; k < 3; ++k) {
@@ -133,6 +183,7 @@ class HoleClosing {
           fill.at_sample(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k);
       has_unknown_[b] = 1;
     });
+    if (has_unknown_[b]) mark_below_platters(b);
   }
 
   std::vector<std::size_t> unknown_bricks() const {
@@ -168,8 +219,10 @@ class HoleClosing {
     }
     for_each_in_brick([&](int i, int j, int k) {
       const std::size_t c = BrickHalo::at(i, j, k);
-      const float sum = value[c - 1] + value[c + 1] + value[c - kRow] + value[c + kRow] +
-                        value[c - kLayer] + value[c + kLayer];
+      const bool mirrors = halo.weight[c] == 0.0f;
+      float sum = 0.0f;
+      for (const std::size_t other : {c - 1, c + 1, c - kRow, c + kRow, c - kLayer, c + kLayer})
+        sum += mirrors && halo.weight[other] < 0.0f ? value[c] : value[other];
       out[sample_in_brick(i, j, k)] = halo.weight[c] > 0.0f ? halo.value[c] : sum / 6.0f;
     });
   }

@@ -12,6 +12,16 @@ namespace {
 
 constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
 
+/// Whether vertices that no pass saw lie in the plane of a platter.
+bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
+                const VolumeScale& scale) {
+  return std::any_of(scale.platters.begin(), scale.platters.end(), [&](const Platter& platter) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return std::abs(platter.above(p[v].cast<double>())) < 0.1 * scale.cell_m;
+    });
+  });
+}
+
 }  // namespace
 
 void measure_confidence(VolumetricPiece& piece) {
@@ -35,8 +45,9 @@ void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
       piece.base_area_m2 += area;
     } else if (std::any_of(t.begin(), t.end(),
                            [&](std::uint32_t v) { return piece.confidence[v] < kInvented; })) {
-      piece.evidence[i] = Evidence::kInvented;
-      piece.invented_area_m2 += area;
+      const bool flat = on_platter(p, t, scale);
+      piece.evidence[i] = flat ? Evidence::kBase : Evidence::kInvented;
+      (flat ? piece.base_area_m2 : piece.invented_area_m2) += area;
     }
   }
 }

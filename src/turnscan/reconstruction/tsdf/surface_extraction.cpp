@@ -64,7 +64,7 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   EvenOutScale marched;
   marched.origin_m = volume.origin_m;
   marched.cell_m = volume.cell_m;
-  if (scale.floor_m) marched.flat_m = 0.0f;
+  if (scale.floor_m || !scale.platters.empty()) marched.flat_m = 0.0f;
   ExtractedSurface out{{}, marched, UnseenSpace(volume)};
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));

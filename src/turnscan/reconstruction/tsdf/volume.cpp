@@ -3,6 +3,17 @@
 
 namespace turnscan::tsdf {
 
+Platter platter_of(const Pose& T_object_table) {
+  const Vec3d up = T_object_table.linear() * Vec3d::UnitY();
+  return {up, up.dot(T_object_table.translation())};
+}
+
+double below_platters(std::span<const Platter> platters, const Vec3d& p) {
+  double deepest = -1e30;
+  for (const Platter& platter : platters) deepest = std::max(deepest, -platter.above(p));
+  return deepest;
+}
+
 void Volume::set_bricks(const GridCoords& size) {
   bricks = GridIndex(size);
   slot.assign(bricks.count(), -1);

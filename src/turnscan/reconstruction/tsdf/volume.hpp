@@ -1,6 +1,7 @@
 #pragma once
 // A truncated signed distance field (TSDF) around what the views saw, in bricks of samples.
 
+#include <span>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/geometry/grid/grid_index.hpp>
 #include <turnscan/geometry/grid/isosurface.hpp>
@@ -8,6 +9,18 @@
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan::tsdf {
+
+/// A platter on which the object lay in one of several passes, in the object's frame.
+struct Platter {
+  Vec3d up = Vec3d::UnitY();  ///< unit vector
+  double offset_m = 0.0;
+  /// How far a point lies above it.
+  double above(const Vec3d& p) const { return up.dot(p) - offset_m; }
+};
+Platter platter_of(const Pose& T_object_table);
+
+/// How far a point lies below the platter under which it lies deepest; negative above all of them.
+double below_platters(std::span<const Platter> platters, const Vec3d& p);
 
 struct VolumeScale {
   double cell_m = 0.001;  ///< the voxel size: distance between samples
@@ -18,6 +31,8 @@ struct VolumeScale {
   float edge_weight = 0.1f;          ///< of measurements beside an edge
   std::optional<Cylinder> cylinder;  ///< what counts
   std::optional<double> floor_m;     ///< on a platter: lowest height at which samples are looked up
+  /// Of several passes: nothing of the object lies below any of them. Then there is no cylinder.
+  std::vector<Platter> platters;
   std::size_t max_bytes = std::size_t(600) << 20;
 };
 
@@ -54,9 +69,9 @@ class Volume {
 Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 
 /// Decides what no view saw: the harmonic function that continues what is known, positive beyond
-/// the volume; below the floor of a platter the walls go on down and end flat at y = 0. Enclosed
-/// free spaces that do not reach the outside are filled. Fails with kCancelled, and then leaves the
-/// volume half done.
+/// the volume; below the floor of a platter the walls go on down and end flat at y = 0. Of several
+/// passes, only what none of them saw ends on a platter, and flat. Enclosed free spaces that do not
+/// reach the outside are filled. Fails with kCancelled, and then leaves the volume half done.
 Result<> close_holes(Volume& volume, const VolumeScale& scale, const RunContext& context);
 
 /// For isosurface(). Fails as BrickGrid does.

@@ -65,6 +65,8 @@ class VolumetricReconstruction {
     rules.gap_m = input_.gap_m;
     if (volume.floor_m)
       rules.detached_above_m = *volume.floor_m + volume.truncation_m + volume.cell_m;
+    else if (!volume.platters.empty() && volume.platters[0].up == Vec3d::UnitY())
+      rules.detached_above_m = volume.platters[0].offset_m + volume.truncation_m + volume.cell_m;
     return rules;
   }
 

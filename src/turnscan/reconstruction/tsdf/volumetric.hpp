@@ -24,6 +24,7 @@ struct VolumetricInput {
   int keep = 0;                  ///< largest pieces that are kept; 0: all
   double gap_m = 0.0;            ///< components closer than this are one piece
   std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
+  std::vector<Platter> platters;     ///< instead, of several passes
 };
 
 /// An object.

@@ -33,6 +33,13 @@ double thickness(const VolumetricInput& input, double noise_m) {
   return estimation::cloud_statistics(sample, 3.0 * std::max(input.spacing_m, noise_m)).noise_m;
 }
 
+/// Of the pass whose frames are being added.
+struct CurrentPass {
+  std::optional<Pose> T_object_table;  ///< nullopt: there is but one pass
+  std::optional<Cylinder> cylinder;    ///< above its table
+  std::vector<std::optional<views::LightSheet>> sheets;
+};
+
 /// What a frame gives: a view, or a profile of a line scanner, which waits for those after it.
 struct FrameView {
   views::DepthView view;
@@ -48,10 +55,12 @@ class VolumetricMethod final : public Method {
       : header_(input.header),
         options_(input.options),
         rays_(input.rays),
-        estimate_(input.estimate) {}
+        noise_m_(input.estimate.noise_m),
+        pass_{input.T_object_table, input.estimate.cylinder, input.estimate.sheets} {}
 
   Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                const RunContext& context, Reconstruction& out) override;
+  Result<> begin_pass(const PassInput& pass, const RunContext& context) override;
   /// Chooses the scale from the views that are there.
   Result<> begin(const RunContext& context) override;
   Result<TriangleMesh> preview(const RunContext& context) const override;
@@ -59,6 +68,7 @@ class VolumetricMethod final : public Method {
 
  private:
   Result<FrameView> view_of(const Frame& frame, const Pose& T_table_sensor) const;
+  Result<> flush_profiles(const RunContext& context);
   Result<> add_profiles(const std::vector<views::Profile>& group, std::uint32_t sensor,
                         const RunContext& context);
   Result<> add_view(views::DepthView view, std::uint32_t sensor, const RunContext& context);
@@ -69,7 +79,8 @@ class VolumetricMethod final : public Method {
   const SequenceHeader& header_;
   const ReconstructOptions& options_;
   const std::vector<RayTable>& rays_;
-  estimation::ScanEstimate estimate_;
+  double noise_m_;  ///< of a depth along its ray, as the first frames show
+  CurrentPass pass_;
   views::ViewScale view_scale_;
   VolumetricInput input_;    ///< its views only at the end
   bool are_images_ = false;  ///< depth images, all of them
@@ -79,8 +90,9 @@ class VolumetricMethod final : public Method {
   std::vector<std::uint32_t> pending_sensor_;
   ViewStore kept_;
   VolumetricScale scale_;
-  mutable std::mutex mutex_;  ///< guards integrator_
+  mutable std::mutex mutex_;  ///< guards what follows
   Integrator integrator_;
+  std::vector<Platter> platters_;  ///< of several passes
 };
 
 Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) {
@@ -98,13 +110,16 @@ Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) 
     return s.kind == SensorKind::kDepthCamera;
   });
   input.profiles = in.estimate.profiles;
-  input.cylinder = in.estimate.cylinder;
+  if (in.T_object_table)
+    method->platters_.push_back(platter_of(*in.T_object_table));
+  else
+    input.cylinder = in.estimate.cylinder;
   input.cell_m = in.options.voxels.size_m;
   input.grid = in.options.voxels.grid;
   TURNSCAN_ASSIGN(input.keep, objects_to_keep(in.options.components));
   input.gap_m = in.options.components.gap_m.value_or(0.0);
   method->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m,
-                         in.options.color};
+                         in.options.color, in.T_object_table.has_value()};
   input.colored = in.options.color;
   return method;
 }
@@ -135,11 +150,12 @@ Result<> VolumetricMethod::add(std::span<const PosedFrame> frames, const FrameRe
 Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_table_sensor) const {
   FrameView out;
   std::optional<SensorCrop> table_crop;
-  if (estimate_.cylinder) table_crop.emplace(*estimate_.cylinder, T_table_sensor);
+  if (pass_.cylinder) table_crop.emplace(*pass_.cylinder, T_table_sensor);
+  const Pose T = pass_.T_object_table ? *pass_.T_object_table * T_table_sensor : T_table_sensor;
   const std::size_t s = frame.info.sensor;
-  if (!estimate_.sheets.at(s)) {
-    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s),
-                                               T_table_sensor, view_scale_, [&](const Vec3f& p) {
+  if (!pass_.sheets.at(s)) {
+    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s), T,
+                                               view_scale_, [&](const Vec3f& p) {
                                                  return !table_crop || table_crop->keeps(p);
                                                }));
     out.returns = out.view.returns;
@@ -148,17 +164,32 @@ Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_ta
   }
   TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header_.sensors[s], rays_[s]));
   out.returns = points.cloud.size();
-  points = views::in_sheet_order(points, *estimate_.sheets[s]);
+  points = views::in_sheet_order(points, *pass_.sheets[s]);
   if (table_crop) points = crop(points, *table_crop);
   out.inside_crop = points.cloud.size();
-  out.profile = views::Profile{std::move(points), T_table_sensor};
+  out.profile = views::Profile{std::move(points), T};
   return out;
+}
+
+Result<> VolumetricMethod::flush_profiles(const RunContext& context) {
+  for (auto& [sensor, group] : profiles_)
+    TURNSCAN_TRY(add_profiles(group.flush(), sensor, context));
+  return {};
+}
+
+Result<> VolumetricMethod::begin_pass(const PassInput& pass, const RunContext& context) {
+  TURNSCAN_TRY(flush_profiles(context));
+  pass_ = {pass.T_object_table, pass.estimate.cylinder, pass.estimate.sheets};
+  input_.profiles &= pass.estimate.profiles;
+  const std::lock_guard lock(mutex_);
+  platters_.push_back(platter_of(pass.T_object_table));
+  return {};
 }
 
 Result<> VolumetricMethod::add_profiles(const std::vector<views::Profile>& group,
                                         std::uint32_t sensor, const RunContext& context) {
   if (group.empty()) return {};
-  return add_view(views::view_of_profiles(group, *estimate_.sheets[sensor], view_scale_), sensor,
+  return add_view(views::view_of_profiles(group, *pass_.sheets[sensor], view_scale_), sensor,
                   context);
 }
 
@@ -172,9 +203,8 @@ Result<> VolumetricMethod::add_view(views::DepthView view, std::uint32_t sensor,
 
 Result<> VolumetricMethod::begin(const RunContext& context) {
   input_.views = std::move(pending_);
-  if (are_images_)
-    input_.filter_share = estimation::share_of_neighbours(input_.views, estimate_.noise_m);
-  input_.noise_m = std::max(estimate_.noise_m, thickness(input_, estimate_.noise_m));
+  if (are_images_) input_.filter_share = estimation::share_of_neighbours(input_.views, noise_m_);
+  input_.noise_m = std::max(noise_m_, thickness(input_, noise_m_));
   scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
   pending_ = std::move(input_.views);
   {
@@ -207,8 +237,8 @@ Result<> VolumetricMethod::integrate_pending(bool all, const RunContext& context
 /// When the frames' places disagree more than the first ones let expect, the volume is made once
 /// more, from the views that were kept.
 Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& context) {
-  out.merged_noise_m = thickness(input_, estimate_.noise_m);
-  const double noise = std::max(estimate_.noise_m, out.merged_noise_m);
+  out.merged_noise_m = thickness(input_, noise_m_);
+  const double noise = std::max(noise_m_, out.merged_noise_m);
   const bool again = noise > kNoiseSlack * input_.noise_m && !options_.volumetric.truncation_m;
   input_.noise_m = noise;
   if (!again) return {};
@@ -234,6 +264,7 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
     const std::lock_guard lock(mutex_);
     volume = integrator_.extract_coarse_volume(kPreviewBricks);
     scale = integrator_.scale();
+    scale.platters = platters_;
   }
   if (volume.brick_count() == 0) return TriangleMesh();
   scale.cell_m = volume.cell_m;
@@ -266,8 +297,7 @@ ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
 
 Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& context,
                                   Reconstruction& out) {
-  for (auto& [sensor, group] : profiles_)
-    TURNSCAN_TRY(add_profiles(group.flush(), sensor, context));
+  TURNSCAN_TRY(flush_profiles(context));
   out.points = out.inside_crop;
   if (out.inside_crop < kFewestPoints)
     return fail(ErrorCode::kTooFewPoints,
@@ -285,6 +315,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
         "edges are sharpened",
         200.0 * input_.filter_share));
   input_.views = kept_.take();
+  input_.platters = scale_.volume.platters = platters_;
   {
     const StageTimer timer(out.stages, "noise");
     TURNSCAN_TRY(correct_noise(out, context));

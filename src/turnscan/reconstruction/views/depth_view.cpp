@@ -39,6 +39,23 @@ void take_colors(const Frame& frame, const SensorInfo& sensor, const RayTable& r
   }
 }
 
+/// Takes the measurements outside the crop out of a window.
+void drop_rejected(const SensorInfo& sensor, const RayTable& rays, const PixelBox& box,
+                   const KeepPoint& keep, DepthView& view) {
+  const auto image_width = std::size_t(sensor.intrinsics.width);
+  for (int y = 0; y < box.height(); ++y) {
+    for (int x = 0; x < box.width(); ++x) {
+      std::uint32_t& word =
+          view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)];
+      if ((word & 0xffffu) == 0) continue;
+      const std::size_t i = std::size_t(y + box.y0) * image_width + std::size_t(x + box.x0);
+      const auto z =
+          static_cast<float>((word & 0xffffu) * sensor.depth_unit_m + sensor.depth_bias_m);
+      if (!keep(Vec3f(rays.x()[i] * z, rays.y()[i] * z, z))) word &= ~(0xffffu | DepthView::kEdge);
+    }
+  }
+}
+
 DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
                         const Pose& T_table_sensor, const ViewScale& scale, const KeepPoint& keep) {
   const DepthImage& depth = frame.depth;
@@ -74,6 +91,7 @@ DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayT
   view.bias_m = static_cast<float>(sensor.depth_bias_m);
   set_pose(view, T_table_sensor);
   pack_window(raw, scale.edge_step_m, view);
+  if (scale.only_kept) drop_rejected(sensor, rays, box, keep, view);
   if (scale.colored && !frame.color.empty()) take_colors(frame, sensor, rays, box, view);
   return view;
 }

@@ -58,6 +58,9 @@ struct ViewScale {
   double edge_step_m = 0.012;  ///< a neighbour farther than this makes an edge
   double spacing_m = 0.001;    ///< of the points of one frame; the pixel of resampled scans
   bool colored = false;        ///< views carry colours where frames have any
+  /// What keep() does not accept is no measurement in depth images, either; it still bounds the
+  /// free space.
+  bool only_kept = false;
 };
 
 /// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the

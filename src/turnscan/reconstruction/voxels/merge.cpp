@@ -33,8 +33,9 @@ Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
   if (recipe.outliers.enabled && !keep.empty()) {
     TURNSCAN_ASSIGN(keep, outliers::statistical_outlier_mask(points, recipe.outliers));
   }
-  const Eigen::Matrix3f rotation = T_table_sensor.linear().cast<float>();
-  const Vec3f translation = T_table_sensor.translation().cast<float>();
+  const Pose T = recipe.T_object_table ? *recipe.T_object_table * T_table_sensor : T_table_sensor;
+  const Eigen::Matrix3f rotation = T.linear().cast<float>();
+  const Vec3f translation = T.translation().cast<float>();
   const bool colored = !points.cloud.colors.empty();
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) continue;

@@ -26,11 +26,12 @@ struct FrameRecipe {
   std::vector<RayTable> rays;  ///< per sensor
   std::optional<Cylinder> cylinder;
   OutlierOptions outliers;
+  std::optional<Pose> T_object_table;  ///< then points are in the object's frame
 
   static FrameRecipe make(const SequenceHeader& header);
 };
 struct FramePart {
-  PointCloud cloud;  ///< table frame
+  PointCloud cloud;  ///< table or object's frame
   std::uint64_t returns = 0;
   std::uint64_t inside_crop = 0;  ///< of these
 };

@@ -23,6 +23,13 @@ std::string objects_text(const Reconstruction& r) {
   return table.text();
 }
 
+std::string passes_text(const Reconstruction& r) {
+  std::vector<std::string> passes;
+  for (const FusedPass& pass : r.passes)
+    passes.push_back(fmt::format("{} ({} frames)", pass.name, pass.frames));
+  return fmt::format("{} passes in one mesh: {}\n", passes.size(), fmt::join(passes, ", "));
+}
+
 std::string choices_text(const Reconstruction& r) {
   workflow::TextTable table({0, 1, 2});
   table.add({"option", "value", "why"});
@@ -52,6 +59,7 @@ std::string times_text(const Reconstruction& r) {
 std::string reconstruction_text(const Reconstruction& r) {
   std::string text = fmt::format("{} frames, {} returns, {} inside the crop, {} after the filter\n",
                                  r.frames, r.returns, r.inside_crop, r.points);
+  if (!r.passes.empty()) text += passes_text(r);
   if (r.dropped_frames > 0) text += fmt::format("{} frames were dropped\n", r.dropped_frames);
   text += fmt::format("\n{}", objects_text(r));
   if (!r.choices.empty()) text += fmt::format("\n{}", choices_text(r));
