@@ -1,10 +1,9 @@
 """Several passes of one object become one mesh."""
 
 import json
-import unittest
 
 import harness
-from harness import USAGE
+from harness import FAILED, USAGE
 
 
 def product(a, b):
@@ -19,9 +18,9 @@ def inverse(m):
 
 class Passes(harness.TestCase):
     def simulate(self, *passes, frames=36):
-        """Records the letter A in the folder rec, and writes each pass's true pose to poseN.txt."""
-        self.ok("simulate", "builtin:letter-a", "--height", "120mm", "--frames", frames, "--seed", 3,
-                "--noise", "gaussian:1mm", *(x for p in passes for x in ("--next-pass", p)),
+        """Records the skull in the folder rec, and writes each pass's true pose to poseN.txt."""
+        self.ok("simulate", "builtin:skull", "--frames", frames, "--seed", 3, "--noise",
+                "gaussian:1mm", *(x for p in passes for x in ("--next-pass", p)),
                 "--out", "rec", "--quiet")
         truth = json.loads((self.dir / "rec/truth/truth.json").read_text())
         for k, pose in enumerate(truth["next_passes"], 1):
@@ -51,15 +50,51 @@ class Passes(harness.TestCase):
 
     def test_the_points_methods_fuse_passes_too(self):
         self.simulate("tip=90deg,yaw=40deg", frames=24)
-        self.ok("reconstruct", "rec", "--pass", "0", "--method", "poisson", "-o", "one.ply")
-        self.ok("reconstruct", "rec", "--method", "poisson", "--pass-pose", "1=pose1.txt", "-o",
-                "two.ply")
+        self.ok("reconstruct", "rec", "--pass", "0", "--method", "poisson", "--keep", "largest",
+                "-o", "one.ply")
+        self.ok("reconstruct", "rec", "--method", "poisson", "--keep", "largest", "--pass-pose",
+                "1=pose1.txt", "-o", "two.ply")
         self.assertGreater(self.f_score("two.ply"), self.f_score("one.ply"))
 
-    def test_poses_of_passes_are_complete_and_of_this_recording(self):
+    def test_passes_are_joined_by_their_surfaces(self):
+        self.simulate("tip=90deg,yaw=40deg")
+        out = self.ok("reconstruct", "rec", "-o", "found.ply", "--report", "found.json").stdout
+        self.assertIn("2 passes in one mesh", out)
+        self.assertIn("pass 1 was joined by its surface", out)
+        report = json.loads((self.dir / "found.json").read_text())
+        self.assertTrue(report["objects"][0]["mesh"]["watertight"])
+        found, true = report["passes"][1], [[float(x) for x in row.split()] for row in
+                                            (self.dir / "pose1.txt").read_text().splitlines()]
+        self.assertNotIn("sigma_mm", report["passes"][0])
+        self.assertLess(found["sigma_mm"], 0.2)
+        for i in range(3):
+            for j in range(4):
+                self.assertAlmostEqual(found["T_object_table"][i][j], true[i][j],
+                                       delta=0.004 if j < 3 else 0.0005)
+        self.assertGreater(self.f_score("found.ply"), 0.98)
+
+    def test_recordings_of_one_object_are_joined(self):
+        for name, tip, frames in (("rec", "0deg", 36), ("second", "90deg", 30)):
+            self.ok("simulate", "builtin:skull", "--frames", frames, "--seed", 3, "--noise",
+                    "gaussian:1mm", "--tip", tip, "--out", name, "--quiet")
+        out = self.ok("reconstruct", "rec", "second", "-o", "both.ply").stdout
+        self.assertIn("pass 0 (rec) (36 frames), pass 1 (second) (30 frames)", out)
+        self.ok("reconstruct", "rec", "-o", "one.ply")
+        self.assertGreater(self.f_score("both.ply"), self.f_score("one.ply") + 0.05)
+        self.refused(USAGE, "reconstruct", "rec", "second", "--pass", "0", "-o", "m.ply",
+                     says="--pass")
+
+    def test_a_pass_whose_motion_its_shape_does_not_show_is_kept_beside(self):
+        self.ok("simulate", "builtin:cylinder", "--frames", 24, "--noise", "gaussian:1mm",
+                "--next-pass", "tip=180deg", "--out", "rec", "--quiet")
+        self.refused(FAILED, "reconstruct", "rec", "-o", "whole.ply", says="pass 1 was not joined")
+        self.assertFalse((self.dir / "whole.ply").exists())
+        for name in ("whole-pass0.ply", "whole-pass1.ply"):
+            self.assertIn("watertight", self.ok("info", name).stdout)
+
+    def test_poses_are_of_passes_of_this_recording(self):
         self.simulate("tip=90deg", "tip=180deg", frames=4)
-        for poses, says in ((["1=pose1.txt"], "pass 2"),
-                            (["1=pose1.txt", "2=pose2.txt", "3=pose1.txt"], "no such pass"),
+        for poses, says in ((["1=pose1.txt", "2=pose2.txt", "3=pose1.txt"], "no such pass"),
                             (["1=pose1.txt", "1=pose1.txt"], "twice"),
                             (["pose1.txt"], "PASS=FILE"),
                             (["1=90,0,0,0,0,0"], "unit")):
@@ -70,4 +105,4 @@ class Passes(harness.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    harness.main()

@@ -16,10 +16,14 @@ namespace {
 class ReconstructCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("RECORDING", recording_, "Recording to reconstruct (see turnscan import)");
+    line.positionals(
+        "RECORDING...", recordings_,
+        "Recording to reconstruct (see turnscan import). Its passes, in which the object "
+        "lies in several ways, become one mesh; several recordings of an object, too");
     line.required_option("-o,--out", "MESH", files_.mesh,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm. Several "
-                         "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file");
+                         "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file. Passes that "
+                         "cannot be joined become OUT-pass1, ..., and the command fails");
     line.option(
         "--report", "FILE.json", files_.report,
         "Write what was done as JSON: counts, parameters with their reasons, times, checks");
@@ -39,17 +43,19 @@ class ReconstructCommand : public Command {
         "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
     line.repeatable(
         "--pass-pose", "PASS=POSE", pass_poses_,
-        "Where a pass lies that is fused with the first one: the number of the pass and the pose "
-        "of its table in the frame of the first pass's table, as a file with the rows of a 4x4 "
-        "matrix in metres, or as RX,RY,RZ,TX,TY,TZ: turned about the fixed axes x, then y, then z, "
-        "then shifted, e.g. 1=180deg,0deg,30deg,0mm,200mm,0mm; once for each pass but the first");
+        "Where a pass lies, if its surface does not show it: its number (passes of several "
+        "recordings are counted from 0 on) and the pose of its table in the frame of the first "
+        "pass's table, as a file with the rows of a 4x4 matrix in metres, or as RX,RY,RZ,TX,TY,TZ: "
+        "turned about the fixed axes x, then y, then z, then shifted, e.g. "
+        "1=180deg,0deg,30deg,0mm,200mm,0mm; may be given for several passes");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
     declare_stages(line, request_.options);
   }
 
   FileRoles files() const override {
-    FileRoles files{{recording_, request_.turntable}, {files_.mesh, files_.report}};
+    FileRoles files{recordings_, {files_.mesh, files_.report}};
+    files.inputs.push_back(request_.turntable);
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
     for (const std::string& text : pass_poses_)
       files.inputs.push_back(text.substr(text.find('=') + 1));
@@ -60,18 +66,36 @@ class ReconstructCommand : public Command {
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
+    std::vector<Recording> recordings;
+    for (const std::string& path : recordings_) {
+      TURNSCAN_ASSIGN(Recording recording, Recording::open(path));
+      recordings.push_back(std::move(recording));
+    }
+    std::vector<NamedSequence> named;
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+      named.push_back({recordings_[i], &recordings[i]});
     for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
     TURNSCAN_ASSIGN(const ReconstructRun made,
-                    run_reconstruction(recording, request_, session.context()));
+                    run_reconstruction(named, request_, session.context()));
     TURNSCAN_ASSIGN(const auto files, write_outputs(files_, made, request_.options));
-    session.print("{}", reconstruction_text(made.reconstruction));
-    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    session.print("{}", text_of(made));
+    for (const Recording& recording : recordings) {
+      for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    }
     for (const std::string& file : files) session.print("Wrote {}\n", file);
-    return {};
+    return check_joined(made);
   }
 
  private:
+  static std::string text_of(const ReconstructRun& made) {
+    const bool any = made.apart.empty() || !made.reconstruction.objects.empty();
+    std::string text = any ? reconstruction_text(made.reconstruction) : "";
+    for (const PassApart& pass : made.apart)
+      text += fmt::format("{}{} by itself: {}", text.empty() ? "" : "\n", pass.name,
+                          reconstruction_text(pass.reconstruction));
+    return text;
+  }
+
   Result<> check_files() {
     TURNSCAN_TRY(check_outputs(files_));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
@@ -108,7 +132,7 @@ class ReconstructCommand : public Command {
     return with_suffix(mesh.substr(0, mesh.size() - ending_of(mesh).size()) + ".ply", "-" + text);
   }
 
-  std::string recording_;
+  std::vector<std::string> recordings_;
   std::vector<std::string> save_stages_, pass_poses_;
   ReconstructFiles files_;
   ReconstructRequest request_;

@@ -30,6 +30,7 @@ struct ReconstructOptions {
   /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
   /// methods from points keep sums only, and the sink gets the later stages.
   bool keep_points = false;
+  bool keep_views = false;  ///< the result gets its SeenSpace; volumetric method only
 };
 
 /// A group for each stage, e.g. "voxels": for the command line, a TOML file and the manual.

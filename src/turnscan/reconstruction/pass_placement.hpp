@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/reconstruction/result.hpp>
 
 namespace turnscan {
 
@@ -13,6 +14,7 @@ struct PassPlacement {
   Pose T_object_table = Pose::Identity();
   std::optional<TurntableInfo> turntable;  ///< that it was recorded on
   std::string name;                        ///< for people, e.g. "pass 1"
+  std::optional<FoundMotion> found;        ///< nullopt: it was given, or is the first
 };
 
 }  // namespace turnscan

@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/reconstruction/report.hpp>
@@ -46,7 +47,13 @@ Json passes_json(const Reconstruction& r) {
     Json rows = Json::array();
     const auto& m = pass.T_object_table.matrix();
     for (int i = 0; i < 4; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2), m(i, 3)});
-    passes.push_back({{"name", pass.name}, {"frames", pass.frames}, {"T_object_table", rows}});
+    Json own = {{"name", pass.name}, {"frames", pass.frames}, {"T_object_table", rows}};
+    if (pass.found) {
+      own["sigma_mm"] = pass.found->sigma_m * 1e3;
+      own["sigma_deg"] = pass.found->sigma_rad * kDegreesPerRadian;
+      own["overlap_cm2"] = pass.found->overlap_m2 * 1e4;
+    }
+    passes.push_back(std::move(own));
   }
   return passes;
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/pose.hpp>
@@ -50,12 +52,21 @@ struct ObjectResult {
   std::vector<std::string> notes;  ///< what was repaired, for people
 };
 
+/// How well the motion of a pass is known that was found from the surfaces.
+struct FoundMotion {
+  double sigma_m = 0.0, sigma_rad = 0.0;  ///< rms over its surface, and of its rotation
+  double overlap_m2 = 0.0;                ///< of its surface that agrees with other passes'
+};
+
 /// One of several passes that were fused.
 struct FusedPass {
   std::string name;
   Pose T_object_table = Pose::Identity();
   std::size_t frames = 0;
+  std::optional<FoundMotion> found;  ///< nullopt: it was given, or is the first
 };
+
+struct SeenSpace;
 
 struct Reconstruction {
   std::vector<ObjectResult> objects;  ///< largest first
@@ -64,9 +75,10 @@ struct Reconstruction {
   std::vector<FusedPass> passes;  ///< empty: there was but one
   std::vector<std::string> notes;
   std::size_t frames = 0, dropped_frames = 0;
-  std::uint64_t returns = 0;      ///< of all frames, before the crop
-  std::uint64_t inside_crop = 0;  ///< of these
-  std::uint64_t points = 0;       ///< of these, what the outlier filter kept
+  std::uint64_t returns = 0;              ///< of all frames, before the crop
+  std::uint64_t inside_crop = 0;          ///< of these
+  std::uint64_t points = 0;               ///< of these, what the outlier filter kept
+  std::shared_ptr<const SeenSpace> seen;  ///< if asked for
   double sensor_noise_m = 0.0, merged_noise_m = 0.0, frame_spacing_m = 0.0;
 };
 

@@ -55,7 +55,7 @@ class ReconstructionStream::Impl {
         poser_(header_, options_.merge.speed_rad_s) {
     first_frames_.emplace(header_, rays_, options_.crop, options_.color);
     for (const PassPlacement& pass : passes_)
-      out_.passes.push_back({pass.name, pass.T_object_table, 0});
+      out_.passes.push_back({pass.name, pass.T_object_table, 0, pass.found});
   }
 
   Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,

@@ -13,7 +13,7 @@
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
-#include <turnscan/workflow/passes/pass_pose.hpp>
+#include <turnscan/workflow/passes/join_run.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -24,7 +24,7 @@ struct ReconstructRequest {
   std::string turntable;             ///< see with_turntable(); empty: the recording's
   std::set<std::string> stages;      ///< names of saveable_stages() whose clouds are wanted
   bool allow_open = false;           ///< a mesh that is not watertight is no failure
-  /// Where the passes lie that are fused with the first, by their number in the recording.
+  /// Where passes lie that are fused with the first, by their number; the surfaces show the others.
   std::vector<PassPose> pass_poses;
 };
 
@@ -32,6 +32,13 @@ struct ReconstructRun {
   Reconstruction reconstruction;  ///< its notes begin with the choice's
   CalibrationChoice choice;
   std::map<std::string, PointCloud> stages;  ///< those that were asked for and made; table frame
+  std::vector<PassApart> apart;              ///< passes that were not joined with the first
+};
+
+/// One of the recordings of an object.
+struct NamedSequence {
+  std::string name;  ///< for people
+  const FrameSequence* frames = nullptr;
 };
 
 /// The frames as a choice of calibration places them, with the options that go with it: where the
@@ -48,11 +55,22 @@ Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const s
                                           bool table_given, const ReconstructOptions& options,
                                           const RunContext& context);
 
-/// Calibrates and reconstructs; writes nothing. Fails as with_turntable(), choose_calibration(),
-/// reconstruct() and, unless allow_open is set, check_watertight(); with kCancelled.
+/// Calibrates and reconstructs; writes nothing. Where there are several passes, and neither one is
+/// chosen nor frames have poses of their own, they become one mesh (workflow/passes/join_run.hpp).
+/// Fails as with_turntable(), choose_calibration(), reconstruct(), join_and_reconstruct() and,
+/// unless allow_open is set, check_watertight(); with kCancelled.
 Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
                                           const ReconstructRequest& request,
                                           const RunContext& context);
+
+/// The same for all recordings of an object, each with its own sensors and calibration, at least
+/// one; the choice is that of the first. Fails with kInvalidOption, too, when one pass is chosen.
+Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& recordings,
+                                          const ReconstructRequest& request,
+                                          const RunContext& context);
+
+/// Fails with kMissingData, naming the first and why, when a pass was not joined.
+Result<> check_joined(const ReconstructRun& run);
 
 /// Names of files; an empty one is not written.
 struct ReconstructFiles {
@@ -65,9 +83,10 @@ struct ReconstructFiles {
 /// check_output_file().
 Result<> check_outputs(const ReconstructFiles& files);
 
-/// Writes the meshes, the stages' clouds and the report; returns the names of the files in that
-/// order. options: as they were asked for. Fails as write_objects(), write_cloud() and
-/// write_file_atomically(); a stage that the run did not keep is left out.
+/// Writes the meshes, those of passes apart as MESH-passN, the stages' clouds and the report;
+/// returns the names of the files in that order. options: as they were asked for. Fails as
+/// write_objects(), write_cloud() and write_file_atomically(); a stage that the run did not keep is
+/// left out.
 Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructRun& run,
                                                const ReconstructOptions& options);

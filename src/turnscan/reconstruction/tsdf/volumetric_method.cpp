@@ -5,6 +5,7 @@
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/length_text.hpp>
+#include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/view_store.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
@@ -74,6 +75,7 @@ class VolumetricMethod final : public Method {
   Result<> add_view(views::DepthView view, std::uint32_t sensor, const RunContext& context);
   Result<> integrate_pending(bool all, const RunContext& context);
   Result<> correct_noise(Reconstruction& out, const RunContext& context);
+  std::shared_ptr<const SeenSpace> seen_space() const;
   ObjectResult object_of(VolumetricPiece& piece) const;
 
   const SequenceHeader& header_;
@@ -274,6 +276,15 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   return isosurface(grid, IsosurfaceOptions(), context);
 }
 
+std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space() const {
+  auto seen = std::make_shared<SeenSpace>();
+  const std::size_t count = input_.views.size(), most = std::min(count, SeenSpace::kMostViews);
+  for (std::size_t i = 0; i < most; ++i) seen->views.push_back(input_.views[i * count / most]);
+  if (pass_.cylinder && pass_.cylinder->margin_m > 0.0) seen->floor_m = 0.0;
+  seen->noise_m = noise_m_;
+  return seen;
+}
+
 ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
   ObjectResult object;
   object.mesh = std::move(piece.mesh);
@@ -334,6 +345,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                          object.mesh.vertices.end());
     fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());
   }
+  if (options_.keep_views) out.seen = seen_space();
   return sink ? sink("fitted", fitted) : Result<>();
 }
 

@@ -8,24 +8,25 @@ namespace turnscan {
 
 std::vector<std::uint32_t> passes_of(const FrameSequence& sequence) {
   std::set<std::uint32_t> passes;
-  for (const FrameInfo& frame : sequence.frames()) passes.insert(frame.pass);
+  for (const FrameInfo& frame : sequence.frames())
+    if (frame.status == FrameStatus::kOk) passes.insert(frame.pass);
   return {passes.begin(), passes.end()};
 }
 
-Result<JoinedFrames> JoinedFrames::create(const std::vector<SequencePass>& passes,
-                                          std::optional<double> speed_rad_s) {
+Result<JoinedFrames> JoinedFrames::create(const std::vector<SequencePass>& passes) {
   JoinedFrames out;
-  for (const SequencePass& pass : passes) TURNSCAN_TRY(out.add_sequence(*pass.frames, speed_rad_s));
+  for (const SequencePass& pass : passes) TURNSCAN_TRY(out.add_sequence(pass));
   for (std::size_t k = 0; k < passes.size(); ++k) out.add_pass(passes[k], std::uint32_t(k));
   return out;
 }
 
-Result<> JoinedFrames::add_sequence(const FrameSequence& sequence,
-                                    std::optional<double> speed_rad_s) {
+Result<> JoinedFrames::add_sequence(const SequencePass& pass) {
+  const FrameSequence& sequence = *pass.frames;
   if (std::any_of(sequences_.begin(), sequences_.end(),
                   [&](const Sequence& s) { return s.frames == &sequence; }))
     return {};
-  TURNSCAN_ASSIGN(FramePoses poses, frame_poses(sequence.header(), sequence.frames(), speed_rad_s));
+  TURNSCAN_ASSIGN(FramePoses poses,
+                  frame_poses(sequence.header(), sequence.frames(), pass.speed_rad_s));
   sequences_.push_back(
       {&sequence, std::move(poses.T_table_sensor), std::uint32_t(header_.sensors.size())});
   const SequenceHeader& header = sequence.header();

@@ -10,9 +10,10 @@ namespace turnscan {
 struct SequencePass {
   const FrameSequence* frames = nullptr;  ///< placed on their table
   std::uint32_t pass = 0;                 ///< FrameInfo::pass there
+  std::optional<double> speed_rad_s;      ///< stated; see frame_poses()
 };
 
-/// The passes of a sequence, ascending.
+/// The passes of which a sequence has frames that were not dropped, ascending.
 std::vector<std::uint32_t> passes_of(const FrameSequence& sequence);
 
 /// Pass after pass: frames are numbered anew if they come from several sequences, passes in any
@@ -21,8 +22,7 @@ std::vector<std::uint32_t> passes_of(const FrameSequence& sequence);
 class JoinedFrames : public FrameSequence {
  public:
   /// Fails as frame_poses() does.
-  static Result<JoinedFrames> create(const std::vector<SequencePass>& passes,
-                                     std::optional<double> speed_rad_s);
+  static Result<JoinedFrames> create(const std::vector<SequencePass>& passes);
 
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return infos_; }
@@ -33,7 +33,7 @@ class JoinedFrames : public FrameSequence {
     const FrameSequence* frames;
     std::size_t position;
   };
-  Result<> add_sequence(const FrameSequence& sequence, std::optional<double> speed_rad_s);
+  Result<> add_sequence(const SequencePass& pass);
   void add_pass(const SequencePass& pass, std::uint32_t number);
 
   struct Sequence {

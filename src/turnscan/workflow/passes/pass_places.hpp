@@ -1,0 +1,44 @@
+#pragma once
+// Which passes there are, and where each lies: as somebody states it, or as its surface shows.
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/options.hpp>
+#include <turnscan/workflow/passes/joined_frames.hpp>
+#include <turnscan/workflow/passes/pass_pose.hpp>
+
+namespace turnscan {
+
+/// A recording among several, calibrated; frames must outlive what is made of it.
+struct RecordingFrames {
+  std::string name;  ///< for people
+  const FrameSequence* frames = nullptr;
+  std::optional<double> speed_rad_s;  ///< stated
+};
+
+/// One pass of one of them.
+struct PassOfMany {
+  SequencePass frames;
+  std::uint32_t number = 0;  ///< by which people call it
+  std::string name;          ///< "pass 1", with the recording's name where there are several
+  std::optional<Pose> T_first_pass;  ///< stated
+};
+
+/// All passes. Those of one recording keep their numbers, those of several are counted from 0 on.
+/// Fails with kInvalidOption where a pass that is stated is not there, or is stated twice.
+Result<std::vector<PassOfMany>> list_passes(const std::vector<RecordingFrames>& recordings,
+                                            const std::vector<PassPose>& stated);
+
+/// One for each pass: where it lies, or why that is not known.
+struct PassPlace {
+  std::optional<PassPlacement> placement;
+  std::string reason;
+};
+
+/// In the frame of the first pass's table. The surfaces of the passes that are not stated are
+/// measured and brought together with the first's (reconstruction/passes); options: of the
+/// reconstruction. Fails as reconstruct() does for the first pass, and with kCancelled.
+Result<std::vector<PassPlace>> place_passes(const std::vector<PassOfMany>& passes,
+                                            const ReconstructOptions& options,
+                                            const RunContext& context);
+
+}  // namespace turnscan
