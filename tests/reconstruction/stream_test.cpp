@@ -317,6 +317,19 @@ TEST(ReconstructionStream, APassOfWhichOnlyAFewFramesAreThereIsFusedToo) {
   EXPECT_EQ(fused->passes.at(1).frames, 20u);
 }
 
+TEST(ReconstructionStream, PassesThatLieAlikeEndFlatOnThePlatter) {
+  TwoPasses two;
+  two.placements[1].T_object_table = Pose::Identity();
+  ReconstructOptions options = with(SurfaceMethod::kVolumetric);
+  options.crop.margin_m = 0.02;
+  const auto fused = streamed(two.frames, options, 64, two.placements);
+  ASSERT_TRUE(fused) << fused.error().message;
+  const ObjectResult& object = fused->objects.at(0);
+  EXPECT_TRUE(object.check.watertight());
+  EXPECT_NEAR(bounds(object.mesh.vertices).min.y(), 0.0, 0.0002);
+  EXPECT_NE(std::count(object.evidence.begin(), object.evidence.end(), Evidence::kBase), 0);
+}
+
 TEST(ReconstructionStream, FramesOfAPassWithoutAPlaceAreRefused) {
   TwoPasses two;
   const auto options = with(SurfaceMethod::kVolumetric);

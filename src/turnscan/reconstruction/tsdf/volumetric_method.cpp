@@ -22,6 +22,9 @@ constexpr std::size_t kViewsAtOnce = 16;
 constexpr double kNoiseSlack = 1.3;
 constexpr std::size_t kPreviewBricks = 4000;
 
+/// Platters that differ by less are one: cosine of 1.8 degrees, and metres.
+constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
+
 /// Fewer points than this make no object.
 constexpr std::uint64_t kFewestPoints = 100;
 
@@ -69,6 +72,8 @@ class VolumetricMethod final : public Method {
 
  private:
   Result<FrameView> view_of(const Frame& frame, const Pose& T_table_sensor) const;
+  void add_platter(const Pose& T_object_table);
+  void stand_on_common_platter();
   Result<> flush_profiles(const RunContext& context);
   Result<> add_profiles(const std::vector<views::Profile>& group, std::uint32_t sensor,
                         const RunContext& context);
@@ -95,6 +100,7 @@ class VolumetricMethod final : public Method {
   mutable std::mutex mutex_;  ///< guards what follows
   Integrator integrator_;
   std::vector<Platter> platters_;  ///< of several passes
+  double crop_margin_m_ = 0.0;     ///< largest of theirs
 };
 
 Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) {
@@ -113,7 +119,7 @@ Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) 
   });
   input.profiles = in.estimate.profiles;
   if (in.T_object_table)
-    method->platters_.push_back(platter_of(*in.T_object_table));
+    method->add_platter(*in.T_object_table);
   else
     input.cylinder = in.estimate.cylinder;
   input.cell_m = in.options.voxels.size_m;
@@ -183,9 +189,25 @@ Result<> VolumetricMethod::begin_pass(const PassInput& pass, const RunContext& c
   TURNSCAN_TRY(flush_profiles(context));
   pass_ = {pass.T_object_table, pass.estimate.cylinder, pass.estimate.sheets};
   input_.profiles &= pass.estimate.profiles;
-  const std::lock_guard lock(mutex_);
-  platters_.push_back(platter_of(pass.T_object_table));
+  add_platter(pass.T_object_table);
   return {};
+}
+
+/// Of the current pass.
+void VolumetricMethod::add_platter(const Pose& T_object_table) {
+  const std::lock_guard lock(mutex_);
+  platters_.push_back(platter_of(T_object_table));
+  if (pass_.cylinder) crop_margin_m_ = std::max(crop_margin_m_, pass_.cylinder->margin_m);
+}
+
+/// Where the object lies alike in all passes none saw its base, and it ends as that of one pass.
+void VolumetricMethod::stand_on_common_platter() {
+  const auto at_zero = [](const Platter& platter) {
+    return platter.up.y() > kSamePlane && std::abs(platter.offset_m) < kSameHeight_m;
+  };
+  if (platters_.empty() || !std::all_of(platters_.begin(), platters_.end(), at_zero)) return;
+  scale_.volume.platters.clear();
+  scale_.volume.floor_m = crop_margin_m_;
 }
 
 Result<> VolumetricMethod::add_profiles(const std::vector<views::Profile>& group,
@@ -331,6 +353,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
     const StageTimer timer(out.stages, "noise");
     TURNSCAN_TRY(correct_noise(out, context));
   }
+  stand_on_common_platter();
   TURNSCAN_ASSIGN(VolumetricResult result,
                   reconstruct_volume(input_, scale_, integrator_, options_.volumetric,
                                      options_.components.min_share, context));
