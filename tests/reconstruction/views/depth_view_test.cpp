@@ -54,5 +54,46 @@ TEST(DepthView, ASteepSlopeIsMeasured) {
   for (int x = 2; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), raw.at(x, 2)) << x;
 }
 
+/// A camera that looks down from 1 m at a patch 0.2 m high, of a recording that a crop blackened
+/// around it; one pixel shows something under the patch that the crop does not keep now.
+Frame cropped_frame(SensorInfo& sensor) {
+  sensor.intrinsics.width = sensor.intrinsics.height = 32;
+  sensor.intrinsics.fx = sensor.intrinsics.fy = 64.0;
+  sensor.intrinsics.cx = sensor.intrinsics.cy = 15.5;
+  Frame frame;
+  frame.depth = DepthImage(32, 32);
+  for (auto& depth : frame.depth.pixels) depth = kOutsideCrop;
+  for (int y = 14; y < 18; ++y) {
+    for (int x = 14; x < 18; ++x) frame.depth.at(x, y) = 8000;
+  }
+  frame.depth.at(20, 16) = 9900;
+  return frame;
+}
+
+TEST(DepthView, OfSeveralPassesWhatItsTableCropsOnlyBoundsFreeSpace) {
+  SensorInfo sensor;
+  const Frame frame = cropped_frame(sensor);
+  const RayTable rays(sensor.intrinsics);
+  const auto keep = [](const Vec3f& p) { return p.z() < 0.98f; };
+  ViewScale scale;
+  const DepthView alone = *make_view(frame, sensor, rays, Pose::Identity(), scale, keep);
+  scale.only_kept = true;
+  scale.seen_above = Eigen::Vector4f(0.0f, 0.0f, -1.0f, 0.98f);
+  const DepthView view = *make_view(frame, sensor, rays, Pose::Identity(), scale, keep);
+  ASSERT_EQ(view.width, alone.width);
+  std::size_t dropped = 0, ended = 0;
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    const std::uint32_t before = alone.pixels[i], after = view.pixels[i];
+    const std::uint32_t free = before >> 17 << 1;
+    EXPECT_EQ(after & 0xffffu, (before & 0xffffu) == 9900u ? 0u : before & 0xffffu);
+    dropped += (before & 0xffffu) == 9900u ? 1 : 0;
+    // What was measured bounds free space as before; what was cropped ends at the crop.
+    EXPECT_NEAR(after >> 17 << 1, free == 65534u ? 9800u : free, 2u);
+    ended += free == 65534u ? 1 : 0;
+  }
+  EXPECT_EQ(dropped, 1u);
+  EXPECT_GT(ended, 10u);
+}
+
 }  // namespace
 }  // namespace turnscan::views

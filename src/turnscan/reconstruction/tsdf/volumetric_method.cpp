@@ -11,6 +11,7 @@
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>
+#include <turnscan/turntable/crop/live_crop.hpp>
 
 namespace turnscan::tsdf {
 
@@ -43,6 +44,14 @@ struct CurrentPass {
   std::optional<Cylinder> cylinder;    ///< above its table
   std::vector<std::optional<views::LightSheet>> sheets;
 };
+
+/// The height above the margin in the frame of a sensor, whose recorder may have cropped higher
+/// than the margin that is found now.
+Eigen::Vector4f above_crop(const Cylinder& cylinder, const Pose& T_table_sensor) {
+  const double margin_m = std::max(cylinder.margin_m, LiveCropOptions().margin_m);
+  const Eigen::Vector4d row = T_table_sensor.matrix().row(1);
+  return (row - Eigen::Vector4d(0.0, 0.0, 0.0, margin_m)).cast<float>();
+}
 
 /// What a frame gives: a view, or a profile of a line scanner, which waits for those after it.
 struct FrameView {
@@ -160,10 +169,13 @@ Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_ta
   std::optional<SensorCrop> table_crop;
   if (pass_.cylinder) table_crop.emplace(*pass_.cylinder, T_table_sensor);
   const Pose T = pass_.T_object_table ? *pass_.T_object_table * T_table_sensor : T_table_sensor;
+  views::ViewScale scale = view_scale_;
+  if (pass_.T_object_table && pass_.cylinder)
+    scale.seen_above = above_crop(*pass_.cylinder, T_table_sensor);
   const std::size_t s = frame.info.sensor;
   if (!pass_.sheets.at(s)) {
-    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s), T,
-                                               view_scale_, [&](const Vec3f& p) {
+    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s), T, scale,
+                                               [&](const Vec3f& p) {
                                                  return !table_crop || table_crop->keeps(p);
                                                }));
     out.returns = out.view.returns;

@@ -56,6 +56,27 @@ void drop_rejected(const SensorInfo& sensor, const RayTable& rays, const PixelBo
   }
 }
 
+/// Where a crop that was recorded ended, what lay behind is not known: in another pass the object
+/// may be there.
+void end_free_space(const Eigen::Vector4f& plane, const RayTable& rays, int image_width,
+                    const PixelBox& box, DepthView& view) {
+  constexpr std::uint32_t kUnbounded = 65534;
+  for (int y = 0; y < box.height(); ++y) {
+    for (int x = 0; x < box.width(); ++x) {
+      std::uint32_t& word =
+          view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)];
+      if (word >> 17 << 1 != kUnbounded) continue;
+      const std::size_t i =
+          std::size_t(y + box.y0) * std::size_t(image_width) + std::size_t(x + box.x0);
+      const float down = -plane.head<3>().dot(Vec3f(rays.x()[i], rays.y()[i], 1.0f));
+      if (!(down > 0.0f)) continue;
+      const float end = (plane.w() / down - view.bias_m) / view.unit_m;
+      const auto free = std::uint32_t(std::clamp(end, 0.0f, float(kUnbounded)));
+      word = DepthView::pack(word & 0xffffu, (word & DepthView::kEdge) != 0, free);
+    }
+  }
+}
+
 DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
                         const Pose& T_table_sensor, const ViewScale& scale, const KeepPoint& keep) {
   const DepthImage& depth = frame.depth;
@@ -92,6 +113,7 @@ DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayT
   set_pose(view, T_table_sensor);
   pack_window(raw, scale.edge_step_m, view);
   if (scale.only_kept) drop_rejected(sensor, rays, box, keep, view);
+  if (scale.seen_above) end_free_space(*scale.seen_above, rays, depth.width, box, view);
   if (scale.colored && !frame.color.empty()) take_colors(frame, sensor, rays, box, view);
   return view;
 }

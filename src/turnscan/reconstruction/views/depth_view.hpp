@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/lens.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
@@ -61,6 +62,9 @@ struct ViewScale {
   /// What keep() does not accept is no measurement in depth images, either; it still bounds the
   /// free space.
   bool only_kept = false;
+  /// Sensor frame: where x * p.x + y * p.y + z * p.z + w < 0, a pixel that is only known to be
+  /// empty as far as a crop reached saw nothing. Of depth images.
+  std::optional<Eigen::Vector4f> seen_above = std::nullopt;
 };
 
 /// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the
