@@ -48,6 +48,16 @@ class Passes(harness.TestCase):
         self.assertEqual(one["passes"], [])
         self.assertGreater(self.f_score("two.ply"), max(0.99, self.f_score("one.ply") + 0.01))
 
+    def test_a_pose_that_the_surfaces_contradict_is_doubted(self):
+        self.simulate("tip=90deg,yaw=40deg")
+        right = self.ok("reconstruct", "rec", "--pass-pose", "1=pose1.txt", "-o", "m.ply").stdout
+        self.assertNotIn("taken as given", right)
+        rows = [row.split() for row in (self.dir / "pose1.txt").read_text().splitlines()]
+        rows[0][3] = str(float(rows[0][3]) + 0.003)
+        (self.dir / "beside.txt").write_text("\n".join(" ".join(row) for row in rows))
+        wrong = self.ok("reconstruct", "rec", "--pass-pose", "1=beside.txt", "-o", "m.ply").stdout
+        self.assertIn("pass 1 lies 3.0 mm from where its surface fits", wrong)
+
     def test_the_points_methods_fuse_passes_too(self):
         self.simulate("tip=90deg,yaw=40deg", frames=24)
         self.ok("reconstruct", "rec", "--pass", "0", "--method", "poisson", "--keep", "largest",

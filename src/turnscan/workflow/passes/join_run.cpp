@@ -58,6 +58,8 @@ Result<JoinedRun> join_and_reconstruct(const std::vector<PassOfMany>& passes,
   if (joined > 1) {
     TURNSCAN_ASSIGN(out.reconstruction, fuse(passes, places, options, sink, context));
     note_motions(out.reconstruction);
+    for (const PassPlace& place : places)
+      if (!place.doubt.empty()) out.reconstruction.notes.push_back(place.doubt);
   }
   for (std::size_t k = 0; k < passes.size(); ++k) {
     if (places[k].placement && joined > 1) continue;

@@ -1,6 +1,7 @@
 #include <turnscan/workflow/passes/pass_places.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
@@ -18,7 +19,11 @@ constexpr std::size_t kFewestPoints = 200;  // that join_passes() takes
 /// What is smaller than this share of the largest object is a crumb beside it.
 constexpr double kCrumbShare = 0.1;
 
-/// Where nobody says where a pass lies, it needs nothing but the surface.
+/// Stated motions that differ by more from what the surfaces show are doubted: metres, and
+/// deviations of what they show.
+constexpr double kDoubt_m = 0.001, kDoubtSigmas = 5.0;
+
+/// Where a pass lies needs nothing but its surface.
 ReconstructOptions for_surface(const ReconstructOptions& options) {
   ReconstructOptions out = options;
   out.surface.method = SurfaceMethod::kVolumetric;
@@ -66,28 +71,40 @@ PassPlacement placement_of(const PassOfMany& pass, const Pose& T_first_pass) {
   return placement;
 }
 
-/// Finds the motions of what nobody stated.
+/// How far two motions bring a surface apart, rms.
+double apart_m(const PassSurface& surface, const Pose& one, const Pose& other) {
+  double sum = 0.0;
+  for (const Vec3f& p : surface.points)
+    sum += (one * p.cast<double>() - other * p.cast<double>()).squaredNorm();
+  return std::sqrt(sum / double(surface.points.size()));
+}
+
+/// Finds the motions of what nobody stated, and doubts of what somebody did.
 class PassSearch {
  public:
   PassSearch(const std::vector<PassOfMany>& passes, std::vector<PassPlace>& places)
       : passes_(passes), places_(places) {}
 
   Result<> run(const ReconstructOptions& options, const RunContext& context) {
-    TURNSCAN_TRY(add(0, options, context));
-    for (std::size_t k = 1; k < passes_.size(); ++k)
-      if (!places_[k].placement) TURNSCAN_TRY(add(k, options, context));
+    const bool all_stated = std::all_of(places_.begin(), places_.end(), [](const PassPlace& place) {
+      return place.placement.has_value();
+    });
+    TURNSCAN_TRY(add(0, !all_stated, options, context));
+    for (std::size_t k = 1; k < passes_.size() && !surfaces_.empty(); ++k)
+      TURNSCAN_TRY(add(k, false, options, context));
     if (surfaces_.size() < 2) return {};
     TURNSCAN_ASSIGN(const std::vector<PassMotion> motions,
                     passes::join_passes(surfaces_, {}, context));
-    for (std::size_t i = 1; i < motions.size(); ++i) take(motions[i], which_[i]);
+    for (std::size_t i = 1; i < motions.size(); ++i) take(motions[i], i);
     return {};
   }
 
  private:
-  /// A pass but the first without a surface is not joined, and does not keep others from it.
-  Result<> add(std::size_t k, const ReconstructOptions& options, const RunContext& context) {
+  /// A pass without a surface that is not needed is not joined, and does not keep others from it.
+  Result<> add(std::size_t k, bool needed, const ReconstructOptions& options,
+               const RunContext& context) {
     auto surface = surface_of(passes_[k], options, context);
-    if (!surface && (k == 0 || surface.error().code == ErrorCode::kCancelled)) {
+    if (!surface && (needed || surface.error().code == ErrorCode::kCancelled)) {
       Error error = std::move(surface).error();
       if (error.code != ErrorCode::kCancelled)
         error.message = fmt::format("{}: {}", passes_[k].name, error.message);
@@ -102,12 +119,23 @@ class PassSearch {
     return {};
   }
 
-  void take(const PassMotion& motion, std::size_t k) {
+  void take(const PassMotion& motion, std::size_t surface) {
+    const std::size_t k = which_[surface];
     if (!motion.joined) {
       places_[k].reason = motion.reason;
       return;
     }
     const Pose& first = places_[0].placement->T_object_table;
+    if (places_[k].placement) {
+      const double apart = apart_m(surfaces_[surface], first * motion.T_first_pass,
+                                   places_[k].placement->T_object_table);
+      if (apart > std::max(kDoubt_m, kDoubtSigmas * motion.sigma_m))
+        places_[k].doubt = fmt::format(
+            "{} lies {:.1f} mm from where its surface fits that of the first; it was taken as "
+            "given",
+            passes_[k].name, apart * 1e3);
+      return;
+    }
     PassPlacement placement = placement_of(passes_[k], first * motion.T_first_pass);
     placement.found = FoundMotion{motion.sigma_m, motion.sigma_rad, motion.overlap_m2};
     places_[k].placement = std::move(placement);
@@ -159,14 +187,12 @@ Result<std::vector<PassPlace>> place_passes(const std::vector<PassOfMany>& passe
                                             const ReconstructOptions& options,
                                             const RunContext& context) {
   std::vector<PassPlace> places(passes.size());
-  bool all = true;
   for (std::size_t k = 0; k < passes.size(); ++k) {
     if (k == 0 || passes[k].T_first_pass)
       places[k].placement =
           placement_of(passes[k], passes[k].T_first_pass.value_or(Pose::Identity()));
-    all &= places[k].placement.has_value();
   }
-  if (!all) TURNSCAN_TRY(PassSearch(passes, places).run(options, context));
+  TURNSCAN_TRY(PassSearch(passes, places).run(options, context));
   return places;
 }
 

@@ -32,11 +32,13 @@ Result<std::vector<PassOfMany>> list_passes(const std::vector<RecordingFrames>& 
 struct PassPlace {
   std::optional<PassPlacement> placement;
   std::string reason;
+  std::string doubt;  ///< its surface contradicts what was stated; empty: it does not
 };
 
-/// In the frame of the first pass's table. The surfaces of the passes that are not stated are
-/// measured and brought together with the first's (reconstruction/passes); options: of the
-/// reconstruction. Fails as reconstruct() does for the first pass, and with kCancelled.
+/// In the frame of the first pass's table. The surfaces of the passes are measured and brought
+/// together (reconstruction/passes); what is stated is taken all the same. options: of the
+/// reconstruction. Fails with kCancelled and, unless all are stated, as reconstruct() does for the
+/// first pass.
 Result<std::vector<PassPlace>> place_passes(const std::vector<PassOfMany>& passes,
                                             const ReconstructOptions& options,
                                             const RunContext& context);
