@@ -55,14 +55,44 @@ class Surroundings(harness.TestCase):
         self.assertTrue(lines[0].startswith("index,"))
         self.assertEqual(len(lines), 4)
 
-    def test_what_an_unfinished_recording_needs_is_said(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
-        path = self.dir / "r/recording.json"
+    CAMERA = "virtual:cylinder?sensor=kinect-v1&fps=3&speed=36deg/s&calibration=true"
+    SCAN = ("scan", "--device", CAMERA, "-o", "m.ply", "--no-wait", *harness.FAST)
+
+    def unfinished(self, name="r"):
+        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", name, "--quiet")
+        path = self.dir / name / "recording.json"
         path.write_text(path.read_text().replace('"complete": true', '"complete": false'))
-        args = ("simulate", "builtin:cylinder", "--frames", "3", "-o", "r")
-        self.refused(FAILED, *args, says=("--repair", "--overwrite-unfinished"))
-        self.ok(*args, "--overwrite-unfinished", "--quiet")
-        self.refused(FAILED, *args, "--overwrite-unfinished", says="never overwritten")
+
+    def test_what_an_unfinished_recording_needs_is_said(self):
+        harness.foreign_scan(self.dir / "foreign")
+        for args in (("simulate", "builtin:cylinder", "--frames", "3", "-o", "r"),
+                     ("import", "foreign", "-o", "r", "--depth-unit", "1mm"),
+                     ("capture", "--device", self.CAMERA, "--frames", "3", "-o", "r"),
+                     (*self.SCAN, "--recording", "r")):
+            with self.subTest(command=args[0]):
+                harness.remove(self.dir / "r")
+                self.unfinished()
+                self.refused(FAILED, *args, says=("--repair", "--overwrite-unfinished"))
+                self.ok(*args, "--overwrite-unfinished", "--quiet")
+                self.refused(FAILED, *args, "--overwrite-unfinished", says="never overwritten")
+
+    def test_a_scan_takes_the_name_of_an_unfinished_one(self):
+        self.unfinished("m.recording")
+        self.ok(*self.SCAN, "--overwrite-unfinished", "--quiet")
+        self.assertFalse((self.dir / "m-2.recording").exists())
+        self.ok(*self.SCAN, "--overwrite-unfinished", "--quiet")
+        self.assertTrue((self.dir / "m-2.recording").exists())
+
+    def test_an_unfinished_recording_stays_where_no_new_one_can_be_made(self):
+        self.unfinished()
+        before = self.files()
+        again = ("-o", "r", "--overwrite-unfinished")
+        self.refused(FAILED, "capture", "--device", "replay:none", "--frames", "3", *again)
+        self.refused(FAILED, "import", "none", *again)
+        self.refused(FAILED, "simulate", "none.ply", *again)
+        self.refused(USAGE, "capture", "--device", "replay:r", "--frames", "3", *again, says="would be removed")
+        self.refused(USAGE, "simulate", "r/truth/object.ply", *again, says="would be removed")
+        self.assertEqual(self.files(), before)
 
     def test_control_characters_are_shown(self):
         self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")

@@ -50,6 +50,21 @@ TEST_F(Roles, TwoOutputsAreTwoFiles) {
   EXPECT_FALSE(allowed({}, {at("a.ply"), at("b.ply")}));
 }
 
+TEST_F(Roles, NoInputLiesInAFolderThatIsEmptied) {
+  const auto allowed_beside = [&](const std::string& input, const std::string& removed) {
+    return check_file_roles({{input}, {}, removed}).has_value();
+  };
+  fs::create_symlink(at("rec"), at("link"));
+  EXPECT_FALSE(allowed_beside(at("rec"), at("rec")));
+  EXPECT_FALSE(allowed_beside(at("rec/depth/0.png"), at("rec")));
+  EXPECT_FALSE(allowed_beside(at("rec/depth/0.png"), at("link")));
+  EXPECT_FALSE(allowed_beside(at("link/depth"), at("rec")));
+  EXPECT_TRUE(allowed_beside(at("a.ply"), at("rec")));
+  EXPECT_TRUE(allowed_beside(at("rec"), at("rec/depth/new")));
+  EXPECT_TRUE(allowed_beside("builtin:cube", at("rec")));
+  EXPECT_TRUE(allowed_beside(at("rec"), ""));
+}
+
 TEST_F(Roles, WhatDestroysNothingIsAllowed) {
   EXPECT_TRUE(allowed({at("rec"), at("a.ply"), "builtin:cube", ""}, {at("new.ply"), ""}));
   EXPECT_TRUE(allowed({at("rec")}, {at("a.ply"), at("rec/mesh.ply")}));

@@ -54,6 +54,10 @@ class Session {
   std::string text_;
 };
 
+/// Of --overwrite-unfinished, in every command that makes a recording.
+inline constexpr const char* kOverwriteUnfinishedHelp =
+    "Remove what lies at RECORDING when it is a recording that was not finished";
+
 /// What --help leaves out, given the options beside it.
 struct HelpScope {
   std::vector<std::string> hidden;  ///< long names, without dashes

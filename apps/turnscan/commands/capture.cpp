@@ -20,6 +20,7 @@ class CaptureCommand : public Command {
                              "be given several times: one recording of all of them");
     line.required_option("-o,--out", "RECORDING", out_,
                          "Folder to make for the recording; it must not exist or be empty");
+    line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.option("--report", "FILE.json", report_, "Write what was recorded and lost as JSON");
     declare_capture(line, setup_);
     declare_table(line, setup_);
@@ -27,11 +28,13 @@ class CaptureCommand : public Command {
   }
 
   FileRoles files() const override {
-    return {with_replayed(setup_.devices, setup_.turntable_file), {report_}};
+    return {with_replayed(setup_.devices, setup_.turntable_file),
+            {report_},
+            overwrite_unfinished_ ? out_ : std::string()};
   }
 
   Result<> run(Session& session) override {
-    TURNSCAN_TRY(check_output_folder(out_));
+    TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(check_output_file(report_, ".json"));
     TURNSCAN_ASSIGN(auto source, setup_.open(session.context()));
     TURNSCAN_ASSIGN(std::optional<Motor> motor, setup_.open_motor(session.context()));
@@ -39,6 +42,7 @@ class CaptureCommand : public Command {
     hooks.motor = motor ? &*motor : nullptr;
     hooks.progress = progress_in(session);
     TURNSCAN_TRY(source->start());
+    TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     session.context().begin_phase("record", 1000);
     TURNSCAN_ASSIGN(const CaptureResult result,
                     turnscan::capture(*source, out_, setup_.header, setup_.settings, setup_.options,
@@ -56,6 +60,7 @@ class CaptureCommand : public Command {
  private:
   CaptureSetup setup_;
   std::string out_, report_;
+  bool overwrite_unfinished_ = false;
 };
 
 }  // namespace

@@ -16,18 +16,20 @@ class ImportCommand : public Command {
     line.positional("SOURCE", source_, "Data set to read: a folder, a .conf or a .json file");
     line.required_option("-o,--out", "RECORDING", out_,
                          "Folder to make for the recording; it must not exist or be empty");
-    line.flag("--overwrite-unfinished", overwrite_unfinished_,
-              "Remove what lies at RECORDING when it is a recording that was not finished");
+    line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.allow_config();
     line.group("import", "Import", describe(options_));
   }
 
-  FileRoles files() const override { return {{source_}, {}}; }
+  FileRoles files() const override {
+    return {{source_}, {}, overwrite_unfinished_ ? out_ : std::string()};
+  }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(options_.check());
-    TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
+    TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_ASSIGN(const auto sequence, open_foreign(source_, options_));
+    TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));

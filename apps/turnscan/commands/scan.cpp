@@ -19,6 +19,8 @@ class ScanCommand : public Command {
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm");
     line.option("--recording", "FOLDER", request_.recording,
                 "Folder to make for the recording, by default beside the mesh. It is kept");
+    line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
+              "Remove the recording that lies there when it was not finished");
     line.option("--report", "FILE.json", request_.report,
                 "Write what was recorded and reconstructed as JSON");
     line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
@@ -31,7 +33,8 @@ class ScanCommand : public Command {
 
   FileRoles files() const override {
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file),
-            {request_.mesh, request_.report}};
+            {request_.mesh, request_.report},
+            request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }
 
   HelpScope help_scope() const override { return stages_help_scope(request_.reconstruct); }

@@ -25,8 +25,7 @@ class SimulateCommand : public Command {
                     kEmptyTable));
     line.option("-o,--out", "RECORDING", request_.recording,
                 "Folder to make for the recording; it must not exist or be empty");
-    line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
-              "Remove what lies at RECORDING when it is a recording that was not finished");
+    line.flag("--overwrite-unfinished", request_.overwrite_unfinished, kOverwriteUnfinishedHelp);
     line.repeatable(
         "--scanner", "SCANNER", scanners_,
         fmt::format("A preset ({}) or a file FILE.toml; may be given several times. What of its "
@@ -57,6 +56,7 @@ class SimulateCommand : public Command {
 
   FileRoles files() const override {
     FileRoles files{{object_, request_.scene.object}, {request_.coverage, request_.report}};
+    if (request_.overwrite_unfinished) files.removed = request_.recording;
     if (!request_.coverage.empty()) files.outputs.push_back(coverage_json_file(request_));
     for (const std::string& text : scanners_)
       files.inputs.push_back(text.substr(0, text.find(',')));

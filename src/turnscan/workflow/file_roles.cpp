@@ -47,6 +47,20 @@ Result<> check_outputs_differ(const std::vector<std::string>& outputs) {
   return {};
 }
 
+/// An input that holds the folder is read beside it (a data set, its recording within it).
+Result<> check_input_stays(const std::string& input, const std::string& removed) {
+  std::error_code error;
+  if (input.empty() || removed.empty() || !fs::exists(removed, error)) return {};
+  const fs::path folder = fs::canonical(removed, error);
+  for (fs::path path = fs::canonical(input, error); !error; path = path.parent_path()) {
+    if (path == folder)
+      return fail_at(removed, ErrorCode::kInvalidOption,
+                     "it would be removed, but {} is read from it; choose another name", input);
+    if (path == path.parent_path()) break;
+  }
+  return {};
+}
+
 /// Looks into folders only when an output exists that they could hold.
 class InputSearch {
  public:
@@ -85,7 +99,10 @@ class InputSearch {
 Result<> check_file_roles(const FileRoles& roles) {
   TURNSCAN_TRY(check_outputs_differ(roles.outputs));
   const InputSearch search(roles.outputs);
-  for (const std::string& input : roles.inputs) TURNSCAN_TRY(search.check(input));
+  for (const std::string& input : roles.inputs) {
+    TURNSCAN_TRY(search.check(input));
+    TURNSCAN_TRY(check_input_stays(input, roles.removed));
+  }
   return {};
 }
 

@@ -57,15 +57,17 @@ Result<> check_output_file(const std::string& path, const std::string& ending) {
   return check_writable(folder, path);
 }
 
-Result<> check_output_folder(const std::string& path) {
+Result<> check_output_folder(const std::string& path, bool overwrite_unfinished) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) {
-    if (is_unfinished_recording(path))
+    if (is_unfinished_recording(path)) {
+      if (overwrite_unfinished) return check_writable(path, path);
       return fail_at(path, ErrorCode::kAlreadyExists,
-                     "an unfinished recording lies there, whose program was ended; finish it with "
-                     "'turnscan info --repair', or make it again (import and simulate: with "
-                     "--overwrite-unfinished), or choose another name");
+                     "an unfinished recording lies there, whose program was ended; keep what it "
+                     "has with 'turnscan info --repair', or make it again with "
+                     "--overwrite-unfinished, or choose another name");
+    }
     if (!fs::is_empty(path, error) || error)
       return fail_at(path, ErrorCode::kAlreadyExists,
                      "the folder has content and is never overwritten; choose another name");

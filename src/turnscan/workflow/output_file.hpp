@@ -13,11 +13,12 @@ namespace turnscan {
 Result<> check_output_file(const std::string& path, const std::string& ending);
 
 /// Succeeds when a folder can be made there: nothing has the name, or it is an empty folder. Fails
-/// with kAlreadyExists (of an unfinished recording it says how to go on) or kIo.
-Result<> check_output_folder(const std::string& path);
+/// with kAlreadyExists (of an unfinished recording it says how to go on) or kIo. With
+/// overwrite_unfinished an unfinished recording may lie there.
+Result<> check_output_folder(const std::string& path, bool overwrite_unfinished = false);
 
-/// The same for a recording that can be made again: with overwrite_unfinished one that lies there
-/// and was not finished is removed first.
+/// The same, and with overwrite_unfinished it removes the unfinished recording that lies there: not
+/// before all else that could fail has been done.
 Result<> clear_output_folder(const std::string& path, bool overwrite_unfinished);
 
 /// The path with a suffix before its ending: "dir/bear.ply", "-2" -> "dir/bear-2.ply".

@@ -12,6 +12,7 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/unfinished.hpp>
 
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/output_file.hpp>
@@ -36,15 +37,6 @@ double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
-
-/// "dir/doll.3mf" -> "dir/doll.recording", or the next free "dir/doll-2.recording"
-std::string free_recording(const std::string& mesh) {
-  const std::string stem = mesh.substr(0, mesh.size() - ending_of(mesh).size());
-  std::string name = stem + ".recording";
-  std::error_code error;
-  for (int i = 2; fs::exists(name, error); ++i) name = fmt::format("{}-{}.recording", stem, i);
-  return name;
 }
 
 nlohmann::ordered_json ahead_json(const ScanAhead::Outcome& ahead) {
@@ -99,9 +91,8 @@ class ScanRun {
   Result<> check_files() {
     TURNSCAN_TRY(check_mesh_file(request_.mesh));
     TURNSCAN_TRY(check_output_file(request_.report, ".json"));
-    out_.recording =
-        request_.recording.empty() ? free_recording(request_.mesh) : request_.recording;
-    return check_output_folder(out_.recording);
+    out_.recording = recording_of(request_);
+    return check_output_folder(out_.recording, request_.overwrite_unfinished);
   }
 
   Result<> wait(FrameSource& source) {
@@ -142,6 +133,7 @@ class ScanRun {
         return {};
       };
     }
+    TURNSCAN_TRY(clear_output_folder(out_.recording, request_.overwrite_unfinished));
     context_.begin_phase("record", 1000);
     auto result = capture(source, out_.recording, setup().header, setup().settings, setup().options,
                           hooks, context_);
@@ -217,6 +209,19 @@ OptionTable describe(AheadOptions& options) {
                "Where nothing is known of the turntable: begin to calibrate from motion and to "
                "reconstruct when this share of the recording is there. auto: at its end");
   return table;
+}
+
+std::string recording_of(const ScanRequest& request) {
+  if (!request.recording.empty()) return request.recording;
+  const std::string& mesh = request.mesh;
+  const std::string stem = mesh.substr(0, mesh.size() - ending_of(mesh).size());
+  std::string name = stem + ".recording";
+  std::error_code error;
+  for (int i = 2; fs::exists(name, error); ++i) {
+    if (request.overwrite_unfinished && is_unfinished_recording(name)) break;
+    name = fmt::format("{}-{}.recording", stem, i);
+  }
+  return name;
 }
 
 Result<ScanOutcome> run_scan(ScanRequest request, const ScanHooks& hooks,

@@ -28,7 +28,13 @@ struct ScanRequest {
   std::string report;       ///< .json; empty: none
   bool wait = true;         ///< until something stands on the platter, where that can be seen
   bool allow_open = false;  ///< a mesh that is not watertight is no failure
+  bool overwrite_unfinished = false;  ///< an unfinished recording there is removed
 };
+
+/// The folder that it is to make: "dir/doll.3mf" -> "dir/doll.recording", or the next free
+/// "dir/doll-2.recording", where it is not given. With overwrite_unfinished one that is unfinished
+/// counts as free.
+std::string recording_of(const ScanRequest& request);
 
 /// Called from the thread that records.
 struct ScanHooks {

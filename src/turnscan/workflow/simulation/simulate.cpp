@@ -146,7 +146,8 @@ std::string coverage_json_file(const SimulateRequest& request) {
 Result<> check_outputs(const SimulateRequest& request) {
   if (request.recording.empty() && request.samples)
     return fail(ErrorCode::kInvalidOption, "--samples: they go into a recording; give it --out");
-  if (!request.recording.empty()) TURNSCAN_TRY(check_output_folder(request.recording));
+  if (!request.recording.empty())
+    TURNSCAN_TRY(check_output_folder(request.recording, request.overwrite_unfinished));
   TURNSCAN_TRY(check_output_file(request.report, ".json"));
   TURNSCAN_TRY(check_output_file(request.coverage, ".ply"));
   if (request.coverage.empty()) return {};
@@ -154,13 +155,13 @@ Result<> check_outputs(const SimulateRequest& request) {
 }
 
 Result<Simulation> simulate(const SimulateRequest& request, const RunContext& context) {
-  if (!request.recording.empty())
-    TURNSCAN_TRY(clear_output_folder(request.recording, request.overwrite_unfinished));
   TURNSCAN_TRY(check_outputs(request));
   TURNSCAN_ASSIGN(Simulation simulation, prepare_simulation(request.scene, context));
   const auto begin = std::chrono::steady_clock::now();
-  if (!request.recording.empty())
+  if (!request.recording.empty()) {
+    TURNSCAN_TRY(clear_output_folder(request.recording, request.overwrite_unfinished));
     TURNSCAN_TRY(record_simulation(simulation, request.recording, request.samples, {}, context));
+  }
   simulation.record_s = seconds_since(begin);
   if (!request.coverage.empty()) {
     TURNSCAN_ASSIGN(simulation.coverage, cover(simulation, request, context));
