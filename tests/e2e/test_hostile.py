@@ -39,7 +39,14 @@ class OutputOverInput(harness.TestCase):
     def test_two_outputs_into_one_file(self):
         self.refused(USAGE, "reconstruct", "rec", "-o", "a.ply", "--save-stage", "fitted=a.ply",
                      says="two outputs")
+        self.refused(USAGE, "reconstruct", "rec", "-o", "a.ply", "--save-stage", "fitted=a-1.ply",
+                     says=("two outputs", "several objects"))
         self.assertFalse((self.dir / "a.ply").exists())
+
+    def test_the_second_object_over_a_scan_of_the_recording(self):
+        (self.dir / "rec/points").mkdir()
+        (self.dir / "rec/points/view-2.ply").write_text(ply_cube(0.1))
+        self.unchanged("rec/points/view-2.ply", "reconstruct", "rec", "-o", "rec/points/view.ply")
 
 
 class Surroundings(harness.TestCase):

@@ -50,9 +50,28 @@ TEST_F(Roles, TwoOutputsAreTwoFiles) {
   EXPECT_FALSE(allowed({}, {at("a.ply"), at("b.ply")}));
 }
 
+TEST_F(Roles, FilesOfSeveralObjectsAreOutputs) {
+  const auto allowed_numbered = [&](const char* input, const char* mesh, const char* other) {
+    return check_file_roles({{at(input)}, {at(mesh), at(other)}, at(mesh)}).has_value();
+  };
+  folder.put("rec/scan-12.ply", "x");
+  folder.put("b-1.ply", "x");
+  fs::create_hard_link(at("b-1.ply"), at("rec/hard.ply"));
+  EXPECT_FALSE(allowed_numbered("rec", "rec/scan.ply", "r.json"));
+  EXPECT_FALSE(allowed_numbered("rec", "b.ply", "r.json"));
+  EXPECT_FALSE(allowed_numbered("a.ply", "new.ply", "new-3.ply"));
+  EXPECT_FALSE(allowed_numbered("a.ply", "new.ply", "rec/../new-3.ply"));
+  EXPECT_FALSE(allowed_numbered("a.ply", "b.ply", "rec/hard.ply"));
+  EXPECT_TRUE(allowed_numbered("rec", "rec/scan.glb", "r.json"));
+  EXPECT_TRUE(allowed_numbered("rec", "rec/sca.ply", "rec/sca-fitted.ply"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "new.ply", "new-03.ply"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "new.ply", "rec/new-3.ply"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "b.ply", "c.json"));
+}
+
 TEST_F(Roles, NoInputLiesInAFolderThatIsEmptied) {
   const auto allowed_beside = [&](const std::string& input, const std::string& removed) {
-    return check_file_roles({{input}, {}, removed}).has_value();
+    return check_file_roles({{input}, {}, {}, removed}).has_value();
   };
   fs::create_symlink(at("rec"), at("link"));
   EXPECT_FALSE(allowed_beside(at("rec"), at("rec")));

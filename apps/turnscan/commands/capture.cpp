@@ -30,6 +30,7 @@ class CaptureCommand : public Command {
   FileRoles files() const override {
     return {with_replayed(setup_.devices, setup_.turntable_file),
             {report_},
+            {},
             overwrite_unfinished_ ? out_ : std::string()};
   }
 

@@ -22,7 +22,7 @@ class ImportCommand : public Command {
   }
 
   FileRoles files() const override {
-    return {{source_}, {}, overwrite_unfinished_ ? out_ : std::string()};
+    return {{source_}, {}, {}, overwrite_unfinished_ ? out_ : std::string()};
   }
 
   Result<> run(Session& session) override {

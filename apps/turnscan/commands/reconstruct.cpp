@@ -54,7 +54,7 @@ class ReconstructCommand : public Command {
   }
 
   FileRoles files() const override {
-    FileRoles files{recordings_, {files_.mesh, files_.report}};
+    FileRoles files{recordings_, {files_.mesh, files_.report}, files_.mesh};
     files.inputs.push_back(request_.turntable);
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
     for (const std::string& text : pass_poses_)

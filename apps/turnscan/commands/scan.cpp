@@ -34,6 +34,7 @@ class ScanCommand : public Command {
   FileRoles files() const override {
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file),
             {request_.mesh, request_.report},
+            request_.mesh,
             request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }
 

@@ -2,10 +2,13 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <turnscan/workflow/mesh_output.hpp>
 #include <utility>
 
 namespace turnscan {
@@ -28,6 +31,51 @@ std::string name_of_file(const std::string& path) {
   std::error_code error;
   const fs::path full = fs::weakly_canonical(path, error);
   return error ? path : full.string();
+}
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.front() != '0' &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether a file name is OUT-1, OUT-2, ... of this one, as write_objects() numbers them.
+bool is_numbered(const fs::path& name, const fs::path& out) {
+  const std::string stem = name.stem().string(), begin = out.stem().string() + "-";
+  return name.extension() == out.extension() && stem.starts_with(begin) &&
+         is_number(std::string_view(stem).substr(begin.size()));
+}
+
+/// Those that lie there already.
+std::vector<std::string> numbered_files(const std::string& out) {
+  std::vector<std::string> files;
+  if (!numbers_objects(out)) return files;
+  const fs::path parent = fs::path(out).parent_path();
+  std::error_code error;
+  for (fs::directory_iterator file(parent.empty() ? "." : parent, error), end;
+       !error && file != end; file.increment(error))
+    if (is_numbered(file->path().filename(), out)) files.push_back(file->path().string());
+  return files;
+}
+
+/// Of an output by its own name, and of what lies there already by any name.
+Result<> check_numbered_differ(const FileRoles& roles) {
+  if (!numbers_objects(roles.numbered)) return {};
+  std::set<FileId> ids;
+  for (const std::string& file : numbered_files(roles.numbered))
+    if (const auto id = id_of(file)) ids.insert(*id);
+  const fs::path out = name_of_file(roles.numbered);
+  for (const std::string& output : roles.outputs) {
+    if (output.empty() || output == roles.numbered) continue;
+    const auto id = id_of(output);
+    const fs::path name = name_of_file(output);
+    if ((name.parent_path() == out.parent_path() && is_numbered(name.filename(), out)) ||
+        (id && ids.count(*id) > 0))
+      return fail_at(output, ErrorCode::kInvalidOption,
+                     "two outputs would be written to this file, as several objects are numbered "
+                     "after {}; give them different names",
+                     roles.numbered);
+  }
+  return {};
 }
 
 Result<> check_outputs_differ(const std::vector<std::string>& outputs) {
@@ -64,9 +112,9 @@ Result<> check_input_stays(const std::string& input, const std::string& removed)
 /// Looks into folders only when an output exists that they could hold.
 class InputSearch {
  public:
-  explicit InputSearch(const std::vector<std::string>& outputs) {
-    for (const std::string& output : outputs)
-      if (const auto id = id_of(output)) outputs_.emplace(*id, output);
+  explicit InputSearch(const FileRoles& roles) {
+    add(roles.outputs);
+    add(numbered_files(roles.numbered));
   }
 
   Result<> check(const std::string& input) const {
@@ -82,6 +130,11 @@ class InputSearch {
   }
 
  private:
+  void add(const std::vector<std::string>& outputs) {
+    for (const std::string& output : outputs)
+      if (const auto id = id_of(output)) outputs_.emplace(*id, output);
+  }
+
   Result<> check_file(const fs::path& file, const std::string& input) const {
     const auto id = id_of(file);
     const auto output = id ? outputs_.find(*id) : outputs_.end();
@@ -98,7 +151,8 @@ class InputSearch {
 
 Result<> check_file_roles(const FileRoles& roles) {
   TURNSCAN_TRY(check_outputs_differ(roles.outputs));
-  const InputSearch search(roles.outputs);
+  TURNSCAN_TRY(check_numbered_differ(roles));
+  const InputSearch search(roles);
   for (const std::string& input : roles.inputs) {
     TURNSCAN_TRY(search.check(input));
     TURNSCAN_TRY(check_input_stays(input, roles.removed));

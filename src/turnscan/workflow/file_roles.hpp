@@ -12,11 +12,14 @@ namespace turnscan {
 struct FileRoles {
   std::vector<std::string> inputs;   ///< a folder stands for every file in it
   std::vector<std::string> outputs;  ///< none is a folder
-  std::string removed{};             ///< a folder that is emptied before the work; may be empty
+  std::string numbered{};  ///< one of the outputs, of which several objects make OUT-1, OUT-2, ...;
+                           ///< may be empty
+  std::string removed{};   ///< a folder that is emptied before the work; may be empty
 };
 
 /// Fails with kInvalidOption when an output is an input, two outputs are one file, by whatever
-/// names (links, device and inode), or an input lies in the folder that is emptied.
+/// names (links, device and inode; those of several objects included), or an input lies in the
+/// folder that is emptied.
 Result<> check_file_roles(const FileRoles& roles);
 
 }  // namespace turnscan

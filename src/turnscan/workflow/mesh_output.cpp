@@ -25,11 +25,15 @@ Result<> check_watertight(const Reconstruction& r) {
   return {};
 }
 
-Result<std::vector<std::string>> write_objects(const std::string& path, const Reconstruction& r) {
+bool numbers_objects(const std::string& path) {
   const std::string ending = ending_of(path);
+  return !path.empty() && ending != ".3mf" && ending != ".glb";
+}
+
+Result<std::vector<std::string>> write_objects(const std::string& path, const Reconstruction& r) {
   std::vector<TriangleMesh> meshes;
   for (const ObjectResult& object : r.objects) meshes.push_back(object.mesh);
-  if (meshes.size() == 1 || ending == ".3mf" || ending == ".glb") {
+  if (meshes.size() == 1 || !numbers_objects(path)) {
     TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence)
                                     : write_meshes(path, meshes));
     return std::vector<std::string>{path};

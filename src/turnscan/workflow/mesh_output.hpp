@@ -15,6 +15,11 @@ Result<> check_mesh_file(const std::string& path);
 /// naming the first object that is not and why.
 Result<> check_watertight(const Reconstruction& reconstruction);
 
+/// Whether write_objects() gives every object a file of its own when there are several: OUT-1,
+/// OUT-2,
+/// ... before the ending.
+bool numbers_objects(const std::string& path);
+
 /// Writes the meshes: all objects into one 3MF or GLB file, else one file an object, numbered -1,
 /// -2, ... before the ending when there are several. Returns the names of the files. Fails as
 /// write_mesh() does; files that were written before stay.
