@@ -10,7 +10,7 @@ import subprocess
 import time
 
 import harness
-from harness import FAILED, USAGE, png16, ply_cube, shared_recording, start
+from harness import FAILED, USAGE, png16, ply_cube, run, shared_recording, start
 
 
 class OutputOverInput(harness.TestCase):
@@ -115,13 +115,82 @@ class Surroundings(harness.TestCase):
         (self.dir / "-m.ply").write_text(ply_cube(0.1))
         self.assertIn("triangles", self.ok("info", "--unit", "m", "--", "-m.ply").stdout)
 
-    def test_what_may_not_be_read_is_not_missing(self):
-        if os.geteuid() == 0:
-            self.skipTest("the superuser may read everything")
+
+class Unreadable(harness.TestCase):
+    """What may not be read, or is something else, is not called missing. The superuser may read all, so
+    that the tests let nobody try."""
+
+    NOBODY = 65534
+
+    def setUp(self):
+        super().setUp()
+        self.dir.chmod(0o755)
+        self.more = {"user": self.NOBODY, "group": self.NOBODY} if os.geteuid() == 0 else {}
+        if self.more and run("--version", cwd="/", **self.more).returncode != 0:
+            self.skipTest("the program lies where only the superuser may start it")
         (self.dir / "closed").mkdir()
-        (self.dir / "closed/m.ply").write_text(ply_cube(0.1))
+        (self.dir / "m.ply").write_text(ply_cube(0.1))
+        shutil.copytree(shared_recording(), self.dir / "rec")
+
+    def not_missing(self, *args, says="ermission"):
+        result = run(*args, "--quiet", cwd=self.dir, **self.more)
+        self.assertIn(result.returncode, (FAILED, USAGE), result.stderr)
+        self.assert_one_line_error(result.stderr, args)
+        shown = result.stderr
+        self.assertIn(says, shown)
+        for word in ("no such", "missing", "does not exist", "not found", "no recording"):
+            self.assertNotIn(word, shown)
+
+    def everything_that_reads(self, folder):
+        yield "info", f"{folder}/rec"
+        yield "reconstruct", f"{folder}/rec", "-o", "out/m.ply"
+        yield "reconstruct", "rec", "-o", "out/m.ply", "--turntable", f"{folder}/t.json"
+        yield "calibrate", f"{folder}/rec", "--from-motion"
+        yield "calibrate", "rec", "--points", f"{folder}/t.csv"
+        yield "evaluate", f"{folder}/m.ply", "--reference", "m.ply"
+        yield "render", f"{folder}/m.ply", "-o", "out/m.png"
+        yield "simulate", f"{folder}/m.ply", "--unit", "m", "-o", "out/r"
+        yield "simulate", "builtin:cylinder", "--scanner", f"{folder}/s.toml", "-o", "out/r"
+        yield "simulate", "--scene", f"{folder}/s.toml", "-o", "out/r"
+        yield "capture", "--device", f"replay:{folder}/rec", "-o", "out/r"
+        yield "capture", "--device", "virtual:cylinder", "--turntable", f"{folder}/t.json", "-o", "out/r"
+        yield "reconstruct", "rec", "-o", "out/m.ply", "--config", f"{folder}/s.toml"
+
+    def try_all(self, folder, **more):
+        (self.dir / "out").mkdir()
+        (self.dir / "out").chmod(0o777)
+        for args in self.everything_that_reads(folder):
+            with self.subTest(args=args):
+                self.not_missing(*args, **more)
+
+    def test_in_a_folder_that_is_closed(self):
         (self.dir / "closed").chmod(0)
-        self.refused(FAILED, "info", "closed/m.ply", says="permission")
+        self.not_missing("info", "closed/m.ply")
+        self.not_missing("import", "closed/data", "-o", "out/r")
+        self.try_all("closed")
+
+    def test_a_file_that_is_closed(self):
+        folder = self.dir / "closed"
+        shutil.copytree(self.dir / "rec", folder / "rec")
+        for name in ("m.ply", "s.toml", "t.json", "t.csv"):
+            (folder / name).write_text("")
+        for path in folder.rglob("*"):
+            if path.is_file():
+                path.chmod(0)
+        self.try_all("closed")
+
+    def test_a_folder_where_a_file_belongs(self):
+        for name in ("m.ply", "s.toml", "t.json", "t.csv", "rec/recording.json"):
+            (self.dir / "closed" / name).mkdir(parents=True)
+        self.try_all("closed", says="")
+
+    def test_an_output_in_a_folder_that_is_closed(self):
+        (self.dir / "closed").chmod(0)
+        for args in (("-o", "closed/m.ply"), ("-o", "closed/below/m.ply"), ("-o", "m.ply/m.ply"),
+                     ("-o", "new.ply", "--report", "closed/r.json"),
+                     ("-o", "new.ply", "--report", "closed/below/r.json")):
+            with self.subTest(args=args):
+                self.not_missing("reconstruct", "rec", *args, says="")
 
 
 class FarAway(harness.TestCase):

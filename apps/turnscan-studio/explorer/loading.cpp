@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/summary.hpp>
@@ -105,9 +106,8 @@ Result<ModelDataPtr> recording_model(const std::string& folder, const RunContext
 
 Result<NamedModels> load_models(const std::string& path, const RunContext& context) {
   const fs::path file(path);
+  TURNSCAN_TRY(file::check_exists(file, "file or folder"));
   std::error_code error;
-  if (!fs::exists(file, error))
-    return fail_at(path, ErrorCode::kNotFound, "there is no such file or folder; check the path");
   const QString name = QString::fromStdString(file.stem().string());
   const bool folder = fs::is_directory(file, error);
   if (folder || file.filename() == "recording.json") {

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/repair.hpp>
@@ -34,14 +35,8 @@ class InfoCommand : public Command {
 
   Result<> run(Session& session) override {
     const std::filesystem::path path(path_);
+    TURNSCAN_TRY(file::check_exists(path, "file or folder"));
     std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::none)
-      return fail_at(path_, ErrorCode::kIo, "it cannot be looked at ({}); check permissions",
-                     error.message());
-    if (!std::filesystem::exists(status))
-      return fail_at(path_, ErrorCode::kNotFound,
-                     "there is no such file or folder; check the path");
     if (std::filesystem::is_directory(path, error)) return about_recording(path, session);
     if (path.filename() == "recording.json") return about_recording(path.parent_path(), session);
     if (repair_)

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <turnscan/simulator/toml_options.hpp>
 
 namespace turnscan::scene {
@@ -73,7 +75,9 @@ Result<toml::table> read_toml(const fs::path& path) {
                    "the file is longer than 1 MB, which no such file is; check the path");
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) return fail_at(path.string(), ErrorCode::kIo, "the file cannot be read");
+  if (!stream)
+    return fail_at(path.string(), ErrorCode::kIo, "the file cannot be read ({}); check permissions",
+                   std::generic_category().message(errno));
   return parse_toml(text, path);
 }
 

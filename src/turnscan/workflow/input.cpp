@@ -1,5 +1,6 @@
 #include <turnscan/workflow/input.hpp>
 
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/recording/recording.hpp>
 
 namespace turnscan {
@@ -13,9 +14,10 @@ constexpr const char* kRecordingFile = "recording.json";
 }  // namespace
 
 Result<Input> open_input(const fs::path& path, const ImportOptions& options) {
-  std::error_code error;
+  TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   const bool named = path.filename() == kRecordingFile;
-  if (!named && !fs::exists(path / kRecordingFile, error)) {
+  TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / kRecordingFile));
+  if (!named && !recording_there) {
     TURNSCAN_ASSIGN(auto frames, open_foreign(path, options));
     return Input{std::move(frames), {}};
   }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/recording/unfinished.hpp>
 
 namespace turnscan {
@@ -51,8 +52,12 @@ Result<> check_output_file(const std::string& path, const std::string& ending) {
     return fail_at(path, ErrorCode::kInvalidOption, "there is a folder of that name; rename it");
   if (special) return {};
   const fs::path folder = folder_of(path);
-  if (!fs::is_directory(folder, error))
+  TURNSCAN_ASSIGN(const bool there, file::is_there(folder));
+  if (!there)
     return fail_at(path, ErrorCode::kNotFound, "the folder {} does not exist; make it first",
+                   folder.string());
+  if (!fs::is_directory(folder, error))
+    return fail_at(path, ErrorCode::kIo, "{} is not a folder; choose another place",
                    folder.string());
   return check_writable(folder, path);
 }

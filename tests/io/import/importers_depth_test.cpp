@@ -220,6 +220,30 @@ TEST(Tum, WithoutGroundTruthFramesHaveTimesOnly) {
   EXPECT_FALSE(sequence->frames()[0].T_table_sensor);
 }
 
+/// Put where a file was, it fails for the superuser, too.
+void make_unreadable(const fs::path& path) {
+  fs::remove(path);
+  fs::create_symlink(path.filename(), path);
+}
+
+TEST(Tum, ListsThatCannotBeReadAreNotMissing) {
+  for (const char* name : {"groundtruth.txt", "rgb.txt", "depth/c.png"}) {
+    const TempFolder folder;
+    put_tum(folder);
+    make_unreadable(folder / name);
+    EXPECT_EQ(refusal(folder.path(), with_intrinsics()).code, ErrorCode::kIo) << name;
+  }
+}
+
+TEST(FramePose, APoseThatCannotBeReadIsNotMissing) {
+  for (const char* name : {"frame-000010.pose.txt", "camera-intrinsics.txt"}) {
+    const TempFolder folder;
+    put_frame_pose(folder);
+    make_unreadable(folder / name);
+    EXPECT_EQ(refusal(folder.path(), with_depth_unit()).code, ErrorCode::kIo) << name;
+  }
+}
+
 TEST(Tum, IntrinsicsAreKnownByTheFoldersName) {
   const TempFolder parent;
   const fs::path folder = parent / "rgbd_dataset_freiburg2_desk";

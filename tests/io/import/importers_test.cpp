@@ -58,6 +58,17 @@ TEST(Import, NamesTheLayoutsWhenItRecognisesNone) {
   EXPECT_EQ(refusal(folder / "nothing").code, ErrorCode::kNotFound);
 }
 
+TEST(Import, WhatCannotBeLookedAtIsNotMissing) {
+  const TempFolder folder;
+  fs::create_symlink("loop", folder / "loop");  // fails for the superuser, too
+  EXPECT_EQ(refusal(folder / "loop").code, ErrorCode::kIo);
+  folder.put("a.conf", "bmesh loop 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(refusal(folder.path()).code, ErrorCode::kIo);
+  fs::create_directory(folder / "scans");
+  folder.put("a.conf", "bmesh scans 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(refusal(folder.path()).message, HasSubstr("not a regular file"));
+}
+
 TEST(Import, ARecordingNeedsNoImport) {
   const TempFolder folder;
   folder.put("recording.json", "{}");

@@ -25,6 +25,16 @@ TEST(JsonBytes, BracketsWithinTextsDoNotNest) {
   EXPECT_TRUE(parse_json("{\"a\": \"" + std::string(1000, '[') + "\\\"{\"}"));
 }
 
+TEST(JsonBytes, NothingFollowsAZeroByte) {
+  using namespace std::string_literals;
+  for (const std::string& text : {"{}\0\0"s, "{}\0{\"a\": 1}"s, "{\0}"s}) {
+    const auto json = parse_json(text);
+    ASSERT_FALSE(json);
+    EXPECT_EQ(json.error().code, ErrorCode::kFormat);
+  }
+  EXPECT_TRUE(parse_json("{\"a\": \"\\u0000\"}"));
+}
+
 TEST(JsonBytes, AMemberIsSetAndAllElseStays) {
   EXPECT_EQ(with_json_member("{\"a\": 1,\n \"b\" : false }\n", "b", "true"),
             "{\"a\": 1,\n \"b\" : true }\n");

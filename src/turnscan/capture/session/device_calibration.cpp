@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/table_frame.hpp>
@@ -84,8 +85,8 @@ Result<fs::path> kept_calibration_file(const std::string& identity) {
 
 Result<std::optional<Calibration>> kept_calibration(const std::string& identity) {
   TURNSCAN_ASSIGN(const fs::path file, kept_calibration_file(identity));
-  std::error_code error;
-  if (!fs::exists(file, error)) return std::optional<Calibration>();
+  TURNSCAN_ASSIGN(const bool there, file::is_there(file));
+  if (!there) return std::optional<Calibration>();
   TURNSCAN_ASSIGN(Calibration calibration, read_calibration(file));
   return std::optional<Calibration>(std::move(calibration));
 }

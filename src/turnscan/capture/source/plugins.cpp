@@ -31,22 +31,30 @@ std::string name_of(const fs::path& file) {
   return name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size());
 }
 
-/// Files by the name of their driver; the first folder that has one counts.
-std::map<std::string, fs::path> plugin_files() {
-  std::map<std::string, fs::path> files;
+struct PluginFiles {
+  std::map<std::string, fs::path> by_name;  ///< of the driver; the first folder that has one counts
+  std::string problem;                      ///< of a folder that cannot be listed
+};
+
+PluginFiles plugin_files() {
+  PluginFiles files;
   for (const fs::path& folder : plugin_folders()) {
     std::error_code error;
     for (fs::directory_iterator file(folder, error), end; !error && file != end;
          file.increment(error))
       if (const std::string name = name_of(file->path()); !name.empty())
-        files.emplace(name, file->path());
+        files.by_name.emplace(name, file->path());
+    if (error && error != std::errc::no_such_file_or_directory && files.problem.empty())
+      files.problem =
+          fmt::format("the folder {} cannot be listed ({})", folder.string(), error.message());
   }
   return files;
 }
 
 /// What to do about the dynamic loader's message.
 std::string load_failure(const std::string& scheme, std::string why) {
-  constexpr std::string_view kMissing = ": cannot open shared object file";
+  constexpr std::string_view kMissing =
+      ": cannot open shared object file: No such file or directory";
   if (const std::size_t at = why.find(kMissing); at != std::string::npos) {
     const auto package = packages().find(scheme);
     return fmt::format("its library {} is not installed; {}", why.substr(0, at),
@@ -110,10 +118,12 @@ Result<const turnscan_plugin*> load_plugin(const std::string& scheme) {
   const std::lock_guard lock(mutex);
   TURNSCAN_TRY(process::folders_of_variable("TURNSCAN_PLUGINS"));
   const auto files = plugin_files();
-  const auto file = files.find(scheme);
-  if (file != files.end()) return load_file(scheme, file->second);
+  const auto file = files.by_name.find(scheme);
+  if (file != files.by_name.end()) return load_file(scheme, file->second);
+  if (!files.problem.empty())
+    return fail(ErrorCode::kIo, "device '{}:': {}; check permissions", scheme, files.problem);
   std::string known = "virtual:, replay:";
-  for (const auto& [name, path] : files) known += ", " + name + ":";
+  for (const auto& [name, path] : files.by_name) known += ", " + name + ":";
   return fail(ErrorCode::kNotFound,
               "device '{}:': there is no driver of that name; use one of {} (docs/devices.md says "
               "how others are added)",
@@ -141,7 +151,7 @@ std::vector<fs::path> plugin_folders() {
 
 std::vector<DriverState> list_drivers() {
   std::vector<DriverState> drivers;
-  for (const auto& [name, file] : plugin_files()) {
+  for (const auto& [name, file] : plugin_files().by_name) {
     DriverState state;
     state.name = name;
     state.file = file;

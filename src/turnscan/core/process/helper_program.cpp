@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <system_error>
 #include <turnscan/core/process/helper_program.hpp>
 #include <turnscan/core/process/program_folders.hpp>
 
@@ -25,16 +27,25 @@ constexpr bool kSanitized = false;
 constexpr bool kSanitized = false;
 #endif
 
-bool is_program(const fs::path& path) {
+/// Fails where there is one that may not be run, or where that cannot be told.
+Result<bool> is_program(const fs::path& path) {
   std::error_code error;
-  return fs::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none)
+    return fail_at(path.string(), ErrorCode::kIo,
+                   "the program cannot be looked at ({}); check permissions", error.message());
+  if (!fs::is_regular_file(status)) return false;
+  if (::access(path.c_str(), X_OK) == 0) return true;
+  return fail_at(path.string(), ErrorCode::kIo, "the program cannot be run ({}); check permissions",
+                 std::generic_category().message(errno));
 }
 
 /// The program in the first of the folders that has it. Fails when it is not to be trusted there.
 Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
                                         const std::string& name) {
   for (const fs::path& folder : folders) {
-    if (!is_program(folder / name)) continue;
+    TURNSCAN_ASSIGN(const bool there, is_program(folder / name));
+    if (!there) continue;
     TURNSCAN_TRY(check_trusted(folder / name));
     return std::optional<fs::path>(folder / name);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/iai_kinect2.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -96,11 +97,6 @@ Result<double> parse_shift(std::string_view text) {
   return shift_mm * 1e-3;
 }
 
-bool is_there(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::exists(path, error);
-}
-
 /// What `parse` makes of the file; its error gets the path. Numbers that make no sense are damage.
 template <class Parse>
 auto parsed(const std::filesystem::path& path, const Parse& parse) -> decltype(parse("")) {
@@ -124,21 +120,25 @@ Result<Kinect2Calibration> read_iai_kinect2(const std::filesystem::path& folder)
   Kinect2Calibration out;
   const auto depth = folder / "calib_depth.yaml", ir = folder / "calib_ir.yaml",
              color = folder / "calib_color.yaml", pose = folder / "calib_pose.yaml";
-  if (!is_there(depth) && !is_there(ir))
+  TURNSCAN_ASSIGN(const bool depth_there, file::is_there(depth));
+  TURNSCAN_ASSIGN(const bool ir_there, file::is_there(ir));
+  TURNSCAN_ASSIGN(const bool color_there, file::is_there(color));
+  TURNSCAN_ASSIGN(const bool pose_there, file::is_there(pose));
+  if (!depth_there && !ir_there)
     return fail_at(folder.string(), ErrorCode::kNotFound,
                    "there is neither calib_depth.yaml nor calib_ir.yaml in the folder");
   const std::string found = "iai_kinect2 calibration " + folder.string();
-  if (is_there(depth)) {
+  if (depth_there) {
     out.depth.emplace();
     TURNSCAN_ASSIGN(out.depth->bias_m, parsed(depth, parse_shift));
     out.depth->found = found;
   }
-  if (!is_there(ir)) return out;
+  if (!ir_there) return out;
   out.camera.emplace();
   out.camera->found = found;
   TURNSCAN_ASSIGN(out.camera->intrinsics,
                   parsed(ir, [](std::string_view text) { return parse_camera(text, 512, 424); }));
-  if (!is_there(color) || !is_there(pose)) return out;
+  if (!color_there || !pose_there) return out;
   TURNSCAN_ASSIGN(out.camera->color_intrinsics, parsed(color, [](std::string_view text) {
                     return parse_camera(text, 1920, 1080);
                   }));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
@@ -186,9 +187,7 @@ const std::vector<ImporterInfo>& importers() {
 Result<std::unique_ptr<FrameSequence>> open_foreign(const fs::path& path,
                                                     const ImportOptions& options) {
   TURNSCAN_TRY(options.check());
-  std::error_code error;
-  if (!fs::exists(path, error))
-    return fail_at(path.string(), ErrorCode::kNotFound, "there is no such file or folder");
+  TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   ImportFormat format = options.format;
   if (format == ImportFormat::kAuto) {
     TURNSCAN_ASSIGN(format, recognise(path, options));

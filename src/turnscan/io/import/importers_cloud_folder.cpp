@@ -5,6 +5,7 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -21,8 +22,8 @@ constexpr const char* kDefaultTable = "angles.csv";
 
 Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options) {
   if (!options.angles.empty()) return fs::path(options.angles);
-  std::error_code error;
-  if (fs::exists(folder / kDefaultTable, error)) return folder / kDefaultTable;
+  TURNSCAN_ASSIGN(const bool there, file::is_there(folder / kDefaultTable));
+  if (there) return folder / kDefaultTable;
   return fail_at(folder.string(), ErrorCode::kMissingData,
                  "the scans do not say how far the turntable had turned; give a table with the "
                  "columns file,angle_deg or file,time_s: --angles angles.csv");

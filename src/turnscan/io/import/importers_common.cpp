@@ -3,6 +3,7 @@
 #include <cmath>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/iai_kinect2.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
@@ -117,9 +118,13 @@ Result<fs::path> existing_file(const fs::path& folder, std::string_view name,
     return fail_at(folder.string(), ErrorCode::kFormat, "{}: {}", mentioned_by,
                    good.error().message);
   fs::path path = folder / name;
+  TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+  if (!there)
+    return fail_at(path.string(), ErrorCode::kNotFound, "{} names it, but there is no such file",
+                   mentioned_by);
   std::error_code error;
   if (fs::is_regular_file(path, error)) return path;
-  return fail_at(path.string(), ErrorCode::kNotFound, "{} names it, but there is no such file",
+  return fail_at(path.string(), ErrorCode::kFormat, "{} names it, but it is not a regular file",
                  mentioned_by);
 }
 
@@ -169,8 +174,8 @@ Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options) {
   if (const auto v = text::parse_numbers(options.intrinsics, 4); v)
     return camera_of((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
-  std::error_code error;
-  if (fs::exists(options.intrinsics, error)) return intrinsics_from_file(options.intrinsics);
+  const auto there = file::is_there(options.intrinsics);
+  if (!there || *there) return intrinsics_from_file(options.intrinsics);
   return fail(ErrorCode::kInvalidOption,
               "intrinsics = {} is neither fx,fy,cx,cy in pixels nor a file with a 3x3 matrix",
               options.intrinsics);

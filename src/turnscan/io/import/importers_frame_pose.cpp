@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -35,8 +36,8 @@ bool lost_tracking(std::string_view text) {
 
 /// Nothing when there is no pose, or one that is not finite.
 Result<std::optional<Pose>> read_pose(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::optional<Pose>();
+  TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+  if (!there) return std::optional<Pose>();
   TURNSCAN_ASSIGN(const std::string text, read_file(path, 1 << 16));
   if (lost_tracking(text)) return std::optional<Pose>();
   const auto numbers = text::parse_numbers(text, 16);
@@ -106,8 +107,8 @@ Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptio
   TURNSCAN_ASSIGN(const auto kinect, iai_kinect2_intrinsics(options));
   if (kinect) return *kinect;
   const fs::path path = folder / "camera-intrinsics.txt";
-  std::error_code error;
-  if (fs::exists(path, error)) return intrinsics_from_file(path);
+  TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+  if (there) return intrinsics_from_file(path);
   return fail_at(folder.string(), ErrorCode::kMissingData,
                  "there is no camera-intrinsics.txt; state the intrinsics: --intrinsics "
                  "fx,fy,cx,cy");

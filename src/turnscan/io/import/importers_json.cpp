@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
@@ -191,9 +192,9 @@ Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path
     if (!views.color_files.empty()) {
       TURNSCAN_ASSIGN(frame.color, existing_file(folder, views.color_files[i], "the JSON file"));
     } else {
-      std::error_code error;
       const fs::path color = folder / fmt::format("color_{}.png", i);
-      if (fs::exists(color, error)) frame.color = color;
+      TURNSCAN_ASSIGN(const bool there, file::is_there(color));
+      if (there) frame.color = color;
     }
     if (!views.angles_rad.empty()) frame.info.angle_rad = views.angles_rad[i];
     if (!views.times_s.empty()) frame.info.time_s = views.times_s[i];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -137,15 +138,15 @@ Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptio
 
 Result<std::vector<TimedPose>> read_poses(const fs::path& folder) {
   const fs::path path = folder / "groundtruth.txt";
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::vector<TimedPose>();
+  TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+  if (!there) return std::vector<TimedPose>();
   return read_list<TimedPose>(path, 8, parse_tum_pose);
 }
 
 Result<std::vector<TimedFile>> read_color_list(const fs::path& folder) {
   const fs::path path = folder / "rgb.txt";
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::vector<TimedFile>();
+  TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+  if (!there) return std::vector<TimedFile>();
   return read_list<TimedFile>(path, 2, parse_file);
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/decode_file.hpp>
+#include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/mesh/mesh_convert.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
@@ -168,8 +169,12 @@ Result<> check_mesh_output(const fs::path& path) {
   if (fs::is_directory(path, error))
     return fail_at(path.string(), ErrorCode::kIo, "cannot write: it is a folder");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
+  TURNSCAN_ASSIGN(const bool there, file::is_there(folder));
+  if (!there)
     return fail_at(path.string(), ErrorCode::kNotFound, "cannot write: there is no folder {}",
+                   folder.string());
+  if (!fs::is_directory(folder, error))
+    return fail_at(path.string(), ErrorCode::kIo, "cannot write: {} is not a folder",
                    folder.string());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return fail_at(path.string(), ErrorCode::kIo, "cannot write: the folder is not writable");

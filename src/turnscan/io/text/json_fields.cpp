@@ -57,6 +57,9 @@ void write(const OrderedJson& value, const std::string& indent, std::string& out
 
 Result<Json> parse_json(std::string_view text) {
   TURNSCAN_TRY(check_json_depth(text));
+  // The parser takes a zero byte for the end, and leaves what follows it unread.
+  if (text.find('\0') != std::string_view::npos)
+    return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
   Json value = Json::parse(text.begin(), text.end(), nullptr, false);
   if (value.is_discarded()) return fail(ErrorCode::kFormat, "not valid JSON");
   return value;

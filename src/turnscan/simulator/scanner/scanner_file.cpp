@@ -26,6 +26,20 @@ Result<> read_parameters(const fs::path& file, const toml::table& table,
   return scene::set_from_toml(file, *noise->as_table(), describe(parameters.noise), {});
 }
 
+Result<std::vector<std::string>> presets_in(const fs::path& data) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator file(data / "scanners", error), end; !error && file != end;
+       file.increment(error))
+    if (file->path().extension() == ".toml") names.push_back(file->path().stem().string());
+  if (error)
+    return fail_at((data / "scanners").string(), ErrorCode::kIo,
+                   "the scanners' folder cannot be listed ({}); check permissions",
+                   error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace
 
 Result<fs::path> data_folder() {
@@ -46,15 +60,9 @@ Result<fs::path> data_folder() {
 }
 
 std::vector<std::string> scanner_presets() {
-  std::vector<std::string> names;
   const auto folder = data_folder();
-  if (!folder) return names;
-  std::error_code error;
-  for (fs::directory_iterator file(*folder / "scanners", error), end; !error && file != end;
-       file.increment(error))
-    if (file->path().extension() == ".toml") names.push_back(file->path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+  return folder ? presets_in(*folder).value_or(std::vector<std::string>())
+                : std::vector<std::string>();
 }
 
 Result<ScannerModel> read_scanner(const fs::path& file) {
@@ -71,7 +79,7 @@ Result<ScannerModel> find_scanner(std::string_view name_or_file) {
   if (name_or_file.ends_with(".toml") || name_or_file.find('/') != std::string_view::npos)
     return read_scanner(fs::path(name_or_file));
   TURNSCAN_ASSIGN(const fs::path folder, data_folder());
-  const std::vector<std::string> names = scanner_presets();
+  TURNSCAN_ASSIGN(const std::vector<std::string> names, presets_in(folder));
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
     return fail(ErrorCode::kNotFound,
                 "scanner: there is no '{}'; use one of {}, or the path of a .toml file",

@@ -98,6 +98,10 @@ Result<bool> TableFinder::take_kept(const FrameSource& source, const AveragedSca
   const auto& identities = source.info().identities;
   if (identities.empty()) return false;
   const auto kept = kept_calibration(identities.front());
+  // Without a home there is nothing to be kept in.
+  if (!kept && kept.error().code != ErrorCode::kNotFound)
+    notes_.push_back("the calibration that was kept of this device is not used: " +
+                     kept.error().text());
   if (!kept || !*kept) return false;
   TURNSCAN_ASSIGN(const RigCheck check, check_rig(scan, **kept, context));
   notes_.push_back(check.text);
