@@ -112,7 +112,7 @@ TEST(PlateClosing, LeavesWhatStandsOnThePlatter) {
   const TriangleMesh before = flat_capped();
   TriangleMesh mesh = before;
   PlateClosing closing = anywhere();
-  closing.floor_m = 0.0f;
+  closing.stands = [](const Vec3f& p) { return p.y() < 0.0f; };
   ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), closing, {}));
   for (std::size_t v = 0; v < before.vertices.size(); ++v)
     if (before.vertices[v].y() < 0.0f) {

@@ -27,7 +27,7 @@ class PlateCloser {
     const float least = kLooseShare * typical_support(support);
     loose_.resize(mesh.vertices.size());
     for (std::size_t v = 0; v < loose_.size(); ++v)
-      loose_[v] = support[v] < least && !stands(mesh.vertices[v]) ? 1 : 0;
+      loose_[v] = support[v] < least && !closing_.stands(mesh.vertices[v]) ? 1 : 0;
   }
 
   Result<> run() {
@@ -45,8 +45,6 @@ class PlateCloser {
   }
 
  private:
-  bool stands(const Vec3f& p) const { return closing_.floor_m && p.y() < *closing_.floor_m; }
-
   /// Solves for the plate until no more vertices touch what was seen.
   Result<> bend(const std::vector<Vec3f>& start) {
     Marks free = loose_;
@@ -95,7 +93,7 @@ class PlateCloser {
     for (int i = 1; i <= steps; ++i) {
       const float share = float(i) / float(steps);
       const Vec3f p = from + share * (to - from);
-      if (!stands(p) && (share * length < near || closing_.unseen(p))) continue;
+      if (!closing_.stands(p) && (share * length < near || closing_.unseen(p))) continue;
       return float(i - 1) / float(steps);
     }
     return 1.0f;
@@ -112,7 +110,7 @@ class PlateCloser {
         const std::uint32_t v = touching[k];
         const Vec3f mean = neighbours_.mean(mesh_.vertices, v, Vec3f(Vec3f::Zero()));
         next[k] = 0.5f * (mesh_.vertices[v] + mean);
-        if (stands(next[k])) next[k] = mesh_.vertices[v];
+        if (closing_.stands(next[k])) next[k] = mesh_.vertices[v];
       });
       for (std::size_t k = 0; k < touching.size(); ++k) mesh_.vertices[touching[k]] = next[k];
     }

@@ -12,8 +12,9 @@ struct PlateClosing {
   /// Whether surface may be invented at a place: no view has looked there. Called from many
   /// threads.
   std::function<bool(const Vec3f&)> unseen;
-  double cell_m = 0.001;           ///< the voxel size; unseen() is as coarse
-  std::optional<float> floor_m{};  ///< what lies below this height stays
+  /// Whether surface there stands on a platter: it stays, and no other goes there.
+  std::function<bool(const Vec3f&)> stands = [](const Vec3f&) { return false; };
+  double cell_m = 0.001;  ///< the voxel size; unseen() is as coarse
 };
 
 /// Moves vertices with less than a fiftieth of the typical support to where they continue the rest

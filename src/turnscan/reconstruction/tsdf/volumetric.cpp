@@ -18,6 +18,7 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kSampledViews = 64;
+constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
 
 using mesh_refinement::MeshFit;
 using mesh_refinement::MeshFitScale;
@@ -103,7 +104,11 @@ class VolumetricReconstruction {
     mesh_refinement::PlateClosing closing;
     closing.unseen = [&](const Vec3f& p) { return unseen.contains(p); };
     closing.cell_m = scale_.volume.cell_m;
-    if (scale_.volume.floor_m) closing.floor_m = float(*scale_.volume.floor_m);
+    closing.stands = [&](const Vec3f& p) {
+      const VolumeScale& volume = scale_.volume;
+      if (volume.floor_m) return double(p.y()) < *volume.floor_m;
+      return below_platters(volume.platters, p.cast<double>()) > -kPlatterCells * volume.cell_m;
+    };
     return mesh_refinement::close_as_plate(fitted.mesh, fitted.support, closing, context_);
   }
 
