@@ -76,7 +76,10 @@ int run(int argc, char** argv) {
 // to harm them, can only spoil what has been written. Standard error is not buffered.
 int main(int argc, char** argv) {
   process::set_up_process();
-  process::limit_this_process(
-      {.memory_bytes = 2 * kGiB, .file_bytes = 2 * kGiB, .cpu_seconds = 60});
+  std::error_code error;
+  const std::uint64_t bytes = argc > 1 ? std::filesystem::file_size(argv[1], error) : 0;
+  process::limit_this_process({.memory_bytes = 2 * kGiB,
+                               .file_bytes = 2 * kGiB,
+                               .cpu_seconds = mesh_io::most_convert_seconds(error ? 0 : bytes)});
   ::_exit(run(argc, argv));
 }

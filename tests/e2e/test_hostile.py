@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import time
+import zipfile
 
 import harness
 from harness import FAILED, USAGE, png16, ply_cube, run, shared_recording, start
@@ -234,6 +235,56 @@ class WaitingFiles(harness.TestCase):
         scan = harness.foreign_scan(self.dir / "scan")
         (scan / "frame-000001.depth.png").write_bytes(png16(32, 24, 1000, behind=1 << 28))
         self.refused(FAILED, "import", "scan", "-o", "r", "--depth-unit", "1mm", says="behind its rows")
+
+
+class Hostile3mf(harness.TestCase):
+    """Small 3MF files that mean a lot. One of them took 60 s and another 4.9 GB."""
+
+    MESH = ('<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="9" y="0" z="0"/>'
+            '<vertex x="0" y="9" z="0"/><vertex x="0" y="0" z="9"/>%s</vertices><triangles>'
+            '<triangle v1="0" v2="2" v3="1"/><triangle v1="0" v2="1" v3="3"/><triangle v1="0" v2="3" v3="2"/>'
+            '<triangle v1="1" v2="2" v3="3"/></triangles></mesh></object>')
+    MAIN = "http://schemas.openxmlformats.org/package/2006/"
+
+    def put(self, objects, items):
+        with zipfile.ZipFile(self.dir / "m.3mf", "w", zipfile.ZIP_DEFLATED) as file:
+            file.writestr("[Content_Types].xml", f'<Types xmlns="{self.MAIN}content-types"><Default '
+                          'Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+                          '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-'
+                          '3dmodel+xml"/></Types>')
+            file.writestr("_rels/.rels", f'<Relationships xmlns="{self.MAIN}relationships"><Relationship '
+                          'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" '
+                          'Target="/3D/3dmodel.model" Id="rel0"/></Relationships>')
+            file.writestr("3D/3dmodel.model", '<?xml version="1.0" encoding="UTF-8"?><model unit="millimeter" '
+                          'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>'
+                          f'{objects}</resources><build>{items}</build></model>')
+
+    def tree(self, levels):
+        return "".join(f'<object id="{i}" type="model"><components><component objectid="{i - 1}"/>'
+                       f'<component objectid="{i - 1}"/></components></object>' for i in range(2, levels + 2))
+
+    def refused_soon(self, says):
+        before = os.times()
+        self.refused(FAILED, "info", "m.3mf", says=says)
+        after = os.times()
+        used = sum(after[2:4]) - sum(before[2:4])
+        self.assertLess(used, 20.0)
+
+    def test_a_sound_one_is_read(self):
+        self.put(self.MESH % "" + self.tree(4), '<item objectid="5"/>')
+        self.assertIn("64", self.ok("info", "m.3mf").stdout)
+
+    def test_objects_of_objects(self):
+        self.put(self.MESH % "" + self.tree(24), '<item objectid="25"/>')
+        self.refused_soon("places more than")
+
+    def test_a_mesh_that_is_placed_often(self):
+        self.put(self.MESH % ('<vertex x="0" y="0" z="0"/>' * 100000), '<item objectid="1"/>' * 400)
+        self.refused_soon("out of proportion")
+
+    def test_more_objects_than_its_library_can_count(self):
+        self.put(self.MESH % "", '<item objectid="1"/>' * 300000)
+        self.refused_soon("more time than a sound file")
 
 
 class HangUp(harness.TestCase):

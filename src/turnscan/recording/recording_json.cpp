@@ -169,11 +169,14 @@ std::string defect_of(const SensorInfo& s) {
     return "its viewpoint is not within 1000 km";
   if (s.viewpoint.parallel && !(s.viewpoint.value.norm() > 1e-6))
     return "its parallel viewing direction has no length";
-  if (s.T_table_sensor && !s.T_table_sensor->matrix().allFinite())
-    return "its T_table_sensor is not finite";
+  // As the reader has it: what is refused there must not be written.
+  if (s.T_table_sensor)
+    if (const auto good = pose_from(s.T_table_sensor->matrix()); !good)
+      return "its T_table_sensor: " + good.error().message;
   if (s.color_intrinsics) {
     if (const auto good = s.color_intrinsics->check(); !good) return good.error().message;
-    if (!s.T_color_sensor.matrix().allFinite()) return "its T_color_sensor is not finite";
+    if (const auto good = pose_from(s.T_color_sensor.matrix()); !good)
+      return "its T_color_sensor: " + good.error().message;
   }
   if (s.kind == SensorKind::kPointScanner) return "";
   if (const auto good = s.intrinsics.check(); !good) return good.error().message;

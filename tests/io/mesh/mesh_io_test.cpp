@@ -156,6 +156,17 @@ TEST(MeshStl, BinaryFileMayBeginWithSolid) {
   EXPECT_EQ(meshes->front().triangles.size(), 4U);
 }
 
+TEST(MeshStl, AFacetDoesNotEndInAnotherSolid) {
+  const TempFolder folder;
+  const auto path =
+      folder.put("m.stl",
+                 "solid a\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                 "0\nendsolid a\nsolid b\nendfacet\nendsolid b\n");
+  const auto meshes = read_meshes(path);
+  ASSERT_FALSE(meshes);  // its corners are vertices of a, and b has none
+  EXPECT_EQ(meshes.error().code, ErrorCode::kFormat);
+}
+
 TEST(MeshStl, DamagedFilesAreRefused) {
   const TempFolder folder;
   ASSERT_TRUE(write_mesh(folder / "m.stl", tetrahedron()));

@@ -83,6 +83,8 @@ Result<SensorInfo> sensor_of(const turnscan_plugin& plugin, turnscan_device_info
     sensor.color_intrinsics = intrinsics_of(info.color_camera);
     sensor.T_color_sensor = pose_of(info.T_color_depth);
     good = sensor.color_intrinsics->check();
+    if (const auto pose = pose_from(sensor.T_color_sensor.matrix()); good && !pose)
+      good = tl::unexpected<Error>(pose.error());
   }
   if (!good)
     return fail(ErrorCode::kLibrary, "{}: the driver describes no usable camera ({})", plugin.name,
@@ -226,17 +228,21 @@ tl::unexpected<Error> plugin_failure(const turnscan_plugin& plugin, std::int32_t
 Result<std::unique_ptr<Grabber>> open_plugin(const SourceUri& uri, const RunContext& context) {
   TURNSCAN_TRY(context.check());
   TURNSCAN_ASSIGN(const turnscan_plugin* plugin, load_plugin(uri.scheme));
-  TURNSCAN_ASSIGN(const auto parameters, parameters_of(*plugin, uri));
+  return open_device(*plugin, uri);
+}
+
+Result<std::unique_ptr<Grabber>> open_device(const turnscan_plugin& plugin, const SourceUri& uri) {
+  TURNSCAN_ASSIGN(const auto parameters, parameters_of(plugin, uri));
   turnscan_device* opened = nullptr;
   turnscan_error error{};
-  std::int32_t status = plugin->open(uri.address.c_str(), parameters.data(),
-                                     static_cast<std::int32_t>(parameters.size()), &opened, &error);
-  if (status < 0) return plugin_failure(*plugin, status, error);
-  Device device(*plugin, opened);
+  std::int32_t status = plugin.open(uri.address.c_str(), parameters.data(),
+                                    static_cast<std::int32_t>(parameters.size()), &opened, &error);
+  if (status < 0) return plugin_failure(plugin, status, error);
+  Device device(plugin, opened);
   turnscan_device_info description{};
-  status = plugin->describe(device.get(), &description, &error);
-  if (status < 0) return plugin_failure(*plugin, status, error);
-  TURNSCAN_ASSIGN(SensorInfo sensor, sensor_of(*plugin, description));
+  status = plugin.describe(device.get(), &description, &error);
+  if (status < 0) return plugin_failure(plugin, status, error);
+  TURNSCAN_ASSIGN(SensorInfo sensor, sensor_of(plugin, description));
   SourceInfo info;
   info.uri = format_source_uri(uri);
   info.driver = uri.scheme;
@@ -244,7 +250,7 @@ Result<std::unique_ptr<Grabber>> open_plugin(const SourceUri& uri, const RunCont
   info.identities = {identity_text(
       fmt::format("{}-{}-{}", uri.scheme, sensor.model, serial.empty() ? "0" : serial))};
   info.header.sensors = {std::move(sensor)};
-  info.settings["driver"] = plugin->description;
+  info.settings["driver"] = plugin.description;
   if (!serial.empty()) info.settings["serial"] = serial;
   info.fps = std::isfinite(description.fps) && description.fps > 0.0 ? description.fps : 0.0;
   info.live = description.live != 0;

@@ -18,4 +18,7 @@ tl::unexpected<Error> plugin_failure(const turnscan_plugin& plugin, std::int32_t
 /// the driver says.
 Result<std::unique_ptr<Grabber>> open_plugin(const SourceUri& uri, const RunContext& context);
 
+/// The device of a driver that is there. Fails as open_plugin() then does.
+Result<std::unique_ptr<Grabber>> open_device(const turnscan_plugin& plugin, const SourceUri& uri);
+
 }  // namespace turnscan::source

@@ -52,8 +52,9 @@ Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
   return std::optional<fs::path>();
 }
 
-void limit(int resource, rlim_t value) {
-  const rlimit both{value, value};
+/// hard: where the process is killed outright, and nobody learns what for.
+void limit(int resource, rlim_t value, rlim_t hard) {
+  const rlimit both{value, hard};
   (void)::setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
@@ -88,10 +89,11 @@ std::optional<Error> helper_error(const ChildResult& child) {
 }
 
 void limit_this_process(const ProcessLimits& limits) {
-  if (limits.memory_bytes && !kSanitized) limit(RLIMIT_AS, *limits.memory_bytes);
-  if (limits.file_bytes) limit(RLIMIT_FSIZE, *limits.file_bytes);
-  if (limits.cpu_seconds) limit(RLIMIT_CPU, *limits.cpu_seconds);
-  limit(RLIMIT_CORE, 0);
+  if (limits.memory_bytes && !kSanitized)
+    limit(RLIMIT_AS, *limits.memory_bytes, *limits.memory_bytes);
+  if (limits.file_bytes) limit(RLIMIT_FSIZE, *limits.file_bytes, *limits.file_bytes);
+  if (limits.cpu_seconds) limit(RLIMIT_CPU, *limits.cpu_seconds, *limits.cpu_seconds + 2);
+  limit(RLIMIT_CORE, 0, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 

@@ -19,7 +19,9 @@ tl::unexpected<Error> error_from(const process::ChildResult& child) {
 
 Result<std::vector<TriangleMesh>> meshes_from(const process::ChildResult& child) {
   if (child.signal == SIGXCPU)
-    return fail(ErrorCode::kResourceLimit, "reading it took too much time");
+    return fail(ErrorCode::kResourceLimit,
+                "reading it took more time than a sound file of its length needs; write it with "
+                "another program");
   if (child.signal == SIGKILL || child.signal == SIGXFSZ)
     return fail(ErrorCode::kResourceLimit, "reading it took too much memory");
   if (child.signal != 0)

@@ -44,4 +44,8 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes);
 
+/// Of processor, which no sound file of that length needs: some libraries take the square of it for
+/// files that were made for that.
+inline std::uint64_t most_convert_seconds(std::uint64_t bytes) { return 5 + bytes / 1000000; }
+
 }  // namespace turnscan::mesh_io

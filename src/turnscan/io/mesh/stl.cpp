@@ -98,6 +98,8 @@ class TextReader {
   }
 
   const char* end_solid() {
+    // Its corners are numbered within this solid.
+    if (corners_ != 0) return "a solid ends within a facet";
     open_ = false;
     meshes_.back().vertices = merger_.take();
     return nullptr;

@@ -8,6 +8,11 @@ namespace turnscan::mesh_io {
 namespace {
 
 constexpr int kMaxDepth = 32;  // of objects made of objects
+// An object may be placed as often as the file says, and one that is made of others, too: what
+// comes of it grows as a power of the file's length.
+constexpr std::size_t kMaxPlaced = 100000;
+constexpr std::size_t kMaxElements = 10000000;  // vertices and triangles
+constexpr std::size_t kMaxElementsPerByte = 4;  // of a large file
 
 double metres_of(unsigned unit) {
   switch (unit) {
@@ -37,7 +42,8 @@ Eigen::Affine3d transform_from(const NMR::MODELTRANSFORM& fields) {
 
 class ThreemfReader {
  public:
-  explicit ThreemfReader(std::string_view bytes) {
+  explicit ThreemfReader(std::string_view bytes)
+      : elements_left_(kMaxElements + kMaxElementsPerByte * bytes.size()) {
     require(NMR::lib3mf_createmodel(model_.out()), model_);
     Lib3mfHandle reader;
     require(NMR::lib3mf_model_queryreader(model_.get(), "3mf", reader.out()), model_);
@@ -92,6 +98,8 @@ class ThreemfReader {
   void add_object(const Lib3mfHandle& object, const Eigen::Affine3d& transform, int depth,
                   TriangleMesh& target) {
     if (depth > kMaxDepth) throw Lib3mfFailure("objects are nested too deeply");
+    if (++placed_ > kMaxPlaced)
+      throw Lib3mfFailure(fmt::format("it places more than {} objects", kMaxPlaced));
     BOOL is_mesh = 0;
     require(NMR::lib3mf_object_ismeshobject(object.get(), &is_mesh), object);
     if (is_mesh != 0) return add_mesh(object, transform, target);
@@ -113,14 +121,17 @@ class ThreemfReader {
     add_object(object, transform * transform_from(fields), depth + 1, target);
   }
 
-  static void add_mesh(const Lib3mfHandle& object, const Eigen::Affine3d& transform,
-                       TriangleMesh& target) {
+  void add_mesh(const Lib3mfHandle& object, const Eigen::Affine3d& transform,
+                TriangleMesh& target) {
     DWORD vertex_count = 0;
     DWORD triangle_count = 0;
     require(NMR::lib3mf_meshobject_getvertexcount(object.get(), &vertex_count), object);
     require(NMR::lib3mf_meshobject_gettrianglecount(object.get(), &triangle_count), object);
     if (vertex_count == 0 || triangle_count == 0) return;
     const std::size_t first = target.vertices.size();
+    if (std::size_t(vertex_count) + triangle_count > elements_left_)
+      throw Lib3mfFailure("it places its meshes so often that they are out of proportion to it");
+    elements_left_ -= std::size_t(vertex_count) + triangle_count;
     if (first + vertex_count > std::numeric_limits<std::int32_t>::max()) throw std::bad_alloc();
     std::vector<NMR::MODELMESHVERTEX> vertices(vertex_count);
     std::vector<NMR::MODELMESHTRIANGLE> triangles(triangle_count);
@@ -176,6 +187,7 @@ class ThreemfReader {
 
   Lib3mfHandle model_;
   std::vector<TriangleMesh> meshes_;
+  std::size_t placed_ = 0, elements_left_;
 };
 
 }  // namespace
