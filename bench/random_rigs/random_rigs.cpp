@@ -10,15 +10,13 @@
 #include <ctime>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
-#include <turnscan/core/parallel.hpp>
-#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
 
+#include "bench/random_rigs/frames.hpp"
 #include "bench/random_rigs/recipe.hpp"
-#include "tests/support/memory_sequence.hpp"
 
 namespace {
 
@@ -26,19 +24,10 @@ using namespace turnscan;
 
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Rendered once, so that only calibration is timed.
-testing::MemorySequence rendered(const FrameSequence& scan) {
-  testing::MemorySequence out;
-  out.header_value = scan.header();
-  out.infos = scan.frames();
-  out.data.resize(out.infos.size());
-  parallel_for(out.data.size(), 1, [&](std::size_t i) { out.data[i] = *scan.read(i); });
-  return out;
-}
-
 /// Errors of a calibration, and over their stated deviations (NaN: not stated).
 struct Errors {
   double axis_deg = 0.0, line_mm = 0.0, height_mm = 0.0, angles_deg = 0.0, speed_percent = 0.0;
+  double line_range_mm = 0.0;  ///< the part of line_mm along the line of sight, positive: farther
   double axis = 0.0, line = 0.0, height = 0.0, angles = 0.0, speed = 0.0;
 };
 
@@ -77,6 +66,7 @@ Errors judge(const Calibration& found, const VirtualScan& truth) {
   Errors out;
   out.axis_deg = std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian;
   out.line_mm = (at - middle).norm() * 1e3;
+  out.line_range_mm = (at - middle).dot(middle.normalized()) * 1e3;
   out.height_mm = std::abs(a.dot(found.table.center_m - table.center_m)) * 1e3;
   out.axis = out.axis_deg / (found.axis_sigma_rad * kDegreesPerRadian);
   out.line = out.line_mm / (found.center_sigma_m * 1e3);
@@ -129,7 +119,7 @@ class Bench {
       return;
     }
     const VirtualScan& truth = simulation->scan.pass(0);
-    const auto frames = rendered(simulation->scan);
+    const auto frames = rigs::rendered(simulation->scan);  // so that only calibration is timed
     const double before = processor_seconds();
     const auto choice = choose_calibration(frames, {}, {});
     const double spent = processor_seconds() - before;
@@ -178,10 +168,11 @@ class Bench {
 
   static void print(const Errors& e, const Calibration& found, double spent) {
     fmt::print(
-        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s) height {:.2f} mm ({:.1f} s) "
+        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s; {:+.3f} in range) height {:.2f} "
+        "mm ({:.1f} s) "
         "angles {:.3f} deg ({:.1f} s) speed {:+.3f} % ({:.1f} s); {:.1f} s of processor{}\n",
-        e.axis_deg, e.axis, e.line_mm, e.line, e.height_mm, e.height, e.angles_deg, e.angles,
-        e.speed_percent, e.speed, spent,
+        e.axis_deg, e.axis, e.line_mm, e.line, e.line_range_mm, e.height_mm, e.height, e.angles_deg,
+        e.angles, e.speed_percent, e.speed, spent,
         found.undetermined.empty()
             ? ""
             : fmt::format("; undetermined: {}", fmt::join(found.undetermined, ", ")));
@@ -189,14 +180,7 @@ class Bench {
 
   void compare_meshes(const VirtualScan& truth, const FrameSequence& frames,
                       const CalibrationChoice& choice, const std::vector<PlacedObject>& placed) {
-    auto infos = frames.frames();
-    for (std::size_t i = 0; i < infos.size(); ++i)
-      infos[i].T_table_sensor = truth.T_table_sensor(i);
-    SequenceHeader header = frames.header();
-    header.turntable = truth.turntable();
-    SequenceView true_poses(frames);
-    true_poses.set_header(header);
-    true_poses.set_frames(infos);
+    const SequenceView true_poses = rigs::at_true_poses(frames, truth);
     const auto chosen = with_choice(frames, choice);
     if (!chosen || placed.empty()) return;
     const auto best = f_of(true_poses, placed.front().mesh);

@@ -23,7 +23,7 @@ LIBRARIES = [
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/|QVTK", ("apps/turnscan-studio/", "tests/studio/"), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
     ("nanoflann", r"nanoflann", ("src/turnscan/geometry/", "tests/", "bench/"), False),
-    ("meshoptimizer", r"meshoptimizer", ("src/turnscan/geometry/",), False),
+    ("meshoptimizer", r"meshoptimizer", ("src/turnscan/geometry/", "tests/geometry/"), False),
     ("TBB (loops go through core/parallel.hpp)", r"(oneapi/)?tbb/", ("src/turnscan/core/",), True),
     ("a file library", r"png\.h|jpeglib\.h|turbojpeg|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
      ("src/turnscan/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
@@ -151,7 +151,7 @@ def broken_links(tree):
 
 # A path of the project in a document: `src/turnscan/core/frame.hpp`, `tests/checks`, `core/frame.hpp`.
 NAMED_PATH = re.compile(r"`((?:[\w.-]+/)+[\w.-]+?)/?`")
-OWN_FOLDERS = ("src/", "apps/", "plugins/", "tests/", "bench/", "cmake/", "scripts/", "data/", "docs/")
+OWN_FOLDERS = ("src/", "apps/", "plugins/", "tests/", "bench/", "cmake/", "scripts/", "data/", "docs/", "web/")
 
 
 def documents_name_what_is_there(tree):

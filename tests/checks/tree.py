@@ -9,7 +9,7 @@ import subprocess
 CODE = (".cpp", ".hpp", ".inl", ".h", ".c")
 HEADERS = (".hpp", ".inl", ".h")
 TEXT = CODE + (".py", ".md", ".txt", ".cmake", ".in", ".json", ".toml", ".yml", ".yaml", ".csv",
-               ".sh", "")
+               ".sh", ".js", ".mjs", "")
 FLOORS_FOLDER = "src/turnscan/"
 HEADER_KINDS = ("PUBLIC_HEADERS", "PROJECT_HEADERS", "PRIVATE_HEADERS")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

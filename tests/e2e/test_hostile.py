@@ -69,7 +69,19 @@ class Surroundings(harness.TestCase):
     def unfinished(self, name="r"):
         self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", name, "--quiet")
         path = self.dir / name / "recording.json"
+        described = json.loads(path.read_text())
+        described["complete"] = False
+        del described["frame_count"]  # which says that it was complete once
+        path.write_text(json.dumps(described))
+
+    def test_a_recording_that_was_complete_once_is_not_removed(self):
+        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
+        path = self.dir / "r/recording.json"
         path.write_text(path.read_text().replace('"complete": true', '"complete": false'))
+        before = self.files()
+        self.refused(FAILED, "simulate", "builtin:cylinder", "--frames", "3", "-o", "r",
+                     "--overwrite-unfinished", says="never overwritten")
+        self.assertEqual(self.files(), before)
 
     def test_what_an_unfinished_recording_needs_is_said(self):
         harness.foreign_scan(self.dir / "foreign")

@@ -1,9 +1,15 @@
 """Several passes of one object become one mesh."""
 
+import csv
 import json
+import math
+import os
+import pty
+import re
+import signal
 
 import harness
-from harness import FAILED, USAGE
+from harness import CANCELLED, FAILED, USAGE
 
 
 def product(a, b):
@@ -23,7 +29,7 @@ class Passes(harness.TestCase):
                 "gaussian:1mm", *(x for p in passes for x in ("--next-pass", p)),
                 "--out", "rec", "--quiet")
         truth = json.loads((self.dir / "rec/truth/truth.json").read_text())
-        for k, pose in enumerate(truth["next_passes"], 1):
+        for k, pose in enumerate(truth.get("next_passes", []), 1):
             matrix = product(truth["object"]["T_table_object"], inverse(pose["T_table_object"]))
             rows = [" ".join(f"{x:.12g}" for x in row) for row in matrix]
             (self.dir / f"pose{k}.txt").write_text("\n".join(rows) + "\n")
@@ -112,6 +118,277 @@ class Passes(harness.TestCase):
             self.refused(USAGE, "reconstruct", "rec", *options, "-o", "m.ply", says=says)
         self.refused(USAGE, "reconstruct", "rec", "--pass", "0", "--pass-pose", "1=pose1.txt",
                      "--pass-pose", "2=pose2.txt", "-o", "m.ply", says="--pass")
+
+    def test_reconstruct_says_what_is_missing_and_how_to_lay_the_object(self):
+        self.simulate(frames=24)
+        out = self.ok("reconstruct", "rec", "-o", "one.ply", "--report", "one.json",
+                      "--advice-picture", "lay.png").stdout
+        line = next(l for l in out.splitlines() if l.startswith("Next pass: "))
+        self.assertRegex(line, r"No view saw \d+ cm2 of its surface of \d+ cm2: base \d+ cm2, .*"
+                               r"To see about \d+ cm2 of that, .* tip it by \d+ degrees")
+        self.assertGreater((self.dir / "lay.png").stat().st_size, 5000)
+        report = json.loads((self.dir / "one.json").read_text())
+        colour = report["objects"][0]["verdict"]["colour"]
+        self.assertIn(f"Verdict: {colour.upper()}\n", out)
+        advice = report["next_pass"]
+        self.assertIn(advice["advice"], line)
+        parts = sum(advice[f"{part}_cm2"] for part in ("base", "underside", "sides", "top"))
+        self.assertAlmostEqual(parts, advice["unseen_cm2"], places=3)
+        best = advice["poses"][0]
+        self.assertTrue(best["stands"])
+        self.assertGreater(best["shows_cm2"], 0.3 * advice["unseen_cm2"])
+        self.refused(USAGE, "reconstruct", "rec", "-o", "one.ply", "--advice-picture", "lay.jpg",
+                     says="png")
+
+
+class ScanPasses(harness.TestCase):
+    """turnscan scan goes on with another side; small images and few frames."""
+    DEVICE = "virtual:{}?sensor=kinect-v2&fps=2&speed=12deg/s&noise=gaussian:1mm&calibration=true"
+    FAST = ("--min-free", "0", "--speed", "12deg/s")
+
+    def args(self, name, *more):
+        return ("scan", "--device", self.DEVICE.format(name), "-o", "whole.ply", *self.FAST, *more)
+
+    def environment(self):
+        return {"XDG_STATE_HOME": str(self.dir / "state")}
+
+    def scan(self, name, *more):
+        return self.ok(*self.args(name, *more), env=self.environment())
+
+    def frames_of_passes(self):
+        with open(self.dir / "whole.recording/frames.csv") as file:
+            passes = [row["pass"] for row in csv.DictReader(file)]
+        return {
+p: passes.count(p) for p in passes
+}
+
+    def f_score(self, mesh):
+        if not (self.dir / "one").exists():
+            self.ok("simulate", "builtin:skull", "--frames", "1", "-o", "one", "--quiet")
+        self.ok("evaluate", mesh, "--reference", "one/truth/object.ply", "--align", "icp",
+                "--json", "e.json")
+        judged = json.loads((self.dir / "e.json").read_text())
+        return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
+
+    def test_a_virtual_object_is_laid_as_is_advised_and_joined(self):
+        # The table's frame is the truth's, for the comparison.
+        out = self.scan("skull", "--passes", "2", "--report", "r.json", "--quiet",
+                        "--no-wait").stdout
+        self.assertIn("before pass 1: To see about", out)
+        self.assertIn("pass 1 was joined by its surface", out)
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertEqual(len(report["further_passes"]), 1)
+        self.assertEqual(report["passes_apart"], [])
+        whole = report["reconstruction"]
+        self.assertEqual([p["name"] for p in whole["passes"]], ["pass 0", "pass 1"])
+        self.assertTrue(whole["objects"][0]["mesh"]["watertight"])
+        frames = self.frames_of_passes()
+        self.assertEqual(set(frames), {"0", "1"})
+        self.assertAlmostEqual(frames["0"], frames["1"], delta=3)
+#It is what the recording gives, and more than its first pass.
+        self.ok("reconstruct", "whole.recording", "-o", "again.ply", "--speed", "12deg/s")
+        self.assertEqual((self.dir / "whole.ply").read_bytes(),
+                         (self.dir / "again.ply").read_bytes())
+        self.ok("reconstruct", "whole.recording", "--pass", "0", "-o", "first.ply", "--report",
+                "first.json", "--speed", "12deg/s")
+        first = json.loads((self.dir / "first.json").read_text())
+        self.assertLess(whole["objects"][0]["invented_area_cm2"],
+                        0.5 * first["objects"][0]["invented_area_cm2"])
+        self.assertGreater(self.f_score("whole.ply"), self.f_score("first.ply") + 0.03)
+
+    def test_nothing_is_known_of_the_table(self):
+        device = self.DEVICE.format("skull").replace("&calibration=true", "")
+        out = self.ok("scan", "--device", device, "-o", "whole.ply", "--min-free", "0", "--passes",
+                      "2", "--quiet", env=self.environment()).stdout
+        self.assertIn("pass 1 was joined by its surface", out)
+        self.assertEqual(set(self.frames_of_passes()), {"0", "1"})
+
+    def test_a_pass_that_does_not_fit_is_kept_beside(self):
+        result = harness.run(*self.args("cylinder", "--passes", "2", "--quiet"), cwd=self.dir,
+                             env=self.environment())
+        self.assertEqual(result.returncode, FAILED, result.stdout + result.stderr)
+        self.assert_one_line_error(result.stderr)
+        self.assertIn("pass 1 was not joined", result.stderr)
+        for mesh in ("whole.ply", "whole-pass1.ply"):
+            self.assertIn("watertight", self.ok("info", mesh).stdout)
+        self.assertEqual(set(self.frames_of_passes()), {"0", "1"})
+
+    def answer(self, *answers):
+        """Runs a scan at a terminal and answers its questions; what it says, and its exit code."""
+        pid, terminal = pty.fork()
+        if pid == 0:
+            try:
+                os.chdir(self.dir)
+                os.environ.update(self.environment())
+                os.execvp(harness.BIN, [harness.BIN, *self.args("skull")])
+            finally:
+                os._exit(127)  # it could not be started
+        said, answers = "", list(answers)
+        asked = 0
+        while True:
+            try:
+                said += os.read(terminal, 65536).decode(errors="replace")
+            except OSError:
+                break
+            if said.count("q to end: ") > asked:
+                asked += 1
+                answer = answers.pop(0)
+                if answer == "interrupt":
+                    os.kill(pid, signal.SIGINT)
+                else:
+                    os.write(terminal, (answer + "\n").encode())
+        os.close(terminal)
+        return re.sub(r"\s+", " ", said), os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+
+    def test_at_a_terminal_it_asks_after_each_pass(self):
+        said, code = self.answer("", "q")
+        self.assertEqual(code, 0, said)
+        self.assertIn("No view saw", said)
+        self.assertIn("Another side? Lay it so and press Enter to record pass 1", said)
+        self.assertIn("2 passes in one mesh", said)
+        self.assertEqual(set(self.frames_of_passes()), {"0", "1"})
+
+    def test_an_interrupt_between_passes_loses_nothing(self):
+        said, code = self.answer("interrupt")
+        self.assertEqual(code, CANCELLED, said)
+        self.assertIn("the recording is in whole.recording", said)
+        self.assertIn("watertight", self.ok("info", "whole.ply").stdout)
+        description = json.loads((self.dir / "whole.recording/recording.json").read_text())
+        self.assertTrue(description["complete"])
+
+    def test_a_sensor_that_is_lost_in_the_second_pass_costs_only_that_pass(self):
+        device = self.DEVICE.format("skull") + "&fault=lost@50s"
+        self.refused(FAILED, "scan", "--device", device, "-o", "whole.ply", *self.FAST, "--passes",
+                     "2", env=self.environment(), says=("whole.recording holds", "is complete"))
+        self.assertIn("watertight", self.ok("info", "whole.ply").stdout)
+        frames = self.frames_of_passes()
+        self.assertGreater(frames["0"], 55)
+        self.assertIn("1", frames)
+        self.ok("reconstruct", "whole.recording", "--pass", "0", "-o", "first.ply", "--quiet")
+
+    def test_what_cannot_be_laid_another_way_has_one_pass(self):
+        self.ok("simulate", "builtin:cylinder", "--frames", "8", "-o", "rec", "--quiet")
+        self.refused(USAGE, "scan", "--device", "replay:rec", "-o", "whole.ply", "--passes", "2",
+                     says="cannot be laid another way")
+        two = [x for i in (1, 2)
+               for x in ("--device", f"{self.DEVICE.format('skull')}&serial={i}&seed={i}")]
+        self.refused(USAGE, "scan", *two, "-o", "whole.ply", "--passes", "2", *self.FAST,
+                     says="cannot be laid another way")
+        self.refused(USAGE, *self.args("skull", "--passes", "2", "--pass", "0"), says="--passes")
+        self.refused(USAGE, *self.args("skull", "--passes", "0"), says="passes")
+
+
+def lump(seed, radius_mm):
+    """Vertices (mm) and triangles of a lumpy closed thing about the origin."""
+    rows, columns = 40, 80
+    vertices, triangles = [], []
+    for r in range(rows + 1):
+        polar = math.pi * r / rows
+        for c in range(columns):
+            around = 2 * math.pi * c / columns
+            x, y, z = (math.sin(polar) * math.cos(around), math.cos(polar),
+                       -math.sin(polar) * math.sin(around))
+            size = radius_mm * (1 + 0.2 * math.sin(3.1 * x + seed) +
+                                0.17 * math.cos(4.3 * y - (1 + seed) * z) +
+                                0.1 * math.sin(7 * z + 3 * x))
+            vertices.append((size * x, size * y, size * z))
+    for r in range(rows):
+        for c in range(columns):
+            a, b = r * columns + c, r * columns + (c + 1) % columns
+            below = [a + columns, b + columns]
+            triangles += [(a, below[0], below[1])] if r == 0 else (
+                [(a, below[0], b)] if r == rows - 1 else
+                [(a, below[0], below[1]), (a, below[1], b)])
+    # Of each pole one vertex is used.
+    pole = {k: 0 for k in range(columns)}
+    pole.update({rows * columns + k: rows * columns for k in range(columns)})
+    triangles = [tuple(pole.get(v, v) for v in t) for t in triangles]
+    used = sorted({v for t in triangles for v in t})
+    number = {v: k for k, v in enumerate(used)}
+    return [vertices[v] for v in used], [tuple(number[v] for v in t) for t in triangles]
+
+
+def placed(mesh, tip_deg, yaw_deg, x, z):
+    """Tipped about x, turned about y, set down on y = 0."""
+    tip, yaw = math.radians(tip_deg), math.radians(yaw_deg)
+    out = []
+    for p in mesh[0]:
+        y1, z1 = (math.cos(tip) * p[1] - math.sin(tip) * p[2],
+                  math.sin(tip) * p[1] + math.cos(tip) * p[2])
+        out.append((math.cos(yaw) * p[0] + math.sin(yaw) * z1, y1,
+                    math.cos(yaw) * z1 - math.sin(yaw) * p[0]))
+    low = min(p[1] for p in out)
+    return [(p[0] + x, p[1] - low, p[2] + z) for p in out], mesh[1]
+
+
+class SeveralObjects(harness.TestCase):
+    def record(self, name, *meshes):
+        """A recording of the things as they stand."""
+        vertices, triangles = [], []
+        for points, faces in meshes:
+            triangles += [tuple(len(vertices) + v for v in face) for face in faces]
+            vertices += points
+        (self.dir / f"{name}.off").write_text(
+            f"OFF\n{len(vertices)} {len(triangles)} 0\n" +
+            "".join(f"{x:.5f} {y:.5f} {z:.5f}\n" for x, y, z in vertices) +
+            "".join(f"3 {a} {b} {c}\n" for a, b, c in triangles))
+        self.ok("simulate", f"{name}.off", "--unit", "mm", "--frames", 24, "--seed", 5, "--noise",
+                "gaussian:1mm", "--out", name, "--quiet")
+
+    def test_each_finds_its_partner_in_the_other_pass(self):
+        one, two, third = lump(1, 45), lump(4, 38), lump(2.2, 34)
+        self.record("first", placed(one, 0, 0, -70, 0), placed(two, 0, 0, 60, 20))
+        self.record("second", placed(two, 90, 100, -60, 30), placed(one, 180, 30, 60, -10),
+                    placed(third, 0, 0, 10, 110))
+        failed = self.refused(FAILED, "reconstruct", "first", "second", "-o", "whole.ply",
+                              "--report", "r.json", says="object 3: ")
+        self.assertIn("pass 1 (second) was not joined", failed.stderr)
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertEqual(len(report["objects"]), 2)
+        self.assertTrue(all(o["mesh"]["watertight"] for o in report["objects"]))
+        self.assertEqual([p["object"] for p in report["passes"]], [1, 1, 2, 2])
+        self.assertLess(max(p["sigma_mm"] for p in report["passes"] if "sigma_mm" in p), 0.2)
+        recall = 0.0
+        for k in (1, 2):
+            self.ok("evaluate", f"whole-{k}.ply", "--reference", "first/truth/object.ply", "--json",
+                    "e.json")
+            scores = json.loads((self.dir / "e.json").read_text())["scores"]
+            at_1mm = next(s for s in scores if s["threshold_m"] == 0.001)
+            self.assertGreater(at_1mm["precision"], 0.98)
+            recall += at_1mm["recall"]
+        self.assertGreater(recall, 0.97)
+        # The third is alone in its mesh.
+        alone = json.loads(self.ok("info", "whole-pass1.ply", "--json").stdout)["objects"]
+        self.assertEqual([o["pieces"] for o in alone], [1])
+
+
+class ImportedPasses(harness.TestCase):
+    def foreign(self, name, tip):
+        """A pass in the layout json-png."""
+        self.ok("simulate", "builtin:skull", "--frames", 24, "--noise", "gaussian:1mm", "--tip", tip,
+                "--aim-height", "90mm", "--out", "rec-" + name, "--quiet")
+        recording = self.dir / ("rec-" + name)
+        described = json.loads((recording / "recording.json").read_text())
+        sensor, table = described["sensors"][0], described["turntable"]
+        with open(recording / "frames.csv") as file:
+            frames = list(csv.DictReader(file))
+        (self.dir / name).mkdir()
+        (recording / "depth").rename(self.dir / name / "depth")
+        (self.dir / name / "views.json").write_text(json.dumps({
+            "intrinsics": {**sensor["intrinsics"], "depth_unit_m": sensor["depth_unit_m"]},
+            "depth_files": [f["file"] for f in frames],
+            "angle_deg": [float(f["angle_deg"]) for f in frames],
+            "axis_dir": table["axis"], "axis_point": table["center_m"], "platter_height_m": 0.0,
+            "radius_m": table["radius_m"]}))
+
+    def test_data_sets_that_are_imported_together_are_passes_that_are_joined(self):
+        self.foreign("first", "0deg")
+        self.foreign("second", "90deg")
+        self.assertIn("2 passes", self.ok("import", "first/views.json", "second/views.json",
+                                            "--out", "both").stdout)
+        out = self.ok("reconstruct", "both", "-o", "whole.ply").stdout
+        self.assertIn("2 passes in one mesh", out)
+        self.assertIn("pass 1 was joined by its surface", out)
 
 
 if __name__ == "__main__":

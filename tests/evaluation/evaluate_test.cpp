@@ -165,6 +165,45 @@ TEST(Evaluate, StatisticsAreByNearestRank) {
   EXPECT_EQ(error_statistics({}).count, 0u);
 }
 
+TEST(Evaluate, DeviationsAreNegativeInsideTheReference) {
+  // The upper half 0.5 mm too large, the lower half 0.3 mm too small.
+  TriangleMesh mesh = sphere(0.010, 6);
+  for (Vec3f& v : mesh.vertices) v *= v.z() > 0.0f ? 1.05f : 0.97f;
+  EvaluateOptions options = kFew;
+  options.tolerance_m = 0.4e-3;
+  const Evaluation e = compare(mesh, sphere(0.010, 6), options);
+  EXPECT_NEAR(e.deviation.high, 0.5e-3, 5e-6);
+  EXPECT_NEAR(e.deviation.low, -0.3e-3, 5e-6);
+  EXPECT_NEAR(e.deviation.max, 0.5e-3, 5e-6);
+  EXPECT_NEAR(e.deviation.min, -0.3e-3, 5e-6);
+  EXPECT_EQ(e.deviation.count, 20000u);
+  ASSERT_TRUE(e.tolerance);
+  const double upper = 1.05 * 1.05, lower = 0.97 * 0.97;
+  EXPECT_NEAR(e.tolerance->above, upper / (upper + lower), 0.03) << "less the step between them";
+  EXPECT_EQ(e.tolerance->below, 0.0);
+  EXPECT_NEAR(e.tolerance->in + e.tolerance->above + e.tolerance->below, 1.0, 1e-12);
+  options.tolerance_m = 0.2e-3;
+  EXPECT_GT(compare(mesh, sphere(0.010, 6), options).tolerance->below, 0.4);
+  EXPECT_FALSE(compare(mesh, sphere(0.010, 6)).tolerance);
+  options.tolerance_m = 0.0;
+  EXPECT_EQ(evaluate(mesh, mesh, options, {}, RunContext()).error().code,
+            ErrorCode::kInvalidOption);
+}
+
+TEST(Evaluate, DeviationStatisticsAreSignedAndByNearestRank) {
+  std::vector<double> values;
+  for (int i = 1; i <= 200; ++i) values.push_back(i - 100);
+  const DeviationStatistics s = deviation_statistics(values);
+  EXPECT_EQ(s.count, 200u);
+  EXPECT_DOUBLE_EQ(s.mean, 0.5);
+  EXPECT_NEAR(s.sigma, std::sqrt((200.0 * 200.0 - 1.0) / 12.0), 1e-9);
+  EXPECT_EQ(s.low, -95.0);
+  EXPECT_EQ(s.high, 95.0);
+  EXPECT_EQ(s.min, -99.0);
+  EXPECT_EQ(s.max, 100.0);
+  EXPECT_EQ(deviation_statistics({}).count, 0u);
+}
+
 TEST(Evaluate, ThresholdsAreLengthsWithUnits) {
   EXPECT_EQ(*parse_thresholds("1mm,0.5mm,1cm"), (std::vector<double>{0.0005, 0.001, 0.01}));
   for (const char* text : {"", "1", "1mm,", "0mm", "-1mm", "1mm,,2mm", "nanmm", "1deg"}) {
@@ -237,6 +276,10 @@ TEST(EvaluateJson, HasTheKeysOfThePage) {
       EXPECT_TRUE(json[part][key].is_number()) << part << "." << key;
     }
   }
+  for (const char* key : {"samples", "mean_m", "sigma_m", "p2_5_m", "p97_5_m", "min_m", "max_m"}) {
+    EXPECT_TRUE(json["deviation"][key].is_number()) << key;
+  }
+  EXPECT_TRUE(json["tolerance"].is_null());
   for (const char* key : {"bias_m", "mesh_area_m2", "reference_area_m2", "seen_area_m2"}) {
     EXPECT_TRUE(json[key].is_number()) << key;
   }
@@ -247,8 +290,10 @@ TEST(EvaluateJson, HasTheKeysOfThePage) {
   EXPECT_TRUE(json["alignment"].is_null());
   Evaluation aligned;
   aligned.aligned = true;
+  aligned.tolerance = ToleranceShares{0.0002, 0.75, 0.25, 0.0};
   json = nlohmann::json::parse(to_json(aligned));
   EXPECT_EQ(json["alignment"]["T_reference_mesh"][3][3].get<double>(), 1.0);
+  EXPECT_EQ(json["tolerance"]["in"].get<double>(), 0.75);
 }
 
 TEST(ColorByError, GoesFromVioletToYellow) {

@@ -26,6 +26,7 @@ RecordingDescription full_description() {
   d.header.sensors.push_back(scanner);
   d.header.turntable =
       TurntableInfo{Vec3d(0, -1, 0), Vec3d(0.01, 0.2, 0.9), 0.15, 10.4478 / 180.0, 0.12};
+  d.header.poses_within_pass = true;
   d.header.software = "turnscan 0.1.0";
   d.header.source = "somewhere\nfirst assumption\nsecond assumption";
   d.capture = {{"exposure_ms", "12.5"}, {"gain", "auto"}};
@@ -75,6 +76,7 @@ TEST(RecordingJson, WhatIsWrittenIsReadBack) {
   EXPECT_EQ(back->header.turntable->radius_m, d.header.turntable->radius_m);
   EXPECT_EQ(back->header.turntable->reach_m, d.header.turntable->reach_m);
   EXPECT_EQ(back->header.turntable->speed_rad_s, d.header.turntable->speed_rad_s);
+  EXPECT_TRUE(back->header.poses_within_pass);
   EXPECT_EQ(back->header.software, d.header.software);
   EXPECT_EQ(back->header.source, d.header.source);
   EXPECT_EQ(back->capture, d.capture);

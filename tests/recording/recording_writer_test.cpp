@@ -87,6 +87,45 @@ TEST(RecordingWriter, KeepsAScanThatSawNothing) {
   EXPECT_TRUE(frame->points.empty());
 }
 
+TEST(RecordingWriter, GoesOnWithARecordingThatIsComplete) {
+  const TempFolder temp;
+  auto first = RecordingWriter::create(temp / "r", small_header(), {{"gain", "2"}});
+  ASSERT_TRUE(first && first->append(depth_frame(0)) && first->append(depth_frame(1)));
+  EXPECT_FALSE(RecordingWriter::extend(temp / "r")) << "not complete";
+  ASSERT_TRUE(first->finish());
+  EXPECT_EQ(RecordingWriter::extend(temp / "r").error().code, ErrorCode::kIo) << "still held";
+  first = tl::unexpected<Error>(Error());
+  auto more = RecordingWriter::extend(temp / "r");
+  ASSERT_TRUE(more) << more.error().text();
+  EXPECT_FALSE(Recording::open(temp / "r")->complete());
+  EXPECT_FALSE(more->append(depth_frame(1))) << "an index that is there";
+  Frame frame = depth_frame(2);
+  frame.info.pass = 1;
+  ASSERT_TRUE(more->append(frame));
+  ASSERT_TRUE(more->finish());
+  const auto recording = Recording::open(temp / "r");
+  ASSERT_TRUE(recording);
+  EXPECT_TRUE(recording->complete());
+  EXPECT_TRUE(recording->notes().empty());
+  ASSERT_EQ(recording->frames().size(), 3u);
+  EXPECT_EQ(recording->frames()[2].pass, 1u);
+  EXPECT_EQ(recording->capture_settings().at("gain"), "2");
+  EXPECT_EQ(recording->read(0)->depth.pixels, depth_frame(0).depth.pixels);
+}
+
+TEST(RecordingWriter, AddsNothingToWhatAnotherProgramWrote) {
+  const TempFolder temp;
+  ASSERT_TRUE(write_recording(temp / "r", many_frames(3), RunContext()));
+  EXPECT_EQ(RecordingWriter::extend(temp / "none").error().code, ErrorCode::kNotFound);
+  const std::string lines = content_of(temp / "r/frames.csv");
+  for (const char* other : {"index,file\n0,depth/000000.png\n", "index,file", ""}) {
+    temp.put("r/frames.csv", other);
+    EXPECT_EQ(RecordingWriter::extend(temp / "r").error().code, ErrorCode::kUnsupported) << other;
+  }
+  temp.put("r/frames.csv", lines);
+  EXPECT_TRUE(RecordingWriter::extend(temp / "r"));
+}
+
 TEST(RecordingWriter, RefusesAHeaderThatIsNotUsable) {
   const TempFolder temp;
   SequenceHeader header = small_header();

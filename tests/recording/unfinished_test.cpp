@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/repair.hpp>
 #include <turnscan/recording/unfinished.hpp>
 
 #include "tests/recording/sequences.hpp"
@@ -48,6 +49,18 @@ TEST(Unfinished, IsNothingFinishedNorForeign) {
     EXPECT_FALSE(remove_unfinished_recording(temp / name)) << name;
   }
   EXPECT_TRUE(fs::exists(temp / "mixed/recording.json"));
+}
+
+TEST(Unfinished, IsNothingToWhichAPassWasAddedThatWasNotFinished) {
+  const TempFolder temp;
+  write_frames(temp / "r", true);
+  { ASSERT_TRUE(RecordingWriter::extend(temp / "r")->append(testing::depth_frame(7))); }
+  EXPECT_FALSE(is_unfinished_recording(temp / "r"));
+  const auto recording = Recording::open(temp / "r");
+  EXPECT_FALSE(recording->complete());
+  EXPECT_EQ(recording->frames().size(), 4u);
+  ASSERT_TRUE(repair_recording(temp / "r"));
+  EXPECT_TRUE(Recording::open(temp / "r")->complete());
 }
 
 TEST(Unfinished, IsNothingThatIsBeingWritten) {

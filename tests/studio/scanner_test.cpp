@@ -140,6 +140,78 @@ TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   EXPECT_TRUE(mesh == other) << mesh.left(400).toStdString() << other.left(400).toStdString();
 }
 
+/// Pixels of the colour in which what no view saw is drawn.
+int magenta(const QImage& image) {
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const QRgb c = image.pixel(x, y);
+      count += qRed(c) > 2 * qGreen(c) + 40 && qBlue(c) > qGreen(c) + 20 ? 1 : 0;
+    }
+  return count;
+}
+
+TEST_F(Scanner, AnotherSideIsScannedAndJoined) {
+  mode().set_device(
+      "virtual:skull?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=200&noise="
+      "gaussian:1mm");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record"); }));
+  ASSERT_TRUE(click(named(mode(), "record")));
+  const auto& models = window.explorer().store().models();
+  ASSERT_TRUE(wait_for([&] { return models.size() == 2; }));
+  ASSERT_TRUE(wait_idle(window));
+  auto* advice = static_cast<QLabel*>(named(window.explorer(), "advice"));
+  EXPECT_TRUE(advice->text().startsWith("No view saw")) << advice->text().toStdString();
+  EXPECT_TRUE(advice->text().contains("tip it by"));
+  QTest::keyClick(&window, Qt::Key_6);  // from below
+  ASSERT_TRUE(wait_for([&] { return window.explorer().view().settled(); }));
+  EXPECT_GT(magenta(window.explorer().view().screenshot()), 2000);
+  keep_picture(window, "explorer-missing");
+  for (QCheckBox* box : window.explorer().findChildren<QCheckBox*>())
+    if (box->text() == "Show what no view saw") box->setChecked(false);
+  ASSERT_TRUE(wait_for([&] { return window.explorer().view().settled(); }));
+  EXPECT_LT(magenta(window.explorer().view().screenshot()), 200);
+
+  ASSERT_TRUE(click(button_with(window.explorer(), "Scan another side")));
+  EXPECT_EQ(&window.mode(), static_cast<Mode*>(&mode()));
+  auto* next = static_cast<QLabel*>(named(mode(), "next_pass"));
+  EXPECT_TRUE(next->isVisible());
+  EXPECT_TRUE(next->text().contains("The next pass goes into ~/scans/recording"));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record another side"); }));
+  run_for(1500);  // the object is laid
+  keep_picture(window, "scanner-another-side");
+  ASSERT_TRUE(click(named(mode(), "record")));
+  ASSERT_TRUE(wait_for([&] { return models.size() == 4; }));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_FALSE(next->isVisible());
+  const QString folder_of = folder.filePath("recording");
+  const auto recording = Recording::open(folder_of.toStdString());
+  ASSERT_TRUE(recording.has_value());
+  EXPECT_TRUE(recording->complete());
+  EXPECT_EQ(recording->frames().front().pass, 0u);
+  EXPECT_EQ(recording->frames().back().pass, 1u);
+  EXPECT_TRUE(models[3].data->report.contains("2 passes in one mesh"));
+  EXPECT_FALSE(models[1].visible);  // the mesh of the first pass alone
+  EXPECT_TRUE(models[3].visible);
+  keep_picture(window, "explorer-joined");
+  window.explorer().save_as(models[3].id, folder.filePath("mesh.ply"));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(run_command_line({"reconstruct", folder_of, "-o", folder.filePath("cli.ply")}), 0);
+  EXPECT_TRUE(content(folder.filePath("mesh.ply")) == content(folder.filePath("cli.ply")));
+}
+
+TEST_F(Scanner, ANextPassIsGivenUpForANewRecording) {
+  mode().set_device("virtual:letter-a?sensor=kinect-v1&frames=6000");
+  mode().scan_another_side({folder.filePath("recording"), "Lay it on its back.", {}});
+  auto* next = static_cast<QLabel*>(named(mode(), "next_pass"));
+  EXPECT_TRUE(next->isVisible());
+  EXPECT_FALSE(named(mode(), "scanner_folder")->isEnabled());
+  ASSERT_TRUE(click(button_with(mode(), "New recording instead")));
+  EXPECT_FALSE(next->isVisible());
+  EXPECT_TRUE(named(mode(), "scanner_folder")->isEnabled());
+}
+
 /// Whether the colours of what was seen stand in the picture, beside the legend. What was not seen
 /// is bluish.
 bool shows_sides(const QImage& image) {

@@ -3,6 +3,8 @@
 
 #include <QWidget>
 
+#include "app/another_side.hpp"
+
 class QLabel;
 class QScrollArea;
 class QVBoxLayout;
@@ -46,6 +48,8 @@ class Mode : public QWidget {
   void mode_wanted(const QString& name);
   /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
   void recording_made(const QString& folder, bool reconstruct);
+  /// The Scanner is to add a pass to a recording.
+  void another_side_wanted(const AnotherSide& side);
 
  protected:
   JobRunner& jobs() const { return services_.jobs; }

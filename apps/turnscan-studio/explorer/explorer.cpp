@@ -9,6 +9,7 @@
 #include "explorer/edits.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/side_panel.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/tool_panel.hpp"
 #include "view/scene_view.hpp"
@@ -32,12 +33,14 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       list_(new ModelList(*store_, this)),
       stages_(new StagePanel(this)),
       compare_(new ComparePanel(*store_, this)),
-      tools_(new ToolPanel(view(), this)) {
+      tools_(new ToolPanel(view(), this)),
+      side_(new SidePanel(this)) {
   auto* models = section_with(list_, tr("Models"), true, this);
   auto* stages = section_with(stages_, tr("Processing"), true, this);
   auto* tools = section_with(tools_, tr("Tools"), true, this);
   auto* comparison = section_with(compare_, tr("Compare"), false, this);
-  for (Section* each : {models, tools, stages, comparison}) panel()->addWidget(each);
+  auto* side = section_with(side_, tr("Another side"), true, this);
+  for (Section* each : {models, side, tools, stages, comparison}) panel()->addWidget(each);
   panel()->addStretch();
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
@@ -56,6 +59,11 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
   connect(tools_, &ToolPanel::cut_wanted, this, &ExplorerMode::cut_selected);
   connect(tools_, &ToolPanel::lassoed, this, &ExplorerMode::remove_lassoed);
+  connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
+  connect(side_, &SidePanel::scan_wanted, this, [this] {
+    const Model* model = store_->find(list_->selected());
+    if (model && model->data->missing) Q_EMIT another_side_wanted(model->data->missing->side);
+  });
   on_selection(0);
 }
 
@@ -123,6 +131,7 @@ void ExplorerMode::sync() {
     }
     shown.data = model.data;
   }
+  draw_missing();
   const Model* colored = store_->find(legend_model_);
   view().set_legend(colored && style_of(*colored).visible ? legend_ : Legend());
 }
@@ -157,8 +166,26 @@ void ExplorerMode::remove_lassoed(const Outline& outline, const Eigen::Matrix4d&
   });
 }
 
+/// Over the selected mesh, while that is shown.
+void ExplorerMode::draw_missing() {
+  const Model* model = store_->find(list_->selected());
+  const bool wanted = model && model->data->missing && model->data->missing->drawable &&
+                      side_->drawn() && style_of(*model).visible;
+  if (missing_.item != 0 && (!wanted || missing_.data != model->data)) {
+    view().remove(missing_.item);
+    missing_ = {};
+  }
+  if (!wanted || missing_.item != 0) return;
+  ItemStyle style = style_of(*model);
+  style.color = QColor(0xff0090);
+  style.boxed = style.in_view = false;
+  missing_ = {view().add(model->data->missing->drawable, style), model->data};
+}
+
 void ExplorerMode::on_selection(int id) {
   const Model* model = store_->find(id);
+  side_->show_missing(model ? model->data->missing : nullptr);
+  draw_missing();
   const bool recording = model && model->data->kind == ModelKind::kRecording;
   const bool cloud = model && model->data->kind == ModelKind::kCloud;
   stages_->set_target(recording, cloud);

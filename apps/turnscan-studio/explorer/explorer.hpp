@@ -13,6 +13,7 @@ namespace turnscan::studio {
 
 class ComparePanel;
 class ModelList;
+class SidePanel;
 class StagePanel;
 class ToolPanel;
 
@@ -43,6 +44,7 @@ class ExplorerMode : public Mode {
   StagePanel& stages() { return *stages_; }
   ComparePanel& comparison() { return *compare_; }
   ToolPanel& tools() { return *tools_; }
+  SidePanel& side() { return *side_; }
 
  Q_SIGNALS:
   void file_opened(const QString& path);
@@ -59,6 +61,7 @@ class ExplorerMode : public Mode {
                      const std::function<ModelDataPtr(const ModelData&)>& edit);
   ItemStyle style_of(const Model& model) const;
   void sync();
+  void draw_missing();
   void on_selection(int id);
 
   ModelStore* store_;
@@ -66,6 +69,7 @@ class ExplorerMode : public Mode {
   StagePanel* stages_;
   ComparePanel* compare_;
   ToolPanel* tools_;
+  SidePanel* side_;
   struct Shown {
     int item = 0;
     ModelDataPtr data;
@@ -73,6 +77,7 @@ class ExplorerMode : public Mode {
   int legend_model_ = 0;  ///< the legend is shown while this model is
   Legend legend_;
   std::map<int, Shown> shown_;  ///< by model
+  Shown missing_;               ///< what no view saw of the selected mesh
 };
 
 }  // namespace turnscan::studio

@@ -53,7 +53,13 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then) 
 }
 
 void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
-  load(folder, [this, reconstruct] {
+  load(folder, [this, folder, reconstruct] {
+    // What was made of it before it got another pass.
+    std::vector<int> before;
+    for (const Model& model : store_->models())
+      if (model.visible && model.data->missing && model.data->missing->side.recording == folder)
+        before.push_back(model.id);
+    for (const int id : before) store_->set_visible(id, false);
     if (reconstruct) run_stage(QString::fromStdString(kMeshStage));
   });
 }
@@ -74,6 +80,7 @@ void ExplorerMode::run_stage(const QString& stage) {
           store_->set_visible(id, false);
           list_->select(ids.front());
           stages_->show_used(run.choices);
+          if (!run.not_joined.isEmpty()) stages_->show_error(run.not_joined);
           view().fit_unless_moved();  // of a recording it has shown the table, too
         });
       },

@@ -10,6 +10,7 @@
 #include <turnscan/core/frame.hpp>
 #include <vector>
 
+#include "app/another_side.hpp"
 #include "view/drawable.hpp"
 
 namespace turnscan {
@@ -20,6 +21,12 @@ namespace turnscan::studio {
 
 enum class ModelKind { kMesh, kCloud, kRecording };
 
+/// Of a mesh made from a recording.
+struct MissingSurface {
+  AnotherSide side;
+  DrawablePtr drawable;  ///< what no view saw; nullptr: nothing worth drawing
+};
+
 /// Never changed once made: an edit makes new data, so that undo only swaps pointers.
 struct ModelData {
   ModelKind kind = ModelKind::kCloud;
@@ -28,8 +35,9 @@ struct ModelData {
   PointCloud cloud;                   ///< of a recording: a preview
   std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
   std::shared_ptr<const Recording> recording;
-  QString source;  ///< file, or what was run to make it
-  QString report;  ///< several lines for people
+  std::shared_ptr<const MissingSurface> missing;  ///< of a mesh; nullptr: not known
+  QString source;                                 ///< file, or what was run to make it
+  QString report;                                 ///< several lines for people
   DrawablePtr drawable;
 };
 using ModelDataPtr = std::shared_ptr<const ModelData>;

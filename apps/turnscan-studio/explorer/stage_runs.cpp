@@ -5,6 +5,7 @@
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
+#include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 #include <variant>
@@ -50,7 +51,46 @@ StageRun cloud_run(PointCloud cloud, const FrameSequence& frames, const Model& m
   return out;
 }
 
-StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context) {
+/// What no view saw, a little outside so that it covers the mesh.
+DrawablePtr unseen_drawable(const ObjectResult& object) {
+  constexpr float kOutside_m = 0.0002f;
+  TriangleMesh unseen;
+  const TriangleMesh& mesh = object.mesh;
+  for (std::size_t i = 0; i < object.evidence.size(); ++i) {
+    if (object.evidence[i] != Evidence::kInvented && object.evidence[i] != Evidence::kBase)
+      continue;
+    const auto& [a, b, c] = mesh.triangles[i];
+    const Vec3f normal = (mesh.vertices[b] - mesh.vertices[a])
+                             .cross(mesh.vertices[c] - mesh.vertices[a])
+                             .normalized();
+    const auto first = std::uint32_t(unseen.vertices.size());
+    for (const std::uint32_t v : {a, b, c}) {
+      unseen.vertices.push_back(mesh.vertices[v] + kOutside_m * normal);
+      unseen.normals.push_back(normal);
+    }
+    unseen.triangles.push_back({first, first + 1, first + 2});
+  }
+  return unseen.empty() ? nullptr : make_drawable(unseen, Shading::kFlat);
+}
+
+/// Of the largest object of a run on a recording.
+std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, const Model& model) {
+  auto out = std::make_shared<MissingSurface>();
+  out->side.recording = model.data->source;
+  if (!run.next_pass) {
+    out->side.advice = QObject::tr("Hardly anything of it was not seen.");
+    return out;
+  }
+  out->side.advice = QString::fromStdString(next_pass_text(*run.next_pass)).replace("cm2", "cm²");
+  if (!run.next_pass->poses.empty())
+    out->side.turn = ObjectTurn{turn_seen_by_sensor(run.next_pass->poses.front(), run.seen_from),
+                                run.seen_from.first_time_s};
+  out->drawable = unseen_drawable(run.reconstruction.objects.front());
+  return out;
+}
+
+StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context,
+                  const std::shared_ptr<const MissingSurface>& missing = nullptr) {
   StageRun out;
   const QString report = QString::fromStdString(reconstruction_text(result));
   context.begin_phase("prepare the view", result.objects.size());
@@ -59,11 +99,42 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
         result.objects.size() == 1
             ? QObject::tr("%1 mesh").arg(model.name)
             : QObject::tr("%1 %2").arg(model.name, QString::fromStdString(object.mesh.name));
-    out.models.emplace_back(name, mesh_model(std::move(object.mesh), source_of(kMeshStage, model),
-                                             report, std::move(object.confidence)));
+    const ModelDataPtr made = mesh_model(std::move(object.mesh), source_of(kMeshStage, model),
+                                         report, std::move(object.confidence));
+    auto data = std::make_shared<ModelData>(*made);
+    if (out.models.empty()) data->missing = missing;
+    out.models.emplace_back(name, std::move(data));
     context.advance();
   }
   out.choices = std::move(result.choices);
+  return out;
+}
+
+/// Meshes of a recording are those of the command line: its passes are joined.
+Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions& options,
+                                   const RunContext& context) {
+  ReconstructRequest request;
+  request.options = options;
+  request.allow_open = !options.surface.repair;
+  TURNSCAN_ASSIGN(ReconstructRun made,
+                  run_reconstruction(*model.data->recording, request, context));
+  const bool any = !made.reconstruction.objects.empty();
+  const auto missing = any ? missing_of(made, model) : nullptr;
+  StageRun out = mesh_run(std::move(made.reconstruction), model, context, missing);
+  QStringList reasons;
+  for (PassApart& pass : made.apart) {
+    StageRun apart = mesh_run(std::move(pass.reconstruction), model, context);
+    for (auto& [name, data] : apart.models)
+      out.models.emplace_back(QObject::tr("%1 of %2").arg(name, QString::fromStdString(pass.name)),
+                              std::move(data));
+    if (!pass.reason.empty())
+      reasons << QObject::tr("%1 was not joined: %2; its mesh is a model of its own")
+                     .arg(QString::fromStdString(pass.name), QString::fromStdString(pass.reason));
+  }
+  out.not_joined = reasons.join("\n");
+  if (out.models.empty())
+    return fail(ErrorCode::kTooFewPoints, "no pass of '{}' shows an object; look at its frames",
+                model.name.toStdString());
   return out;
 }
 
@@ -89,11 +160,15 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
 Result<StageRun> run_recording(const Model& model, const std::string& stage,
                                const ReconstructOptions& options, const RunContext& context) {
   const Recording& recording = *model.data->recording;
-  TURNSCAN_ASSIGN(CalibratedFrames calibrated,
-                  calibrate_frames(recording, "auto", false, options, context));
-  TURNSCAN_ASSIGN(StageRun run,
-                  run_on(*calibrated.frames, model, stage, std::move(calibrated.options),
-                         calibrated.choice.note, context));
+  StageRun run;
+  if (stage == kMeshStage) {
+    TURNSCAN_ASSIGN(run, mesh_of_recording(model, options, context));
+  } else {
+    TURNSCAN_ASSIGN(CalibratedFrames calibrated,
+                    calibrate_frames(recording, "auto", false, options, context));
+    TURNSCAN_ASSIGN(run, run_on(*calibrated.frames, model, stage, std::move(calibrated.options),
+                                calibrated.choice.note, context));
+  }
   // Frames that are damaged, too: what was left out is told with what was made.
   if (recording.notes().empty()) return run;
   QString notes;

@@ -15,11 +15,12 @@ inline const std::string kMeshStage = "mesh";
 struct StageRun {
   NamedModels models;
   std::vector<Choice> choices;  ///< automatic values as they were used
+  QString not_joined;           ///< why passes are apart, each in a model of its own; else empty
 };
 
 /// Runs the pipeline on a recording or a cloud up to a stage. For a recording the results are those
 /// of `turnscan reconstruct` with the same options (--calibration auto, --save-stage), byte for
-/// byte. A mesh fails with kUnsupported, else as reconstruct() does.
+/// byte: its passes are joined. A mesh fails with kUnsupported, else as reconstruct() does.
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context);
 

@@ -27,6 +27,7 @@ void LiveFeed::start(const std::string& uri) {
     collected_.clear();
     wanted_ = 0;
     request_.reset();
+    turn_.reset();
   }
   context_ = std::make_unique<RunContext>();
   ended_ = false;
@@ -79,6 +80,10 @@ void LiveFeed::run(const std::string& uri, const RunContext& context) {
       request.swap(request_);
       recording = recording_context_;
     }
+    if (auto laid = lay_now(**source); !laid) {
+      failure = laid.error();
+      break;
+    }
     if (request) session.record(*request, recording);
     auto delivery = (*source)->next(0.1, context);
     if (!delivery) failure = delivery.error();
@@ -90,6 +95,26 @@ void LiveFeed::run(const std::string& uri, const RunContext& context) {
   if (failure) return fail_with(*failure);
   const std::lock_guard lock(mutex_);
   state_.open = false;
+}
+
+Result<> LiveFeed::lay_now(FrameSource& source) {
+  std::optional<ObjectTurn> turn;
+  {
+    const std::lock_guard lock(mutex_);
+    turn.swap(turn_);
+  }
+  if (!turn || !source.info().lays_object) return {};
+  source.stop();
+  if (auto laid = source.lay_object(turn->rotation, turn->time_s); !laid) {
+    const std::lock_guard lock(mutex_);
+    state_.record_error = laid.error().text();
+  }
+  return source.start();
+}
+
+void LiveFeed::lay_object(const ObjectTurn& turn) {
+  const std::lock_guard lock(mutex_);
+  turn_ = turn;
 }
 
 void LiveFeed::set_calibration(std::shared_ptr<const Calibration> calibration) {

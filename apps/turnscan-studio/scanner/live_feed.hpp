@@ -12,6 +12,7 @@
 #include <turnscan/core/run_context.hpp>
 #include <vector>
 
+#include "app/another_side.hpp"
 #include "view/drawable.hpp"
 
 namespace turnscan::studio {
@@ -79,6 +80,8 @@ class LiveFeed {
   /// The collected frames with the header of their source, once all are there.
   std::unique_ptr<FrameSequence> take_collected();
   void record(const RecordingRequest& request);
+  /// Lays the object so, where the source can; where it cannot, somebody does it by hand.
+  void lay_object(const ObjectTurn& turn);
   void stop_recording();
 
   LiveState take_state();
@@ -86,6 +89,7 @@ class LiveFeed {
  private:
   struct Session;
   void run(const std::string& uri, const RunContext& context);
+  Result<> lay_now(FrameSource& source);
   void fail_with(const Error& error);
 
   std::thread thread_;
@@ -96,6 +100,7 @@ class LiveFeed {
   LiveState state_;
   std::shared_ptr<const Calibration> calibration_;
   std::optional<RecordingRequest> request_;
+  std::optional<ObjectTurn> turn_;
   RunContext recording_context_;  ///< of the recording that is asked for, or runs
   std::size_t wanted_ = 0;
   std::vector<Frame> collected_;

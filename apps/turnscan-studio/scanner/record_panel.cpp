@@ -57,6 +57,7 @@ RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_
   row->addWidget(folder_, 1);
   row->addWidget(browse);
   layout->addLayout(row);
+  build_next_pass(layout);
   build_options();
   reconstruct_ = new QCheckBox(tr("Make the mesh when it is done"), this);
   reconstruct_->setChecked(QSettings().value("scanner/reconstruct", true).toBool());
@@ -84,6 +85,26 @@ RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_
 }
 
 RecordPanel::~RecordPanel() = default;
+
+void RecordPanel::build_next_pass(QVBoxLayout* layout) {
+  advice_ = new ParagraphLabel(this);
+  advice_->setObjectName("next_pass");
+  leave_ = button(tr("New recording instead"),
+                  tr("What is recorded next is another object, or this one anew"), this);
+  layout->addWidget(advice_);
+  layout->addWidget(leave_);
+  connect(leave_, &QPushButton::clicked, this, [this] { set_next_pass({}, {}); });
+  set_next_pass({}, {});
+}
+
+void RecordPanel::set_next_pass(const QString& folder, const QString& advice) {
+  next_pass_ = folder;
+  advice_->setVisible(!folder.isEmpty());
+  leave_->setVisible(!folder.isEmpty());
+  folder_->setEnabled(folder.isEmpty());
+  if (!folder.isEmpty())
+    advice_->show_text(tr("The next pass goes into %1. %2").arg(shown_path(folder), advice));
+}
 
 void RecordPanel::build_options() {
   CaptureOptions& capture = options_->capture;
@@ -133,13 +154,15 @@ std::optional<RecordingRequest> RecordPanel::request() {
   if (motor_->turning()) problem = tr("The motor is being tried; stop it first");
   error_->show_text(problem);
   if (!problem.isEmpty()) return std::nullopt;
-  const QString folder = free_folder(typed_path(folder_->text()));
-  if (const auto good = check_output_folder(folder.toStdString()); !good) {
+  const QString folder =
+      next_pass_.isEmpty() ? free_folder(typed_path(folder_->text())) : next_pass_;
+  if (const auto good = check_output_folder(folder.toStdString()); next_pass_.isEmpty() && !good) {
     error_->show_text(QString::fromStdString(good.error().text()));
     return std::nullopt;
   }
   RecordingRequest request{folder.toStdString(), options_->capture, motor_->port(),
                            motor_->options()};
+  request.options.add_pass = !next_pass_.isEmpty();
   if (!request.motor_port.empty()) request.options.stops = motor_->stops();
   return request;
 }
@@ -161,7 +184,9 @@ QString RecordPanel::progress_text(const LiveState& state) const {
 
 void RecordPanel::show_state(const LiveState& state, bool open) {
   record_->setEnabled(open);
-  record_->setText(state.recording ? tr("Stop recording") : tr("Record"));
+  record_->setText(state.recording        ? tr("Stop recording")
+                   : next_pass_.isEmpty() ? tr("Record")
+                                          : tr("Record another side"));
   motor_->set_in_use(state.recording);
   if (!state.record_error.empty()) error_->show_text(QString::fromStdString(state.record_error));
   bar_->setVisible(state.recording);

@@ -10,12 +10,14 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
+class QVBoxLayout;
 
 namespace turnscan::studio {
 
 class MessageLabel;
 class MotorPanel;
 class OptionForm;
+class ParagraphLabel;
 struct LiveState;
 struct RecordingRequest;
 
@@ -26,6 +28,8 @@ class RecordPanel : public QWidget {
   ~RecordPanel() override;
 
   void set_folder(const QString& folder);
+  /// What is recorded next is added to the recording in this folder; empty: a recording of its own.
+  void set_next_pass(const QString& folder, const QString& advice);
   /// Each device's table has its own speed; the one typed before the first device is that one's.
   void set_device(const QString& uri);
   bool reconstruct() const;
@@ -43,10 +47,14 @@ class RecordPanel : public QWidget {
  private:
   struct Options;
   void build_options();
+  void build_next_pass(QVBoxLayout* layout);
   QString progress_text(const LiveState& state) const;
 
   std::unique_ptr<Options> options_;
   QString device_;
+  QString next_pass_;  ///< folder that gets another pass; empty: none
+  ParagraphLabel* advice_;
+  QPushButton* leave_;
   QLineEdit* folder_;
   QCheckBox* reconstruct_;
   QPushButton* record_;

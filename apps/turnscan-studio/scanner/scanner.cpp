@@ -189,6 +189,7 @@ void ScannerMode::poll() {
   }
   if (!state.finished.empty()) {
     const QString folder = QString::fromStdString(state.finished);
+    record_->set_next_pass({}, {});
     Q_EMIT status(tr("Wrote %1").arg(shown_path(folder)));
     // What a fault has ended is for a person to look at first.
     Q_EMIT recording_made(folder, record_->reconstruct() && state.record_error.empty());
@@ -264,6 +265,14 @@ void ScannerMode::set_still(bool still) {
   live_->setVisible(still && feed_->running());
   view().set_style(scan_item_, picture_style(still));
   view().set_style(live_item_, picture_style(!still));
+}
+
+void ScannerMode::scan_another_side(const AnotherSide& side) {
+  record_->set_next_pass(side.recording, side.advice);
+  if (!feed_->running()) toggle_play();
+  if (side.turn) feed_->lay_object(*side.turn);
+  set_still(false);
+  reveal(record_);
 }
 
 void ScannerMode::toggle_record() {

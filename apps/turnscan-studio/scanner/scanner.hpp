@@ -39,6 +39,8 @@ class ScannerMode : public Mode {
   QString undo_text() const override { return picks_.empty() ? QString() : tr("click"); }
   void shut_down() override;
 
+  /// Tells how to lay the object, lays it so where the source can, and goes on with its recording.
+  void scan_another_side(const AnotherSide& side);
   void set_device(const QString& uri);
   RecordPanel& recording() { return *record_; }
   const Calibration* calibration() const { return calibration_.get(); }

@@ -6,6 +6,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QVariant>
+#include <algorithm>
 
 namespace turnscan::studio {
 
@@ -56,6 +57,27 @@ MessageLabel::MessageLabel(QWidget* parent) : QLabel(parent) {
 void MessageLabel::show_text(const QString& text) {
   setText(text);
   setVisible(!text.isEmpty());
+}
+
+ParagraphLabel::ParagraphLabel(QWidget* parent) : QLabel(parent) {
+  setWordWrap(true);
+  setTextInteractionFlags(Qt::TextSelectableByMouse);
+}
+
+void ParagraphLabel::show_text(const QString& text) {
+  setText(text);
+  fit();
+}
+
+void ParagraphLabel::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  fit();
+}
+
+// Layouts within layouts give a text that wraps less than it needs.
+void ParagraphLabel::fit() {
+  setMinimumHeight(0);  // which a label counts as needed
+  setMinimumHeight(std::max(0, heightForWidth(width())));
 }
 
 QLabel* quiet_label(const QString& text, QWidget* parent) {

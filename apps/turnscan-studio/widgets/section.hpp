@@ -35,6 +35,19 @@ class MessageLabel : public QLabel {
   void show_text(const QString& text);
 };
 
+/// A paragraph of several lines, of which a panel shows all.
+class ParagraphLabel : public QLabel {
+ public:
+  explicit ParagraphLabel(QWidget* parent = nullptr);
+  void show_text(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void fit();
+};
+
 /// Text that explains; wraps and stays in the background.
 QLabel* quiet_label(const QString& text, QWidget* parent = nullptr);
 QPushButton* button(const QString& text, const QString& tip, QWidget* parent = nullptr);

@@ -109,6 +109,10 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
   connect(mode, &Mode::undo_changed, this, [this] {
     if (menu_.undo) update_undo();
   });
+  connect(mode, &Mode::another_side_wanted, this, [this](const AnotherSide& side) {
+    show_mode("scanner");
+    scanner_->scan_another_side(side);
+  });
   connect(mode, &Mode::recording_made, this, [this](const QString& folder, bool reconstruct) {
     show_mode("explorer");
     explorer_->take_recording(folder, reconstruct);

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -48,7 +50,14 @@ class Session {
   }
   const std::string& text() const { return text_; }
 
+  /// Puts a question to whoever sits before standard error and takes a line of standard input,
+  /// while no progress is shown. nullopt: standard input has ended. Fails with kCancelled.
+  Result<std::optional<std::string>> ask(const std::string& question);
+  /// What shows progress; called with true before a question, with false behind it.
+  void on_question(std::function<void(bool)> pause) { pause_ = std::move(pause); }
+
  private:
+  std::function<void(bool)> pause_;
   RunContext context_;
   std::unique_ptr<StatusLine> status_ = std::make_unique<StatusLine>();
   std::string text_;

@@ -11,6 +11,7 @@ std::unique_ptr<Command> make_info_command();
 std::unique_ptr<Command> make_calibrate_command();
 std::unique_ptr<Command> make_reconstruct_command();
 std::unique_ptr<Command> make_evaluate_command();
+std::unique_ptr<Command> make_report_command();
 std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_simulate_command();
 std::unique_ptr<Command> make_demo_command();

@@ -266,6 +266,7 @@ int Program::run_command(Entry& entry) {
   Session session{RunContext()};
   const InterruptWatch watch(session.context());
   ProgressDisplay display(session.context(), session.status(), entry.run_options.quiet);
+  session.on_question([&](bool paused) { display.pause(paused); });
   Result<> result = entry.command->run(session);
   display.finish();
   const int put = put_text(session.text());

@@ -63,6 +63,13 @@ void ProgressDisplay::finish() {
   if (terminal_) put("\r\033[K");
 }
 
+void ProgressDisplay::pause(bool paused) {
+  if (quiet_) return;
+  const std::lock_guard lock(mutex_);
+  paused_ = paused;
+  if (paused_ && terminal_) put("\r\033[K");
+}
+
 void ProgressDisplay::on_progress(const Progress& progress) {
   std::lock_guard lock(mutex_);
   const auto now = Clock::now();
@@ -71,16 +78,16 @@ void ProgressDisplay::on_progress(const Progress& progress) {
   if (begins) {
     phase_begin_ = last_line_ = now;
     last_fraction_ = 0.0;
-    if (!terminal_) put(progress_.phase + "\n");
+    if (!terminal_ && !paused_) put(progress_.phase + "\n");
   }
-  if (terminal_) draw_bar();
+  if (terminal_ && !paused_) draw_bar();
 }
 
 // Some phases cannot say how far they are; the ticker keeps their clock going.
 void ProgressDisplay::tick() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, kTick, [this] { return finished_; })) {
-    if (progress_.phase_number == 0) continue;
+    if (progress_.phase_number == 0 || paused_) continue;
     if (terminal_) {
       draw_bar();
     } else {

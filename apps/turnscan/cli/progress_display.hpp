@@ -22,6 +22,9 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
+  /// Shows nothing until it is called with false.
+  void pause(bool paused);
+
   /// Stops listening and removes the bar. May be called more than once.
   void finish();
 
@@ -40,7 +43,7 @@ class ProgressDisplay {
   const bool terminal_;
   std::mutex mutex_;  // guards what follows
   std::condition_variable wake_;
-  bool finished_ = false;
+  bool finished_ = false, paused_ = false;
   Progress progress_;
   Clock::time_point phase_begin_;
   Clock::time_point last_line_;

@@ -24,7 +24,7 @@ OptionTable describe(std::string& object, int& picture_size_px) {
   table
       .text("object", object,
             fmt::format("What stands on the turntable: {}, pair (letter-a and doll together), or "
-                        "all of these one after the other",
+                        "all of these but the gauges, one after the other",
                         fmt::join(builtin_object_names(), ", ")))
       .number("picture-size", picture_size_px, {16, 4096},
               "Width and height of each of the picture's three views in pixels");

@@ -153,7 +153,10 @@ OptionTable describe(DemoScanOptions& o) {
 Result<std::vector<std::string>> scene_names(const std::string& object) {
   std::vector<std::string> names = builtin_object_names();
   names.emplace_back("pair");
-  if (object == "all") return names;
+  if (object == "all") {
+    std::erase_if(names, [](const std::string& name) { return is_gauge(name); });
+    return names;
+  }
   for (const std::string& name : names) {
     if (name == object) return std::vector<std::string>{name};
   }

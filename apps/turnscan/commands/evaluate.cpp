@@ -4,6 +4,7 @@
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 
+#include <turnscan/workflow/artefact_input.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>
 #include <turnscan/workflow/text/evaluation_text.hpp>
@@ -34,8 +35,9 @@ Result<std::optional<double>> unit_of(const std::string& text) {
 class EvaluateCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("MESH", mesh_, "Mesh to be judged");
-    line.required_option("--reference", "MESH", reference_, "The true surface");
+    line.positional("MESH", mesh_,
+                    "Mesh to be judged; with --artefact also a point cloud (.ply, .pcd)");
+    line.option("--reference", "MESH", reference_, "The true surface. Needed without --artefact");
     line.option("--seen-from", "RECORDING", seen_from_,
                 "Judge completeness over what the frames of this recording saw of the reference, "
                 "which must lie in the recording's table frame");
@@ -46,6 +48,7 @@ class EvaluateCommand : public Command {
     line.allow_config();
     line.group("evaluation", "Evaluation", describe(options_));
     line.group("error-map", "Error map", describe(map_options_));
+    line.group("artefact", "Artefact", describe(artefact_));
   }
 
   FileRoles files() const override {
@@ -56,6 +59,15 @@ class EvaluateCommand : public Command {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(error_map_, ".ply"));
     TURNSCAN_ASSIGN(const auto unit, unit_of(unit_));
+    if (artefact_.artefact != Artefact::kNone) return run_artefact(unit, session);
+    if (artefact_.diameter_m || artefact_.spacing_m)
+      return fail(ErrorCode::kInvalidOption,
+                  "evaluate: --ball-diameter and --ball-spacing are of an artefact; say which with "
+                  "--artefact ball or ball-bar");
+    if (reference_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "evaluate: there is nothing to compare with; give --reference, or --artefact for "
+                  "the scan of a ball, ball bar or plate");
     TURNSCAN_ASSIGN(const auto reference_unit, unit_of(reference_unit_));
     TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(mesh_, {unit}, session.context()));
     TURNSCAN_ASSIGN(const TriangleMesh reference,
@@ -72,6 +84,25 @@ class EvaluateCommand : public Command {
   }
 
  private:
+  Result<> run_artefact(std::optional<double> unit, Session& session) const {
+    for (const auto& [name, value] :
+         {std::pair("--reference", &reference_), std::pair("--seen-from", &seen_from_),
+          std::pair("--error-map", &error_map_)}) {
+      if (!value->empty())
+        return fail(ErrorCode::kInvalidOption,
+                    "evaluate: {} does not go with --artefact, which is measured by itself; leave "
+                    "one of them out",
+                    name);
+    }
+    TURNSCAN_ASSIGN(const PointCloud cloud, read_artefact(mesh_, unit, session.context()));
+    TURNSCAN_ASSIGN(const ArtefactFigures figures,
+                    measure_artefact(cloud, artefact_, session.context()));
+    if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, to_json(figures)));
+    session.print("{}", artefact_text(figures));
+    if (!json_.empty()) session.print("Wrote {}\n", json_);
+    return {};
+  }
+
   Result<Evaluation> judge(const TriangleMesh& mesh, const TriangleMesh& reference,
                            const RunContext& context) const {
     if (seen_from_.empty()) return evaluate(mesh, reference, options_, {}, context);
@@ -95,6 +126,7 @@ class EvaluateCommand : public Command {
   std::string mesh_, reference_, seen_from_, json_, error_map_, unit_, reference_unit_;
   EvaluateOptions options_;
   ErrorMapOptions map_options_;
+  ArtefactOptions artefact_;
 };
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace {
 class ImportCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("SOURCE", source_, "Data set to read: a folder, a .conf or a .json file");
+    line.positionals("SOURCE...", sources_,
+                     "Data set to read: a folder, a .conf or a .json file. Several are the passes "
+                     "of one object, in which it lies in several ways");
     line.required_option("-o,--out", "RECORDING", out_,
                          "Folder to make for the recording; it must not exist or be empty");
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
@@ -22,13 +24,14 @@ class ImportCommand : public Command {
   }
 
   FileRoles files() const override {
-    return {{source_}, {}, {}, overwrite_unfinished_ ? out_ : std::string()};
+    return {sources_, {}, {}, overwrite_unfinished_ ? out_ : std::string()};
   }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(options_.check());
     TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
-    TURNSCAN_ASSIGN(const auto sequence, open_foreign(source_, options_));
+    TURNSCAN_ASSIGN(const auto sequence,
+                    open_foreign_passes({sources_.begin(), sources_.end()}, options_));
     TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_));
@@ -38,7 +41,8 @@ class ImportCommand : public Command {
   }
 
  private:
-  std::string source_, out_;
+  std::vector<std::string> sources_;
+  std::string out_;
   bool overwrite_unfinished_ = false;
   ImportOptions options_;
 };

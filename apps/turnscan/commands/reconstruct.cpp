@@ -2,7 +2,9 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/recording/recording.hpp>
 
+#include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 #include "cli/command_line.hpp"
@@ -24,9 +26,14 @@ class ReconstructCommand : public Command {
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm. Several "
                          "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file. Passes that "
                          "cannot be joined become OUT-pass1, ..., and the command fails");
+    line.repeatable("--report", "FILE.json|FILE.html", reports_,
+                    "Write what was done: counts, parameters with their reasons, times, checks. "
+                    ".json: for programs; .html: a page to send, with the model in 3D. Both may be "
+                    "given");
     line.option(
-        "--report", "FILE.json", files_.report,
-        "Write what was done as JSON: counts, parameters with their reasons, times, checks");
+        "--advice-picture", "FILE.png", files_.advice_picture,
+        "Draw how the object is to be laid for a next pass, beside how it lay; what no view "
+        "saw is magenta");
     line.repeatable(
         "--save-stage", "NAME[=FILE.ply]", save_stages_,
         fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
@@ -54,7 +61,8 @@ class ReconstructCommand : public Command {
   }
 
   FileRoles files() const override {
-    FileRoles files{recordings_, {files_.mesh, files_.report}, files_.mesh};
+    FileRoles files{recordings_, {files_.mesh, files_.advice_picture}, files_.mesh};
+    files.outputs.insert(files.outputs.end(), reports_.begin(), reports_.end());
     files.inputs.push_back(request_.turntable);
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
     for (const std::string& text : pass_poses_)
@@ -77,13 +85,15 @@ class ReconstructCommand : public Command {
     for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
     TURNSCAN_ASSIGN(const ReconstructRun made,
                     run_reconstruction(named, request_, session.context()));
-    TURNSCAN_ASSIGN(const auto files, write_outputs(files_, made, request_.options));
+    TURNSCAN_ASSIGN(const auto files,
+                    write_outputs(files_, made, request_.options, session.context()));
     session.print("{}", text_of(made));
+    if (made.next_pass) session.print("Next pass: {}\n", next_pass_text(*made.next_pass));
     for (const Recording& recording : recordings) {
       for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
     }
     for (const std::string& file : files) session.print("Wrote {}\n", file);
-    return check_joined(made);
+    return check_joined(made.apart);
   }
 
  private:
@@ -97,6 +107,9 @@ class ReconstructCommand : public Command {
   }
 
   Result<> check_files() {
+    TURNSCAN_ASSIGN(const ReportFiles reports, sort_report_files(reports_));
+    files_.report = reports.json;
+    files_.page = reports.page;
     TURNSCAN_TRY(check_outputs(files_));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
     for (const std::string& text : pass_poses_) {
@@ -133,7 +146,7 @@ class ReconstructCommand : public Command {
   }
 
   std::vector<std::string> recordings_;
-  std::vector<std::string> save_stages_, pass_poses_;
+  std::vector<std::string> save_stages_, pass_poses_, reports_;
   ReconstructFiles files_;
   ReconstructRequest request_;
 };

@@ -1,3 +1,7 @@
+#include <unistd.h>
+
+#include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/scan/scan.hpp>
 
 #include "cli/command_line.hpp"
@@ -8,6 +12,21 @@
 namespace turnscan::cli {
 
 namespace {
+
+/// Of the object, each of which is a turn of the table.
+struct PassCount {
+  std::optional<int> passes;
+};
+
+OptionTable describe(PassCount& count) {
+  OptionTable table;
+  table.number(
+      "passes", count.passes, {1, 100},
+      "Record the object in so many ways to lie, each for a turn, and join them: before "
+      "each further pass it says what is missing and how to lay the object, and waits for "
+      "Enter. Virtual objects are laid so by themselves. auto: asks at a terminal, else 1");
+  return table;
+}
 
 class ScanCommand : public Command {
  public:
@@ -21,35 +40,65 @@ class ScanCommand : public Command {
                 "Folder to make for the recording, by default beside the mesh. It is kept");
     line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
               "Remove the recording that lies there when it was not finished");
-    line.option("--report", "FILE.json", request_.report,
-                "Write what was recorded and reconstructed as JSON");
+    line.repeatable("--report", "FILE.json|FILE.html", reports_,
+                    "Write what was recorded and reconstructed. .json: for programs; .html: a page "
+                    "to send, with the model in 3D. Both may be given");
+    line.option("--advice-picture", "FILE.png", request_.advice_picture,
+                "Draw how the object is to be laid for the next pass, beside how it lay; what no "
+                "view saw is magenta");
     line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     declare_capture(line, request_.setup);
+    line.group("passes", "Passes", describe(passes_));
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Work while frames come", describe(request_.ahead));
     declare_stages(line, request_.reconstruct);
   }
 
   FileRoles files() const override {
-    return {with_replayed(request_.setup.devices, request_.setup.turntable_file),
-            {request_.mesh, request_.report},
-            request_.mesh,
-            request_.overwrite_unfinished ? recording_of(request_) : std::string()};
+    std::vector<std::string> outputs{request_.mesh, request_.advice_picture};
+    outputs.insert(outputs.end(), reports_.begin(), reports_.end());
+    return {with_replayed(request_.setup.devices, request_.setup.turntable_file), outputs,
+            request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }
 
   HelpScope help_scope() const override { return stages_help_scope(request_.reconstruct); }
 
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;
-    const ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }};
+    TURNSCAN_ASSIGN(const ReportFiles reports, sort_report_files(reports_));
+    request_.report = reports.json;
+    request_.page = reports.page;
+    request_.passes = passes_.passes;
+    ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }, {}};
+    if (request_.passes.value_or(0) > 1 || (!request_.passes && at_terminal()))
+      hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {
+        return another_side(session, advice, pass);
+      };
     TURNSCAN_ASSIGN(const ScanOutcome outcome, run_scan(request_, hooks, session.context()));
     session.print("{}", scan_text(outcome));
-    return {};
+    return check_joined(outcome.apart);
   }
 
  private:
+  static bool at_terminal() { return isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1; }
+
+  Result<bool> another_side(Session& session, const std::string& advice, std::uint32_t pass) const {
+    TURNSCAN_ASSIGN(const auto answer,
+                    session.ask(fmt::format("{}\nAnother side? Lay it so and press Enter to record "
+                                            "pass {}, or type q to end: ",
+                                            advice, pass)));
+    if (answer) return answer->empty() || (answer->front() != 'q' && answer->front() != 'n');
+    if (!request_.passes) return false;
+    return fail(ErrorCode::kMissingData,
+                "standard input has ended, so that nobody says when the object lies another way; "
+                "the mesh of the passes so far is in {}",
+                request_.mesh);
+  }
+
   ScanRequest request_;
+  std::vector<std::string> reports_;
+  PassCount passes_;
   bool no_wait_ = false;
 };
 

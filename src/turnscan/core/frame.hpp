@@ -102,6 +102,8 @@ struct SequenceHeader {
   std::optional<TurntableInfo> turntable;
   std::string software;  ///< what wrote it
   std::string source;    ///< for people: where the data come from; may be empty
+  /// Frames' own poses bring together the frames of a pass only; else those of all passes.
+  bool poses_within_pass = false;
 };
 
 /// Frames in the order of their indices. read() may be called from several threads at once.

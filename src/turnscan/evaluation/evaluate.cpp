@@ -8,6 +8,7 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
+#include <turnscan/geometry/search/pseudo_normals.hpp>
 #include <turnscan/geometry/search/sample.hpp>
 
 namespace turnscan {
@@ -72,7 +73,9 @@ class OpenEdges {
 /// Where each sample's nearest point on the other surface is.
 struct Nearest {
   std::vector<double> distance;
-  std::vector<Vec3f> points, normals;   // on the other surface
+  std::vector<Vec3d> points;   // on the other surface
+  std::vector<Vec3f> normals;  // of the triangle there
+  std::vector<std::uint32_t> triangles;
   std::vector<std::uint8_t> on_border;  // 1: on an open edge of it
 };
 
@@ -84,6 +87,7 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
   nearest.distance.resize(n);
   nearest.points.resize(n);
   nearest.normals.resize(n);
+  nearest.triangles.resize(n);
   nearest.on_border.assign(n, 0);
   const std::optional<OpenEdges> open =
       border == Border::kLeaveOut ? std::optional<OpenEdges>(surface) : std::nullopt;
@@ -94,7 +98,8 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const auto hit = distance.closest(samples[i].cast<double>());
       nearest.distance[i] = hit.distance;
-      nearest.points[i] = hit.point.cast<float>();
+      nearest.points[i] = hit.point;
+      nearest.triangles[i] = hit.triangle;
       nearest.normals[i] = triangle_normal(surface, hit.triangle);
       if (open && open->contain(hit.point, hit.triangle)) nearest.on_border[i] = 1;
     }
@@ -102,6 +107,13 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
   });
   TURNSCAN_TRY(context.check());
   return nearest;
+}
+
+std::vector<Vec3f> as_floats(const std::vector<Vec3d>& points) {
+  std::vector<Vec3f> floats(points.size());
+  std::transform(points.begin(), points.end(), floats.begin(),
+                 [](const Vec3d& p) { return p.cast<float>(); });
+  return floats;
 }
 
 Result<std::vector<std::uint8_t>> which_seen(const SeenTest& seen, const std::vector<Vec3f>& points,
@@ -143,11 +155,42 @@ double bias(const std::vector<Vec3f>& samples, const Nearest& nearest,
   std::size_t count = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (counts[i] == 0) continue;
-    const Vec3d way = samples[i].cast<double>() - nearest.points[i].cast<double>();
+    const Vec3d way = samples[i].cast<double>() - nearest.points[i];
     sum += way.dot(nearest.normals[i].cast<double>());
     ++count;
   }
   return count > 0 ? sum / double(count) : 0.0;
+}
+
+/// Distances of the samples that count, negative inside the reference.
+Result<std::vector<double>> signed_distances(const std::vector<Vec3f>& samples,
+                                             const Nearest& nearest,
+                                             const std::vector<std::uint8_t>& counts,
+                                             const TriangleMesh& reference,
+                                             const RunContext& context) {
+  const PseudoNormals normals(reference);
+  std::vector<double> all(samples.size());
+  TURNSCAN_TRY(parallel_for(samples.size(), kChunk, context, [&](std::size_t i) {
+    const Vec3d way = samples[i].cast<double>() - nearest.points[i];
+    const double side = way.dot(normals.at(nearest.points[i], nearest.triangles[i]));
+    all[i] = std::copysign(nearest.distance[i], side);
+  }));
+  return select(all, counts, true);
+}
+
+ToleranceShares tolerance_shares(const std::vector<double>& deviations, double tolerance_m) {
+  ToleranceShares shares{tolerance_m, 0.0, 0.0, 0.0};
+  if (deviations.empty()) return shares;
+  const double each = 1.0 / double(deviations.size());
+  std::size_t above = 0, below = 0;
+  for (const double d : deviations) {
+    above += d > tolerance_m ? 1 : 0;
+    below += d < -tolerance_m ? 1 : 0;
+  }
+  shares.above = each * double(above);
+  shares.below = each * double(below);
+  shares.in = each * double(deviations.size() - above - below);
+  return shares;
 }
 
 Result<TriangleMesh> align(const TriangleMesh& mesh, const TriangleMesh& reference,
@@ -181,7 +224,8 @@ Result<> compare(const TriangleMesh& mesh, const TriangleMesh& reference,
   TURNSCAN_ASSIGN(const auto reference_seen,
                   which_seen(seen, on_reference.points, on_reference.normals));
   TURNSCAN_TRY(context.check());
-  TURNSCAN_ASSIGN(auto mesh_seen, which_seen(seen, to_reference.points, to_reference.normals));
+  const std::vector<Vec3f> nearest_points = as_floats(to_reference.points);
+  TURNSCAN_ASSIGN(auto mesh_seen, which_seen(seen, nearest_points, to_reference.normals));
   TURNSCAN_TRY(context.check());
   for (std::size_t i = 0; i < mesh_seen.size(); ++i) {
     if (to_reference.on_border[i] != 0) mesh_seen[i] = 0;
@@ -197,6 +241,10 @@ Result<> compare(const TriangleMesh& mesh, const TriangleMesh& reference,
   out.accuracy = error_statistics(accurate);
   out.completeness = error_statistics(complete);
   out.invented = error_statistics(select(to_reference.distance, mesh_seen, false));
+  TURNSCAN_ASSIGN(const auto deviations,
+                  signed_distances(on_mesh.points, to_reference, mesh_seen, reference, context));
+  out.deviation = deviation_statistics(deviations);
+  if (options.tolerance_m) out.tolerance = tolerance_shares(deviations, *options.tolerance_m);
   out.bias_m = bias(on_mesh.points, to_reference, mesh_seen);
   out.mesh_area_m2 = on_mesh.area_m2;
   out.reference_area_m2 = on_reference.area_m2;
@@ -223,6 +271,9 @@ OptionTable describe(EvaluateOptions& options) {
   table.choice("border", options.border, {"count", "leave-out"},
                "What of the mesh is nearest to an open edge of the reference, as what closes its "
                "holes. leave-out: it is judged apart, as what was not seen.");
+  table.number("tolerance", options.tolerance_m, Quantity::kLength, {1e-6, 1.0},
+               "Also give the shares of the mesh within this distance of the reference, above it "
+               "(outside) and below it (inside); auto: no tolerance.");
   table.choice("align", options.align, {"none", "icp"},
                "icp: move the mesh rigidly onto the reference before they are compared.");
   table.append(describe(options.icp));
@@ -264,6 +315,25 @@ ErrorStatistics error_statistics(std::vector<double> distances) {
   statistics.median = rank(0.5);
   statistics.p95 = rank(0.95);
   statistics.max = distances.back();
+  return statistics;
+}
+
+DeviationStatistics deviation_statistics(std::vector<double> deviations) {
+  DeviationStatistics statistics;
+  statistics.count = deviations.size();
+  if (deviations.empty()) return statistics;
+  std::sort(deviations.begin(), deviations.end());
+  const auto n = double(deviations.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double d : deviations) sum += d;
+  statistics.mean = sum / n;
+  for (const double d : deviations) squares += (d - statistics.mean) * (d - statistics.mean);
+  const auto rank = [&](double part) { return deviations[std::size_t(std::ceil(part * n)) - 1]; };
+  statistics.sigma = std::sqrt(squares / n);
+  statistics.low = rank(0.025);
+  statistics.high = rank(0.975);
+  statistics.min = deviations.front();
+  statistics.max = deviations.back();
   return statistics;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <turnscan/core/option_table.hpp>
@@ -23,12 +24,13 @@ struct EvaluateOptions {
   std::string thresholds = "0.5mm,1mm,2mm";  ///< for precision, recall and F
   int samples = 200000;                      ///< drawn from each of the two surfaces
   int seed = 1;
-  Align align = Align::kNone;      ///< kIcp: first move the mesh rigidly onto the reference
-  IcpOptions icp{};                ///< of that
-  Border border = Border::kCount;  ///< kLeaveOut: judged as what was not seen
+  Align align = Align::kNone;           ///< kIcp: first move the mesh rigidly onto the reference
+  IcpOptions icp{};                     ///< of that
+  Border border = Border::kCount;       ///< kLeaveOut: judged as what was not seen
+  std::optional<double> tolerance_m{};  ///< half the width of the band of ToleranceShares
 };
-/// Fields thresholds, samples, sample-seed, border (count, leave-out), align (none, icp), and those
-/// of IcpOptions.
+/// Fields thresholds, samples, sample-seed, border (count, leave-out), tolerance, align (none,
+/// icp), and those of IcpOptions.
 OptionTable describe(EvaluateOptions& options);
 
 /// Lengths separated by commas, as "0.5mm,1mm", in metres, ascending. kInvalidOption unless there
@@ -56,6 +58,23 @@ struct ThresholdScore {
   double f = 0.0;          ///< harmonic mean of both; 0 when both are
 };
 
+/// Of signed distances, metres, positive outside; all zero when there are none (count == 0).
+struct DeviationStatistics {
+  std::size_t count = 0;
+  double mean = 0.0, sigma = 0.0;  ///< sigma: standard deviation about the mean
+  double low = 0.0, high = 0.0;    ///< 2.5th and 97.5th percentile, by nearest rank
+  double min = 0.0, max = 0.0;
+};
+DeviationStatistics deviation_statistics(std::vector<double> deviations);
+
+/// Shares of the mesh, 0 to 1; their sum is 1.
+struct ToleranceShares {
+  double tolerance_m = 0.0;
+  double in = 0.0;     ///< |deviation| <= tolerance
+  double above = 0.0;  ///< outside the reference by more: too much material
+  double below = 0.0;  ///< inside it by more: too little
+};
+
 struct Evaluation {
   /// Mesh to reference over the part of the mesh whose nearest reference point was seen (and, with
   /// Border::kLeaveOut, is not on an open edge).
@@ -65,6 +84,10 @@ struct Evaluation {
   /// Mean of the way from the reference to the samples of accuracy, along the reference's normal:
   /// positive when the mesh lies outside the reference.
   double bias_m = 0.0;
+  /// Of the samples of accuracy: distance to the reference, negative inside it. The sign is that of
+  /// PseudoNormals, right for a closed reference whose triangles face outward.
+  DeviationStatistics deviation;
+  std::optional<ToleranceShares> tolerance;  ///< if a tolerance was given
   std::vector<ThresholdScore> scores;
   double mesh_area_m2 = 0.0, reference_area_m2 = 0.0;
   double seen_area_m2 = 0.0;  ///< of the reference

@@ -11,6 +11,16 @@ Json statistics_json(const ErrorStatistics& s) {
           {"p95_m", s.p95},     {"max_m", s.max},   {"rms_m", s.rms}};
 }
 
+Json deviation_json(const DeviationStatistics& d) {
+  return {{"samples", d.count}, {"mean_m", d.mean}, {"sigma_m", d.sigma}, {"p2_5_m", d.low},
+          {"p97_5_m", d.high},  {"min_m", d.min},   {"max_m", d.max}};
+}
+
+Json tolerance_json(const std::optional<ToleranceShares>& t) {
+  if (!t) return nullptr;
+  return {{"tolerance_m", t->tolerance_m}, {"in", t->in}, {"above", t->above}, {"below", t->below}};
+}
+
 Json alignment_json(const Evaluation& e) {
   if (!e.aligned) return nullptr;
   Json rows = Json::array();
@@ -37,6 +47,8 @@ std::string to_json(const Evaluation& e) {
   const Json json = {{"accuracy", statistics_json(e.accuracy)},
                      {"completeness", statistics_json(e.completeness)},
                      {"bias_m", e.bias_m},
+                     {"deviation", deviation_json(e.deviation)},
+                     {"tolerance", tolerance_json(e.tolerance)},
                      {"scores", std::move(scores)},
                      {"invented", std::move(invented)},
                      {"mesh_area_m2", e.mesh_area_m2},

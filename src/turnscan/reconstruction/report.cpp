@@ -1,5 +1,6 @@
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
@@ -27,18 +28,33 @@ Json check_json(const MeshReport& r) {
           {"volume_cm3", r.volume_m3 * 1e6}};
 }
 
+Json verdict_json(const Verdict& verdict) {
+  Json sentences = Json::array();
+  for (const VerdictSentence& s : verdict.sentences) {
+    Json own = {{"topic", s.topic}, {"level", name_of(s.level)}, {"text", s.text}};
+    if (std::isfinite(s.value)) {
+      own["value"] = s.value;
+      own["unit"] = s.unit;
+    }
+    sentences.push_back(std::move(own));
+  }
+  return {{"colour", verdict.colour()}, {"sentences", sentences}};
+}
+
 Json object_json(const ObjectResult& o) {
   const Vec3d size = bounds(o.mesh.vertices).size() * 1e3;
-  return {{"name", o.mesh.name},
-          {"points", o.points},
-          {"candidates", o.candidates},
-          {"surface_points", o.surface_points},
-          {"vertices", o.mesh.vertices.size()},
-          {"triangles", o.mesh.triangles.size()},
-          {"size_mm", {size.x(), size.y(), size.z()}},
-          {"invented_area_cm2", o.invented_area_m2 * 1e4},
-          {"mesh", check_json(o.check)},
-          {"notes", o.notes}};
+  Json out = {{"name", o.mesh.name},
+              {"points", o.points},
+              {"candidates", o.candidates},
+              {"surface_points", o.surface_points},
+              {"vertices", o.mesh.vertices.size()},
+              {"triangles", o.mesh.triangles.size()},
+              {"size_mm", {size.x(), size.y(), size.z()}},
+              {"invented_area_cm2", o.invented_area_m2 * 1e4},
+              {"mesh", check_json(o.check)},
+              {"notes", o.notes}};
+  if (o.verdict) out["verdict"] = verdict_json(*o.verdict);
+  return out;
 }
 
 Json passes_json(const Reconstruction& r) {
@@ -48,6 +64,7 @@ Json passes_json(const Reconstruction& r) {
     const auto& m = pass.T_object_table.matrix();
     for (int i = 0; i < 4; ++i) rows.push_back({m(i, 0), m(i, 1), m(i, 2), m(i, 3)});
     Json own = {{"name", pass.name}, {"frames", pass.frames}, {"T_object_table", rows}};
+    if (pass.object >= 0) own["object"] = pass.object + 1;
     if (pass.found) {
       own["sigma_mm"] = pass.found->sigma_m * 1e3;
       own["sigma_deg"] = pass.found->sigma_rad * kDegreesPerRadian;

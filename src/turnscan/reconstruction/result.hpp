@@ -11,6 +11,7 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/reconstruction/verdict.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -36,6 +37,15 @@ enum class Evidence : std::uint8_t {
   kCut        ///< the face of a cut that was asked for
 };
 
+/// How well a vertex of a mesh is known.
+struct VertexQuality {
+  /// Standard deviation of its distance from the true surface, as far as noise, resolution and
+  /// missing measurements go; where the frames stood is taken as right.
+  float expected_error_m = 0.0f;
+  std::uint16_t frames = 0;     ///< that measured its neighbourhood
+  std::uint8_t directions = 0;  ///< sectors of 30 degrees from which they did
+};
+
 struct ObjectResult {
   TriangleMesh mesh;
   MeshReport check;
@@ -46,10 +56,12 @@ struct ObjectResult {
   /// Per vertex, volumetric only: what its measurements weigh, over the median of the mesh, at most
   /// 1. 0 where nothing was measured.
   std::vector<float> confidence;
+  std::vector<VertexQuality> quality;  ///< per vertex, volumetric only; else empty
   /// Per triangle; empty where it is not known, without the repair of methods from points.
   std::vector<Evidence> evidence;
   bool left_open = false;          ///< as asked for: not closed, and no fault
   std::vector<std::string> notes;  ///< what was repaired, for people
+  std::optional<Verdict> verdict;  ///< once it was judged (workflow/verdict)
 };
 
 /// How well the motion of a pass is known that was found from the surfaces.
@@ -64,6 +76,7 @@ struct FusedPass {
   Pose T_object_table = Pose::Identity();
   std::size_t frames = 0;
   std::optional<FoundMotion> found;  ///< nullopt: it was given, or is the first
+  int object = -1;                   ///< whose mesh it went into; -1: that of all
 };
 
 struct SeenSpace;

@@ -30,8 +30,8 @@ Result<> check_sensor(const FrameInfo& info, const SequenceHeader& header) {
 }
 
 /// Frames with poses of their own may lie as they like: the poses bring them together.
-Result<> check_pass(const FrameInfo& info, const FrameInfo& first) {
-  if (info.pass == first.pass || info.T_table_sensor) return {};
+Result<> check_pass(const FrameInfo& info, const FrameInfo& first, bool poses_within_pass) {
+  if (info.pass == first.pass || (info.T_table_sensor && !poses_within_pass)) return {};
   return fail(
       ErrorCode::kInvalidOption,
       "frames {} and {} are of passes {} and {}, in which the object lies differently; give "
@@ -119,7 +119,8 @@ class ReconstructionStream::Impl {
         continue;
       }
       if (!first_) first_ = infos[i];
-      TURNSCAN_TRY(passes_.empty() ? check_pass(infos[i], *first_) : check_placed(infos[i], last));
+      TURNSCAN_TRY(passes_.empty() ? check_pass(infos[i], *first_, header_.poses_within_pass)
+                                   : check_placed(infos[i], last));
       TURNSCAN_ASSIGN(const Pose pose, poser_(infos[i]));
       if (infos[i].status == FrameStatus::kDropped)
         ++out.dropped;
@@ -211,7 +212,8 @@ class ReconstructionStream::Impl {
       TURNSCAN_TRY(make_method(estimate, whole));
     } else {
       note_pass(estimate);
-      TURNSCAN_TRY(method_->begin_pass({passes_[pass_].T_object_table, estimate}, context));
+      TURNSCAN_TRY(method_->begin_pass({passes_[pass_].T_object_table, estimate, share_of_table()},
+                                       context));
     }
     const std::vector<Frame>& frames = first_frames_->frames();
     TURNSCAN_TRY(method_->add(
@@ -230,9 +232,14 @@ class ReconstructionStream::Impl {
     std::optional<Pose> T_object_table;
     if (!passes_.empty()) T_object_table = passes_[pass_].T_object_table;
     const std::lock_guard lock(mutex_);
-    TURNSCAN_ASSIGN(method_, entry_.create({header_, options_, rays_, estimate,
-                                            first_frames_->frames(), whole, T_object_table}));
+    TURNSCAN_ASSIGN(
+        method_, entry_.create({header_, options_, rays_, estimate, first_frames_->frames(), whole,
+                                T_object_table, share_of_table()}));
     return {};
+  }
+
+  const TableShare* share_of_table() const {
+    return passes_.empty() || !passes_[pass_].share ? nullptr : &*passes_[pass_].share;
   }
 
   /// What a further pass's first frames led to.

@@ -119,7 +119,7 @@ void note_completeness(const RecordingDescription& description, std::size_t fram
   if (!description.complete)
     notes.emplace_back(
         "the recording was not finished: it holds the frames that were written until then");
-  if (description.frame_count && *description.frame_count != frames)
+  if (description.complete && description.frame_count && *description.frame_count != frames)
     notes.push_back(fmt::format("frames.csv lists {} frames, but {} were recorded", frames,
                                 *description.frame_count));
 }

@@ -67,6 +67,12 @@ class RecordingWriter {
                                         const SequenceHeader& header,
                                         const CaptureSettings& capture = {},
                                         ColorFileFormat color = ColorFileFormat::kPng);
+  /// Goes on with a recording that is complete, behind its last frame; it counts as incomplete
+  /// until finish(). Frames that it has are not touched. Fails with kNotFound without a recording
+  /// there, with kInvalidOption when it is not complete, kUnsupported when another program wrote
+  /// its table, kIo while another program writes it, and as parsing its files does.
+  static Result<RecordingWriter> extend(const std::filesystem::path& folder,
+                                        ColorFileFormat color = ColorFileFormat::kPng);
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called.

@@ -130,6 +130,7 @@ Result<SequenceHeader> parse_header(const text::JsonObject& root) {
     TURNSCAN_ASSIGN(const text::JsonObject object, root.object("turntable"));
     TURNSCAN_ASSIGN(header.turntable, parse_turntable(object));
   }
+  TURNSCAN_ASSIGN(header.poses_within_pass, root.flag_or("poses_within_pass", false));
   return header;
 }
 
@@ -267,6 +268,7 @@ std::string recording_json(const RecordingDescription& description) {
   out["sensors"] = text::OrderedJson::array();
   for (const SensorInfo& sensor : header.sensors) out["sensors"].push_back(sensor_json(sensor));
   if (header.turntable) out["turntable"] = turntable_json(*header.turntable);
+  if (header.poses_within_pass) out["poses_within_pass"] = true;
   if (!description.capture.empty()) out["capture"] = description.capture;
   return text::json_text(out);
 }

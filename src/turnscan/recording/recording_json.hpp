@@ -17,7 +17,7 @@ struct RecordingDescription {
   SequenceHeader header;
   CaptureSettings capture;
   bool complete = false;
-  std::optional<std::uint32_t> frame_count;  ///< known once complete
+  std::optional<std::uint32_t> frame_count;  ///< at the last time when it was complete
 };
 
 /// Fails with kUnsupported when the schema is newer, with kFormat when a field is missing or wrong.

@@ -64,6 +64,18 @@ class LineFile {
     return {};
   }
 
+  /// The file of a recording that is complete, to go on behind its last line.
+  Result<> reopen(const fs::path& path, std::uint64_t size) {
+    path_ = path;
+    size_ = size;
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (descriptor_ < 0) return system_error(path_, "cannot append a line", errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      return fail_at(path.parent_path().string(), ErrorCode::kIo,
+                     "another program writes it just now; wait until that has ended");
+    return {};
+  }
+
   /// One write(): the kernel has all of it, or the file is cut back to its last whole line.
   Result<> append(std::string_view lines) {
     std::size_t done = 0;
@@ -165,6 +177,7 @@ struct RecordingWriter::State {
   bool finished = false;
 
   Result<> create_files();
+  Result<> reopen_files();
   /// Writes the frame's files and returns its line. May run on several threads at once.
   Result<std::string> write_files(const Frame& frame) const;
   Result<std::string> write_color(const Frame& frame, const std::string& number) const;
@@ -237,6 +250,30 @@ Result<> RecordingWriter::State::create_files() {
   return table.append(frames_csv_header());
 }
 
+/// It is marked incomplete with the number of frames that were complete before, by which a reader
+/// tells it from one that never was.
+Result<> RecordingWriter::State::reopen_files() {
+  const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
+  TURNSCAN_ASSIGN(const std::string text, read_file(json, kMaxDescriptionBytes));
+  TURNSCAN_ASSIGN(description, parse_recording_json(text));
+  if (!description.complete)
+    return fail_at(folder.string(), ErrorCode::kInvalidOption,
+                   "it was not finished, so that nothing can be added; finish it with 'turnscan "
+                   "info --repair'");
+  TURNSCAN_ASSIGN(const std::string lines, read_file(csv, kMaxTableBytes));
+  if (!lines.starts_with(frames_csv_header()) || lines.back() != '\n')
+    return fail_at(csv.string(), ErrorCode::kUnsupported,
+                   "another program wrote it, and nothing can be added to its columns; make a "
+                   "recording of its own");
+  TURNSCAN_ASSIGN(const FrameTable frames,
+                  parse_frames_csv(lines, description.header.sensors.size()));
+  for (const FrameRow& row : frames.rows) indices.insert(row.info.index);
+  TURNSCAN_TRY(table.reopen(csv, lines.size()));
+  description.complete = false;
+  description.frame_count = static_cast<std::uint32_t>(indices.size());
+  return write_file_atomically(json, recording_json(description));
+}
+
 void RecordingWriter::State::discard() {
   std::error_code ignored;
   if (described) {  // else what is there is somebody else's
@@ -270,6 +307,14 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
     state->discard();
     return tl::unexpected<Error>(made.error());
   }
+  return RecordingWriter(std::move(state));
+}
+
+Result<RecordingWriter> RecordingWriter::extend(const fs::path& folder, ColorFileFormat color) {
+  auto state = std::make_unique<State>();
+  state->folder = folder;
+  state->color = color;
+  TURNSCAN_TRY(state->reopen_files());
   return RecordingWriter(std::move(state));
 }
 

@@ -1,13 +1,20 @@
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <turnscan/reconstruction/report.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/image/image_io.hpp>
 
+#include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/calibration/turntable_file.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
+#include <turnscan/workflow/next_pass/next_pass_json.hpp>
+#include <turnscan/workflow/next_pass/next_pass_picture.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 namespace turnscan {
 
@@ -50,8 +57,7 @@ bool joins_passes(const std::vector<NamedSequence>& recordings, const Reconstruc
   if (recordings.size() > 1 || !request.pass_poses.empty()) return true;
   const FrameSequence& frames = *recordings[0].frames;
   return !request.options.merge.pass && passes_of(frames).size() > 1 &&
-         !std::all_of(frames.frames().begin(), frames.frames().end(),
-                      [](const FrameInfo& f) { return f.T_table_sensor.has_value(); });
+         (frames.header().poses_within_pass || !workflow::has_poses(frames));
 }
 
 Result<> check_join(const std::vector<PassOfMany>& passes, const ReconstructRequest& request) {
@@ -78,6 +84,19 @@ Result<> reconstruct_joined(const std::vector<NamedSequence>& recordings,
                   join_and_reconstruct(passes, placed[0].calibrated.options, sink, context));
   run.reconstruction = std::move(joined.reconstruction);
   run.apart = std::move(joined.apart);
+  const auto& fused = run.reconstruction.passes;
+  const auto of_largest =
+      std::find_if(fused.rbegin(), fused.rend(), [](const FusedPass& p) { return p.object <= 0; });
+  if (of_largest == fused.rend()) return {};
+  const FusedPass& last = *of_largest;
+  const auto pass = std::find_if(passes.begin(), passes.end(),
+                                 [&](const PassOfMany& p) { return p.name == last.name; });
+  if (pass == passes.end()) return {};
+  const auto views = pass_views(*pass->frames.frames, pass->frames.pass, pass->frames.speed_rad_s);
+  if (!views) return {};
+  run.seen_from = *views;
+  run.seen_from.name = last.name;
+  run.seen_from.T_mesh_table = last.T_object_table;
   return {};
 }
 
@@ -92,6 +111,19 @@ void note_calibrations(const std::vector<NamedSequence>& recordings,
       first.push_back(placed.size() == 1 ? note : fmt::format("{}: {}", recordings[i].name, note));
   }
   notes.insert(notes.begin(), first.begin(), first.end());
+}
+
+/// By the recording that shows most sides of its object.
+void judge(const std::vector<PlacedRecording>& placed, ReconstructRun& run) {
+  ScanKnowledge known;
+  known.choice = &run.choice;
+  for (const PlacedRecording& recording : placed) {
+    const CalibratedFrames& calibrated = recording.calibrated;
+    const auto turn = turn_seen(*calibrated.frames, calibrated.options.merge.speed_rad_s);
+    if (turn && (!known.turn || turn->share > known.turn->share)) known.turn = turn;
+  }
+  judge_objects(run.reconstruction, known);
+  for (PassApart& pass : run.apart) judge_objects(pass.reconstruction, known);
 }
 
 Result<> check_meshes(const ReconstructRun& run) {
@@ -127,17 +159,28 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
     const CalibratedFrames& calibrated = placed[0].calibrated;
     TURNSCAN_ASSIGN(run.reconstruction,
                     reconstruct(*calibrated.frames, calibrated.options, sink, context));
+    const MergeOptions& merge = calibrated.options.merge;
+    std::optional<std::uint32_t> pass;
+    if (merge.pass) pass = std::uint32_t(*merge.pass);
+    if (auto views = pass_views(*calibrated.frames, pass, merge.speed_rad_s))
+      run.seen_from = std::move(*views);
+  }
+  if (!run.reconstruction.objects.empty()) {
+    TURNSCAN_ASSIGN(run.next_pass,
+                    advise_next_pass(run.reconstruction.objects[0], run.seen_from, context));
   }
   note_calibrations(recordings, placed, run.reconstruction.notes);
+  run.turn = turn_of(*placed[0].calibrated.frames);
   run.choice = std::move(placed[0].calibrated.choice);
+  judge(placed, run);
   if (!request.allow_open) TURNSCAN_TRY(check_meshes(run));
   TURNSCAN_TRY(context.check());
   return run;
 }
 
-Result<> check_joined(const ReconstructRun& run) {
+Result<> check_joined(const std::vector<PassApart>& apart) {
   std::vector<std::string> reasons;
-  for (const PassApart& pass : run.apart)
+  for (const PassApart& pass : apart)
     if (!pass.reason.empty())
       reasons.push_back(fmt::format("{} was not joined: {}", pass.name, pass.reason));
   if (reasons.empty()) return {};
@@ -148,22 +191,27 @@ Result<> check_joined(const ReconstructRun& run) {
 
 Result<> check_outputs(const ReconstructFiles& files) {
   TURNSCAN_TRY(check_mesh_file(files.mesh));
-  TURNSCAN_TRY(check_output_file(files.report, ".json"));
+  TURNSCAN_TRY(check_report_files({files.report, files.page}));
   for (const auto& [stage, file] : files.stages) TURNSCAN_TRY(check_output_file(file, ".ply"));
-  return {};
+  return check_output_file(files.advice_picture, ".png");
+}
+
+std::string mesh_of_pass(const std::string& mesh, std::uint32_t pass) {
+  return with_suffix(mesh, fmt::format("-pass{}", pass));
 }
 
 Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructRun& run,
-                                               const ReconstructOptions& options) {
+                                               const ReconstructOptions& options,
+                                               const RunContext& context) {
   std::vector<std::string> written;
   if (run.apart.empty() || !run.reconstruction.objects.empty()) {
     TURNSCAN_ASSIGN(written, write_objects(files.mesh, run.reconstruction));
   }
   for (const PassApart& pass : run.apart) {
     if (pass.reconstruction.objects.empty()) continue;
-    const std::string file = with_suffix(files.mesh, fmt::format("-pass{}", pass.number));
-    TURNSCAN_ASSIGN(const auto own, write_objects(file, pass.reconstruction));
+    TURNSCAN_ASSIGN(const auto own,
+                    write_objects(mesh_of_pass(files.mesh, pass.number), pass.reconstruction));
     written.insert(written.end(), own.begin(), own.end());
   }
   for (const auto& [stage, file] : files.stages) {
@@ -172,11 +220,38 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
     TURNSCAN_TRY(write_cloud(file, cloud->second));
     written.push_back(file);
   }
+  if (!files.advice_picture.empty() && run.next_pass) {
+    TURNSCAN_ASSIGN(const ColorImage picture,
+                    next_pass_picture(run.reconstruction.objects[0], run.seen_from, *run.next_pass,
+                                      RunContext()));
+    TURNSCAN_TRY(write_color_png(files.advice_picture, picture));
+    written.push_back(files.advice_picture);
+  }
   if (!files.report.empty()) {
-    TURNSCAN_TRY(write_file_atomically(files.report, report_json(run.reconstruction, options)));
+    auto report = nlohmann::ordered_json::parse(report_json(run.reconstruction, options));
+    report["next_pass"] = run.next_pass ? workflow::next_pass_json(*run.next_pass) : nullptr;
+    TURNSCAN_TRY(write_file_atomically(files.report, report.dump(2) + "\n"));
     written.push_back(files.report);
   }
+  if (!files.page.empty()) {
+    TURNSCAN_TRY(write_page(files.page, page_input(run, options, page_title(files.mesh)), context));
+    written.push_back(files.page);
+  }
   return written;
+}
+
+PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,
+                     const std::string& title) {
+  PageInput input;
+  input.title = title;
+  input.objects = page_objects(run.reconstruction);
+  for (const PassApart& pass : run.apart) {
+    for (PageObject& object : page_objects(pass.reconstruction))
+      input.objects.push_back(std::move(object));
+  }
+  input.report = report_json(run.reconstruction, options);
+  input.turn = run.turn;
+  return input;
 }
 
 }  // namespace turnscan

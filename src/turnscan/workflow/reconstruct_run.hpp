@@ -13,6 +13,8 @@
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
+#include <turnscan/workflow/next_pass/next_pass.hpp>
+#include <turnscan/workflow/page/page.hpp>
 #include <turnscan/workflow/passes/join_run.hpp>
 #include <vector>
 
@@ -33,6 +35,9 @@ struct ReconstructRun {
   CalibrationChoice choice;
   std::map<std::string, PointCloud> stages;  ///< those that were asked for and made; table frame
   std::vector<PassApart> apart;              ///< passes that were not joined with the first
+  std::vector<TurnPoint> turn;               ///< of the first recording, as it was calibrated
+  PassViews seen_from;                       ///< of the last pass in the largest object's mesh
+  std::optional<NextPassAdvice> next_pass;   ///< for the largest object; see advise_next_pass()
 };
 
 /// One of the recordings of an object.
@@ -69,26 +74,37 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
                                           const ReconstructRequest& request,
                                           const RunContext& context);
 
-/// Fails with kMissingData, naming the first and why, when a pass was not joined.
-Result<> check_joined(const ReconstructRun& run);
+/// Fails with kMissingData, naming each and why, when passes were not joined.
+Result<> check_joined(const std::vector<PassApart>& apart);
 
 /// Names of files; an empty one is not written.
 struct ReconstructFiles {
   std::string mesh;                           ///< required; see write_objects()
   std::string report;                         ///< .json
+  std::string page;                           ///< .html, see make_page()
   std::map<std::string, std::string> stages;  ///< .ply, by stage
+  std::string advice_picture;                 ///< .png; see next_pass_picture()
 };
 
 /// Whether they can be written, to be asked before the work begins. Fails as check_mesh_file() and
 /// check_output_file().
 Result<> check_outputs(const ReconstructFiles& files);
 
-/// Writes the meshes, those of passes apart as MESH-passN, the stages' clouds and the report;
-/// returns the names of the files in that order. options: as they were asked for. Fails as
-/// write_objects(), write_cloud() and write_file_atomically(); a stage that the run did not keep is
-/// left out.
+/// Where the mesh of a pass apart is written: MESH-passN.
+std::string mesh_of_pass(const std::string& mesh, std::uint32_t pass);
+
+/// Writes the meshes, those of passes apart as MESH-passN, the stages' clouds, the picture of the
+/// advice, the report and the page; returns the names of the files in that order. options: as they
+/// were asked for. Fails as write_objects(), write_cloud(), next_pass_picture(),
+/// write_file_atomically() and make_page(); a stage that the run did not keep and a picture of an
+/// advice that there is not are left out.
 Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructRun& run,
-                                               const ReconstructOptions& options);
+                                               const ReconstructOptions& options,
+                                               const RunContext& context = {});
+
+/// What make_page() shows of a run: all meshes, those of passes apart last.
+PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,
+                     const std::string& title);
 
 }  // namespace turnscan

@@ -278,6 +278,34 @@ TEST(Capture, StopAndGoRecordsOneMeanFrameAtEachStop) {
   EXPECT_NEAR(table.angle_deg(), 60.0, 0.1);
 }
 
+TEST(Capture, AddsAPassBehindThoseOfARecording) {
+  const TempFolder temp;
+  CaptureOptions options = plain();
+  options.limits.frames = 5;
+  const std::string uri = kSmall + "&angles=1&calibration=true";
+  ASSERT_TRUE(record(uri, temp / "r", options).recording);
+  options.add_pass = true;
+  options.limits.frames = 3;
+  const Recorded run = record(uri, temp / "r", options);
+  ASSERT_TRUE(run.result) << run.result.error().text();
+  EXPECT_EQ(run.result->recorder.written, 3u);
+  ASSERT_TRUE(run.recording);
+  EXPECT_TRUE(run.recording->complete());
+  ASSERT_EQ(run.recording->frames().size(), 8u);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(run.recording->frames()[i].index, i);
+    EXPECT_EQ(run.recording->frames()[i].pass, i < 5 ? 0u : 1u);
+  }
+  EXPECT_EQ(run.recording->frames()[5].angle_rad, 0.0);
+  EXPECT_EQ(run.recording->capture_settings().at("ended"), "as it was meant to");
+  EXPECT_EQ(run.recording->capture_settings().at("pass_1_ended"), "as it was meant to");
+  const Recorded other =
+      record("virtual:letter-a?sensor=kinect-v2&prepared=2", temp / "r", options);
+  ASSERT_FALSE(other.result);
+  EXPECT_THAT(other.result.error().message, HasSubstr("other sensors"));
+  EXPECT_FALSE(record(uri, temp / "none", options).result);
+}
+
 TEST(MeanFrame, IsTheMeanOfTheReturnsWhereHalfOfTheFramesHaveOne) {
   std::vector<Frame> frames(4);
   for (Frame& frame : frames) frame.depth = DepthImage(3, 1);

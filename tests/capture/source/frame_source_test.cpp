@@ -3,6 +3,7 @@
 #include <numbers>
 #include <thread>
 #include <turnscan/capture/source/frame_source.hpp>
+#include <turnscan/turntable/table_frame.hpp>
 
 #include "tests/capture/taking.hpp"
 #include "tests/recording/sequences.hpp"
@@ -50,6 +51,49 @@ TEST(FrameSource, VirtualFramesAreTheSimulatorsAndEndWhereTheyShould) {
   }
   EXPECT_EQ(source->statistics().delivered, 5u);
   EXPECT_EQ(source->statistics().dropped(), 0u);
+}
+
+/// Height above the platter of what a frame of the second row's middle shows: the object's top, or
+/// 0.
+double top_of(const Frame& frame, const SourceInfo& info) {
+  const SensorInfo& sensor = info.header.sensors[0];
+  const auto points = points_of(frame, sensor, RayTable(sensor.intrinsics));
+  const Pose T_table_sensor = *table_from_sensor(*info.header.turntable);
+  double top = 0.0;
+  for (const Vec3f& p : points->cloud.points)
+    top = std::max(top, (T_table_sensor * p.cast<double>()).y());
+  return top;
+}
+
+TEST(FrameSource, AVirtualObjectIsLaidAnotherWay) {
+  const auto source = opened(kVirtual + "&calibration=true&noise=none&frames=8");
+  ASSERT_TRUE(source);
+  ASSERT_TRUE(source->info().lays_object);
+  const Taken upright = run(*source);
+  ASSERT_EQ(upright.frames.size(), 8u);
+  EXPECT_NEAR(top_of(upright.frames[0], source->info()), 0.16, 0.003);
+  // By 90 degrees to the side, about the line of sight.
+  const Eigen::Matrix3d aside =
+      Eigen::AngleAxisd(std::numbers::pi / 2, Vec3d::UnitZ()).toRotationMatrix();
+  EXPECT_EQ(source->lay_object(aside, 77.0).error().code, ErrorCode::kNotFound);
+  ASSERT_TRUE(source->lay_object(aside, upright.frames[2].info.time_s));
+  const Taken lying = run(*source);
+  ASSERT_EQ(lying.frames.size(), 8u);
+  EXPECT_GT(lying.frames[0].info.time_s, upright.frames.back().info.time_s);
+  // On its side, or nearly: the sensor looks down a little.
+  EXPECT_NEAR(top_of(lying.frames[0], source->info()), 0.08, 0.04);
+  EXPECT_NE(lying.frames[0].depth.pixels, upright.frames[0].depth.pixels);
+  // And from how it lay first, not from how it lies now.
+  ASSERT_TRUE(source->lay_object(Eigen::Matrix3d::Identity(), upright.frames[0].info.time_s));
+  EXPECT_NEAR(top_of(run(*source).frames[0], source->info()), 0.16, 0.003);
+}
+
+TEST(FrameSource, ARecordedObjectStaysAsItLies) {
+  const TempFolder folder;
+  const auto source = opened("replay:" + small_recording(folder).string());
+  EXPECT_FALSE(source->info().lays_object);
+  EXPECT_EQ(source->lay_object(Eigen::Matrix3d::Identity(), 0.0).error().code,
+            ErrorCode::kUnsupported);
 }
 
 TEST(FrameSource, AVirtualSensorKnowsNothingOfTheTableUnlessTold) {

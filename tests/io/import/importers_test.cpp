@@ -276,5 +276,53 @@ TEST(CloudFolder, DamagedScanIsAnErrorWhenItIsRead) {
   EXPECT_THROW((void)sequence->read(2), std::invalid_argument);
 }
 
+TEST(Passes, OfSeveralDataSetsAreCountedThrough) {
+  const TempFolder first, second;
+  for (const TempFolder* folder : {&first, &second}) put_scan(*folder, "a.ply");
+  put_scan(first, "b.ply");
+  first.put("angles.csv", "file,angle_deg,pass\na.ply,0,3\nb.ply,5,7\n");
+  second.put("angles.csv", "file,angle_deg\na.ply,20\n");
+  const auto sequence =
+      open_foreign_passes({first.path(), second.path()}, with({{"point-unit", "m"}}));
+  ASSERT_TRUE(sequence) << sequence.error().text();
+  const auto& frames = (*sequence)->frames();
+  ASSERT_EQ(frames.size(), 3u);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i].index, i);
+    EXPECT_EQ(frames[i].pass, i);
+  }
+  EXPECT_NEAR(*frames[2].angle_rad, 20 * kDeg, 1e-15);
+  EXPECT_EQ(frame_of(**sequence, 2).info.pass, 2u);
+  EXPECT_EQ(frame_of(**sequence, 2).points.size(), 2u);
+  EXPECT_FALSE((*sequence)->header().poses_within_pass);
+}
+
+TEST(Passes, PosesOfSeveralDataSetsHoldWithinTheirPass) {
+  const TempFolder folder;
+  put_scan(folder, "a.ply");
+  folder.put("x.conf", "bmesh a.ply 0 0 0 0 0 0 1\n");
+  folder.put("y.conf", "bmesh a.ply 0 0 1 0 0 0 1\n");
+  const auto both = open_foreign_passes({folder / "x.conf", folder / "y.conf"}, {});
+  ASSERT_TRUE(both) << both.error().text();
+  EXPECT_TRUE((*both)->header().poses_within_pass);
+  EXPECT_FALSE((*open_foreign_passes({folder / "x.conf"}, {}))->header().poses_within_pass);
+}
+
+TEST(Passes, OfDifferentSensorsBecomeRecordingsOfTheirOwn) {
+  const TempFolder first, second;
+  for (const TempFolder* folder : {&first, &second}) {
+    put_scan(*folder, "a.ply");
+    folder->put("angles.csv", "file,angle_deg\na.ply,0\n");
+  }
+  second.put("a.pcd",
+             "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+             "VIEWPOINT 0 0 1 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n");
+  second.put("angles.csv", "file,angle_deg\na.pcd,0\n");
+  const auto both = open_foreign_passes({first.path(), second.path()}, with({{"point-unit", "m"}}));
+  ASSERT_FALSE(both);
+  EXPECT_EQ(both.error().code, ErrorCode::kInvalidOption);
+  EXPECT_THAT(both.error().message, HasSubstr("recording of its own"));
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -57,6 +57,29 @@ TEST(CloudStatistics, FindThicknessAndDensity) {
   EXPECT_NEAR(s.spacing_m, 0.1 / std::sqrt(200000.0), 0.00005);
 }
 
+/// Both faces of a wall, each seen from its own side.
+voxels::MergedCloud thin_wall(float thickness_m, double noise_m) {
+  voxels::MergedCloud merged;
+  for (const float side : {1.0f, -1.0f}) {
+    const auto frame = std::uint32_t(merged.viewpoints.size());
+    for (std::uint64_t i = 0; i < 60000; ++i) {
+      const auto draw = [&](std::uint64_t k) { return uniform01(hash_key(frame, i, k)); };
+      merged.cloud.points.emplace_back(
+          0.1 * draw(0), 0.1 * draw(1),
+          side * (0.5f * thickness_m + float(noise_m * standard_normal(hash_key(frame, i)))));
+      merged.cloud.frame.push_back(frame);
+    }
+    merged.viewpoints.push_back({Vec3d(0.05, 0.05, double(side)), false});
+  }
+  return merged;
+}
+
+TEST(CloudStatistics, TheFacesOfAThinWallAreNoNoise) {
+  const voxels::MergedCloud wall = thin_wall(0.004f, 0.001);
+  EXPECT_GT(cloud_statistics(wall, 0.003).noise_m, 0.0018);
+  EXPECT_NEAR(one_sided_statistics(wall, 0.003).noise_m, 0.001, 0.00025);
+}
+
 TEST(CloudStatistics, OfCellsAreThoseOfTheirPoints) {
   const voxels::MergedCloud merged = testing::noisy_plane(200000, 0.05, 0.001);
   const CloudStatistics s = cloud_statistics(testing::measured(merged, 0.001), 0.002);

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
+#include <set>
 #include <tests/reconstruction/passes/lumpy_object.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/reconstruction/passes/joint_adjustment.hpp>
+#include <turnscan/reconstruction/passes/object_assignment.hpp>
 #include "tests/support/sanitizers.hpp"
 
 namespace turnscan::passes {
@@ -78,6 +81,18 @@ TEST(JoinPasses, AVaseIsNotJoinedAndItsAxisIsNamed) {
   EXPECT_NE(reason.find("00)", axis), std::string::npos) << reason;
 }
 
+TEST(JoinPasses, AVaseWithAKnobIsJoinedThoughMostOfItIsRound) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const auto with_knob = [](const Vec3d& d) {
+    const double beside = (d - Vec3d(0.8, 0.6, 0.0)).squaredNorm();
+    return vase_radius(d) + 0.02 * std::exp(-beside / 0.05);
+  };
+  const Scene scene(with_knob, {tipped(0, 0), tipped(90, 30)});
+  const auto motions = join(scene.surfaces);
+  EXPECT_TRUE(motions[1].joined) << motions[1].reason;
+  EXPECT_LT(scene.error_m(motions[1], 1), 1e-4);
+}
+
 TEST(JoinPasses, DifferentObjectsAreNotJoined) {
   const Scene one(lumpy_radius, {tipped(0, 0)});
   const Scene other(
@@ -115,6 +130,110 @@ TEST(JoinPasses, APassThatDoesNotFitIsLeftBesideTheOthers) {
   EXPECT_TRUE(motions[2].joined) << motions[2].reason;
 }
 
+/// Other shapes than the lumpy one.
+double other_radius(const Vec3d& d) { return 1.3 * lumpy_radius({d.z(), -d.x(), d.y() + 0.3}); }
+double third_radius(const Vec3d& d) {
+  return 0.055 + 0.012 * std::sin(3.7 * d.z() + 0.4) + 0.01 * std::cos(5.1 * d.x() + 2.0 * d.y());
+}
+
+/// Which parts each object has, as "PASS.OBJECT" in order.
+std::vector<std::string> parts_of(const std::vector<std::vector<ObjectPart>>& objects) {
+  std::vector<std::string> out;
+  for (const auto& parts : objects) {
+    std::string& text = out.emplace_back();
+    for (const ObjectPart& part : parts) text += fmt::format("{}.{} ", part.pass, part.object);
+  }
+  return out;
+}
+
+TEST(JoinObjects, EachFindsItsPartnerWhateverPlacesTheyHave) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const Scene one(lumpy_radius, {tipped(0, 0), tipped(90, 70)});
+  const Scene two(other_radius, {tipped(0, 0), tipped(180, 30)});
+  const Scene three(third_radius, {tipped(0, 0)});
+  // The third is not there in the second pass.
+  const std::vector<std::vector<PassSurface>> passes{
+      {two.surfaces[0], one.surfaces[0], three.surfaces[0]}, {one.surfaces[1], two.surfaces[1]}};
+  const auto objects = join_objects(passes, {}, {});
+  ASSERT_TRUE(objects.has_value());
+  EXPECT_EQ(parts_of(*objects), (std::vector<std::string>{"0.0 1.1 ", "0.1 1.0 ", "0.2 "}));
+  EXPECT_LT(two.error_m((*objects)[0][1].motion, 1), 5e-5);
+  EXPECT_LT(one.error_m((*objects)[1][1].motion, 1), 5e-5);
+  EXPECT_FALSE((*objects)[0][1].motion.interchangeable);
+  EXPECT_FALSE((*objects)[2][0].motion.joined);
+  EXPECT_NE((*objects)[2][0].motion.reason, "");
+}
+
+TEST(JoinObjects, OfTwoOfTheSameShapeEitherIsRightAndSaysSo) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const Scene twins(lumpy_radius, {tipped(0, 0), tipped(0, 120), tipped(90, 70), tipped(80, 10)});
+  const auto objects =
+      join_objects(std::vector<std::vector<PassSurface>>{{twins.surfaces[0], twins.surfaces[1]},
+                                                         {twins.surfaces[2], twins.surfaces[3]}},
+                   {}, {});
+  ASSERT_TRUE(objects.has_value());
+  ASSERT_EQ(objects->size(), 2u);
+  for (const auto& parts : *objects) {
+    ASSERT_EQ(parts.size(), 2u) << parts[0].motion.reason;
+    EXPECT_TRUE(parts[1].motion.interchangeable);
+  }
+}
+
+TEST(JoinObjects, WhatTwoFitThatDifferElsewhereIsNotGuessed) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  // Alike above, where the second pass sees one of them; not below.
+  const auto flattened = [](const Vec3d& d) {
+    return lumpy_radius(d) * (d.y() < -0.3 ? 1.0 + 0.25 * (d.y() + 0.3) : 1.0);
+  };
+  const Scene whole(lumpy_radius, {tipped(90, 0), tipped(20, 60)});
+  const Scene flat(flattened, {tipped(90, 0)});
+  PassSurface upper = whole.surfaces[1];
+  const Pose T = whole.T_table_object[1].inverse();
+  PassSurface kept = upper;
+  kept.points.clear(), kept.normals.clear(), kept.areas.clear(), kept.weights.clear();
+  for (std::size_t i = 0; i < upper.points.size(); ++i) {
+    if ((T * upper.points[i].cast<double>()).y() < 0.0) continue;
+    kept.points.push_back(upper.points[i]);
+    kept.normals.push_back(upper.normals[i]);
+    kept.areas.push_back(upper.areas[i]);
+    kept.weights.push_back(upper.weights[i]);
+  }
+  kept.views.reset();
+  const auto objects = join_objects(
+      std::vector<std::vector<PassSurface>>{{whole.surfaces[0], flat.surfaces[0]}, {kept}}, {}, {});
+  ASSERT_TRUE(objects.has_value());
+  EXPECT_EQ(parts_of(*objects), (std::vector<std::string>{"0.0 ", "0.1 ", "1.0 "}));
+  EXPECT_NE((*objects)[2][0].motion.reason.find("alike"), std::string::npos)
+      << (*objects)[2][0].motion.reason;
+}
+
+TEST(AssignObjects, TheSumOfTheEvidenceIsTheLargest) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const auto draw = [&](std::uint64_t k) { return uniform01(hash_key(seed, k)); };
+    const auto rows = std::size_t(1 + 4 * draw(100)), columns = std::size_t(1 + 4 * draw(101));
+    EvidenceTable table(rows, std::vector<double>(columns));
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t c = 0; c < columns; ++c) table[r][c] = draw(10 * r + c) - 0.3;
+    std::vector<std::size_t> order(std::max(rows, columns));
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    double most = 0.0;
+    do {
+      double sum = 0.0;
+      for (std::size_t r = 0; r < rows; ++r)
+        if (order[r] < columns) sum += std::max(0.0, table[r][order[r]]);
+      most = std::max(most, sum);
+    } while (std::next_permutation(order.begin(), order.end()));
+    const Assignment found = assign_objects(table);
+    EXPECT_NEAR(found.evidence, most, 1e-12);
+    std::set<std::size_t> used;
+    for (const auto& column : found.column_of) {
+      if (column) {
+        EXPECT_TRUE(used.insert(*column).second);
+      }
+    }
+  }
+}
+
 /// Square of the error over what the covariance states, 6 on average.
 double normalised_error(const Pose& truth, const Adjustment& adjusted) {
   const Pose error = adjusted.T_first_pass[1] * truth.inverse();
@@ -146,7 +265,7 @@ TEST(JoinPasses, StatedDeviationsAreThoseOfRepeatedScans) {
   for (std::uint64_t i = 0; i < kScans; ++i) {
     std::vector<PassSurface> noisy = scene.surfaces;
     for (std::size_t k = 0; k < 2; ++k) {
-      noisy[k].views.clear();
+      noisy[k].views.reset();
       for (std::size_t v = 0; v < noisy[k].points.size(); ++v)
         noisy[k].points[v] +=
             float(wavy_error(noisy[k].points[v], 2 * i + k)) * noisy[k].normals[v];

@@ -96,8 +96,9 @@ passes::PassSurface pass_of(const TriangleMesh& object, const Pose& T_table_obje
     seen.areas.push_back(out.areas[i]);
     seen.weights.push_back(1.0f);
   }
-  for (int k = 0; k < 10; ++k)
-    seen.views.push_back(view_of(placed, 2.0 * std::numbers::pi * k / 10));
+  auto views = std::make_shared<std::vector<views::DepthView>>();
+  for (int k = 0; k < 10; ++k) views->push_back(view_of(placed, 2.0 * std::numbers::pi * k / 10));
+  seen.views = std::move(views);
   seen.floor_m = 0.0;
   seen.noise_m = 0.001;
   return seen;

@@ -16,12 +16,18 @@ std::size_t sample(const Volume& volume, int i, int j, int k) {
   return slot * 512 + std::size_t(i % 8 + 8 * (j % 8) + 64 * (k % 8));
 }
 
-/// All samples known; `share` of them free, at random, and winding passages between them.
-Volume sponge(double share, std::uint64_t seed) {
+/// A cube of bricks without samples, cells of 1 m.
+Volume empty_volume(int bricks) {
   Volume volume;
   volume.cell_m = 1.0;
   volume.truncation_m = 3.0;
-  volume.set_bricks({kBricks, kBricks, kBricks});
+  volume.set_bricks({bricks, bricks, bricks});
+  return volume;
+}
+
+/// All samples known; `share` of them free, at random, and winding passages between them.
+Volume sponge(double share, std::uint64_t seed) {
+  Volume volume = empty_volume(kBricks);
   for (std::size_t b = 0; b < volume.slot.size(); ++b) volume.allocate(b, 0.0f);
   for (std::size_t s = 0; s < volume.value.size(); ++s) {
     volume.value[s] = uniform01(hash_key(seed, s, 0)) < share ? 1.0f : -1.0f;
@@ -75,20 +81,14 @@ TEST(CloseHoles, FillsWhatAWalkFromBeyondDoesNotReach) {
   }
 }
 
+constexpr int kBallBricks = 6, kHalf = 4 * kBallBricks;
+
 /// Where the surface lies on the +x axis of a ball of 15 cells of which a cap towards +x, 35
 /// degrees wide, was never seen, nor what lies before it. Distances are known `inside` cells deep.
 double cap_height(double inside) {
-  constexpr int kAcross = 6, kHalf = 4 * kAcross;
-  Volume volume;
-  volume.cell_m = 1.0;
-  volume.truncation_m = 3.0;
+  Volume volume = empty_volume(kBallBricks);
   volume.origin_m = Vec3d::Constant(-kHalf);
-  volume.set_bricks({kAcross, kAcross, kAcross});
   for (std::size_t b = 0; b < volume.slot.size(); ++b) volume.allocate(b, 0.0f);
-  const auto at = [&](int i, int j, int k) {
-    const auto slot = std::size_t(volume.slot[volume.bricks.at({i / 8, j / 8, k / 8})]);
-    return slot * 512 + std::size_t(i % 8 + 8 * (j % 8) + 64 * (k % 8));
-  };
   for (int k = 0; k < 2 * kHalf; ++k) {
     for (int j = 0; j < 2 * kHalf; ++j) {
       for (int i = 0; i < 2 * kHalf; ++i) {
@@ -96,8 +96,8 @@ double cap_height(double inside) {
         const double d = p.norm() - 15.0;
         const bool cap = p.x() > std::cos(35.0 * std::numbers::pi / 180.0) * p.norm();
         if (cap || d < -inside) continue;
-        volume.value[at(i, j, k)] = float(std::min(d, 3.0));
-        volume.weight[at(i, j, k)] = 1.0f;
+        volume.value[sample(volume, i, j, k)] = float(std::min(d, 3.0));
+        volume.weight[sample(volume, i, j, k)] = 1.0f;
       }
     }
   }
@@ -105,7 +105,7 @@ double cap_height(double inside) {
   scale.cell_m = 1.0, scale.truncation_m = 3.0;
   EXPECT_TRUE(close_holes(volume, scale, RunContext()));
   int i = kHalf;
-  while (i + 1 < 2 * kHalf && volume.value[at(i, kHalf, kHalf)] < 0.0f) ++i;
+  while (i + 1 < 2 * kHalf && volume.value[sample(volume, i, kHalf, kHalf)] < 0.0f) ++i;
   return volume.position(i, 0, 0).x() - 0.5;
 }
 
@@ -118,12 +118,8 @@ TEST(CloseHoles, WhatWasNotSeenNeitherSinksInNorBulges) {
 }
 
 TEST(CloseHoles, WhatNoPassSawEndsFlatOnALeaningPlatter) {
-  constexpr int kAcross = 6, kHalf = 4 * kAcross;
-  Volume volume;
-  volume.cell_m = 1.0;
-  volume.truncation_m = 3.0;
+  Volume volume = empty_volume(kBallBricks);
   volume.origin_m = Vec3d::Constant(-kHalf);
-  volume.set_bricks({kAcross, kAcross, kAcross});
   VolumeScale scale;
   scale.cell_m = 1.0, scale.truncation_m = 3.0;
   scale.platters = {{Vec3d(0.36, 0.8, 0.48), -6.0}};

@@ -39,8 +39,9 @@ TEST(BuiltinObjects, NamesTheKnownOnesWhenAskedForAnother) {
   const auto mesh = builtin_object("teapot");
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().code, ErrorCode::kNotFound);
-  EXPECT_NE(mesh.error().message.find("letter-a, cylinder, doll, scorpion, skull"),
-            std::string::npos);
+  EXPECT_NE(
+      mesh.error().message.find("letter-a, cylinder, doll, scorpion, skull, ball, ball-bar, plate"),
+      std::string::npos);
 }
 
 TEST(LetterA, HasTheSizeOfTheWoodenOne) {
@@ -67,6 +68,17 @@ TEST(Cylinder, HasItsDiameterHeightAndVolume) {
   const double n = SolidCylinder::segments;
   const double polygon = 0.5 * n * std::sin(2.0 * kPi / n) * 0.04 * 0.04;
   EXPECT_NEAR(test::volume_of(mesh), polygon * 0.16, 1e-9);
+}
+
+TEST(Gauges, HaveTheirSizes) {
+  expect_box(object("ball"), {-0.03, 0.0, -0.03}, {0.03, 0.06, 0.03}, 1e-7);
+  expect_box(object("ball-bar"), {-0.095, 0.0, -0.02}, {0.095, 0.04, 0.02}, 1e-7);
+  expect_box(object("plate"), {-0.08, 0.0, -0.006}, {0.08, 0.12, 0.006}, 1e-7);
+  for (const Vec3f& p : object("ball").vertices)
+    ASSERT_NEAR((p - Vec3f(0.0f, 0.03f, 0.0f)).norm(), 0.03, 1e-8);
+  // Each vertex of the bar lies on one of its balls.
+  for (const Vec3f& p : object("ball-bar").vertices)
+    ASSERT_NEAR((p - Vec3f(p.x() < 0.0f ? -0.075f : 0.075f, 0.02f, 0.0f)).norm(), 0.02, 1e-8);
 }
 
 TEST(Doll, IsAsTallAsItSays) {

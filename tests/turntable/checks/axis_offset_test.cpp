@@ -49,6 +49,19 @@ void move_table(SequenceView& sequence, double shift_m, double tilt_rad) {
   sequence.set_header(std::move(header));
 }
 
+TEST(MeasureAxisOffset, DoesNotTakeForThePlatterWhatNothingStandsOn) {
+  const testing::Rig rig = turning_rig();
+  DetectedPlatter clutter;
+  clutter.axis = rig.truth().axis;
+  clutter.center_m = rig.truth().center_m + Vec3d(0.5, 0.0, 0.0);
+  clutter.radius_m = 0.1;
+  PlatterMemory memory{true, clutter};
+  const auto offset = measure_axis_offset(letter_on(rig), {}, &memory);
+  ASSERT_TRUE(offset && *offset);
+  EXPECT_FALSE((*offset)->bad());
+  EXPECT_FALSE(memory.platter);
+}
+
 TEST(MeasureAxisOffset, IsSmallWhereTheRecordingIsRight) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const testing::Rig rig = turning_rig(seed);

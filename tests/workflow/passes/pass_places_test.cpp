@@ -80,10 +80,13 @@ TEST(PassPlaces, WhatIsStatedIsTaken) {
   ASSERT_TRUE(passes) << passes.error().message;
   const auto places = place_passes(*passes, {}, RunContext());
   ASSERT_TRUE(places) << places.error().message;
-  ASSERT_EQ(places->size(), 2u);
-  EXPECT_TRUE((*places)[0].placement->T_object_table.isApprox(Pose::Identity()));
-  EXPECT_TRUE((*places)[1].placement->T_object_table.isApprox(there));
-  EXPECT_FALSE((*places)[1].placement->found);
+  ASSERT_EQ(places->objects.size(), 1u);
+  const auto& of_pass = places->objects[0].of_pass;
+  ASSERT_EQ(of_pass.size(), 2u);
+  EXPECT_TRUE(of_pass[0]->T_object_table.isApprox(Pose::Identity()));
+  EXPECT_TRUE(of_pass[1]->T_object_table.isApprox(there));
+  EXPECT_FALSE(of_pass[1]->found);
+  EXPECT_EQ(places->reasons, (std::vector<std::string>{"", ""}));
 }
 
 TEST(PassPlaces, WhatIsStatedOfNoPassOrTwiceIsRefused) {

@@ -220,18 +220,37 @@ Recorder::~Recorder() {
     if (thread.joinable()) thread.join();
 }
 
-Result<Recorder> Recorder::create(const fs::path& folder, const SequenceHeader& header,
-                                  const CaptureSettings& settings, const RecorderOptions& options,
-                                  double expected_bytes) {
+namespace {
+
+Result<> check_room(const fs::path& folder, const RecorderOptions& options, double expected_bytes) {
   RecorderOptions copy = options;
   TURNSCAN_TRY(turnscan::describe(copy).check());
   TURNSCAN_ASSIGN(const std::uint64_t free, free_space(folder));
   if (double(free) < options.min_free_bytes + expected_bytes)
     return too_little_space(folder, double(free), options.min_free_bytes + expected_bytes);
-  TURNSCAN_ASSIGN(RecordingWriter writer,
-                  RecordingWriter::create(folder, header, settings, options.color));
-  auto state = std::make_unique<State>(std::move(writer), folder, options);
-  state->counts.free_bytes = free;
+  return {};
+}
+
+}  // namespace
+
+Result<Recorder> Recorder::create(const fs::path& folder, const SequenceHeader& header,
+                                  const CaptureSettings& settings, const RecorderOptions& options,
+                                  double expected_bytes) {
+  TURNSCAN_TRY(check_room(folder, options, expected_bytes));
+  return of(RecordingWriter::create(folder, header, settings, options.color), folder, options);
+}
+
+Result<Recorder> Recorder::extend(const fs::path& folder, const RecorderOptions& options,
+                                  double expected_bytes) {
+  TURNSCAN_TRY(check_room(folder, options, expected_bytes));
+  return of(RecordingWriter::extend(folder, options.color), folder, options);
+}
+
+Result<Recorder> Recorder::of(Result<RecordingWriter> writer, const fs::path& folder,
+                              const RecorderOptions& options) {
+  if (!writer) return tl::unexpected<Error>(std::move(writer).error());
+  auto state = std::make_unique<State>(std::move(*writer), folder, options);
+  if (const auto free = free_space(folder)) state->counts.free_bytes = *free;
   Recorder recorder(std::move(state));  // joins those that began when one cannot
   for (int i = 0; i < options.encoders; ++i)
     recorder.state_->threads.emplace_back([raw = recorder.state_.get()] { raw->run(); });

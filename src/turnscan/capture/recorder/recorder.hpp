@@ -41,6 +41,10 @@ class Recorder {
   static Result<Recorder> create(const std::filesystem::path& folder, const SequenceHeader& header,
                                  const CaptureSettings& settings, const RecorderOptions& options,
                                  double expected_bytes = 0.0);
+  /// Goes on with a recording that is complete; see RecordingWriter::extend(), as which it fails,
+  /// too.
+  static Result<Recorder> extend(const std::filesystem::path& folder,
+                                 const RecorderOptions& options, double expected_bytes = 0.0);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called. Frames that wait
@@ -67,6 +71,8 @@ class Recorder {
 
  private:
   struct State;
+  static Result<Recorder> of(Result<RecordingWriter> writer, const std::filesystem::path& folder,
+                             const RecorderOptions& options);
   explicit Recorder(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

@@ -42,6 +42,15 @@ double expected_bytes(const SequenceHeader& header, const SourceInfo& info,
   return pixels * kBytesPerPixel * frames;
 }
 
+/// What a source counted that was used for earlier passes.
+SourceStatistics counted_since(const SourceStatistics& before, SourceStatistics now) {
+  now.delivered -= before.delivered;
+  now.dropped_by_sensor -= before.dropped_by_sensor;
+  now.dropped_by_queue -= before.dropped_by_queue;
+  now.refused -= before.refused;
+  return now;
+}
+
 /// One recording on its way.
 class Session {
  public:
@@ -58,6 +67,7 @@ class Session {
         turns_(header, speed_for_counting(), wants_turns(), !source.info().live) {}
 
   Result<> prepare() {
+    if (options_.add_pass) TURNSCAN_TRY(continue_recording());
     if (!options_.crop.enabled) return {};
     Cylinder cylinder;
     cylinder.margin_m = -options_.crop.below_m;
@@ -82,7 +92,7 @@ class Session {
     if (!done) result_.error = std::move(done).error();
     if (hooks_.motor != nullptr) stop_motor();
     finish();
-    result_.source = source_.statistics();
+    result_.source = counted_since(before_, source_.statistics());
     result_.turned_rad = turns_.turned_rad();
     result_.turns_found = turns_.found();
     result_.speed_rad_s = turns_.speed_rad_s();
@@ -103,6 +113,28 @@ class Session {
     return options_.limits.turns.value_or(1.0) * kTurn + options_.limits.overlap_rad;
   }
 
+  /// The new frames come behind those of the passes that are there.
+  Result<> continue_recording() {
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+    const auto is_same = [](const SensorInfo& one, const SensorInfo& other) {
+      return one.kind == other.kind && one.model == other.model &&
+             one.intrinsics.width == other.intrinsics.width &&
+             one.intrinsics.height == other.intrinsics.height;
+    };
+    const auto& sensors = recording.header().sensors;
+    if (!std::equal(sensors.begin(), sensors.end(), header_.sensors.begin(), header_.sensors.end(),
+                    is_same))
+      return fail_at(folder_.string(), ErrorCode::kInvalidOption,
+                     "its passes were recorded with other sensors; make a recording of its own");
+    header_ = recording.header();
+    settings_ = recording.capture_settings();
+    for (const FrameInfo& frame : recording.frames()) {
+      next_index_ = std::max(next_index_, frame.index + 1);
+      pass_ = std::max(pass_, frame.pass + 1);
+    }
+    return {};
+  }
+
   // --- taking frames
 
   /// The next frame, whenever it comes. nullopt: the source has ended.
@@ -113,7 +145,7 @@ class Session {
       if (hooks_.motor != nullptr) TURNSCAN_TRY(hooks_.motor->watch());
       if (delivery.kind == Delivery::Kind::kEnd) return std::optional<Frame>();
       if (delivery.kind == Delivery::Kind::kFrame) {
-        if (index_ > 0) result_.longest_gap_s = std::max(result_.longest_gap_s, gap);
+        if (count_ > 0) result_.longest_gap_s = std::max(result_.longest_gap_s, gap);
         last_frame_ = Clock::now();
         return std::optional<Frame>(std::move(delivery.frame));
       }
@@ -125,8 +157,10 @@ class Session {
   }
 
   Result<> create_recorder() {
-    auto recorder = Recorder::create(folder_, header_, settings_, options_.recorder,
-                                     expected_bytes(header_, source_.info(), options_));
+    const double bytes = expected_bytes(header_, source_.info(), options_);
+    auto recorder = options_.add_pass
+                        ? Recorder::extend(folder_, options_.recorder, bytes)
+                        : Recorder::create(folder_, header_, settings_, options_.recorder, bytes);
     refused_at_start_ = !recorder;
     if (!recorder) return tl::unexpected<Error>(std::move(recorder).error());
     recorder_.emplace(std::move(*recorder));
@@ -135,7 +169,9 @@ class Session {
 
   Result<> record(Frame frame) {
     if (!recorder_) TURNSCAN_TRY(create_recorder());
-    frame.info.index = index_++;
+    frame.info.index = next_index_++;
+    ++count_;
+    if (options_.add_pass) frame.info.pass = pass_;
     frame.info.file.clear();
     if (frame.info.angle_rad) {
       if (!first_angle_) first_angle_ = frame.info.angle_rad;
@@ -153,7 +189,8 @@ class Session {
     CaptureProgress progress;
     const RecorderStatistics counts = recorder_->statistics();
     progress.frames = counts.written;
-    progress.dropped = source_.statistics().dropped() + counts.dropped_by_disk;
+    progress.dropped =
+        counted_since(before_, source_.statistics()).dropped() + counts.dropped_by_disk;
     progress.turned_rad = turns_.turned_rad();
     progress.seconds = result_.seconds;
     progress.free_bytes = counts.free_bytes;
@@ -209,7 +246,7 @@ class Session {
     const CaptureLimits& limits = options_.limits;
     const std::size_t sensors = header_.sensors.size();
     bool end = false;
-    if (limits.frames) end = index_ >= std::uint32_t(*limits.frames) * sensors;
+    if (limits.frames) end = count_ >= std::uint32_t(*limits.frames) * sensors;
     if (limits.seconds) end = result_.seconds > *limits.seconds;
     if (wants_turns()) end = turns_.turned_rad().value_or(0.0) > wanted_rad();
     if (end) result_.ended = "as it was meant to";
@@ -219,7 +256,7 @@ class Session {
   double fraction() const {
     const CaptureLimits& limits = options_.limits;
     if (limits.frames)
-      return double(index_) / double(std::size_t(*limits.frames) * header_.sensors.size());
+      return double(count_) / double(std::size_t(*limits.frames) * header_.sensors.size());
     if (limits.seconds) return result_.seconds / *limits.seconds;
     return wants_turns() ? turns_.turned_rad().value_or(0.0) / wanted_rad() : 0.0;
   }
@@ -305,8 +342,9 @@ class Session {
       result_.ended = result_.error->code == ErrorCode::kCancelled ? "when it was stopped"
                                                                    : result_.error->message;
     CaptureSettings settings = settings_;
-    settings["ended"] = result_.ended;
-    if (!turns_.found().empty()) settings["turns_counted_by"] = turns_.found();
+    const std::string of_pass = options_.add_pass ? fmt::format("pass_{}_", pass_) : "";
+    settings[of_pass + "ended"] = result_.ended;
+    if (!turns_.found().empty()) settings[of_pass + "turns_counted_by"] = turns_.found();
     recorder_->describe(header_, settings);
     auto finished = recorder_->finish();
     result_.recorder = recorder_->statistics();
@@ -327,7 +365,9 @@ class Session {
   std::optional<Recorder> recorder_;
   bool refused_at_start_ = false;
   CaptureResult result_;
-  std::uint32_t index_ = 0;
+  const SourceStatistics before_ = options_.add_pass ? source_.statistics() : SourceStatistics();
+  std::uint32_t next_index_ = 0, pass_ = 0;
+  std::uint32_t count_ = 0;  // of frames recorded
   std::optional<double> first_time_, first_angle_;
   Clock::time_point last_frame_ = Clock::now();
 };

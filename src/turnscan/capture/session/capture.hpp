@@ -49,6 +49,9 @@ struct CaptureOptions {
   RecorderOptions recorder;
   std::optional<double> speed_rad_s;  ///< known speed of the table, or the motor's
   double motor_ramp_s = 1.5;          ///< that the motor gets to reach its speed
+  /// The folder holds a recording that is complete: the object lies another way, and its frames
+  /// become the next pass.
+  bool add_pass = false;
 };
 
 struct CaptureProgress {
@@ -85,9 +88,11 @@ struct CaptureResult {
 /// Takes frames from a source that was started and records them into a folder that does not exist
 /// or is empty; frame 0 is the first that comes. header and settings go into recording.json; with
 /// header.turntable and its pose frames can be cropped. Whatever ends the recording, it is
-/// finished: what came before is there. Nothing is made when no frame came. Fails, without having
-/// recorded anything, with kInvalidOption (limits that contradict each other, crop without a
-/// turntable) and as Recorder::create() does.
+/// finished: what came before is there. Nothing is made when no frame came. With add_pass the
+/// recording's own header and settings stay, and angles begin anew. Fails, without having recorded
+/// anything, with kInvalidOption (limits that contradict each other, crop without a turntable, a
+/// pass of other sensors), as Recorder::create() does, and to add a pass as Recording::open() and
+/// Recorder::extend() do.
 Result<CaptureResult> capture(FrameSource& source, const std::filesystem::path& folder,
                               const SequenceHeader& header, const CaptureSettings& settings,
                               const CaptureOptions& options, const CaptureHooks& hooks,

@@ -32,6 +32,7 @@ struct SourceInfo {
   /// come as fast as they are taken, and none is lost.
   bool live = true;
   std::optional<std::uint64_t> frame_count;  ///< of a source that ends by itself
+  bool lays_object = false;                  ///< lay_object() works: nobody has to do it by hand
 };
 
 /// What next() brings.
@@ -90,6 +91,12 @@ class FrameSource {
   /// No more frames come in; what waits can still be taken. Also without start().
   virtual void stop() = 0;
   virtual SourceStatistics statistics() const = 0;
+  /// Lays the object another way for the next pass: turned, from how it lay when the frame with the
+  /// time `time_s` was taken, by a rotation in the frame of sensor 0, then set down in the middle
+  /// of the platter. Frames that were waiting are gone; the next start() begins anew, time goes on.
+  /// To be called while the source is stopped. Fails with kUnsupported unless info().lays_object,
+  /// and with kNotFound when there was no such frame.
+  virtual Result<> lay_object(const Eigen::Matrix3d& rotation, double time_s);
 };
 
 /// Opens the sensor of a URI (source_uri.hpp):

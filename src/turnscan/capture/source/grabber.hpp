@@ -18,6 +18,8 @@ class Grabber {
   /// later. Called on one thread between start() and stop().
   virtual Result<Delivery> grab(double timeout_s) = 0;
   virtual void stop() = 0;
+  /// As FrameSource::lay_object().
+  virtual Result<> lay_object(const Eigen::Matrix3d& rotation, double time_s);
 };
 
 /// Openers of the schemes. Parameters that are common to all sources are taken out before.

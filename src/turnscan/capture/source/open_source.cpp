@@ -44,6 +44,16 @@ namespace turnscan {
 
 using namespace source;
 
+Result<> FrameSource::lay_object(const Eigen::Matrix3d&, double) {
+  return fail(ErrorCode::kUnsupported,
+              "{}: the object has to be laid by hand; it cannot be done from here", info().driver);
+}
+
+Result<> source::Grabber::lay_object(const Eigen::Matrix3d&, double) {
+  return fail(ErrorCode::kUnsupported,
+              "{}: the object has to be laid by hand; it cannot be done from here", info().driver);
+}
+
 Result<std::unique_ptr<FrameSource>> open_source(const std::string& uri,
                                                  const RunContext& context) {
   TURNSCAN_ASSIGN(SourceUri parsed, parse_source_uri(uri));

@@ -129,6 +129,16 @@ Result<Delivery> QueuedSource::next(double timeout_s, const RunContext& context)
   }
 }
 
+Result<> QueuedSource::lay_object(const Eigen::Matrix3d& rotation, double time_s) {
+  stop();
+  TURNSCAN_TRY(grabber_->lay_object(rotation, time_s));
+  pending_.reset();
+  for (;;) {
+    TURNSCAN_ASSIGN(const Delivery old, queue_.pop(0.0));
+    if (old.kind != Delivery::Kind::kFrame) return {};
+  }
+}
+
 SourceStatistics QueuedSource::statistics() const {
   SourceStatistics out;
   out.delivered = delivered_;

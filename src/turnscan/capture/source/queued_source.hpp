@@ -20,6 +20,7 @@ class QueuedSource : public FrameSource {
   Result<Delivery> next(double timeout_s, const RunContext& context) override;
   void stop() override;
   SourceStatistics statistics() const override;
+  Result<> lay_object(const Eigen::Matrix3d& rotation, double time_s) override;
 
  private:
   void run();

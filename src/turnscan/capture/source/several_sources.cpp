@@ -183,6 +183,7 @@ Result<> add_to(SourceInfo& sum, const SourceInfo& one) {
   sum.frame_count = sum.frame_count && one.frame_count
                         ? std::optional(*sum.frame_count + *one.frame_count)
                         : std::nullopt;
+  sum.lays_object = false;  // each would lay one of its own
   return {};
 }
 

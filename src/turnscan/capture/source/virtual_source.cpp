@@ -123,22 +123,34 @@ tl::unexpected<Error> refusal(VirtualFault::Kind kind) {
   }
 }
 
+constexpr double kPause_s = 1.0;  ///< between two passes, of the sensor's time
+
+/// A way in which the object lies.
+struct Laid {
+  VirtualScan scan;
+  double start_s = 0.0;  ///< of the scan, in the source's time
+};
+
 class VirtualGrabber : public Grabber {
  public:
-  VirtualGrabber(const SourceUri& uri, const Description& d, VirtualScan scan,
-                 std::optional<VirtualScan> empty, std::vector<VirtualFault> faults)
+  VirtualGrabber(const SourceUri& uri, const Description& d, VirtualScanOptions scan_options,
+                 VirtualScan scan, std::optional<VirtualScan> empty,
+                 std::vector<VirtualFault> faults)
       : options_(d.options),
-        scan_(std::move(scan)),
+        scan_options_(std::move(scan_options)),
         empty_(std::move(empty)),
         faults_(std::move(faults)),
         pacer_(d.options.realtime ? 1.0 : 0.0) {
+    laid_.push_back({std::move(scan), 0.0});
     info_.uri = format_source_uri(uri);
     info_.driver = uri.scheme;
-    info_.header = scan_.header();
-    if (info_.header.turntable) info_.T_table_common = scan_.T_table_given();
+    info_.header = this->scan().header();
+    info_.lays_object = !this->scan().objects().empty();
+    if (info_.header.turntable) info_.T_table_common = this->scan().T_table_given();
     info_.fps = d.scene.motion.fps;
     info_.live = pacer_.live();
-    if (given(uri, "frames") || given(uri, "turns")) info_.frame_count = scan_.frames().size();
+    if (given(uri, "frames") || given(uri, "turns"))
+      info_.frame_count = this->scan().frames().size();
     const std::string model = d.scene.scanners.front().model;
     info_.identities.push_back(identity_text(
         fmt::format("virtual-{}-{}", model.substr(model.rfind('/') + 1), d.options.serial)));
@@ -150,18 +162,42 @@ class VirtualGrabber : public Grabber {
 
   Result<> start() override {
     TURNSCAN_TRY(prepare());
-    if (next_ < scan_.frames().size()) pacer_.restart(scan_.frames()[next_].time_s);
+    if (next_ < scan().frames().size()) pacer_.restart(time_of(next_));
     return {};
   }
   void stop() override {}
 
+  Result<> lay_object(const Eigen::Matrix3d& rotation, double time_s) override {
+    time_s -= options_.clock_s;
+    const auto after = std::find_if(laid_.begin(), laid_.end(),
+                                    [&](const Laid& l) { return l.start_s > time_s + 1e-6; });
+    if (after == laid_.begin())
+      return fail(ErrorCode::kNotFound, "virtual: there was no frame at {:.3f} s", time_s);
+    const Laid& then = *std::prev(after);
+    const auto& frames = then.scan.frames();
+    const auto frame = std::find_if(frames.begin(), frames.end(), [&](const FrameInfo& f) {
+      return std::abs(then.start_s + f.time_s - time_s) < 1e-6;
+    });
+    if (frame == frames.end())
+      return fail(ErrorCode::kNotFound, "virtual: there was no frame at {:.3f} s", time_s);
+    auto objects = turned(then.scan, std::size_t(frame - frames.begin()), rotation);
+    scan_options_.first_instant += std::uint32_t(scan().frames().size());
+    TURNSCAN_ASSIGN(VirtualScan next, VirtualScan::create(std::move(objects), scan_options_));
+    const double last_s = time_of(std::min(next_, scan().frames().size() - 1));
+    laid_.push_back({std::move(next), last_s + kPause_s});
+    next_ = 0;
+    ahead_.clear();
+    prepared_.clear();
+    return {};
+  }
+
   Result<Delivery> grab(double timeout_s) override {
     Delivery out;
-    if (next_ == scan_.frames().size()) {
+    if (next_ == scan().frames().size()) {
       out.kind = Delivery::Kind::kEnd;
       return out;
     }
-    const double time_s = scan_.frames()[next_].time_s;
+    const double time_s = time_of(next_);
     if (fault_at(VirtualFault::Kind::kLost, time_s) != nullptr)
       return fail(ErrorCode::kDeviceLost,
                   "virtual: the device stopped answering; check the cable and the power supply");
@@ -178,6 +214,36 @@ class VirtualGrabber : public Grabber {
   }
 
  private:
+  const VirtualScan& scan() const { return laid_.back().scan; }
+  /// Of a frame, in the source's time without the error of its clock.
+  double time_of(std::size_t position) const {
+    return laid_.back().start_s + scan().frames()[position].time_s;
+  }
+
+  /// As FrameSource::lay_object() says, in the frame in which objects are given to a scan.
+  static std::vector<TriangleMesh> turned(const VirtualScan& scan, std::size_t position,
+                                          const Eigen::Matrix3d& rotation) {
+    const Eigen::Matrix3d turn_table_sensor = rotation_about_y(scan.angle_rad(position)).linear() *
+                                              scan.T_table_sensor(position).linear();
+    const Eigen::Matrix3d turn_given_table = scan.T_table_given().linear().transpose();
+    const Eigen::Matrix3d turn = turn_given_table * turn_table_sensor * rotation *
+                                 turn_table_sensor.transpose() *
+                                 rotation_about_y(scan.angle_rad(position)).linear();
+    std::vector<TriangleMesh> objects(scan.objects().begin(), scan.objects().end());
+    Box box;
+    for (TriangleMesh& mesh : objects) {
+      for (Vec3f& p : mesh.vertices) {
+        p = (turn * p.cast<double>()).cast<float>();
+        box.add(p.cast<double>());
+      }
+      for (Vec3f& n : mesh.normals) n = (turn * n.cast<double>()).cast<float>();
+    }
+    const Vec3f shift = -Vec3d(box.center().x(), box.min.y(), box.center().z()).cast<float>();
+    for (TriangleMesh& mesh : objects)
+      for (Vec3f& p : mesh.vertices) p += shift;
+    return objects;
+  }
+
   const VirtualFault* fault_at(VirtualFault::Kind kind, double time_s) const {
     const double frame_s = 0.999 / info_.fps;
     for (const VirtualFault& fault : faults_) {
@@ -193,23 +259,22 @@ class VirtualGrabber : public Grabber {
     if (pacer_.live()) {
       if (!pacer_.wait(fault.begin_s + fault.length_s, timeout_s)) return {};
     }
-    const auto& frames = scan_.frames();
-    while (next_ < frames.size() && fault_at(VirtualFault::Kind::kStall, frames[next_].time_s))
+    while (next_ < scan().frames().size() && fault_at(VirtualFault::Kind::kStall, time_of(next_)))
       ++next_;
     ahead_.clear();
     return {};
   }
 
   const VirtualScan& scan_at(double time_s) const {
-    return empty_ && time_s < options_.appears_s ? *empty_ : scan_;
+    return empty_ && time_s < options_.appears_s ? *empty_ : scan();
   }
 
   Result<Frame> render(std::size_t position) const {
-    const FrameInfo& listed = scan_.frames()[position];
+    const FrameInfo& listed = scan().frames()[position];
     Frame frame;
     frame.info = listed;
     if (listed.status == FrameStatus::kDropped) return frame;
-    return scan_at(listed.time_s).read(position);
+    return scan_at(time_of(position)).read(position);
   }
 
   /// Renders frames from `first` on, on all cores.
@@ -226,15 +291,15 @@ class VirtualGrabber : public Grabber {
 
   Result<> prepare() {
     if (options_.prepared == 0 || !prepared_.empty()) return {};
-    TURNSCAN_ASSIGN(prepared_,
-                    render_all(0, std::min(std::size_t(options_.prepared), scan_.frames().size())));
+    TURNSCAN_ASSIGN(
+        prepared_, render_all(0, std::min(std::size_t(options_.prepared), scan().frames().size())));
     return {};
   }
 
   Result<> look_ahead() {
     if (!prepared_.empty() || !ahead_.empty()) return {};
     const std::size_t threads = std::max(1, thread_count());
-    TURNSCAN_ASSIGN(ahead_, render_all(next_, std::min(threads, scan_.frames().size() - next_)));
+    TURNSCAN_ASSIGN(ahead_, render_all(next_, std::min(threads, scan().frames().size() - next_)));
     return {};
   }
 
@@ -243,15 +308,15 @@ class VirtualGrabber : public Grabber {
     Frame frame;
     if (!prepared_.empty()) {
       frame = prepared_[next_ % prepared_.size()];
-      frame.info = scan_.frames()[next_];
+      frame.info = scan().frames()[next_];
     } else if (!ahead_.empty()) {
       frame = std::move(ahead_.front());
       ahead_.pop_front();
     } else {
-      frame.info = scan_.frames()[next_];
+      frame.info = scan().frames()[next_];
       frame.info.status = FrameStatus::kDropped;
     }
-    frame.info.time_s += options_.clock_s;
+    frame.info.time_s = time_s + options_.clock_s;
     if (fault_at(VirtualFault::Kind::kGap, time_s) != nullptr) {
       Frame lost;
       lost.info = frame.info;
@@ -264,7 +329,8 @@ class VirtualGrabber : public Grabber {
   }
 
   VirtualOptions options_;
-  VirtualScan scan_;
+  VirtualScanOptions scan_options_;
+  std::vector<Laid> laid_;            ///< the last one is seen; never empty
   std::optional<VirtualScan> empty_;  ///< the table before the object is there
   std::vector<VirtualFault> faults_;
   SourceInfo info_;
@@ -295,7 +361,7 @@ Result<std::unique_ptr<Grabber>> open_virtual(const SourceUri& uri, const RunCon
   }
   TURNSCAN_ASSIGN(VirtualScan scan, VirtualScan::create(std::move(objects), options));
   return std::unique_ptr<Grabber>(std::make_unique<VirtualGrabber>(
-      uri, d, std::move(scan), std::move(empty), std::move(faults)));
+      uri, d, std::move(options), std::move(scan), std::move(empty), std::move(faults)));
 }
 
 }  // namespace turnscan::source

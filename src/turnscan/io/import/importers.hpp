@@ -59,4 +59,10 @@ const std::vector<ImporterInfo>& importers();
 Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
                                                     const ImportOptions& options);
 
+/// One or more data sets as the passes of one object, counted through from 0 on. Where frames have
+/// poses, they hold within their pass. Fails as open_foreign() does, and with kInvalidOption when
+/// their sensors or turntables differ.
+Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
+    const std::vector<std::filesystem::path>& paths, const ImportOptions& options);
+
 }  // namespace turnscan

@@ -48,12 +48,26 @@ constexpr double kOnALine = 0.5;
 /// used.
 constexpr std::size_t kPointsUsed = 2048;
 
+/// Faces of a wall that two directions see, both not too steeply, are one when these are less than
+/// about a right angle apart.
+constexpr float kSameSide = 0.2f;
+
 /// The points that a grid has sorted, in its order.
 struct SortedPoints {
   const std::vector<Vec3f>& points;
   const voxels::VoxelGrid& grid;
   Vec3f point(std::size_t k) const { return points[grid.order()[k]]; }
   double count(std::size_t) const { return 1.0; }
+};
+
+/// Of those only what was seen from about one direction.
+struct OneSide : SortedPoints {
+  const std::vector<std::uint32_t>& frame;
+  const std::vector<Vec3f>& towards_sensor;  ///< per frame
+  Vec3f towards;
+  double count(std::size_t k) const {
+    return towards_sensor[frame[grid.order()[k]]].dot(towards) > kSameSide ? 1.0 : 0.0;
+  }
 };
 
 /// Items within r of p are spread along the normal with sigma. items: those of the grid's voxels.
@@ -232,6 +246,26 @@ CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, doub
       const auto at = std::upper_bound(sum.begin(), sum.end(), key % sum.back());
       const Vec3f p = measurements.point(std::size_t(at - sum.begin()));
       return thickness_at(measurements, grid, p, r);
+    };
+  });
+}
+
+CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m) {
+  using ThicknessAt = std::function<Thickness(std::uint64_t)>;
+  const auto& points = merged.cloud.points;
+  const auto& frame = merged.cloud.frame;
+  const Vec3d middle = bounds(points).center();
+  std::vector<Vec3f> towards_sensor;
+  for (const Viewpoint& viewpoint : merged.viewpoints)
+    towards_sensor.push_back(viewpoint.direction_from(middle).cast<float>());
+  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+    auto built = voxels::VoxelGrid::build(points, r, RunContext());
+    if (!built) return std::nullopt;
+    const auto grid = std::make_shared<const voxels::VoxelGrid>(std::move(*built));
+    return [=, &points, &frame, &towards_sensor](std::uint64_t key) {
+      const std::size_t i = key % points.size();
+      const OneSide items{{points, *grid}, frame, towards_sensor, towards_sensor[frame[i]]};
+      return thickness_at(items, *grid, points[i], r);
     };
   });
 }

@@ -31,6 +31,10 @@ struct CloudStatistics {
 /// Starts at start_radius_m; ends at 16 times that.
 CloudStatistics cloud_statistics(const voxels::MergedCloud& merged, double start_radius_m);
 
+/// The same, of each neighbourhood only what was seen from about the same side: both faces of a
+/// thin wall together are thick. Needs the frame of each point, and the frames' viewpoints.
+CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m);
+
 /// The same of measurements in cells. What is thinner than the cells may look thinner than it is.
 CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, double start_radius_m);
 

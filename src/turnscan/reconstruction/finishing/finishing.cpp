@@ -17,6 +17,15 @@ namespace {
 /// Per triangle or vertex: 1 for those meant.
 using Marks = std::vector<std::uint8_t>;
 
+/// Nothing where there are no values.
+template <class T>
+void keep_only(std::vector<T>& values, const Marks& kept) {
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (kept[v]) values[count++] = values[v];
+  values.resize(count);
+}
+
 /// Removes triangles with what is known of them, and then the vertices that none names.
 void drop(ObjectResult& object, const Marks& dropped) {
   TriangleMesh& mesh = object.mesh;
@@ -27,15 +36,11 @@ void drop(ObjectResult& object, const Marks& dropped) {
     object.evidence.resize(kept);
   }
   mesh::drop_triangles(mesh, dropped);
-  if (!object.confidence.empty()) {
-    Marks named(mesh.vertices.size(), 0);
-    for (const auto& triangle : mesh.triangles)
-      for (const std::uint32_t v : triangle) named[v] = 1;
-    std::size_t kept = 0;
-    for (std::size_t v = 0; v < named.size(); ++v)
-      if (named[v]) object.confidence[kept++] = object.confidence[v];
-    object.confidence.resize(kept);
-  }
+  Marks named(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) named[v] = 1;
+  keep_only(object.confidence, named);
+  keep_only(object.quality, named);
   mesh::compact_vertices(mesh);
 }
 
@@ -137,6 +142,11 @@ Result<> settle_holes(const FinishOptions& options, ObjectResult& object,
               : flatten_holes(object, patches, context);
 }
 
+VertexQuality worse_of(const VertexQuality& a, const VertexQuality& b) {
+  return {std::max(a.expected_error_m, b.expected_error_m), std::min(a.frames, b.frames),
+          std::min(a.directions, b.directions)};
+}
+
 /// What a clipped mesh's parts are known to be.
 void take(ClippedMesh clipped, ObjectResult& object) {
   if (!object.evidence.empty()) {
@@ -150,6 +160,12 @@ void take(ClippedMesh clipped, ObjectResult& object) {
     for (const auto& [a, b] : clipped.vertex_source)
       confidence.push_back(std::min(object.confidence[a], object.confidence[b]));
     object.confidence = std::move(confidence);
+  }
+  if (!object.quality.empty()) {
+    std::vector<VertexQuality> quality;
+    for (const auto& [a, b] : clipped.vertex_source)
+      quality.push_back(worse_of(object.quality[a], object.quality[b]));
+    object.quality = std::move(quality);
   }
   object.mesh = std::move(clipped.mesh);
 }

@@ -12,15 +12,6 @@ constexpr std::size_t kMostColorViews = 256;
 constexpr float kLeastColorCosine = 0.2f;  // rays that graze the surface mix what lies beside it
 constexpr Rgb kPlain{190, 190, 190};
 
-/// Pixel of a view that shows a point of the view's frame, or -1.
-std::ptrdiff_t pixel_of(const views::DepthView& view, const Vec3f& p) {
-  if (!view.parallel && !(p.z() > 0.0f)) return -1;
-  const Eigen::Vector2f image = view.project(p);
-  const float u = image.x() + 0.5f, v = image.y() + 0.5f;
-  if (!(u >= 0.0f && v >= 0.0f && u < float(view.width) && v < float(view.height))) return -1;
-  return std::ptrdiff_t(int(v)) * view.width + int(u);
-}
-
 /// Sum of colours, and of their weights in the last place.
 Eigen::Vector4f seen_color(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
                            float tolerance) {
@@ -29,7 +20,7 @@ Eigen::Vector4f seen_color(const views::DepthView& view, const Vec3f& vertex, co
   const Vec3f ray = view.parallel ? Vec3f(Vec3f::UnitZ()) : Vec3f(p.normalized());
   const float cosine = -(view.rotation * normal).dot(ray);
   if (!(cosine > kLeastColorCosine)) return nothing;
-  const std::ptrdiff_t i = pixel_of(view, p);
+  const std::ptrdiff_t i = view.pixel_at(p);
   if (i < 0) return nothing;
   const std::uint32_t word = view.pixels[std::size_t(i)];
   if ((word & 0xffffu) == 0 || (word & views::DepthView::kEdge) != 0) return nothing;

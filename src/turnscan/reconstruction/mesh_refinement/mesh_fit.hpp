@@ -31,6 +31,11 @@ struct MeshFit {
   std::vector<float> support;  ///< per vertex: sum of the weights of its measurements
 };
 
+/// Median of the supports that there are.
+float typical_support(const std::vector<float>& support);
+/// Share of the typical support below which a vertex counts as seen by no view.
+inline constexpr float kUnseenShare = 0.02f;
+
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a
 /// bending term, which averages noise away where the surface is smooth, fades at edges, and decides

@@ -36,9 +36,6 @@ struct VertexMeasurements {
   std::vector<float> offset;   ///< sum of weight times distance along the normal
 };
 
-/// Median of the supports that there are.
-float typical_support(const std::vector<float>& support);
-
 /// Whether a vertex lies below the floor, where only the platter is measured.
 inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale) {
   return scale.floor_height_m && vertex.y() < float(*scale.floor_height_m);

@@ -10,10 +10,9 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr float kLooseShare = 0.02f;  ///< of the typical support: what counts as invented
-constexpr int kMostContacts = 4;      ///< solutions, each with the contacts of those before it
-constexpr int kContactRounds = 6;     ///< of averaging where the plate touches what was seen
-constexpr float kNearCells = 1.5f;    ///< the rim lies in what was seen
+constexpr int kMostContacts = 4;    ///< solutions, each with the contacts of those before it
+constexpr int kContactRounds = 6;   ///< of averaging where the plate touches what was seen
+constexpr float kNearCells = 1.5f;  ///< the rim lies in what was seen
 /// Of a membrane: as long as some 30 edges it is as stiff as a plate. Wide openings are spanned.
 constexpr double kTension = 0.001;
 
@@ -24,7 +23,7 @@ class PlateCloser {
   PlateCloser(TriangleMesh& mesh, const std::vector<float>& support, const PlateClosing& closing,
               const RunContext& context)
       : mesh_(mesh), closing_(closing), context_(context), neighbours_(mesh) {
-    const float least = kLooseShare * typical_support(support);
+    const float least = kUnseenShare * typical_support(support);
     loose_.resize(mesh.vertices.size());
     for (std::size_t v = 0; v < loose_.size(); ++v)
       loose_[v] = support[v] < least && !closing_.stands(mesh.vertices[v]) ? 1 : 0;

@@ -20,6 +20,11 @@ enum class Density { kCoarse, kMedium };
 Agreement compare(const PreparedPass& a, const PreparedPass& b, const Pose& T_a_b,
                   double tolerance_m, Density density);
 
+/// How sure it is that one motion fits better than another: what the difference of their scores is
+/// over its deviation, as the differences over blocks of the surface show it.
+double preference(const PreparedPass& a, const PreparedPass& b, const Pose& one, const Pose& other,
+                  double tolerance_m);
+
 /// Mean square distance by which two motions of b move its surface apart, as a root.
 double motion_distance(const PreparedPass& b, const Pose& one, const Pose& other);
 

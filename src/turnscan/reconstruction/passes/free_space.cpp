@@ -25,18 +25,33 @@ bool sees_past(const views::DepthView& view, const Vec3f& p_table, float margin_
 
 }  // namespace
 
-FreeSpace::FreeSpace(const PassSurface& surface, double margin_m)
-    : margin_m_(float(margin_m)),
-      floor_m_(surface.floor_m ? float(*surface.floor_m - margin_m) : -1e9f) {
-  const std::size_t count = surface.views.size(), most = std::min(count, kMostViews);
-  for (std::size_t i = 0; i < most; ++i) views_.push_back(&surface.views[i * count / most]);
+FreeSpace::FreeSpace(const PassSurface& surface, double margin_m) {
+  OfPass own{surface.views,
+             {},
+             float(margin_m),
+             surface.floor_m ? float(*surface.floor_m - margin_m) : -1e9f,
+             Eigen::Isometry3f::Identity()};
+  const std::size_t count = own.owner ? own.owner->size() : 0, most = std::min(count, kMostViews);
+  for (std::size_t i = 0; i < most; ++i) own.views.push_back(&(*own.owner)[i * count / most]);
+  passes_.push_back(std::move(own));
 }
 
-bool FreeSpace::empty_at(const Vec3f& p_table, std::size_t stride) const {
-  if (p_table.y() < floor_m_) return true;
-  int witnesses = 0;
-  for (std::size_t v = 0; v < views_.size(); v += stride)
-    if (sees_past(*views_[v], p_table, margin_m_) && ++witnesses == kWitnesses) return true;
+void FreeSpace::add(const FreeSpace& other, const Pose& T_other_here) {
+  for (OfPass pass : other.passes_) {
+    pass.T_table_here = pass.T_table_here * T_other_here.cast<float>();
+    passes_.push_back(std::move(pass));
+  }
+}
+
+bool FreeSpace::empty_at(const Vec3f& p, std::size_t stride) const {
+  for (const OfPass& pass : passes_) {
+    const Vec3f p_table = pass.T_table_here * p;
+    if (p_table.y() < pass.floor_m) return true;
+    int witnesses = 0;
+    for (std::size_t v = 0; v < pass.views.size(); v += stride)
+      if (sees_past(*pass.views[v], p_table, pass.margin_m) && ++witnesses == kWitnesses)
+        return true;
+  }
   return false;
 }
 

@@ -9,16 +9,25 @@ class FreeSpace {
  public:
   static constexpr std::size_t kMostViews = 40;
 
-  /// Asks up to kMostViews of the surface's views, evenly spread; the surface must outlive it.
-  /// Nearer than margin_m to what a ray met counts for nothing.
+  /// Nothing is known to be empty.
+  FreeSpace() = default;
+  /// Asks up to kMostViews of the surface's views, evenly spread. Nearer than margin_m to what a
+  /// ray met counts for nothing.
   FreeSpace(const PassSurface& surface, double margin_m);
-  /// Whether several views saw past this place, or it lies in the platter. Of the views only every
-  /// stride-th is asked.
-  bool empty_at(const Vec3f& p_table, std::size_t stride = 1) const;
+  /// Empty is, too, what another pass saw to be.
+  void add(const FreeSpace& other, const Pose& T_other_here);
+  /// Whether several views of one pass saw past this place, or it lies in its platter. Of the views
+  /// only every stride-th is asked.
+  bool empty_at(const Vec3f& p, std::size_t stride = 1) const;
 
  private:
-  std::vector<const views::DepthView*> views_;
-  float margin_m_, floor_m_;
+  struct OfPass {
+    SharedViews owner;
+    std::vector<const views::DepthView*> views;
+    float margin_m, floor_m;
+    Eigen::Isometry3f T_table_here;
+  };
+  std::vector<OfPass> passes_;
 };
 
 }  // namespace turnscan::passes

@@ -2,7 +2,8 @@
 #include <cmath>
 #include <memory>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
-#include <turnscan/reconstruction/passes/pair_verdict.hpp>
+#include <turnscan/reconstruction/passes/object_groups.hpp>
+#include <turnscan/reconstruction/passes/object_match.hpp>
 #include <turnscan/reconstruction/passes/undetermined.hpp>
 
 namespace turnscan::passes {
@@ -11,135 +12,177 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 
-Result<> check_passes(std::span<const PassSurface> passes) {
-  if (passes.size() < 2)
-    return fail(ErrorCode::kTooFewPoints, "join passes: there are {}, two are needed",
-                passes.size());
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    const std::size_t points = passes[k].points.size();
-    if (points < kFewestPoints)
-      return fail(ErrorCode::kTooFewPoints,
-                  "join passes: pass {} has {} measured points, {} are needed", k, points,
-                  kFewestPoints);
-    if (passes[k].normals.size() != points || passes[k].areas.size() != points ||
-        passes[k].weights.size() != points)
-      throw std::invalid_argument("join_passes: normals, areas and weights must fit the points");
-  }
+Result<> check_surface(const PassSurface& surface, std::size_t pass) {
+  const std::size_t points = surface.points.size();
+  if (points < kFewestPoints)
+    return fail(ErrorCode::kTooFewPoints,
+                "join passes: pass {} has {} measured points, {} are needed", pass, points,
+                kFewestPoints);
+  if (surface.normals.size() != points || surface.areas.size() != points ||
+      surface.weights.size() != points)
+    throw std::invalid_argument("join_passes: normals, areas and weights must fit the points");
   return {};
 }
 
-class PassJoin {
+Result<> check_passes(std::span<const std::vector<PassSurface>> passes) {
+  if (passes.size() < 2)
+    return fail(ErrorCode::kTooFewPoints, "join passes: there are {}, two are needed",
+                passes.size());
+  for (std::size_t k = 0; k < passes.size(); ++k)
+    for (const PassSurface& surface : passes[k]) TURNSCAN_TRY(check_surface(surface, k));
+  return {};
+}
+
+class ObjectJoin {
  public:
-  PassJoin(const JoinOptions& options, const RunContext& context)
+  ObjectJoin(const JoinOptions& options, const RunContext& context)
       : options_(options), context_(context) {}
 
-  Result<std::vector<PassMotion>> run(std::span<const PassSurface> passes) {
-    const std::size_t n = passes.size();
-    context_.begin_phase("join passes", n * (n - 1) / 2 + 1);
-    for (const PassSurface& pass : passes)
-      prepared_.push_back(std::make_unique<PreparedPass>(pass));
-    motions_.resize(n);
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = a + 1; b < n; ++b) {
-        TURNSCAN_ASSIGN(PairVerdict verdict,
-                        judge_pair(*prepared_[a], *prepared_[b], options_, context_));
-        verdicts_.push_back({{a, b}, std::move(verdict)});
-        context_.advance();
-      }
+  Result<std::vector<std::vector<ObjectPart>>> run(
+      std::span<const std::vector<PassSurface>> passes) {
+    prepare(passes);
+    context_.begin_phase("join passes", pairs_of_objects() + 1);
+    for (std::size_t a = 0; a < passes.size(); ++a)
+      for (std::size_t b = a + 1; b < passes.size(); ++b) TURNSCAN_TRY(judge_passes(a, b));
+    TURNSCAN_ASSIGN(const std::vector<ObjectGroup> groups,
+                    group_objects(objects_, verdicts_, options_, context_));
+    std::vector<std::vector<ObjectPart>> out;
+    for (const ObjectGroup& group : groups) {
+      TURNSCAN_ASSIGN(std::vector<ObjectPart> parts, parts_of(group));
+      out.push_back(std::move(parts));
     }
-    grow_from_first();
-    TURNSCAN_TRY(adjust_joined());
-    return std::move(motions_);
+    std::stable_sort(out.begin(), out.end(), [](const auto& x, const auto& y) {
+      return std::pair(x[0].pass, x[0].object) < std::pair(y[0].pass, y[0].object);
+    });
+    context_.advance();
+    return out;
   }
 
  private:
-  struct JudgedPair {
-    PassPair pair;
-    PairVerdict verdict;
-  };
-
-  /// Joins passes to those that are, the surest pair first.
-  void grow_from_first() {
-    motions_[0].joined = true;
-    std::stable_sort(verdicts_.begin(), verdicts_.end(),
-                     [](const JudgedPair& x, const JudgedPair& y) {
-                       return x.verdict.best.agreement.score_m2 > y.verdict.best.agreement.score_m2;
-                     });
-    while (std::any_of(verdicts_.begin(), verdicts_.end(),
-                       [&](const JudgedPair& judged) { return joins(judged); })) {
+  void prepare(std::span<const std::vector<PassSurface>> passes) {
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+      first_of_pass_.push_back(objects_.size());
+      for (std::size_t object = 0; object < passes[pass].size(); ++object) {
+        prepared_.push_back(std::make_unique<PreparedPass>(passes[pass][object]));
+        objects_.push_back({pass, object, prepared_.back().get()});
+      }
     }
-    for (const JudgedPair& judged : verdicts_) {
-      for (const std::size_t k : {judged.pair.a, judged.pair.b})
-        if (!motions_[k].joined && motions_[k].reason.empty())
-          motions_[k].reason = judged.verdict.reason;
-    }
+    first_of_pass_.push_back(objects_.size());
   }
 
-  bool joins(const JudgedPair& judged) {
-    PassMotion &a = motions_[judged.pair.a], &b = motions_[judged.pair.b];
-    if (!judged.verdict.certain || a.joined == b.joined) return false;
-    const Pose& T_a_b = judged.verdict.best.T_a_b;
-    if (a.joined) {
-      b.T_first_pass = a.T_first_pass * T_a_b;
-    } else {
-      a.T_first_pass = b.T_first_pass * T_a_b.inverse();
-    }
-    a.joined = b.joined = true;
-    return true;
+  std::size_t pairs_of_objects() const {
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) pairs += objects_[i].pass != objects_[j].pass ? 1 : 0;
+    return pairs;
   }
 
-  Result<> adjust_joined() {
-    std::vector<std::size_t> number(motions_.size(), 0);
-    std::vector<const PreparedPass*> joined;
-    std::vector<Pose> start;
-    for (std::size_t k = 0; k < motions_.size(); ++k) {
-      if (!motions_[k].joined) continue;
-      number[k] = joined.size();
-      joined.push_back(prepared_[k].get());
-      start.push_back(motions_[k].T_first_pass);
+  Result<> judge_passes(std::size_t a, std::size_t b) {
+    std::vector<const PreparedPass*> of_a, of_b;
+    for (std::size_t i = first_of_pass_[a]; i < first_of_pass_[a + 1]; ++i)
+      of_a.push_back(objects_[i].surface);
+    for (std::size_t j = first_of_pass_[b]; j < first_of_pass_[b + 1]; ++j)
+      of_b.push_back(objects_[j].surface);
+    VerdictTable table(of_a.size());
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+      for (const PreparedPass* other : of_b) {
+        TURNSCAN_ASSIGN(PairVerdict verdict, judge_pair(*of_a[i], *other, options_, context_));
+        table[i].push_back(std::move(verdict));
+        context_.advance();
+      }
     }
-    if (joined.size() < 2) return {};
-    std::vector<PassPair> pairs;
-    for (const JudgedPair& judged : verdicts_) {
-      const auto [a, b] = judged.pair;
-      if (motions_[a].joined && motions_[b].joined && overlap(a, b))
-        pairs.push_back({number[a], number[b]});
-    }
-    TURNSCAN_ASSIGN(const Adjustment fine, adjust(joined, pairs, start, reach(), {}, context_));
-    for (std::size_t k = 0; k < motions_.size(); ++k)
-      if (motions_[k].joined) state(fine, number[k], k);
-    context_.advance();
+    if (of_a.size() > 1 || of_b.size() > 1) match_objects(of_a, of_b, table);
+    for (std::size_t i = 0; i < of_a.size(); ++i)
+      for (std::size_t j = 0; j < of_b.size(); ++j)
+        verdicts_.push_back({first_of_pass_[a] + i, first_of_pass_[b] + j, std::move(table[i][j])});
     return {};
   }
 
-  double reach() const {
+  Result<std::vector<ObjectPart>> parts_of(const ObjectGroup& group) const {
+    std::vector<ObjectPart> out;
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      const TableObject& object = objects_[group.members[i]];
+      ObjectPart& part = out.emplace_back(ObjectPart{object.pass, object.object, {}});
+      part.motion.T_first_pass = group.T_here_member[i];
+      part.motion.joined = group.members.size() > 1;
+    }
+    if (out.size() == 1) {
+      out[0].motion.reason = reason_of(group.members[0]);
+    } else {
+      TURNSCAN_TRY(adjust_parts(group, out));
+    }
+    return out;
+  }
+
+  /// That of the pair with the most evidence.
+  std::string reason_of(std::size_t object) const {
+    for (const JudgedPair& judged : verdicts_)
+      if ((judged.a == object || judged.b == object) && !judged.verdict.reason.empty())
+        return judged.verdict.reason;
+    return "no other pass has an object";
+  }
+
+  Result<> adjust_parts(const ObjectGroup& group, std::vector<ObjectPart>& parts) const {
+    std::vector<const PreparedPass*> surfaces;
+    std::vector<Pose> start;
     double noise = 0.0;
-    for (const auto& pass : prepared_) noise = std::max(noise, pass->surface->noise_m);
-    return 2.0 * noise;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      surfaces.push_back(objects_[group.members[i]].surface);
+      start.push_back(parts[i].motion.T_first_pass);
+      noise = std::max(noise, surfaces.back()->surface->noise_m);
+    }
+    TURNSCAN_ASSIGN(const Adjustment fine, adjust(surfaces, overlapping(surfaces, start), start,
+                                                  2.0 * noise, {}, context_));
+    for (std::size_t i = 0; i < parts.size(); ++i) state(surfaces, fine, i, parts[i].motion);
+    for (const JudgedPair& judged : verdicts_) {
+      if (!judged.verdict.certain || !judged.verdict.interchangeable) continue;
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        parts[i].motion.interchangeable |= group.members[i] == judged.b;
+    }
+    return {};
   }
 
-  Agreement agreement(std::size_t a, std::size_t b) const {
-    const Pose T = motions_[a].T_first_pass.inverse() * motions_[b].T_first_pass;
-    return compare(*prepared_[a], *prepared_[b], T,
-                   agreement_tolerance_m(*prepared_[a], *prepared_[b]), Density::kMedium);
-  }
-  bool overlap(std::size_t a, std::size_t b) const {
-    const double smaller = std::min(prepared_[a]->area_m2, prepared_[b]->area_m2);
-    return agreement(a, b).agreeing_m2 > 0.25 * options_.min_overlap * smaller;
+  static Agreement agreement(std::span<const PreparedPass* const> surfaces,
+                             const std::vector<Pose>& poses, std::size_t a, std::size_t b) {
+    return compare(*surfaces[a], *surfaces[b], poses[a].inverse() * poses[b],
+                   agreement_tolerance_m(*surfaces[a], *surfaces[b]), Density::kMedium);
   }
 
-  void state(const Adjustment& fine, std::size_t number, std::size_t k) {
-    PassMotion& motion = motions_[k];
-    motion.T_first_pass = fine.T_first_pass[number];
-    motion.covariance = fine.covariances[number];
+  /// The pairs that overlap in more than a trace, and for each part the one that it overlaps with
+  /// most.
+  std::vector<PassPair> overlapping(std::span<const PreparedPass* const> surfaces,
+                                    const std::vector<Pose>& poses) const {
+    const std::size_t n = surfaces.size();
+    std::vector<std::vector<double>> share(n, std::vector<double>(n, 0.0));
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = a + 1; b < n; ++b)
+        share[a][b] = share[b][a] = agreement(surfaces, poses, a, b).agreeing_m2 /
+                                    std::min(surfaces[a]->area_m2, surfaces[b]->area_m2);
+    }
+    const auto most = [&](std::size_t a) {
+      return std::size_t(std::max_element(share[a].begin(), share[a].end()) - share[a].begin());
+    };
+    std::vector<PassPair> out;
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = a + 1; b < n; ++b)
+        if (share[a][b] > 0.25 * options_.min_overlap || most(a) == b || most(b) == a)
+          out.push_back({a, b});
+    return out;
+  }
+
+  static void state(std::span<const PreparedPass* const> surfaces, const Adjustment& fine,
+                    std::size_t i, PassMotion& motion) {
+    motion.T_first_pass = fine.T_first_pass[i];
+    motion.covariance = fine.covariances[i];
     motion.center = fine.center;
     motion.residual_m = fine.sigma_m;
     motion.sigma_rad = std::sqrt(motion.covariance.topLeftCorner<3, 3>().trace());
     motion.sigma_m =
-        surface_sigma(*prepared_[k], motion.T_first_pass, fine.center, motion.covariance);
-    for (std::size_t other = 0; other < motions_.size(); ++other) {
-      if (other == k || !motions_[other].joined) continue;
-      const Agreement with = agreement(std::min(k, other), std::max(k, other));
+        surface_sigma(*surfaces[i], motion.T_first_pass, fine.center, motion.covariance);
+    for (std::size_t other = 0; other < surfaces.size(); ++other) {
+      if (other == i) continue;
+      const Agreement with =
+          agreement(surfaces, fine.T_first_pass, std::min(i, other), std::max(i, other));
       motion.overlap_m2 = std::max(motion.overlap_m2, with.agreeing_m2);
       motion.against_m2 = std::max(motion.against_m2, with.against_m2);
     }
@@ -148,16 +191,37 @@ class PassJoin {
   const JoinOptions& options_;
   const RunContext& context_;
   std::vector<std::unique_ptr<PreparedPass>> prepared_;
+  std::vector<TableObject> objects_;        // pass by pass
+  std::vector<std::size_t> first_of_pass_;  // position in objects_; one more at the end
   std::vector<JudgedPair> verdicts_;
-  std::vector<PassMotion> motions_;
 };
 
 }  // namespace
 
+Result<std::vector<std::vector<ObjectPart>>> join_objects(
+    std::span<const std::vector<PassSurface>> passes, const JoinOptions& options,
+    const RunContext& context) {
+  TURNSCAN_TRY(check_passes(passes));
+  return ObjectJoin(options, context).run(passes);
+}
+
 Result<std::vector<PassMotion>> join_passes(std::span<const PassSurface> passes,
                                             const JoinOptions& options, const RunContext& context) {
-  TURNSCAN_TRY(check_passes(passes));
-  return PassJoin(options, context).run(passes);
+  std::vector<std::vector<PassSurface>> tables;
+  for (const PassSurface& pass : passes) tables.emplace_back(1, pass);
+  TURNSCAN_ASSIGN(auto objects, join_objects(tables, options, context));
+  std::vector<PassMotion> out(passes.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (ObjectPart& part : objects[i]) {
+      PassMotion& motion = out[part.pass] = std::move(part.motion);
+      if (i == 0) continue;
+      if (motion.joined) motion.reason = "it fits other passes, but none that fits the first";
+      motion.joined = false;
+    }
+  }
+  out[0].joined = true;
+  out[0].reason.clear();
+  return out;
 }
 
 }  // namespace turnscan::passes

@@ -25,6 +25,9 @@ struct PassMotion {
   double overlap_m2 = 0.0;  ///< of its surface that agrees with another pass's
   double against_m2 = 0.0;  ///< of its surface that lies where another pass saw nothing
   double residual_m = 0.0;  ///< deviation of the surfaces from each other where they overlap
+  /// Another object on the same table is of the same shape wherever both were measured, and would
+  /// do as well.
+  bool interchangeable = false;
 };
 
 struct JoinOptions {
@@ -40,5 +43,20 @@ struct JoinOptions {
 /// with kCancelled. Begins the phase "join passes". The same bytes for any number of threads.
 Result<std::vector<PassMotion>> join_passes(std::span<const PassSurface> passes,
                                             const JoinOptions& options, const RunContext& context);
+
+/// An object of one pass.
+struct ObjectPart {
+  std::size_t pass = 0, object = 0;
+  /// Joined: to the first part of the object, in whose frame it is given.
+  PassMotion motion;
+};
+
+/// The same for tables with several objects, which stand and lie anywhere in each pass: all parts
+/// of each object, by pass, at most one a pass; objects by their first part. One that was found in
+/// no other pass is a part alone, with a reason. Fails as join_passes() does, with the objects of
+/// all passes counted.
+Result<std::vector<std::vector<ObjectPart>>> join_objects(
+    std::span<const std::vector<PassSurface>> passes, const JoinOptions& options,
+    const RunContext& context);
 
 }  // namespace turnscan::passes

@@ -17,8 +17,9 @@ constexpr double kTukey = 4.0, kLeastSigma = 3e-5, kConverged = 3e-6;
 constexpr double kBlock = 0.012;
 /// What no scatter of the distances shows: a sensor that looks down sees what faces up better than
 /// what faces down, and a pass's surface comes out raised along its table's axis, by about this
-/// share of a depth's noise; and tilted, by as much over its extent. From simulated scans.
-constexpr double kRaised = 0.018;
+/// share of a depth's noise; and turned, by another share at its rms distance from the axis of the
+/// turn. From simulated scans.
+constexpr double kRaised = 0.018, kTilted = 0.0045;
 constexpr std::size_t kFewestPairs = 50;
 
 /// A point and a tangent plane of another pass, in the first pass's frame.
@@ -72,10 +73,10 @@ class JointAdjustment {
   void add_systematic(Eigen::MatrixXd& covariance) const {
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       const double raised = kRaised * passes_[k]->surface->noise_m;
-      const double tilted = raised / passes_[k]->extent_m;
+      const double tilted = kTilted * passes_[k]->surface->noise_m;
       const Vec3d up = out_.T_first_pass[k].linear().col(1);
       Matrix6 own = Matrix6::Zero();
-      own.topLeftCorner<3, 3>().diagonal().setConstant(tilted * tilted);
+      own.topLeftCorner<3, 3>() = tilted * tilted * squared_levers(k).inverse();
       own.bottomRightCorner<3, 3>() = raised * raised * up * up.transpose();
       for (Eigen::Index i = 0; i < covariance.rows(); i += 6) {
         for (Eigen::Index j = 0; j < covariance.rows(); j += 6)
@@ -83,6 +84,21 @@ class JointAdjustment {
             covariance.block<6, 6>(i, j) += own;
       }
     }
+  }
+
+  /// x^T M x: mean square distance of a pass's surface from an axis x through its middle. Of a
+  /// slender object it is small along its length, about which the same error is a larger turn.
+  Eigen::Matrix3d squared_levers(std::size_t k) const {
+    const std::vector<Vec3f>& points = passes_[k]->coarse.samples.points;
+    Vec3d middle = Vec3d::Zero();
+    for (const Vec3f& p : points) middle += p.cast<double>() / double(points.size());
+    Eigen::Matrix3d sum = 1e-8 * Eigen::Matrix3d::Identity();
+    for (const Vec3f& p : points) {
+      const Vec3d d = out_.T_first_pass[k].linear() * (p.cast<double>() - middle);
+      sum += (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose()) /
+             double(points.size());
+    }
+    return sum;
   }
 
   std::size_t unknowns() const { return 6 * (passes_.size() - 1); }

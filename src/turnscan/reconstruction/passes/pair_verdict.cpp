@@ -13,9 +13,16 @@ namespace {
 constexpr std::size_t kAdjusted = 4;
 constexpr AdjustEffort kTrial{4000, 10};
 
-/// A second motion with so nearly the same evidence makes the first one a guess.
-bool rivals(const Agreement& best, const Agreement& other) {
-  return other.score_m2 > 0.9 * best.score_m2;
+/// A second motion with so nearly the same evidence makes the first one a guess; the lower share
+/// does unless the difference is sure. Of things that are alike from both sides the shares were
+/// above 0.99, and the preferences below 4.
+constexpr double kGuess = 0.975, kMaybe = 0.9, kSure = 5.0;
+
+bool rivals(const PreparedPass& a, const PreparedPass& b, const CandidateMotion& best,
+            const CandidateMotion& other) {
+  const double share = other.agreement.score_m2 / best.agreement.score_m2;
+  return share > kGuess || (share > kMaybe && preference(a, b, best.T_a_b, other.T_a_b,
+                                                         agreement_tolerance_m(a, b)) < kSure);
 }
 
 /// The part `share` of the way of a rigid motion, as a screw.
@@ -94,10 +101,11 @@ Result<PairVerdict> judge_pair(const PreparedPass& a, const PreparedPass& b,
         agreement.agreeing_m2 * 1e4, agreement.against_m2 * 1e4);
     return out;
   }
+  out.fits = true;
   for (std::size_t i = 1; i < adjusted.size(); ++i) {
     const CandidateMotion& other = adjusted[i].first;
     if (motion_distance(b, out.best.T_a_b, other.T_a_b) < same_motion_m(a, b)) continue;
-    if (!rivals(agreement, other.agreement)) continue;
+    if (!rivals(a, b, out.best, other)) continue;
     out.reason = "its shape does not tell how it lay: " + rival_text(a, b, out.best, other);
     return out;
   }

@@ -8,7 +8,9 @@ namespace turnscan::passes {
 
 struct PairVerdict {
   bool certain = false;
-  std::string reason;  ///< why it is not
+  std::string reason;            ///< why it is not
+  bool fits = false;             ///< enough agrees and little contradicts, whatever the motion
+  bool interchangeable = false;  ///< see match_objects()
   CandidateMotion best;
   Adjustment adjustment;  ///< of the best; empty where nothing fits
 };

@@ -2,21 +2,25 @@
 // What one pass, one way in which the object lay, tells about where it is: the surface that was
 // measured, and the space that was seen to be empty.
 
+#include <memory>
 #include <optional>
 #include <turnscan/reconstruction/result.hpp>
 #include <turnscan/reconstruction/views/depth_view.hpp>
 
 namespace turnscan::passes {
 
-/// Table frame of the pass, metres.
+/// Objects on one table are seen by the same views.
+using SharedViews = std::shared_ptr<const std::vector<views::DepthView>>;
+
+/// One object of a pass. Table frame of the pass, metres.
 struct PassSurface {
-  std::vector<Vec3f> points;            ///< of the surface; only what was measured
-  std::vector<Vec3f> normals;           ///< unit, outwards; one a point
-  std::vector<float> areas;             ///< m^2 that each point stands for
-  std::vector<float> weights;           ///< of the measurements behind each point, relative, (0, 1]
-  std::vector<views::DepthView> views;  ///< some or all of the pass; may be none
-  std::optional<double> floor_m;        ///< height below which there is only the platter
-  double noise_m = 0.0015;              ///< of a depth along its ray
+  std::vector<Vec3f> points;      ///< of the surface; only what was measured
+  std::vector<Vec3f> normals;     ///< unit, outwards; one a point
+  std::vector<float> areas;       ///< m^2 that each point stands for
+  std::vector<float> weights;     ///< of the measurements behind each point, relative, (0, 1]
+  SharedViews views;              ///< some or all of the pass; may be none
+  std::optional<double> floor_m;  ///< height below which there is only the platter
+  double noise_m = 0.0015;        ///< of a depth along its ray
 };
 
 /// The vertices of a reconstructed object that were measured and lie at least two edges away from

@@ -56,8 +56,8 @@ class PointMethod final : public Method {
   explicit PointMethod(const MethodInput& input)
       : options_(input.options),
         estimate_(input.estimate),
-        recipe_{&input.header, input.rays, input.estimate.cylinder, input.options.outliers,
-                input.T_object_table},
+        recipe_{&input.header,          input.rays,           input.estimate.cylinder,
+                input.options.outliers, input.T_object_table, input.share},
         profiles_(!any_grid(input.first_frames)),
         whole_(input.whole) {}
 
@@ -124,6 +124,7 @@ Result<> PointMethod::add(std::span<const PosedFrame> frames, const FrameReader&
 Result<> PointMethod::begin_pass(const PassInput& pass, const RunContext& /*context*/) {
   recipe_.cylinder = pass.estimate.cylinder;
   recipe_.T_object_table = pass.T_object_table;
+  recipe_.share = pass.share;
   return {};
 }
 

@@ -5,19 +5,16 @@ namespace turnscan::tsdf {
 
 SampleBits guessed_threads(const Volume& volume, const std::vector<std::size_t>& guessed,
                            int radius) {
-  SampleBits inside(volume.bricks), unknown(volume.bricks);
-  for (const std::size_t b : guessed) unknown.brick(b).fill(~std::uint64_t(0));
+  SampleBits unknown = unseen_samples(volume), inside(volume.bricks);
+  for (const std::size_t b : guessed) unknown.brick(b).fill(kWholeLayer);
   parallel_for(volume.brick_count(), 64, [&](std::size_t b) {
     if (volume.slot[b] < 0) {
-      if (volume.uniform[b] < 0.0f) inside.brick(b).fill(~std::uint64_t(0));
+      if (volume.uniform[b] < 0.0f) inside.brick(b).fill(kWholeLayer);
       return;
     }
-    const std::size_t first = volume.first_sample(b);
-    for (std::size_t c = 0; c < kBrickSamples; ++c) {
-      const std::uint64_t bit = std::uint64_t(1) << (c & 63);
-      if (volume.value[first + c] < 0.0f) inside.brick(b)[c >> 6] |= bit;
-      if (volume.weight[first + c] <= 0.0f) unknown.brick(b)[c >> 6] |= bit;
-    }
+    const float* values = &volume.value[volume.first_sample(b)];
+    for (std::size_t c = 0; c < kBrickSamples; ++c)
+      if (values[c] < 0.0f) insert(c, inside.brick(b));
   });
   const SampleBits guessed_outside = unknown.minus(inside);
   SampleBits eroded = guessed_outside;

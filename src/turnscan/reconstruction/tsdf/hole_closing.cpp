@@ -283,14 +283,14 @@ class HoleClosing {
   bool cut(std::size_t b, const BrickBits& bits) {
     if (v_.slot[b] < 0) {
       const bool all =
-          std::all_of(bits.begin(), bits.end(), [](auto w) { return w == ~std::uint64_t(0); });
+          std::all_of(bits.begin(), bits.end(), [](auto layer) { return layer == kWholeLayer; });
       if (all) v_.uniform[b] = 1.0f;
       return all;
     }
     bool any = false;
     const std::size_t first = v_.first_sample(b);
     for (std::size_t c = 0; c < kBrickSamples; ++c) {
-      if ((bits[c >> 6] >> (c & 63) & 1) == 0) continue;
+      if (!contains(bits, c)) continue;
       v_.value[first + c] = float(v_.truncation_m);
       v_.weight[first + c] = 1e-6f;  // known from now on
       any = true;

@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <numeric>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
+#include <turnscan/reconstruction/quality/expected_error.hpp>
+#include <turnscan/reconstruction/quality/vertex_visibility.hpp>
 #include <turnscan/reconstruction/tsdf/measured_points.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
 
 namespace turnscan::tsdf {
 
 namespace {
-
-constexpr float kInvented = 0.02f;  // less confidence than this means that nobody saw it
 
 /// Whether vertices that no pass saw lie in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
@@ -25,10 +25,21 @@ bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>&
 }  // namespace
 
 void measure_confidence(VolumetricPiece& piece) {
-  std::vector<float> sorted = piece.support;
-  const auto typical = float(median(sorted));
-  for (const float s : piece.support)
-    piece.confidence.push_back(typical > 0.0f ? std::min(1.0f, s / typical) : 0.0f);
+  const float typical = mesh_refinement::typical_support(piece.support);
+  for (const float s : piece.support) piece.confidence.push_back(std::min(1.0f, s / typical));
+}
+
+Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
+                         const VolumeScale& scale, const RunContext& context) {
+  const double tolerance_m = 3.0 * input.noise_m + scale.cell_m;
+  TURNSCAN_ASSIGN(const auto seen,
+                  quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
+  const auto expected = quality::expected_errors(
+      piece.mesh, piece.support, {input.noise_m, input.spacing_m, input.filter_share > 0.0});
+  piece.quality.resize(expected.size());
+  for (std::size_t v = 0; v < expected.size(); ++v)
+    piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};
+  return {};
 }
 
 void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
@@ -43,8 +54,9 @@ void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
     if (high < base && high - low < 0.1f * float(scale.cell_m)) {
       piece.evidence[i] = Evidence::kBase;
       piece.base_area_m2 += area;
-    } else if (std::any_of(t.begin(), t.end(),
-                           [&](std::uint32_t v) { return piece.confidence[v] < kInvented; })) {
+    } else if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
+                 return piece.confidence[v] < mesh_refinement::kUnseenShare;
+               })) {
       const bool flat = on_platter(p, t, scale);
       piece.evidence[i] = flat ? Evidence::kBase : Evidence::kInvented;
       (flat ? piece.base_area_m2 : piece.invented_area_m2) += area;

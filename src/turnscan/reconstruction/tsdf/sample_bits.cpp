@@ -68,4 +68,18 @@ SampleBits SampleBits::joined(const SampleBits& other) const {
   return out;
 }
 
+SampleBits unseen_samples(const Volume& volume) {
+  SampleBits out(volume.bricks);
+  parallel_for(volume.brick_count(), kGrain, [&](std::size_t b) {
+    if (volume.slot[b] < 0) {
+      if (volume.uniform[b] == 0.0f) out.brick(b).fill(kWholeLayer);
+      return;
+    }
+    const float* weights = &volume.weight[volume.first_sample(b)];
+    for (std::size_t c = 0; c < kBrickSamples; ++c)
+      if (weights[c] <= 0.0f) insert(c, out.brick(b));
+  });
+  return out;
+}
+
 }  // namespace turnscan::tsdf

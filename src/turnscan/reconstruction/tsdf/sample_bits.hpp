@@ -3,8 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <turnscan/geometry/grid/grid_index.hpp>
-#include <vector>
+#include <turnscan/reconstruction/tsdf/volume.hpp>
 
 namespace turnscan::tsdf {
 
@@ -15,6 +14,14 @@ using BrickBits = std::array<std::uint64_t, kBrickSide>;
 BrickBits spread_within(const BrickBits& brick);
 /// What samples of the brick beside this one, along an axis and on a side (-1 or 1), touch.
 BrickBits spread_from(const BrickBits& neighbour, int axis, int side);
+
+inline bool contains(const BrickBits& brick, std::size_t sample) {
+  return (brick[sample >> 6] >> (sample & 63) & 1) != 0;
+}
+inline void insert(std::size_t sample, BrickBits& brick) {
+  brick[sample >> 6] |= std::uint64_t(1) << (sample & 63);
+}
+inline constexpr std::uint64_t kWholeLayer = ~std::uint64_t(0);
 
 class SampleBits {
  public:
@@ -32,5 +39,8 @@ class SampleBits {
   GridIndex bricks_;
   std::vector<BrickBits> bits_;
 };
+
+/// The samples that no view saw, with those of bricks without samples of which nothing is known.
+SampleBits unseen_samples(const Volume& volume);
 
 }  // namespace turnscan::tsdf

@@ -1,25 +1,6 @@
-#include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 
 namespace turnscan::tsdf {
-
-namespace {
-
-SampleBits unseen_samples(const Volume& volume) {
-  SampleBits out(volume.bricks);
-  parallel_for(volume.brick_count(), 64, [&](std::size_t b) {
-    if (volume.slot[b] < 0) {
-      if (volume.uniform[b] == 0.0f) out.brick(b).fill(~std::uint64_t(0));
-      return;
-    }
-    const float* weights = &volume.weight[volume.first_sample(b)];
-    for (std::size_t c = 0; c < kBrickSamples; ++c)
-      if (weights[c] <= 0.0f) out.brick(b)[c >> 6] |= std::uint64_t(1) << (c & 63);
-  });
-  return out;
-}
-
-}  // namespace
 
 UnseenSpace::UnseenSpace(const Volume& volume)
     : origin_m_(volume.origin_m),
@@ -46,8 +27,8 @@ bool UnseenSpace::contains(const Vec3f& p) const {
       weight *= next == 1 ? along : 1.0 - along;
     }
     const std::size_t c = sample_in_brick(s[0], s[1], s[2]);
-    const BrickBits& bits = samples_.brick(bricks_.at({s[0] >> 3, s[1] >> 3, s[2] >> 3}));
-    if ((bits[c >> 6] >> (c & 63) & 1) != 0) share += weight;
+    const BrickBits& brick = samples_.brick(bricks_.at({s[0] >> 3, s[1] >> 3, s[2] >> 3}));
+    if (tsdf::contains(brick, c)) share += weight;
   }
   return share >= 0.5;
 }

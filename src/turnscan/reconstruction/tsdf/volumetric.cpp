@@ -47,7 +47,7 @@ class VolumetricReconstruction {
     for (VolumetricPiece& piece : out_.pieces) {
       TURNSCAN_TRY(reduce_triangles(piece));
       TURNSCAN_TRY(color(piece));
-      measure(piece);
+      TURNSCAN_TRY(measure(piece));
     }
     return std::move(out_);
   }
@@ -138,15 +138,18 @@ class VolumetricReconstruction {
     return {};
   }
 
-  /// What no frame measured, and how many points there are.
-  void measure(VolumetricPiece& piece) const {
+  /// How well it is known, what no frame measured, and how many points there are.
+  Result<> measure(VolumetricPiece& piece) {
     measure_confidence(piece);
+    TURNSCAN_TRY(
+        timed("quality", [&] { return measure_quality(piece, input_, scale_.volume, context_); }));
     measure_evidence(piece, scale_.volume);
     if (options_.mark_invented) mesh_refinement::paint_invented(piece.mesh, piece.evidence);
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.volume.truncation_m;
     box.max.array() += scale_.volume.truncation_m;
     piece.points = count_points(input_, box);
+    return {};
   }
 
   MeshFitScale fit_scale() const {
@@ -171,12 +174,16 @@ class VolumetricReconstruction {
 
 }  // namespace
 
-std::vector<Vec3f> sample_points(const VolumetricInput& input) {
-  std::vector<Vec3f> points;
+voxels::MergedCloud sample_points(const VolumetricInput& input) {
+  voxels::MergedCloud out;
   const std::size_t stride = view_stride(input.views.size(), kSampledViews);
-  for (std::size_t v = 0; v < input.views.size(); v += stride)
-    for_each_point(input.views[v], input.cylinder, [&](const Vec3f& p) { points.push_back(p); });
-  return points;
+  for (std::size_t v = 0; v < input.views.size(); v += stride) {
+    for_each_point(input.views[v], input.cylinder,
+                   [&](const Vec3f& p) { out.cloud.points.push_back(p); });
+    out.cloud.frame.resize(out.cloud.size(), std::uint32_t(out.viewpoints.size()));
+    out.viewpoints.push_back(input.views[v].viewpoint());
+  }
+  return out;
 }
 
 Box measured_box(const VolumetricInput& input) {

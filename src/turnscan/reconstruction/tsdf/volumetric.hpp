@@ -5,6 +5,7 @@
 #include <turnscan/reconstruction/result.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
 #include <turnscan/reconstruction/views/depth_view.hpp>
+#include <turnscan/reconstruction/voxels/merge.hpp>
 
 namespace turnscan::tsdf {
 
@@ -30,21 +31,23 @@ struct VolumetricInput {
 /// An object.
 struct VolumetricPiece {
   TriangleMesh mesh;
-  std::vector<float> support;      ///< per vertex: sum of the weights of its measurements
-  std::vector<float> confidence;   ///< per vertex: support over its median, at most 1
-  std::vector<Evidence> evidence;  ///< per triangle
-  double invented_area_m2 = 0.0;   ///< where vertices have a fiftieth of the usual support or less
-  double base_area_m2 = 0.0;       ///< closed flat on the platter
-  std::size_t points = 0;          ///< measured, in the box of the piece
-  std::size_t detached = 0;        ///< components that no frame shows to be connected to the rest
+  std::vector<float> support;          ///< per vertex: sum of the weights of its measurements
+  std::vector<float> confidence;       ///< per vertex: support over its median, at most 1
+  std::vector<VertexQuality> quality;  ///< per vertex
+  std::vector<Evidence> evidence;      ///< per triangle
+  double invented_area_m2 = 0.0;  ///< where vertices have a fiftieth of the usual support or less
+  double base_area_m2 = 0.0;      ///< closed flat on the platter
+  std::size_t points = 0;         ///< measured, in the box of the piece
+  std::size_t detached = 0;       ///< components that no frame shows to be connected to the rest
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
   std::vector<StageTime> stages;
 };
 
-/// Points inside the cylinder of up to about 64 views spread over the input, edges left out.
-std::vector<Vec3f> sample_points(const VolumetricInput& input);
+/// Points inside the cylinder of up to about 64 views spread over the input, edges left out, with
+/// the views as frames.
+voxels::MergedCloud sample_points(const VolumetricInput& input);
 /// The box around them, but for the outermost, which may be stray. Empty without a point.
 Box measured_box(const VolumetricInput& input);
 

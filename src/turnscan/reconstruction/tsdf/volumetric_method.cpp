@@ -32,10 +32,10 @@ constexpr std::uint64_t kFewestPoints = 100;
 /// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there
 /// are too few points to tell.
 double thickness(const VolumetricInput& input, double noise_m) {
-  voxels::MergedCloud sample;
-  sample.cloud.points = sample_points(input);
+  const voxels::MergedCloud sample = sample_points(input);
   if (sample.cloud.size() < 100) return 0.0;
-  return estimation::cloud_statistics(sample, 3.0 * std::max(input.spacing_m, noise_m)).noise_m;
+  const double start_m = 3.0 * std::max(input.spacing_m, noise_m);
+  return estimation::one_sided_statistics(sample, start_m).noise_m;
 }
 
 /// Of the pass whose frames are being added.
@@ -43,6 +43,7 @@ struct CurrentPass {
   std::optional<Pose> T_object_table;  ///< nullopt: there is but one pass
   std::optional<Cylinder> cylinder;    ///< above its table
   std::vector<std::optional<views::LightSheet>> sheets;
+  const TableShare* share;  ///< nullptr: all of the table
 };
 
 /// The height above the margin in the frame of a sensor, whose recorder may have cropped higher
@@ -69,7 +70,7 @@ class VolumetricMethod final : public Method {
         options_(input.options),
         rays_(input.rays),
         noise_m_(input.estimate.noise_m),
-        pass_{input.T_object_table, input.estimate.cylinder, input.estimate.sheets} {}
+        pass_{input.T_object_table, input.estimate.cylinder, input.estimate.sheets, input.share} {}
 
   Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                const RunContext& context, Reconstruction& out) override;
@@ -169,15 +170,18 @@ Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_ta
   std::optional<SensorCrop> table_crop;
   if (pass_.cylinder) table_crop.emplace(*pass_.cylinder, T_table_sensor);
   const Pose T = pass_.T_object_table ? *pass_.T_object_table * T_table_sensor : T_table_sensor;
+  const auto keeps = [&](const Vec3f& p) {
+    return (!table_crop || table_crop->keeps(p)) &&
+           (!pass_.share ||
+            pass_.share->contains((T_table_sensor * p.cast<double>()).cast<float>()));
+  };
   views::ViewScale scale = view_scale_;
   if (pass_.T_object_table && pass_.cylinder)
     scale.seen_above = above_crop(*pass_.cylinder, T_table_sensor);
   const std::size_t s = frame.info.sensor;
   if (!pass_.sheets.at(s)) {
-    TURNSCAN_ASSIGN(out.view, views::make_view(frame, header_.sensors.at(s), rays_.at(s), T, scale,
-                                               [&](const Vec3f& p) {
-                                                 return !table_crop || table_crop->keeps(p);
-                                               }));
+    TURNSCAN_ASSIGN(out.view,
+                    views::make_view(frame, header_.sensors.at(s), rays_.at(s), T, scale, keeps));
     out.returns = out.view.returns;
     out.inside_crop = out.view.kept;
     return out;
@@ -185,7 +189,7 @@ Result<FrameView> VolumetricMethod::view_of(const Frame& frame, const Pose& T_ta
   TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header_.sensors[s], rays_[s]));
   out.returns = points.cloud.size();
   points = views::in_sheet_order(points, *pass_.sheets[s]);
-  if (table_crop) points = crop(points, *table_crop);
+  if (table_crop || pass_.share) points = kept_points(points, keeps);
   out.inside_crop = points.cloud.size();
   out.profile = views::Profile{std::move(points), T};
   return out;
@@ -199,7 +203,7 @@ Result<> VolumetricMethod::flush_profiles(const RunContext& context) {
 
 Result<> VolumetricMethod::begin_pass(const PassInput& pass, const RunContext& context) {
   TURNSCAN_TRY(flush_profiles(context));
-  pass_ = {pass.T_object_table, pass.estimate.cylinder, pass.estimate.sheets};
+  pass_ = {pass.T_object_table, pass.estimate.cylinder, pass.estimate.sheets, pass.share};
   input_.profiles &= pass.estimate.profiles;
   add_platter(pass.T_object_table);
   return {};
@@ -326,6 +330,7 @@ ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
   object.points = piece.points;
   object.invented_area_m2 = piece.invented_area_m2;
   object.confidence = std::move(piece.confidence);
+  object.quality = std::move(piece.quality);
   object.evidence = std::move(piece.evidence);
   if (options_.color && object.mesh.colors.empty())
     object.notes.emplace_back("the recording has no colour");

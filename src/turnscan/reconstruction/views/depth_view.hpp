@@ -47,6 +47,14 @@ struct DepthView {
     if (distorted) distort(lens(), x, y);
     return {x * fx + cx, y * fy + cy};
   }
+  /// Position in `pixels` of what shows a point of the view's frame; -1 where nothing does.
+  std::ptrdiff_t pixel_at(const Vec3f& p_view) const {
+    if (!parallel && !(p_view.z() > 0.0f)) return -1;
+    const Eigen::Vector2f image = project(p_view);
+    const float u = image.x() + 0.5f, v = image.y() + 0.5f;
+    if (!(u >= 0.0f && v >= 0.0f && u < float(width) && v < float(height))) return -1;
+    return std::ptrdiff_t(int(v)) * width + int(u);
+  }
   BrownConrady<float> lens() const {
     return {distortion[0], distortion[1], distortion[2], distortion[3], distortion[4]};
   }

@@ -28,6 +28,10 @@ Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
   FramePart part;
   part.returns = points.cloud.size();
   if (recipe.cylinder) points = crop(points, SensorCrop(*recipe.cylinder, T_table_sensor));
+  if (recipe.share)
+    points = kept_points(points, [&](const Vec3f& p) {
+      return recipe.share->contains((T_table_sensor * p.cast<double>()).cast<float>());
+    });
   part.inside_crop = points.cloud.size();
   std::vector<std::uint8_t> keep(points.cloud.size(), 1);
   if (recipe.outliers.enabled && !keep.empty()) {

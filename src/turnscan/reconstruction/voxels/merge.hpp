@@ -3,6 +3,7 @@
 
 #include <turnscan/core/frame.hpp>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
+#include <turnscan/reconstruction/table_share.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan::voxels {
@@ -27,6 +28,7 @@ struct FrameRecipe {
   std::optional<Cylinder> cylinder;
   OutlierOptions outliers;
   std::optional<Pose> T_object_table;  ///< then points are in the object's frame
+  const TableShare* share = nullptr;   ///< of its table; nullptr: all of it
 
   static FrameRecipe make(const SequenceHeader& header);
 };

@@ -4,6 +4,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/doll.hpp>
+#include <turnscan/simulator/objects/gauges.hpp>
 #include <turnscan/simulator/objects/scorpion.hpp>
 #include <turnscan/simulator/objects/skull.hpp>
 
@@ -107,12 +108,16 @@ TriangleMesh make_cylinder() {
 }
 
 using Maker = Result<TriangleMesh> (*)(const RunContext&);
-constexpr std::array<std::pair<std::string_view, Maker>, 5> kObjects{
+constexpr std::array<std::pair<std::string_view, Maker>, 8> kObjects{
     {{"letter-a", [](const RunContext&) -> Result<TriangleMesh> { return make_letter(); }},
      {"cylinder", [](const RunContext&) -> Result<TriangleMesh> { return make_cylinder(); }},
      {"doll", objects::make_doll},
      {"scorpion", objects::make_scorpion},
-     {"skull", objects::make_skull}}};
+     {"skull", objects::make_skull},
+     {"ball", [](const RunContext&) -> Result<TriangleMesh> { return objects::make_ball(); }},
+     {"ball-bar",
+      [](const RunContext&) -> Result<TriangleMesh> { return objects::make_ball_bar(); }},
+     {"plate", [](const RunContext&) -> Result<TriangleMesh> { return objects::make_plate(); }}}};
 
 }  // namespace
 
@@ -121,6 +126,10 @@ std::vector<std::string> builtin_object_names() {
   names.reserve(kObjects.size());
   for (const auto& object : kObjects) names.emplace_back(object.first);
   return names;
+}
+
+bool is_gauge(std::string_view name) {
+  return name == "ball" || name == "ball-bar" || name == "plate";
 }
 
 Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context) {

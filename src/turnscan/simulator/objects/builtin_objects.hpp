@@ -63,11 +63,34 @@ struct Skull {
   static constexpr double cell_m = 0.0008;           ///< as the doll's
 };
 
-/// "letter-a", "cylinder", "doll", "scorpion", "skull".
+/// A ball that touches the platter in a point. Vertices of all gauges lie on the true surface;
+/// facets are inside balls by at most 4 um.
+struct GaugeBall {
+  static constexpr double diameter_m = 0.060;
+};
+
+/// Two balls on a bar that lies level, along x.
+struct BallBar {
+  static constexpr double diameter_m = 0.040;
+  static constexpr double spacing_m = 0.150;  ///< of the balls' centres
+  static constexpr double bar_diameter_m = 0.012;
+};
+
+/// A plate that stands on its edge, its faces towards +Z and -Z.
+struct GaugePlate {
+  static constexpr double width_m = 0.160;
+  static constexpr double height_m = 0.120;
+  static constexpr double thickness_m = 0.012;
+};
+
+/// "letter-a", "cylinder", "doll", "scorpion", "skull", and the gauges "ball", "ball-bar", "plate".
 std::vector<std::string> builtin_object_names();
 
-/// The object of that name, with vertex colours. Takes up to about a second of a processor (all but
-/// the first two). An unknown name fails with kNotFound and lists the known ones; fails with
+/// Whether it is an artefact to test a rig with (measure_artefact()), not an object.
+bool is_gauge(std::string_view name);
+
+/// The object of that name, with vertex colours. Takes up to about a second of a processor (doll,
+/// scorpion and skull). An unknown name fails with kNotFound and lists the known ones; fails with
 /// kCancelled.
 Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context = {});
 

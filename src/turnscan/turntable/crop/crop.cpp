@@ -29,18 +29,7 @@ bool SensorCrop::keeps(const Vec3f& p_sensor) const {
 }
 
 FramePoints crop(const FramePoints& points, const SensorCrop& crop) {
-  FramePoints out;
-  out.width = points.width;
-  out.height = points.height;
-  out.viewpoint = points.viewpoint;
-  const bool colored = !points.cloud.colors.empty();
-  for (std::size_t i = 0; i < points.cloud.size(); ++i) {
-    if (!crop.keeps(points.cloud.points[i])) continue;
-    out.cloud.points.push_back(points.cloud.points[i]);
-    if (colored) out.cloud.colors.push_back(points.cloud.colors[i]);
-    if (!points.cell.empty()) out.cell.push_back(points.cell[i]);
-  }
-  return out;
+  return kept_points(points, [&](const Vec3f& p) { return crop.keeps(p); });
 }
 
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m) {

@@ -41,7 +41,24 @@ class SensorCrop {
   float margin_, height_, radius_squared_;
 };
 
-/// Keeps the points inside (in order); cells are kept with them.
+/// The points for which keeps() holds (in order); cells are kept with them.
+template <class Keeps>
+FramePoints kept_points(const FramePoints& points, const Keeps& keeps) {
+  FramePoints out;
+  out.width = points.width;
+  out.height = points.height;
+  out.viewpoint = points.viewpoint;
+  const bool colored = !points.cloud.colors.empty();
+  for (std::size_t i = 0; i < points.cloud.size(); ++i) {
+    if (!keeps(points.cloud.points[i])) continue;
+    out.cloud.points.push_back(points.cloud.points[i]);
+    if (colored) out.cloud.colors.push_back(points.cloud.colors[i]);
+    if (!points.cell.empty()) out.cell.push_back(points.cell[i]);
+  }
+  return out;
+}
+
+/// Those inside.
 FramePoints crop(const FramePoints& points, const SensorCrop& crop);
 
 /// How far the platter's own returns lie from y = 0.

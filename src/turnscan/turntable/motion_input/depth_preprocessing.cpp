@@ -25,6 +25,19 @@ std::optional<double> window_sum(const FrameSurface& surface, const std::vector<
   return sum;
 }
 
+/// Subtracts a share of the second differences along rows and columns, summed, where the window is
+/// whole: beside outlines they are not the surface's (random_rigs: half as much gained with them).
+void subtract_bending(DepthForeground& depth, double share, double fx, double noise_m) {
+  static constexpr std::array<int, 5> kSecond{2, -1, -2, -1, 2};
+  std::array<int, 25> weights{};
+  for (std::size_t k = 0; k < 25; ++k) weights[k] = kSecond[k % 5] + kSecond[k / 5];
+  FrameSurface& surface = depth.surface;
+  const std::vector<float> z = surface.z;
+  for (const std::int32_t i : depth.pixels)
+    if (const auto sum = window_sum(surface, z, i, weights, fx, noise_m))
+      surface.z[std::size_t(i)] -= float(share * *sum / 35.0);
+}
+
 /// A second row of the outline is left out where this share of the pixels remains.
 constexpr double kLeastShareWithin = 0.5;
 
@@ -117,14 +130,11 @@ void smooth_depth(DepthForeground& depth, double fx, double noise_m) {
 }
 
 void correct_chord_sag(DepthForeground& depth, double fx, double noise_m) {
-  static constexpr std::array<int, 5> kSecond{2, -1, -2, -1, 2};
-  std::array<int, 25> weights{};
-  for (std::size_t k = 0; k < 25; ++k) weights[k] = kSecond[k % 5] + kSecond[k / 5];
-  FrameSurface& surface = depth.surface;
-  const std::vector<float> z = surface.z;
-  for (const std::int32_t i : depth.pixels)
-    if (const auto sum = window_sum(surface, z, i, weights, fx, noise_m))
-      surface.z[std::size_t(i)] = float(z[std::size_t(i)] - *sum / (35.0 * 12.0));
+  subtract_bending(depth, 1.0 / 12.0, fx, noise_m);
+}
+
+void correct_filter_sag(DepthForeground& depth, double fx, double noise_m) {
+  subtract_bending(depth, 1.0 / 3.0, fx, noise_m);
 }
 
 FrameSurface trimmed(const DepthForeground& depth) {

@@ -29,6 +29,11 @@ void smooth_depth(DepthForeground& depth, double fx, double noise_m);
 /// other way. Second differences are those of the quadratic surface through 5 x 5 pixels.
 void correct_chord_sag(DepthForeground& depth, double fx, double noise_m);
 
+/// A sensor that averages over 3 x 3 pixels (Kinect v2) shows curved surfaces displaced: by half
+/// the variance of that window, two thirds of a pixel squared, times the second difference in each
+/// direction. The pixels move back by as much.
+void correct_filter_sag(DepthForeground& depth, double fx, double noise_m);
+
 /// The surface without margins that show nothing.
 FrameSurface trimmed(const DepthForeground& depth);
 

@@ -110,13 +110,23 @@ class FrameLoader {
                                                data_.camera, rays_, foreground_);
     drop_mixed_pixels(depth, fx, noise);
     if (data_.correlated_noise) drop_outline(depth, fx, noise);
-    frame.raw_surface = trimmed(depth);
+    frame.raw_surface = raw_surface(depth);
     if (!data_.correlated_noise) mark_inner(frame.raw_surface, fx, noise);
     smooth_depth(depth, fx, noise);
     sample_depth(data_, rays_, depth, seed, samples_per_frame(key), frame, cloud);
     if (!key) return;
     correct_chord_sag(depth, fx, noise);
     frame.surface = trimmed(depth);
+  }
+
+  /// As it was measured, but for what the sensor's own filter does to curved surfaces.
+  FrameSurface raw_surface(DepthForeground& depth) const {
+    if (!data_.correlated_noise) return trimmed(depth);
+    const std::vector<float> filtered = depth.surface.z;
+    correct_filter_sag(depth, data_.camera.fx, data_.noise_m);
+    FrameSurface out = trimmed(depth);
+    depth.surface.z = filtered;
+    return out;
   }
 
   Result<> take_points(const Frame& raw, bool key, std::uint64_t seed, MotionFrame& frame,
@@ -226,7 +236,15 @@ bool MotionData::within_outline(const FrameSurface& surface, const Vec3d& p) con
 
 Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,
                                const RunContext& context) {
-  return FrameLoader(sequence, options, context).run();
+  PlatterMemory own;
+  MotionDataOptions loading = options;
+  if (loading.memory == nullptr) loading.memory = &own;
+  auto data = FrameLoader(sequence, loading, context).run();
+  if (data || data.error().code != ErrorCode::kTooFewPoints || !loading.memory->platter)
+    return data;
+  // Nothing stands on what was taken for the platter.
+  *loading.memory = {true, std::nullopt};
+  return FrameLoader(sequence, loading, context).run();
 }
 
 std::vector<std::size_t> spread_subset(std::vector<std::size_t> list, std::size_t most) {

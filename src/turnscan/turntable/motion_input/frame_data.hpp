@@ -79,7 +79,8 @@ struct MotionDataOptions {
   PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: look for it
 };
 
-/// Reads the frames. Fails with kTooFewPoints when fewer than 3 frames can be used or nothing
+/// Reads the frames. A round surface on which nothing is seen to stand is no platter, and forgotten
+/// in the memory. Fails with kTooFewPoints when fewer than 3 frames can be used or nothing
 /// turns in them, kCancelled, and what reading fails with.
 Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,
                                const RunContext& context);

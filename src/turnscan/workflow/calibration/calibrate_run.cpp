@@ -3,6 +3,7 @@
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/turntable/detection/picked_points.hpp>
 
+#include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/calibration/pick_file.hpp>
 #include <turnscan/workflow/calibration/sensor_correction.hpp>
 
@@ -10,9 +11,17 @@ namespace turnscan {
 
 namespace {
 
+/// With a note of what disturbed the recording.
 Result<Calibration> motion_calibration(const FrameSequence& recording,
                                        const CalibrateRequest& request, const RunContext& context) {
-  return calibrate_from_motion(recording, request.motion, request.detect, context);
+  TURNSCAN_ASSIGN(Calibration out,
+                  calibrate_from_motion(recording, request.motion, request.detect, context));
+  TURNSCAN_ASSIGN(const Placement placement,
+                  workflow::settle_disturbances(recording, request.motion, request.detect, out,
+                                                nullptr, context));
+  for (const Disturbance& disturbance : placement.disturbances)
+    out.notes.push_back(disturbance.text);
+  return out;
 }
 
 Result<Calibration> platter_calibration(const FrameSequence& recording,

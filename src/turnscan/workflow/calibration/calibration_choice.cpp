@@ -10,6 +10,7 @@
 #include <turnscan/turntable/motion/free_motion.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
+#include <turnscan/workflow/calibration/disturbed_motion.hpp>
 
 namespace turnscan {
 
@@ -47,14 +48,18 @@ bool undetermined(const Calibration& found, std::string_view what) {
          found.undetermined.end();
 }
 
-Result<Calibration> motion_of(const FrameSequence& sequence, const CalibrationRequest& request,
-                              const RunContext& context) {
+FromMotionOptions motion_options(const CalibrationRequest& request) {
   FromMotionOptions options;
   options.speed_rad_s = request.speed_rad_s;
-  return calibrate_from_motion(sequence, options, {}, context);
+  return options;
 }
 
-Result<CalibrationChoice> chosen_from_motion(Calibration found, const std::string& why) {
+Result<Calibration> motion_of(const FrameSequence& sequence, const CalibrationRequest& request,
+                              const RunContext& context) {
+  return calibrate_from_motion(sequence, motion_options(request), {}, context);
+}
+
+Result<> check_determined(const Calibration& found) {
   for (const char* needed : {"axis", "centre"}) {
     if (undetermined(found, needed))
       return fail(ErrorCode::kMissingData,
@@ -62,6 +67,10 @@ Result<CalibrationChoice> chosen_from_motion(Calibration found, const std::strin
                   "{:.1f} mm; let the sensor see the platter, or take more of a turn",
                   needed, found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
   }
+  return {};
+}
+
+CalibrationChoice chosen_from_motion(Calibration found, const std::string& why) {
   CalibrationChoice out;
   out.note = fmt::format(
       "{}, so the turntable was found from motion: axis to {:.2f} deg, centre to {:.2f} mm", why,
@@ -72,19 +81,6 @@ Result<CalibrationChoice> chosen_from_motion(Calibration found, const std::strin
   return out;
 }
 
-Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
-                                      const CalibrationRequest& request, const std::string& why,
-                                      const RunContext& context) {
-  TURNSCAN_ASSIGN(Calibration found, motion_of(sequence, request, context));
-  return chosen_from_motion(std::move(found), why);
-}
-
-bool has_poses(const FrameSequence& sequence) {
-  const auto& frames = sequence.frames();
-  return std::all_of(frames.begin(), frames.end(),
-                     [](const FrameInfo& f) { return f.T_table_sensor.has_value(); });
-}
-
 /// Nothing, too, where the recording lacks what is needed to measure it.
 template <class Measure>
 Result<std::optional<Measure>> if_measurable(Result<std::optional<Measure>> measured) {
@@ -92,35 +88,28 @@ Result<std::optional<Measure>> if_measurable(Result<std::optional<Measure>> meas
   return measured;
 }
 
-/// Why the closure after a turn speaks against the calibration; nullopt: it does not.
-Result<std::optional<std::string>> closure_doubt(const FrameSequence& sequence,
-                                                 PlatterMemory& memory, const RunContext& context) {
-  TURNSCAN_ASSIGN(const auto closure, if_measurable(measure_closure(sequence, context, &memory)));
-  if (!closure || !closure->bad()) return std::nullopt;
-  return fmt::format(
-      "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
-      "turn",
-      closure->shift_m * 1e3, closure->turn_rad * kDegreesPerRadian);
+Result<CalibrationChecks> check_calibration(const FrameSequence& sequence, PlatterMemory& memory,
+                                            const RunContext& context) {
+  CalibrationChecks out;
+  TURNSCAN_ASSIGN(out.closure, if_measurable(measure_closure(sequence, context, &memory)));
+  if (out.closure && out.closure->bad()) return out;
+  TURNSCAN_ASSIGN(out.axis_offset, if_measurable(measure_axis_offset(sequence, context, &memory)));
+  return out;
 }
 
-/// The same of the axis about which the frames fit.
-Result<std::optional<std::string>> axis_doubt(const FrameSequence& sequence, PlatterMemory& memory,
-                                              const RunContext& context) {
-  TURNSCAN_ASSIGN(const auto offset,
-                  if_measurable(measure_axis_offset(sequence, context, &memory)));
-  if (!offset || !offset->bad()) return std::nullopt;
-  return fmt::format(
-      "the recording's axis lies {:.1f} mm beside the one about which the object turns, and leans "
-      "by {:.1f} deg",
-      offset->shift_m * 1e3, offset->tilt_rad * kDegreesPerRadian);
-}
-
-/// nullopt: nothing speaks against the recording's calibration.
-Result<std::optional<std::string>> doubt(const FrameSequence& sequence, PlatterMemory& memory,
-                                         const RunContext& context) {
-  TURNSCAN_ASSIGN(auto why, closure_doubt(sequence, memory, context));
-  if (why) return why;
-  return axis_doubt(sequence, memory, context);
+/// Why the checks speak against the calibration; nullopt: they do not.
+std::optional<std::string> doubt_of(const CalibrationChecks& checks) {
+  if (checks.closure && checks.closure->bad())
+    return fmt::format(
+        "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
+        "turn",
+        checks.closure->shift_m * 1e3, checks.closure->turn_rad * kDegreesPerRadian);
+  if (checks.axis_offset && checks.axis_offset->bad())
+    return fmt::format(
+        "the recording's axis lies {:.1f} mm beside the one about which the object turns, and "
+        "leans by {:.1f} deg",
+        checks.axis_offset->shift_m * 1e3, checks.axis_offset->tilt_rad * kDegreesPerRadian);
+  return std::nullopt;
 }
 
 /// The sequence with the angles of a stated speed in place of its own.
@@ -140,25 +129,15 @@ SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) 
 Result<CalibrationChoice> as_given(const FrameSequence& sequence, const CalibrationRequest& request,
                                    PlatterMemory& memory, const RunContext& context) {
   CalibrationChoice out;
-  TURNSCAN_ASSIGN(const auto why,
-                  request.speed_rad_s
-                      ? doubt(at_stated_speed(sequence, *request.speed_rad_s), memory, context)
-                      : doubt(sequence, memory, context));
-  if (why)
+  TURNSCAN_ASSIGN(
+      out.checks,
+      request.speed_rad_s
+          ? check_calibration(at_stated_speed(sequence, *request.speed_rad_s), memory, context)
+          : check_calibration(sequence, memory, context));
+  if (const auto why = doubt_of(out.checks))
     out.note = fmt::format("{}; it was used because {} given, --calibration motion makes another",
                            *why, request.speed_rad_s ? "the speed was" : "it was");
   return out;
-}
-
-/// What disturbed the recording, as its calibration or a stated speed places it; empty where
-/// nothing says where the frames are. Poses of their own are not questioned.
-Result<Placement> disturbances_of(const FrameSequence& sequence, std::optional<double> stated_speed,
-                                  PlatterMemory& memory, const RunContext& context) {
-  if (has_poses(sequence)) return Placement();
-  const auto poses = frame_poses(sequence.header(), sequence.frames(), stated_speed);
-  if (!poses) return Placement();
-  TURNSCAN_ASSIGN(auto found, find_disturbances(sequence, poses->T_table_sensor, context, &memory));
-  return found ? std::move(*found) : Placement();
 }
 
 std::string text_of(const Placement& placement) {
@@ -183,6 +162,7 @@ void correct(Placement placement, CalibrationChoice& choice) {
   if (!placement.left_out.empty())
     text += fmt::format("; {} frames were left out", placement.left_out.size());
   choice.left_out = std::move(placement.left_out);
+  choice.disturbances = std::move(placement.disturbances);
   choice.note = choice.note.empty() ? text : text + "; " + choice.note;
 }
 
@@ -192,28 +172,31 @@ Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
                                       const RunContext& context) {
   CalibrationChoice out;
   TURNSCAN_ASSIGN(const Placement placement,
-                  disturbances_of(sequence, request.speed_rad_s, memory, context));
+                  workflow::disturbances_of(sequence, request.speed_rad_s, &memory, context));
   if (!placement.disturbances.empty())
     out.note =
         text_of(placement) + "; nothing was corrected because --calibration recorded was given";
+  out.disturbances = placement.disturbances;
   return out;
 }
 
-/// The frames of a calibration moved to where they belong all the same.
-Result<CalibrationChoice> corrected(const FrameSequence& sequence, CalibrationChoice choice,
-                                    PlatterMemory& memory, const RunContext& context) {
-  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *choice.calibration));
-  TURNSCAN_ASSIGN(auto placement, disturbances_of(*calibrated, std::nullopt, memory, context));
-  correct(std::move(placement), choice);
-  return choice;
+/// The calibration and the frames' poses as they are where something disturbed the recording.
+Result<CalibrationChoice> settled(const FrameSequence& sequence, const CalibrationRequest& request,
+                                  Calibration found, const std::string& why, PlatterMemory& memory,
+                                  const RunContext& context) {
+  TURNSCAN_TRY(check_determined(found));
+  TURNSCAN_ASSIGN(auto placement, workflow::settle_disturbances(sequence, motion_options(request),
+                                                                {}, found, &memory, context));
+  CalibrationChoice out = chosen_from_motion(std::move(found), why);
+  correct(std::move(placement), out);
+  return out;
 }
 
-Result<CalibrationChoice> from_motion_corrected(const FrameSequence& sequence,
-                                                const CalibrationRequest& request,
-                                                const std::string& why, PlatterMemory& memory,
-                                                const RunContext& context) {
-  TURNSCAN_ASSIGN(auto out, from_motion(sequence, request, why, context));
-  return corrected(sequence, std::move(out), memory, context);
+Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
+                                      const CalibrationRequest& request, const std::string& why,
+                                      PlatterMemory& memory, const RunContext& context) {
+  TURNSCAN_ASSIGN(Calibration found, motion_of(sequence, request, context));
+  return settled(sequence, request, std::move(found), why, memory, context);
 }
 
 /// The recording's table, turning as the motion says. Its deviations are not known.
@@ -246,8 +229,8 @@ Result<std::optional<CalibrationChoice>> turned_as_seen(const FrameSequence& seq
   CalibrationChoice out;
   out.calibration = with_recorded_table(*table, found);
   TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *out.calibration));
-  TURNSCAN_ASSIGN(const auto why, doubt(*calibrated, memory, context));
-  if (why) return std::nullopt;
+  TURNSCAN_ASSIGN(const auto checks, check_calibration(*calibrated, memory, context));
+  if (doubt_of(checks)) return std::nullopt;
   out.note = "the recording does not say how its table turned, so that was found from motion";
   if (const auto speed = found.table.speed_rad_s)
     out.note += fmt::format(": {:.2f} deg/s", *speed * kDegreesPerRadian);
@@ -260,11 +243,14 @@ Result<CalibrationChoice> completed(const FrameSequence& sequence,
                                     const RunContext& context) {
   TURNSCAN_ASSIGN(Calibration found, motion_of(sequence, request, context));
   TURNSCAN_ASSIGN(auto turned, turned_as_seen(sequence, found, memory, context));
-  if (!turned) {
-    TURNSCAN_ASSIGN(turned,
-                    chosen_from_motion(std::move(found), "the recording has no calibration"));
-  }
-  return corrected(sequence, std::move(*turned), memory, context);
+  if (!turned)
+    return settled(sequence, request, std::move(found), "the recording has no calibration", memory,
+                   context);
+  TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *turned->calibration));
+  TURNSCAN_ASSIGN(auto placement,
+                  workflow::disturbances_of(*calibrated, std::nullopt, &memory, context));
+  correct(std::move(placement), *turned);
+  return std::move(*turned);
 }
 
 /// The recording's own calibration, or one from motion where something speaks against it.
@@ -273,19 +259,20 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
                                     const RunContext& context) {
   if (request.table_given || request.speed_rad_s)
     return as_given(sequence, request, memory, context);
-  TURNSCAN_ASSIGN(const auto why, doubt(sequence, memory, context));
-  if (!why) return CalibrationChoice();
-  auto found = from_motion_corrected(sequence, request, *why, memory, context);
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(out.checks, check_calibration(sequence, memory, context));
+  const auto why = doubt_of(out.checks);
+  if (!why) return out;
+  auto found = from_motion(sequence, request, *why, memory, context);
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
   if (found) {
     // A calibration takes precedence over the recording's only if nothing speaks against it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
-    TURNSCAN_ASSIGN(const auto still, doubt(*better, memory, context));
-    if (!still || !found->poses.empty()) return found;
+    TURNSCAN_ASSIGN(const auto checks, check_calibration(*better, memory, context));
+    if (!doubt_of(checks) || !found->poses.empty()) return found;
     failure = "the one from motion does not fit either";
   }
-  CalibrationChoice out;
   out.note = fmt::format("{}, but no better one was found ({})", *why, failure);
   return out;
 }
@@ -293,7 +280,7 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
 Result<CalibrationChoice> automatic(const FrameSequence& sequence,
                                     const CalibrationRequest& request, PlatterMemory& memory,
                                     const RunContext& context) {
-  if (has_poses(sequence)) return CalibrationChoice();  // they are not questioned
+  if (workflow::has_poses(sequence)) return CalibrationChoice();  // they are not questioned
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
     auto found = completed(sequence, request, memory, context);
@@ -302,7 +289,7 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
                 found.error().message);
   }
   TURNSCAN_ASSIGN(Placement placement,
-                  disturbances_of(sequence, request.speed_rad_s, memory, context));
+                  workflow::disturbances_of(sequence, request.speed_rad_s, &memory, context));
   CalibrationChoice out;
   if (!moves_frames(placement)) {
     TURNSCAN_ASSIGN(out, undoubted(sequence, request, memory, context));
@@ -320,8 +307,7 @@ Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
   PlatterMemory memory;  // it stands where it stood, whatever is asked about the recording
   if (request.mode == "recorded") return as_recorded(sequence, request, memory, context);
   if (request.mode == "motion")
-    return from_motion_corrected(sequence, request, "--calibration motion was given", memory,
-                                 context);
+    return from_motion(sequence, request, "--calibration motion was given", memory, context);
   if (request.mode == "auto") return automatic(sequence, request, memory, context);
   if (const auto way = free_ways().find(request.mode); way != free_ways().end())
     return by_free_registration(sequence, request, way->second, context);

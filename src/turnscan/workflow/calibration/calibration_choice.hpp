@@ -6,15 +6,26 @@
 #include <string>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/turntable/checks/axis_offset.hpp>
+#include <turnscan/turntable/checks/closure.hpp>
+#include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <vector>
 
 namespace turnscan {
 
+/// What speaks for and against a calibration; nullopt: it was not measured, or cannot be.
+struct CalibrationChecks {
+  std::optional<ClosureError> closure;
+  std::optional<AxisOffset> axis_offset;  ///< only where the closure is good
+};
+
 struct CalibrationChoice {
   std::optional<Calibration> calibration;  ///< nullopt: the recording's own
   std::vector<Pose> poses;  ///< T_table_sensor by free registration or corrected; else empty
-  std::vector<std::size_t> left_out;  ///< positions of frames that cannot be placed
-  std::string note;                   ///< one sentence for people; empty: nothing to say
+  std::vector<std::size_t> left_out;      ///< positions of frames that cannot be placed
+  std::string note;                       ///< one sentence for people; empty: nothing to say
+  std::vector<Disturbance> disturbances;  ///< that were found, put right or not
+  CalibrationChecks checks;               ///< of the recording's calibration, if it was checked
 };
 
 struct CalibrationRequest {

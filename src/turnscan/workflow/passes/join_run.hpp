@@ -6,7 +6,8 @@
 
 namespace turnscan {
 
-/// A pass that was not joined with the first, and its own mesh.
+/// A pass that was joined with no other, or the objects on its table that were not, and their own
+/// meshes.
 struct PassApart {
   std::uint32_t number = 0;
   std::string name;
@@ -19,10 +20,10 @@ struct JoinedRun {
   std::vector<PassApart> apart;
 };
 
-/// Places the passes, at least two, and fuses those that have a place; each of the others is
-/// reconstructed by itself, in its own table's frame. The sink gets the stages of the fused ones.
-/// Fails as place_passes() and reconstruct() do. A pass apart of which no mesh can be made has
-/// none.
+/// Places the objects of the passes, at least two, and fuses each over all passes that show it;
+/// what has no partner is reconstructed by itself, in its own table's frame. The sink gets the
+/// stages of the fused ones. Fails as place_passes() and reconstruct() do. A pass apart of which no
+/// mesh can be made has none.
 Result<JoinedRun> join_and_reconstruct(const std::vector<PassOfMany>& passes,
                                        const ReconstructOptions& options, const StageSink& sink,
                                        const RunContext& context);

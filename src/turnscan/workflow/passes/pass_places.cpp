@@ -1,7 +1,9 @@
 #include <turnscan/workflow/passes/pass_places.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
@@ -12,7 +14,7 @@ namespace turnscan {
 
 namespace {
 
-using passes::PassMotion;
+using passes::ObjectPart;
 using passes::PassSurface;
 
 constexpr std::size_t kFewestPoints = 200;  // that join_passes() takes
@@ -38,34 +40,53 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
   return out;
 }
 
-/// What joins the objects of a pass to those of others is one motion.
-Result<> check_one_object(const Reconstruction& r) {
-  std::size_t large = 0;
-  for (const ObjectResult& object : r.objects)
-    if (surface_area(object.mesh) > kCrumbShare * surface_area(r.objects[0].mesh)) ++large;
-  if (large <= 1) return {};
-  return fail(ErrorCode::kUnsupported,
-              "{} objects stand on its table, and passes of one object only are brought together",
-              large);
+/// A pass as it was measured: its objects, and whose is which part of the table.
+struct MeasuredTable {
+  std::vector<PassSurface> objects;  ///< largest first
+  std::optional<TableShare> share;   ///< of several
+};
+
+PassSurface united(std::vector<PassSurface>& pieces) {
+  if (pieces.empty()) return {};
+  PassSurface out = std::move(pieces[0]);
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const PassSurface& more = pieces[k];
+    out.points.insert(out.points.end(), more.points.begin(), more.points.end());
+    out.normals.insert(out.normals.end(), more.normals.begin(), more.normals.end());
+    out.areas.insert(out.areas.end(), more.areas.begin(), more.areas.end());
+    out.weights.insert(out.weights.end(), more.weights.begin(), more.weights.end());
+  }
+  return out;
 }
 
-Result<PassSurface> surface_of(const PassOfMany& pass, const ReconstructOptions& options,
-                               const RunContext& context) {
+Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOptions& options,
+                                    const RunContext& context) {
   TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass.frames}));
   TURNSCAN_ASSIGN(const Reconstruction r, reconstruct(frames, for_surface(options), {}, context));
-  TURNSCAN_TRY(check_one_object(r));
-  PassSurface surface = passes::measured_surface(r.objects.at(0));
-  if (surface.points.size() < kFewestPoints)
+  const passes::SharedViews views(r.seen, &r.seen->views);
+  MeasuredTable out;
+  std::vector<const TriangleMesh*> meshes;
+  for (const ObjectResult& object : r.objects) {
+    if (surface_area(object.mesh) < kCrumbShare * surface_area(r.objects[0].mesh)) continue;
+    PassSurface surface = passes::measured_surface(object);
+    if (surface.points.size() < kFewestPoints) continue;
+    surface.views = views;
+    surface.floor_m = r.seen->floor_m;
+    surface.noise_m = r.seen->noise_m;
+    out.objects.push_back(std::move(surface));
+    meshes.push_back(&object.mesh);
+  }
+  // A few views from anywhere show an object in pieces; several of them stand on tables only.
+  if (!pass.frames.frames->header().turntable) out = {{united(out.objects)}, {}};
+  if (out.objects.empty() || out.objects[0].points.size() < kFewestPoints)
     return fail(ErrorCode::kTooFewPoints, "hardly anything of it was measured");
-  surface.views = r.seen->views;
-  surface.floor_m = r.seen->floor_m;
-  surface.noise_m = r.seen->noise_m;
-  return surface;
+  if (out.objects.size() > 1) out.share.emplace(meshes);
+  return out;
 }
 
-PassPlacement placement_of(const PassOfMany& pass, const Pose& T_first_pass) {
+PassPlacement placement_of(const PassOfMany& pass, const Pose& T_object_table) {
   PassPlacement placement;
-  placement.T_object_table = T_first_pass;
+  placement.T_object_table = T_object_table;
   placement.turntable = pass.frames.frames->header().turntable;
   placement.name = pass.name;
   return placement;
@@ -82,69 +103,180 @@ double apart_m(const PassSurface& surface, const Pose& one, const Pose& other) {
 /// Finds the motions of what nobody stated, and doubts of what somebody did.
 class PassSearch {
  public:
-  PassSearch(const std::vector<PassOfMany>& passes, std::vector<PassPlace>& places)
-      : passes_(passes), places_(places) {}
+  explicit PassSearch(const std::vector<PassOfMany>& passes) : passes_(passes) {
+    out_.reasons.resize(passes.size());
+    out_.left.resize(passes.size());
+    tables_.resize(passes.size());
+  }
 
-  Result<> run(const ReconstructOptions& options, const RunContext& context) {
-    const bool all_stated = std::all_of(places_.begin(), places_.end(), [](const PassPlace& place) {
-      return place.placement.has_value();
-    });
-    TURNSCAN_TRY(add(0, !all_stated, options, context));
-    for (std::size_t k = 1; k < passes_.size() && !surfaces_.empty(); ++k)
-      TURNSCAN_TRY(add(k, false, options, context));
-    if (surfaces_.size() < 2) return {};
-    TURNSCAN_ASSIGN(const std::vector<PassMotion> motions,
-                    passes::join_passes(surfaces_, {}, context));
-    for (std::size_t i = 1; i < motions.size(); ++i) take(motions[i], i);
-    return {};
+  Result<PassPlaces> run(const ReconstructOptions& options, const RunContext& context) {
+    TURNSCAN_TRY(measure(options, context));
+    TURNSCAN_TRY(check_stated_tables());
+    TURNSCAN_ASSIGN(const auto objects, join(context));
+    if (several_objects() && !any_stated())
+      for (const auto& parts : objects) take_object(parts);
+    else
+      take_passes(objects);
+    note_what_is_left(objects);
+    return std::move(out_);
   }
 
  private:
   /// A pass without a surface that is not needed is not joined, and does not keep others from it.
-  Result<> add(std::size_t k, bool needed, const ReconstructOptions& options,
-               const RunContext& context) {
-    auto surface = surface_of(passes_[k], options, context);
-    if (!surface && (needed || surface.error().code == ErrorCode::kCancelled)) {
-      Error error = std::move(surface).error();
-      if (error.code != ErrorCode::kCancelled)
-        error.message = fmt::format("{}: {}", passes_[k].name, error.message);
-      return tl::unexpected<Error>(std::move(error));
+  Result<> measure(const ReconstructOptions& options, const RunContext& context) {
+    for (std::size_t k = 0; k < passes_.size(); ++k) {
+      auto table = measure_table(passes_[k], options, context);
+      const bool needed = k == 0 && !all_stated();
+      if (!table && (needed || table.error().code == ErrorCode::kCancelled)) {
+        Error error = std::move(table).error();
+        if (error.code != ErrorCode::kCancelled)
+          error.message = fmt::format("{}: {}", passes_[k].name, error.message);
+        return tl::unexpected<Error>(std::move(error));
+      }
+      if (table)
+        tables_[k] = std::move(*table);
+      else
+        unmeasured_[k] = table.error().text();
     }
-    if (!surface) {
-      places_[k].reason = surface.error().text();
-      return {};
-    }
-    surfaces_.push_back(std::move(*surface));
-    which_.push_back(k);
     return {};
   }
 
-  void take(const PassMotion& motion, std::size_t surface) {
-    const std::size_t k = which_[surface];
-    if (!motion.joined) {
-      places_[k].reason = motion.reason;
-      return;
+  /// The first is where it is.
+  bool is_stated(std::size_t k) const { return k == 0 || passes_[k].T_first_pass; }
+  bool any_stated() const {
+    return std::any_of(passes_.begin(), passes_.end(),
+                       [](const PassOfMany& pass) { return pass.T_first_pass.has_value(); });
+  }
+  bool all_stated() const {
+    return std::all_of(passes_.begin() + 1, passes_.end(),
+                       [](const PassOfMany& pass) { return pass.T_first_pass.has_value(); });
+  }
+  bool several_objects() const {
+    return std::any_of(tables_.begin(), tables_.end(),
+                       [](const MeasuredTable& table) { return table.objects.size() > 1; });
+  }
+
+  Result<> check_stated_tables() const {
+    if (all_stated() || !any_stated()) return {};
+    for (std::size_t k = 0; k < passes_.size(); ++k)
+      if (tables_[k].objects.size() > 1)
+        return fail(ErrorCode::kUnsupported,
+                    "{}: {} objects stand on its table, and --pass-pose moves them as one; state "
+                    "the poses of all passes, or of none",
+                    passes_[k].name, tables_[k].objects.size());
+    return {};
+  }
+
+  Result<std::vector<std::vector<ObjectPart>>> join(const RunContext& context) const {
+    // What is stated of several objects is not questioned.
+    if (several_objects() && any_stated()) return std::vector<std::vector<ObjectPart>>();
+    std::vector<std::vector<PassSurface>> surfaces;
+    for (const MeasuredTable& table : tables_) surfaces.push_back(table.objects);
+    return passes::join_objects(surfaces, {}, context);
+  }
+
+  void take_object(const std::vector<ObjectPart>& parts) {
+    if (parts.size() < 2) return;
+    ObjectPlaces& object = out_.objects.emplace_back();
+    object.of_pass.resize(passes_.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const ObjectPart& part = parts[i];
+      PassPlacement placement = placement_of(passes_[part.pass], part.motion.T_first_pass);
+      if (i > 0) placement.found = found(part);
+      if (const auto& share = tables_[part.pass].share)
+        placement.share = share->of(std::array{part.object});
+      object.of_pass[part.pass] = std::move(placement);
+      if (part.motion.interchangeable)
+        out_.notes.push_back(fmt::format(
+            "in {} two objects have the same shape, wherever both were measured; which of them "
+            "is which of the other passes' does not matter",
+            passes_[part.pass].name));
     }
-    const Pose& first = places_[0].placement->T_object_table;
-    if (places_[k].placement) {
-      const double apart = apart_m(surfaces_[surface], first * motion.T_first_pass,
-                                   places_[k].placement->T_object_table);
-      if (apart > std::max(kDoubt_m, kDoubtSigmas * motion.sigma_m))
-        places_[k].doubt = fmt::format(
-            "{} lies {:.1f} mm from where its surface fits that of the first; it was taken as "
-            "given",
-            passes_[k].name, apart * 1e3);
-      return;
+  }
+
+  static FoundMotion found(const ObjectPart& part) {
+    return {part.motion.sigma_m, part.motion.sigma_rad, part.motion.overlap_m2};
+  }
+
+  /// One object: what hangs together with the first pass or with one that is stated has its place
+  /// through it, and of the others what hangs together is an object of its own.
+  void take_passes(const std::vector<std::vector<ObjectPart>>& groups) {
+    ObjectPlaces first;
+    first.of_pass.resize(passes_.size());
+    for (std::size_t k = 0; k < passes_.size(); ++k)
+      if (is_stated(k))
+        first.of_pass[k] =
+            placement_of(passes_[k], passes_[k].T_first_pass.value_or(Pose::Identity()));
+    std::vector<const std::vector<ObjectPart>*> others;
+    for (const auto& parts : groups) {
+      const auto anchor = std::find_if(
+          parts.begin(), parts.end(), [&](const ObjectPart& part) { return is_stated(part.pass); });
+      if (anchor == parts.end())
+        others.push_back(&parts);
+      else
+        place_through(*anchor, parts, first);
     }
-    PassPlacement placement = placement_of(passes_[k], first * motion.T_first_pass);
-    placement.found = FoundMotion{motion.sigma_m, motion.sigma_rad, motion.overlap_m2};
-    places_[k].placement = std::move(placement);
+    const auto count = std::count_if(first.of_pass.begin(), first.of_pass.end(),
+                                     [](const auto& place) { return place.has_value(); });
+    if (count > 1) out_.objects.push_back(std::move(first));
+    for (const auto* parts : others) take_object(*parts);
+  }
+
+  void place_through(const ObjectPart& anchor, const std::vector<ObjectPart>& parts,
+                     ObjectPlaces& object) {
+    const Pose T =
+        object.of_pass[anchor.pass]->T_object_table * anchor.motion.T_first_pass.inverse();
+    for (const ObjectPart& part : parts) {
+      auto& place = object.of_pass[part.pass];
+      const Pose T_object_table = T * part.motion.T_first_pass;
+      if (!place) {
+        place = placement_of(passes_[part.pass], T_object_table);
+        place->found = found(part);
+      } else if (part.pass != anchor.pass) {
+        doubt(part, T_object_table, place->T_object_table);
+      }
+    }
+  }
+
+  void doubt(const ObjectPart& part, const Pose& shown, const Pose& stated) {
+    const double apart = apart_m(tables_[part.pass].objects[part.object], shown, stated);
+    if (apart > std::max(kDoubt_m, kDoubtSigmas * part.motion.sigma_m))
+      out_.notes.push_back(fmt::format(
+          "{} lies {:.1f} mm from where its surface fits that of the first; it was taken as given",
+          passes_[part.pass].name, apart * 1e3));
+  }
+
+  bool is_placed(std::size_t k) const {
+    return std::any_of(out_.objects.begin(), out_.objects.end(),
+                       [&](const ObjectPlaces& object) { return object.of_pass[k].has_value(); });
+  }
+
+  void note_what_is_left(const std::vector<std::vector<ObjectPart>>& groups) {
+    std::vector<std::vector<std::size_t>> left(passes_.size());
+    for (std::size_t k = 0; k < passes_.size(); ++k)
+      if (!unmeasured_[k].empty() && !is_placed(k)) out_.reasons[k] = unmeasured_[k];
+    for (const auto& parts : groups) {
+      if (parts.size() > 1) continue;
+      const ObjectPart& part = parts[0];
+      const MeasuredTable& table = tables_[part.pass];
+      if (table.objects.size() == 1 && is_placed(part.pass)) continue;
+      left[part.pass].push_back(part.object);
+      std::string& reason = out_.reasons[part.pass];
+      if (table.objects.size() > 1)
+        reason += fmt::format("{}object {}: ", reason.empty() ? "" : "; ", part.object + 1);
+      reason += part.motion.reason;
+    }
+    // Where nothing was joined, it is what the others did not fit.
+    if (out_.objects.empty()) out_.reasons[0].clear();
+    for (std::size_t k = 0; k < passes_.size(); ++k)
+      if (!left[k].empty() && left[k].size() < tables_[k].objects.size())
+        out_.left[k] = tables_[k].share->of(left[k]);
   }
 
   const std::vector<PassOfMany>& passes_;
-  std::vector<PassPlace>& places_;
-  std::vector<PassSurface> surfaces_;
-  std::vector<std::size_t> which_;  // pass of each surface
+  std::vector<MeasuredTable> tables_;
+  std::map<std::size_t, std::string> unmeasured_;  // why
+  PassPlaces out_;
 };
 
 Result<> check_stated(const std::vector<PassOfMany>& passes, const std::vector<PassPose>& stated) {
@@ -183,17 +315,9 @@ Result<std::vector<PassOfMany>> list_passes(const std::vector<RecordingFrames>& 
   return out;
 }
 
-Result<std::vector<PassPlace>> place_passes(const std::vector<PassOfMany>& passes,
-                                            const ReconstructOptions& options,
-                                            const RunContext& context) {
-  std::vector<PassPlace> places(passes.size());
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    if (k == 0 || passes[k].T_first_pass)
-      places[k].placement =
-          placement_of(passes[k], passes[k].T_first_pass.value_or(Pose::Identity()));
-  }
-  TURNSCAN_TRY(PassSearch(passes, places).run(options, context));
-  return places;
+Result<PassPlaces> place_passes(const std::vector<PassOfMany>& passes,
+                                const ReconstructOptions& options, const RunContext& context) {
+  return PassSearch(passes).run(options, context);
 }
 
 }  // namespace turnscan

@@ -28,19 +28,27 @@ struct PassOfMany {
 Result<std::vector<PassOfMany>> list_passes(const std::vector<RecordingFrames>& recordings,
                                             const std::vector<PassPose>& stated);
 
-/// One for each pass: where it lies, or why that is not known.
-struct PassPlace {
-  std::optional<PassPlacement> placement;
-  std::string reason;
-  std::string doubt;  ///< its surface contradicts what was stated; empty: it does not
+/// An object, and where it lies in each of the passes that show it.
+struct ObjectPlaces {
+  std::vector<std::optional<PassPlacement>> of_pass;  ///< one a pass; nullopt: it is not joined
 };
 
-/// In the frame of the first pass's table. The surfaces of the passes are measured and brought
-/// together (reconstruction/passes); what is stated is taken all the same. options: of the
-/// reconstruction. Fails with kCancelled and, unless all are stated, as reconstruct() does for the
-/// first pass.
-Result<std::vector<PassPlace>> place_passes(const std::vector<PassOfMany>& passes,
-                                            const ReconstructOptions& options,
-                                            const RunContext& context);
+struct PassPlaces {
+  std::vector<ObjectPlaces> objects;  ///< each of two or more passes
+  /// Per pass: why it, or which of several objects in it and why, was joined with no other pass.
+  std::vector<std::string> reasons;
+  /// Per pass with a reason: the part of its table that was not joined; nullopt: all of it.
+  std::vector<std::optional<TableShare>> left;
+  std::vector<std::string> notes;  ///< for people
+};
+
+/// Measures the surfaces of the objects in all passes and brings them together
+/// (reconstruction/passes). An object lies in the frame of the table of the first pass that shows
+/// it. What is stated is taken, and doubted where the surfaces show something else. options: of the
+/// reconstruction. Fails with kCancelled, unless all are stated as reconstruct() does for the first
+/// pass, and with kUnsupported when the poses of some passes only are stated and one of them has
+/// several objects.
+Result<PassPlaces> place_passes(const std::vector<PassOfMany>& passes,
+                                const ReconstructOptions& options, const RunContext& context);
 
 }  // namespace turnscan

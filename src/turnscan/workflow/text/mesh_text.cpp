@@ -62,10 +62,10 @@ std::string size_text(const Box& box) {
 }
 
 std::string check_sentences(const MeshReport& r) {
-  return fmt::format("{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r),
-                     outward_sentence(r),
-                     r.watertight() ? "It is watertight and can be printed."
-                                    : "It is not watertight; a printer's software may refuse it.");
+  return fmt::format(
+      "{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r), outward_sentence(r),
+      r.watertight() ? "It is watertight. What of it was measured, turnscan reconstruct says."
+                     : "It is not watertight; a printer's software may refuse it.");
 }
 
 std::string meshes_json(const std::vector<TriangleMesh>& meshes,

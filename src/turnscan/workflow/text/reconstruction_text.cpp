@@ -1,7 +1,9 @@
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 
+#include <map>
 #include <turnscan/workflow/text/mesh_text.hpp>
 #include <turnscan/workflow/text/text_table.hpp>
+#include <turnscan/workflow/text/verdict_text.hpp>
 
 namespace turnscan {
 
@@ -24,10 +26,15 @@ std::string objects_text(const Reconstruction& r) {
 }
 
 std::string passes_text(const Reconstruction& r) {
-  std::vector<std::string> passes;
+  std::map<int, std::vector<std::string>> passes;
   for (const FusedPass& pass : r.passes)
-    passes.push_back(fmt::format("{} ({} frames)", pass.name, pass.frames));
-  return fmt::format("{} passes in one mesh: {}\n", passes.size(), fmt::join(passes, ", "));
+    passes[pass.object].push_back(fmt::format("{} ({} frames)", pass.name, pass.frames));
+  std::string text;
+  for (const auto& [object, names] : passes)
+    text += fmt::format("{}{} passes in one mesh: {}\n",
+                        object < 0 ? "" : fmt::format("object {}: ", object + 1), names.size(),
+                        fmt::join(names, ", "));
+  return text;
 }
 
 std::string choices_text(const Reconstruction& r) {
@@ -68,6 +75,11 @@ std::string reconstruction_text(const Reconstruction& r) {
   for (std::size_t i = 0; i < r.objects.size(); ++i) {
     for (const std::string& note : r.objects[i].notes)
       text += fmt::format("Note on object {}: {}\n", i + 1, note);
+  }
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    if (!r.objects[i].verdict) continue;
+    if (r.objects.size() > 1) text += fmt::format("Object {}. ", i + 1);
+    text += verdict_text(*r.objects[i].verdict);
   }
   return text;
 }

@@ -1,0 +1,32 @@
+#pragma once
+// On which side of a mesh a point is, from the nearest point on the mesh.
+
+#include <array>
+#include <cstdint>
+#include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
+
+namespace turnscan {
+
+/// The normals of a mesh's faces, edges and vertices: of an edge the sum of its faces', of a vertex
+/// the sum of its faces' weighted by their angle there. With these the sign of the distance from a
+/// closed mesh is right everywhere (Baerentzen and Aanaes 2005, "Signed distance computation using
+/// the angle weighted pseudonormal"); a face's normal alone is wrong beside sharp edges.
+class PseudoNormals {
+ public:
+  /// Copies what it needs. Triangles must name vertices that exist.
+  explicit PseudoNormals(const TriangleMesh& mesh);
+
+  /// Unit normal at a point on a triangle, as MeshDistance::closest() finds it: of the vertex or
+  /// edge of the triangle that the point lies on (to within 1 nm), else of the face. Zero where the
+  /// faces have no area.
+  Vec3d at(const Vec3d& point, std::uint32_t triangle) const;
+
+ private:
+  std::vector<Vec3f> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Vec3f> of_face_, of_vertex_;
+  std::vector<std::array<Vec3f, 3>> of_edge_;  // from corner c to corner c + 1
+};
+
+}  // namespace turnscan

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/vertex_neighbours.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
+#include <turnscan/reconstruction/quality/expected_error.hpp>
+
+namespace turnscan::quality {
+
+namespace {
+
+/// Fitted to simulated scans (bench/expected_error).
+constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
+constexpr double kBlurShare = 0.2, kFilteredBlur = 3.0;  // the second is a factor
+constexpr double kMixedShare = 0.55;
+
+/// Along edges of the mesh, to the nearest vertex that was measured (Dijkstra 1959); metres.
+std::vector<float> way_to_measured(const TriangleMesh& mesh, const mesh::VertexNeighbours& beside,
+                                   const std::vector<float>& support) {
+  const float least = mesh_refinement::kUnseenShare * mesh_refinement::typical_support(support);
+  std::vector<float> way(mesh.vertices.size(), std::numeric_limits<float>::max());
+  using Entry = std::pair<float, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto reach = [&](std::uint32_t v, float length) {
+    if (length >= way[v]) return;
+    way[v] = length;
+    queue.push({length, v});
+  };
+  for (std::uint32_t v = 0; v < way.size(); ++v)
+    if (support[v] >= least) reach(v, 0.0f);
+  while (!queue.empty()) {
+    const auto [length, v] = queue.top();
+    queue.pop();
+    if (length > way[v]) continue;
+    for (const std::uint32_t other : beside.of(v))
+      reach(other, length + (mesh.vertices[v] - mesh.vertices[other]).norm());
+  }
+  return way;
+}
+
+/// Angle between the normals of neighbours over their distance, radians per metre.
+double bending_at(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
+                  const mesh::VertexNeighbours& beside, std::uint32_t v) {
+  double angle = 0.0, length = 0.0;
+  for (const std::uint32_t other : beside.of(v)) {
+    angle += std::acos(std::clamp(normals[v].dot(normals[other]), -1.0f, 1.0f));
+    length += (mesh.vertices[v] - mesh.vertices[other]).norm();
+  }
+  return length > 0.0 ? angle / length : 0.0;
+}
+
+}  // namespace
+
+std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<float>& support,
+                                   const ErrorScale& scale) {
+  const mesh::VertexNeighbours beside(mesh);
+  const auto normals = vertex_normals(mesh);
+  const auto way = way_to_measured(mesh, beside, support);
+  const double typical = mesh_refinement::typical_support(support);
+  std::vector<float> out(mesh.vertices.size());
+  parallel_for(out.size(), 1024, [&](std::size_t v) {
+    const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
+    const double noise = kNoiseShare * scale.noise_m / std::sqrt(1.0 + double(support[v]));
+    const double window = kBlurShare * (scale.filtered ? kFilteredBlur : 1.0);
+    const double blur = window * bend * scale.spacing_m * scale.spacing_m;
+    const double floor = kFloorShare * scale.noise_m;
+    const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
+    const double mixed = scale.filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
+    const double hidden = kHiddenShare * double(way[v]);
+    out[v] = float(
+        std::sqrt(noise * noise + blur * blur + floor * floor + mixed * mixed + hidden * hidden));
+  });
+  return out;
+}
+
+}  // namespace turnscan::quality

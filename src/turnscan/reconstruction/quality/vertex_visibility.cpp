@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/reconstruction/quality/vertex_visibility.hpp>
+
+namespace turnscan::quality {
+
+namespace {
+
+constexpr std::size_t kMostViews = 128;
+constexpr float kLeastCosine = 0.1f;
+
+/// Of the views that are looked at.
+std::vector<std::size_t> spread_views(std::size_t count) {
+  std::vector<std::size_t> out(std::min(count, kMostViews));
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = i * count / out.size();
+  return out;
+}
+
+bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
+         float tolerance_m) {
+  const Vec3f p = view.rotation * vertex + view.translation;
+  if (!view.parallel && !(p.z() > 0.0f)) return false;
+  const Vec3f ray = view.parallel ? Vec3f(Vec3f::UnitZ()) : Vec3f(p / p.z());
+  const float cosine = -(view.rotation * normal).dot(ray) / ray.norm();
+  if (!(cosine > kLeastCosine)) return false;
+  const std::ptrdiff_t pixel = view.pixel_at(p);
+  if (pixel < 0) return false;
+  const std::uint32_t word = view.pixels[std::size_t(pixel)];
+  if ((word & 0xffffu) == 0) return false;
+  const float depth = float(word & 0xffffu) * view.unit_m + view.bias_m;
+  return std::abs(depth - p.z()) * ray.norm() * cosine <= tolerance_m;
+}
+
+/// Of the sectors in all bands, that of a view as a point sees it.
+int sector_of(const Viewpoint& viewpoint, const Vec3f& p) {
+  const Vec3d to = viewpoint.direction_from(p.cast<double>());
+  const double turn = std::atan2(to.z(), to.x()) / kTurn + 0.5;
+  const double height = std::asin(std::clamp(to.y(), -1.0, 1.0)) / std::numbers::pi + 0.5;
+  return std::clamp(int(height * kBands), 0, kBands - 1) * kSectors +
+         std::clamp(int(turn * kSectors), 0, kSectors - 1);
+}
+
+}  // namespace
+
+Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
+                                           std::span<const views::DepthView> views,
+                                           double tolerance_m, const RunContext& context) {
+  VertexVisibility out;
+  out.frames.assign(mesh.vertices.size(), 0);
+  out.directions.assign(mesh.vertices.size(), 0);
+  const auto chosen = spread_views(views.size());
+  if (chosen.empty()) return out;
+  std::vector<Viewpoint> viewpoints;
+  for (const std::size_t i : chosen) viewpoints.push_back(views[i].viewpoint());
+  const auto normals = vertex_normals(mesh);
+  TURNSCAN_TRY(context.check());
+  const double share = double(views.size()) / double(chosen.size());
+  parallel_for(mesh.vertices.size(), 256, [&](std::size_t v) {
+    std::size_t count = 0;
+    std::uint64_t sectors = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Vec3f& p = mesh.vertices[v];
+      if (!saw(views[chosen[i]], p, normals[v], float(tolerance_m))) continue;
+      ++count;
+      sectors |= std::uint64_t(1) << sector_of(viewpoints[i], p);
+    }
+    out.frames[v] = std::uint16_t(std::min(65535.0, std::round(share * double(count))));
+    out.directions[v] = std::uint8_t(std::popcount(sectors));
+  });
+  TURNSCAN_TRY(context.check());
+  return out;
+}
+
+}  // namespace turnscan::quality

@@ -1,0 +1,25 @@
+#pragma once
+// The parts of a page, as HTML. All texts are escaped here.
+
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/workflow/page/page.hpp>
+#include <turnscan/workflow/page/report_facts.hpp>
+
+namespace turnscan::page {
+
+/// Empty where the report has none.
+std::string verdict_section(const PageInput& input, const ReportFacts& facts);
+/// The place of the 3D view, hidden until the viewer shows it.
+std::string view_section();
+/// Six sides of all objects, as JPEG. Fails as render_picture().
+Result<std::string> pictures_section(const PageInput& input, const RunContext& context);
+std::string dimensions_section(const PageInput& input);
+/// Empty without a comparison.
+std::string comparison_section(const PageInput& input);
+std::string plots_section(const PageInput& input);
+/// Figures of the scan, parameters with their reasons, notes. Empty where the report has none.
+std::string making_section(const ReportFacts& facts);
+
+}  // namespace turnscan::page

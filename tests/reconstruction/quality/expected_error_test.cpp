@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <turnscan/reconstruction/quality/expected_error.hpp>
+
+namespace turnscan::quality {
+namespace {
+
+constexpr int kAcross = 41;
+constexpr float kStep_m = 0.001f;
+
+/// A square of vertices a millimetre apart; folded by so much along its middle.
+TriangleMesh sheet(float fold) {
+  TriangleMesh mesh;
+  for (int j = 0; j < kAcross; ++j)
+    for (int i = 0; i < kAcross; ++i) {
+      const float x = kStep_m * float(i), fall = fold * std::abs(x - kStep_m * float(kAcross / 2));
+      mesh.vertices.emplace_back(x, -fall, kStep_m * float(j));
+    }
+  for (std::uint32_t j = 0; j + 1 < kAcross; ++j)
+    for (std::uint32_t i = 0; i + 1 < kAcross; ++i) {
+      const std::uint32_t v = j * kAcross + i;
+      mesh.triangles.push_back({v, v + kAcross, v + 1});
+      mesh.triangles.push_back({v + 1, v + kAcross, v + kAcross + 1});
+    }
+  return mesh;
+}
+
+std::size_t at(int i, int j) { return std::size_t(j * kAcross + i); }
+const ErrorScale kScale{0.0015, 0.002, false};
+
+TEST(ExpectedErrors, FallWithTheNumberOfMeasurements) {
+  const TriangleMesh mesh = sheet(0.0f);
+  std::vector<float> support(mesh.vertices.size(), 2.0f);
+  const float few = expected_errors(mesh, support, kScale)[at(20, 20)];
+  support.assign(support.size(), 200.0f);
+  const float many = expected_errors(mesh, support, kScale)[at(20, 20)];
+  EXPECT_LT(many, 0.7f * few);
+  EXPECT_GT(many, 0.0f);
+}
+
+TEST(ExpectedErrors, AreLargerWhereTheSurfaceBends) {
+  const TriangleMesh mesh = sheet(0.5f);
+  const auto errors =
+      expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f), kScale);
+  EXPECT_GT(errors[at(20, 20)], 1.5f * errors[at(5, 20)]);
+}
+
+TEST(ExpectedErrors, GrowWithTheWayToWhatWasMeasured) {
+  const TriangleMesh mesh = sheet(0.0f);
+  std::vector<float> support(mesh.vertices.size(), 50.0f);
+  for (int j = 0; j < kAcross; ++j)
+    for (int i = 21; i < kAcross; ++i) support[at(i, j)] = 0.0f;
+  const auto errors = expected_errors(mesh, support, kScale);
+  EXPECT_GT(errors[at(30, 20)], errors[at(25, 20)]);
+  EXPECT_GT(errors[at(25, 20)], errors[at(10, 20)]);
+  EXPECT_LT(errors[at(30, 20)], 0.010f) << "no more than the way";
+}
+
+TEST(ExpectedErrors, ScaleWithTheNoise) {
+  const TriangleMesh mesh = sheet(0.0f);
+  const std::vector<float> support(mesh.vertices.size(), 10.0f);
+  ErrorScale twice = kScale;
+  twice.noise_m *= 2.0;
+  EXPECT_NEAR(expected_errors(mesh, support, twice)[at(20, 20)],
+              2.0f * expected_errors(mesh, support, kScale)[at(20, 20)], 1e-6f);
+}
+
+}  // namespace
+}  // namespace turnscan::quality

@@ -1,0 +1,321 @@
+// The 3D view of a report page. The page holds the model as JSON (#model-data, made by
+// src/turnscan/workflow/page) and works without this script: then pictures stand in its place.
+
+import {
+  BufferAttribute, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, Mesh,
+  MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer
+} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
+import {colorOf, gradient} from './colors.js';
+
+const VIEWS = {  // azimuth from +Z towards +X and elevation, in degrees
+  Front: [0, 0], Right: [90, 0], Back: [180, 0], Left: [-90, 0], Top: [0, 89.9], Bottom: [0, -89.9]
+};
+const KEY_STEP_DEG = 10;
+const ZOOM_STEP = 1.2;
+const FEW_TRIANGLES = 2000;  // of a drawn object, not of a scan: its edges are sharp
+
+function bytesOf(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+// Positions in millimetres; `values` of each field as numbers in the field's unit.
+function unpack(object, fields) {
+  const stride = object.stride;
+  const records = new Uint8Array(object.vertices * stride);
+  MeshoptDecoder.decodeVertexBuffer(records, object.vertices, stride,
+                                    bytesOf(object.vertex_stream));
+  const indices = new Uint8Array(object.triangles * 12);
+  MeshoptDecoder.decodeIndexBuffer(indices, object.triangles * 3, 4, bytesOf(object.index_stream));
+  const view = new DataView(records.buffer);
+  const positions = new Float32Array(object.vertices * 3);
+  for (let v = 0; v < object.vertices; ++v) {
+    for (let axis = 0; axis < 3; ++axis) {
+      const quantised = view.getUint16(v * stride + 2 * axis, true);
+      positions[3 * v + axis] = object.origin_mm[axis] + quantised * object.step_mm;
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setAttribute('color', new BufferAttribute(new Float32Array(positions.length), 3));
+  geometry.setIndex(new BufferAttribute(new Uint32Array(indices.buffer), 1));
+  geometry.computeVertexNormals();
+  const values = {};
+  for (const field of fields) {
+    const offset = object.offsets[field.id];
+    if (offset === undefined) continue;
+    const array = new Float32Array(object.vertices);
+    const step = (field.to - field.from) / 65534;
+    for (let v = 0; v < object.vertices; ++v) {
+      const quantised = view.getUint16(v * stride + offset, true);
+      array[v] = quantised === 65535 ? NaN : field.from + quantised * step;
+    }
+    values[field.id] = array;
+  }
+  let surface = null;
+  if (object.offsets.colour !== undefined) {
+    surface = new Uint8Array(object.vertices * 3);
+    for (let v = 0; v < object.vertices; ++v)
+      surface.set(records.subarray(v * stride + object.offsets.colour,
+                                   v * stride + object.offsets.colour + 3), 3 * v);
+  }
+  return {geometry, values, surface};
+}
+
+function paint(part, field) {
+  const colors = part.geometry.getAttribute('color');
+  const color = new Color();
+  const values = field ? part.values[field.id] : undefined;
+  for (let v = 0; v < colors.count; ++v) {
+    if (values) color.setRGB(...colorOf(field, values[v]), 'srgb');
+    else if (part.surface && !field)
+      color.setRGB(part.surface[3 * v] / 255, part.surface[3 * v + 1] / 255,
+                   part.surface[3 * v + 2] / 255, 'srgb');
+    else color.setRGB(0.8, 0.77, 0.72, 'srgb');
+    colors.setXYZ(v, color.r, color.g, color.b);
+  }
+  colors.needsUpdate = true;
+}
+
+class Viewer {
+  constructor(canvas, data) {
+    this.canvas = canvas;
+    this.fields = data.fields;
+    this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
+    this.scene = new Scene();
+    this.scene.background = new Color(0xf4f5f6);
+    this.camera = new PerspectiveCamera(25, 1, 1, 10000);
+    this.scene.add(new HemisphereLight(0xffffff, 0x8a8580, 1.7));
+    const key = new DirectionalLight(0xffffff, 1.9);
+    key.position.set(-0.6, 0.9, 1.0);
+    this.camera.add(key);
+    this.scene.add(this.camera);
+    this.group = new Group();
+    this.parts = data.objects.map((object) => {
+      const part = unpack(object, this.fields);
+      part.mesh = new Mesh(part.geometry,
+                           new MeshStandardMaterial({
+                             vertexColors: true, roughness: 0.85,
+                             flatShading: object.triangles < FEW_TRIANGLES
+                           }));
+      this.group.add(part.mesh);
+      return part;
+    });
+    this.scene.add(this.group);
+    this.frame();
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.target.copy(this.center);
+    this.controls.addEventListener('change', () => this.draw());
+    this.setMode('colour');
+    this.look(35, 17);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  frame() {
+    const low = new Vector3(Infinity, Infinity, Infinity);
+    const high = low.clone().negate();
+    for (const part of this.parts) {
+      part.geometry.computeBoundingBox();
+      low.min(part.geometry.boundingBox.min);
+      high.max(part.geometry.boundingBox.max);
+    }
+    this.center = low.clone().add(high).multiplyScalar(0.5);
+    this.radius = Math.max(high.distanceTo(low) / 2, 1e-3);
+    this.camera.near = this.radius / 50;
+    this.camera.far = this.radius * 100;
+  }
+
+  // All of the model is in the picture, whatever its shape.
+  distance() {
+    const half = Math.PI * this.camera.fov / 360;
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    return this.radius / Math.sin(narrow);
+  }
+
+  look(azimuthDeg, elevationDeg, distance = this.distance()) {
+    const azimuth = azimuthDeg * Math.PI / 180;
+    const elevation = elevationDeg * Math.PI / 180;
+    this.camera.position.set(Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation),
+                             Math.cos(azimuth) * Math.cos(elevation))
+      .multiplyScalar(distance).add(this.center);
+    this.controls.target.copy(this.center);
+    this.controls.update();
+    this.draw();
+  }
+
+  turn(azimuthDeg, elevationDeg) {
+    const way = this.camera.position.clone().sub(this.controls.target);
+    const distance = way.length();
+    const azimuth = Math.atan2(way.x, way.z) * 180 / Math.PI + azimuthDeg;
+    const elevation = Math.asin(way.y / distance) * 180 / Math.PI + elevationDeg;
+    this.look(azimuth, Math.min(89.9, Math.max(-89.9, elevation)), distance);
+  }
+
+  zoom(factor) {
+    const way = this.camera.position.clone().sub(this.controls.target).divideScalar(factor);
+    const distance = Math.min(Math.max(way.length(), this.radius / 20), this.radius * 40);
+    this.camera.position.copy(this.controls.target).add(way.setLength(distance));
+    this.controls.update();
+    this.draw();
+  }
+
+  setMode(id) {
+    this.mode = id;
+    const field = this.fields.find((f) => f.id === id);
+    for (const part of this.parts) paint(part, field);
+    this.canvas.dataset.mode = id;
+    this.draw();
+  }
+
+  show(index, visible) {
+    this.parts[index].mesh.visible = visible;
+    this.draw();
+  }
+
+  resize() {
+    const {clientWidth, clientHeight} = this.canvas;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    const before = this.distance();
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.zoom(before / this.distance());
+  }
+
+  draw() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.renderer.render(this.scene, this.camera);
+      this.canvas.dataset.state = 'drawn';
+      this.canvas.dataset.shown = this.mode;
+    });
+  }
+}
+
+function element(name, attributes = {}, text = '') {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.textContent = text;
+  return made;
+}
+
+function addModes(viewer, data, place, legend) {
+  const modes = [{id: 'colour', label: data.has_colour ? 'Colour' : 'Shape'}, ...data.fields];
+  const group = element('fieldset');
+  group.append(element('legend', {}, 'Show'));
+  for (const mode of modes) {
+    const label = element('label');
+    const input = element('input', {type: 'radio', name: 'mode', value: mode.id});
+    input.checked = mode.id === 'colour';
+    input.addEventListener('change', () => {
+      viewer.setMode(mode.id);
+      showLegend(legend, data.fields.find((f) => f.id === mode.id));
+    });
+    label.append(input, ' ' + mode.label);
+    group.append(label);
+  }
+  place.append(group);
+}
+
+function showLegend(place, field) {
+  place.replaceChildren();
+  place.hidden = !field;
+  if (!field) return;
+  place.append(element('span', {class: 'legend-text'}, field.help));
+  if (field.classes) {
+    for (const [i, text] of field.classes.entries()) {
+      const item = element('span', {class: 'legend-item'});
+      const patch = element('span', {class: 'patch'});
+      patch.style.backgroundColor = gradient(field, [i / Math.max(field.classes.length - 1, 1)])[0];
+      item.append(patch, text);
+      place.append(item);
+    }
+    return;
+  }
+  const bar = element('span', {class: 'bar'});
+  const steps = Array.from({length: 17}, (_, i) => i / 16);
+  bar.style.backgroundImage = `linear-gradient(to right, ${gradient(field, steps).join(', ')})`;
+  const number = (value) => Number(value.toPrecision(3)).toString();
+  place.append(element('span', {}, `${number(field.from)} ${field.unit}`), bar,
+               element('span', {}, `${number(field.to)} ${field.unit}`));
+}
+
+function addViews(viewer, place) {
+  const group = element('div', {role: 'group', 'aria-label': 'View'});
+  for (const [name, [azimuth, elevation]] of Object.entries(VIEWS)) {
+    const button = element('button', {type: 'button'}, name);
+    button.addEventListener('click', () => viewer.look(azimuth, elevation));
+    group.append(button);
+  }
+  for (const [name, sign, factor] of [['Zoom in', '+', ZOOM_STEP],
+                                      ['Zoom out', '\u2212', 1 / ZOOM_STEP]]) {
+    const button = element('button', {type: 'button', 'aria-label': name, title: name}, sign);
+    button.addEventListener('click', () => viewer.zoom(factor));
+    group.append(button);
+  }
+  place.append(group);
+}
+
+function addObjects(viewer, data, place) {
+  if (data.objects.length < 2) return;
+  const group = element('fieldset');
+  group.append(element('legend', {}, 'Objects'));
+  data.objects.forEach((object, index) => {
+    const label = element('label');
+    const input = element('input', {type: 'checkbox'});
+    input.checked = true;
+    input.addEventListener('change', () => viewer.show(index, input.checked));
+    label.append(input, ' ' + object.name);
+    group.append(label);
+  });
+  place.append(group);
+}
+
+function addKeys(viewer, canvas) {
+  const keys = {
+    ArrowLeft: () => viewer.turn(-KEY_STEP_DEG, 0), ArrowRight: () => viewer.turn(KEY_STEP_DEG, 0),
+    ArrowUp: () => viewer.turn(0, KEY_STEP_DEG), ArrowDown: () => viewer.turn(0, -KEY_STEP_DEG),
+    '+': () => viewer.zoom(ZOOM_STEP), '=': () => viewer.zoom(ZOOM_STEP),
+    '-': () => viewer.zoom(1 / ZOOM_STEP), Home: () => viewer.look(35, 17)
+  };
+  canvas.addEventListener('keydown', (event) => {
+    const action = keys[event.key];
+    if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+async function start() {
+  const section = document.getElementById('view');
+  const canvas = document.getElementById('model');
+  const status = document.getElementById('view-status');
+  try {
+    const data = JSON.parse(document.getElementById('model-data').textContent);
+    await MeshoptDecoder.ready;
+    section.hidden = false;
+    const viewer = new Viewer(canvas, data);
+    const legend = document.getElementById('legend');
+    const switches = document.getElementById('switches');
+    addModes(viewer, data, switches, legend);
+    addObjects(viewer, data, switches);
+    addViews(viewer, switches);
+    addKeys(viewer, canvas);
+    status.textContent = '';
+  } catch (error) {
+    canvas.hidden = true;
+    section.hidden = false;
+    status.textContent = 'This browser cannot draw the model in 3D (' + error.message +
+      '); the pictures below show it from six sides.';
+  }
+}
+
+start();
