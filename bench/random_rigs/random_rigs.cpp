@@ -67,10 +67,10 @@ Errors judge(const Calibration& found, const VirtualScan& truth) {
   out.axis_deg = std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian;
   out.line_mm = (at - middle).norm() * 1e3;
   out.line_range_mm = (at - middle).dot(middle.normalized()) * 1e3;
-  out.height_mm = std::abs(a.dot(found.table.center_m - table.center_m)) * 1e3;
+  out.height_mm = a.dot(found.table.center_m - table.center_m) * 1e3;
   out.axis = out.axis_deg / (found.axis_sigma_rad * kDegreesPerRadian);
   out.line = out.line_mm / (found.center_sigma_m * 1e3);
-  out.height = out.height_mm / (found.height_sigma_m * 1e3);
+  out.height = std::abs(out.height_mm) / (found.height_sigma_m * 1e3);
   if (!found.angles_rad.empty()) judge_angles(found, truth, out);
   const double speed = usual_speed(truth);
   out.speed = std::nan("");
@@ -168,7 +168,7 @@ class Bench {
 
   static void print(const Errors& e, const Calibration& found, double spent) {
     fmt::print(
-        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s; {:+.3f} in range) height {:.2f} "
+        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s; {:+.3f} in range) height {:+.2f} "
         "mm ({:.1f} s) "
         "angles {:.3f} deg ({:.1f} s) speed {:+.3f} % ({:.1f} s); {:.1f} s of processor{}\n",
         e.axis_deg, e.axis, e.line_mm, e.line, e.line_range_mm, e.height_mm, e.height, e.angles_deg,

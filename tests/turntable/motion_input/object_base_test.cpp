@@ -55,6 +55,7 @@ TEST(FindBase, TellsWhereTheObjectEndsBelowAndSidewaysInARoom) {
   const ObjectBase base = base_of(without_platter());
   EXPECT_LT(std::abs(base.height_m), 0.008);
   EXPECT_TRUE(base.ends);
+  EXPECT_FALSE(base.on_surface);  // the desk lies farther down
   ASSERT_TRUE(base.reach_m);
   EXPECT_NEAR(*base.reach_m, 0.5 * LetterA::width_m, 0.01);
 }
@@ -81,6 +82,7 @@ TEST(FindBase, SaysThatAFootOnADeskLeavesTheHeightOpen) {
   const ObjectBase base = base_of(o);
   EXPECT_NEAR(base.height_m, -0.045, 0.006);
   EXPECT_FALSE(base.ends);
+  EXPECT_TRUE(base.on_surface);
 }
 
 TEST(FindBase, TakesScansOfPointsAsTheyAre) {

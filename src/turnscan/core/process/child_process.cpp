@@ -142,6 +142,8 @@ Result<int> wait_for(pid_t child, const std::filesystem::path& program, double s
 Result<ChildResult> run_child(const std::filesystem::path& program,
                               std::span<const std::string> arguments, double seconds,
                               const RunContext& ctx, std::string_view input_bytes) {
+  // A short program may end before it is first looked at.
+  TURNSCAN_TRY(ctx.check());
   MemoryFile input("input");
   if (!input.fill(input_bytes))
     return fail_at(program.string(), ErrorCode::kIo, "cannot pass its input to the program: {}",

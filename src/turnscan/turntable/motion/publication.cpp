@@ -14,6 +14,9 @@ namespace {
 /// How well an object's lowest points tell where it stands (bench/random_rigs): where it ends at a
 /// gap, at least and as a multiple of the noise, and where it spreads into a desk.
 constexpr double kBaseSigma_m = 0.004, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
+/// Besides, where nothing is seen below it, of its reach: a round or hollow base is hidden from
+/// above, and thin feet are not told from mixed pixels.
+constexpr double kHiddenBase = 0.15;
 /// How well the height of a platter that the recording states is taken to hold.
 constexpr double kRecordedHeight_m = 0.01;
 /// Frames that tell a speed, less one.
@@ -58,7 +61,7 @@ class Publication {
     // pixel, and over the size of what turns still a hundredth. A sensor that filters over its
     // pixels mixes those beside the outline, too (random_rigs: ten times as much).
     const double filtered = data_.correlated_noise ? 1.0 : 0.0;
-    const double shift = (0.03 + 0.09 * filtered) * data_.spacing_m;
+    const double shift = (0.03 + 0.05 * filtered) * data_.spacing_m;
     double tilt = (0.01 + 0.09 * filtered) * data_.spacing_m / data_.extent_m;
     if (data_.platter) tilt = std::min(tilt, platter_axis_sigma_rad(*data_.platter));
     const auto& c = solution_.covariance;
@@ -102,8 +105,10 @@ class Publication {
 
   void set_object(const ObjectBase& base, Calibration& out) const {
     out.table.center_m = state_.center + base.height_m * state_.axis;
+    const double hidden = base.on_surface ? 0.0 : kHiddenBase * base.reach_m.value_or(0.0);
     out.height_sigma_m =
-        base.ends ? std::max(kBaseSigma_m, kBaseNoises * data_.noise_m) : kSpreadingBaseSigma_m;
+        base.ends ? std::hypot(std::max(kBaseSigma_m, kBaseNoises * data_.noise_m), hidden)
+                  : kSpreadingBaseSigma_m;
     out.height_found = "the lowest points of what turns";
     if (!base.ends) out.undetermined.emplace_back("height");
     out.table.reach_m = base.reach_m;

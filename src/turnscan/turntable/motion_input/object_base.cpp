@@ -248,13 +248,14 @@ class StillSlices {
       if (wide > kLeastDesk_m &&
           window.pixels > std::max(kSpreadShare * disc,
                                    kSpreadColumns * 2.0 * wide * column * double(kSpreadSlices)))
-        return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, turning_.reach_m};
+        return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, true,
+                turning_.reach_m};
       if (double(k) * kSlice_m < kAbove_m) continue;
       empty = slices_[k].pixels < least ? empty + kSlice_m : 0.0;
       if (empty >= gap) break;
       if (empty == 0.0) end = double(k + 1) * kSlice_m;
     }
-    return {top - end, true, turning_.reach_m};
+    return {top - end, true, false, turning_.reach_m};
   }
 
  private:
@@ -313,8 +314,8 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
     cells.add(turning_points(data, data.frames[i], rays, image), angles_rad[i],
               std::uint32_t(i + 1));
   const auto turning = cells.extent();
-  if (!turning) return ObjectBase{low_of_cloud(data, frame), false, std::nullopt};
-  if (!data.projective) return ObjectBase{turning->low_m, true, turning->reach_m};
+  if (!turning) return ObjectBase{low_of_cloud(data, frame), false, false, std::nullopt};
+  if (!data.projective) return ObjectBase{turning->low_m, true, false, turning->reach_m};
   StillSlices slices(frame, *turning);
   slices.add(image, data.camera, rays, data.noise_m);
   return slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0));

@@ -12,6 +12,7 @@ struct ObjectBase {
   /// At a gap or on the surface that what turns stands on; else it spreads into a desk farther
   /// down.
   bool ends = false;
+  bool on_surface = false;  ///< it goes down to a surface that was seen: a table or a desk
   /// Largest distance of what turns from the axis; nullopt: hardly a place was seen to turn.
   std::optional<double> reach_m;
 };

@@ -1,0 +1,160 @@
+// The window's process is killed (SIGKILL) at random moments: a recording opens with every frame
+// that its table listed, a mesh that was there is the old one or the new one, whole, and the next
+// start goes on. TURNSCAN_KILLS: how many times each, 3 unless it says otherwise.
+
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QProcess>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTest>
+#include <map>
+#include <turnscan/core/random.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/recording/recording.hpp>
+
+#include "driver.hpp"
+#include "explorer/explorer.hpp"
+#include "explorer/model_list.hpp"
+#include "scanner/record_panel.hpp"
+#include "scanner/scanner.hpp"
+#include "window/main_window.hpp"
+
+namespace turnscan::studio {
+namespace {
+
+constexpr const char* kFolder = "TURNSCAN_KILLED_FOLDER";
+
+int kills() {
+  const int stated = qEnvironmentVariableIntValue("TURNSCAN_KILLS");
+  return stated > 0 ? stated : 3;
+}
+
+/// Between 0 and the longest, another one for each kill.
+int pause_ms(int kill, int longest_ms) {
+  return int(hash_key(0x6b696c6c, std::uint64_t(kill)) % std::uint64_t(longest_ms));
+}
+
+/// What a killed process does: each of its tests runs until it is killed.
+class Victim : public ::testing::Test, FirstStart {
+ protected:
+  static QString path(const QString& name) {
+    return QDir(qEnvironmentVariable(kFolder)).filePath(name);
+  }
+  static void say(const char* text) {
+    std::puts(text);
+    std::fflush(stdout);
+  }
+
+  MainWindow window;
+};
+
+TEST_F(Victim, DISABLED_Records) {
+  show_window(window, {1000, 700});
+  window.show_mode("scanner");
+  ScannerMode& mode = window.scanner();
+  mode.recording().set_folder(path("recording"));
+  mode.set_device("virtual:letter-a?sensor=kinect-v2&realtime=1");
+  ASSERT_TRUE(click(button_with(mode, "Play")));
+  QWidget* record = named(mode, "record");
+  ASSERT_TRUE(wait_for([&] { return record->isEnabled(); }));
+  ASSERT_TRUE(click(record));
+  ASSERT_TRUE(wait_for([&] { return QFileInfo::exists(path("recording/frames.csv")); }));
+  say("begun");
+  run_for(60000);
+}
+
+TEST_F(Victim, DISABLED_ReconstructsAndSavesAgainAndAgain) {
+  show_window(window, {1000, 700});
+  for (;;) {
+    window.open(path("letter"));
+    ASSERT_TRUE(wait_idle(window));
+    say("begun");
+    ASSERT_TRUE(click(button_with(window.explorer(), "Reconstruct")));
+    ASSERT_TRUE(wait_idle(window));
+    window.explorer().save_as(window.explorer().store().models().back().id, path("mesh.ply"));
+    ASSERT_TRUE(wait_idle(window));
+    say("saved");
+  }
+}
+
+/// Starts a test of Victim as a process of its own, waits until it says "begun", and kills it
+/// after the pause. What it said.
+QByteArray kill_in_the_middle(const QString& test, const QString& folder, int after_ms) {
+  QProcess process;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert(kFolder, folder);
+  process.setProcessEnvironment(environment);
+  process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  process.start("/proc/self/exe",
+                {"--gtest_also_run_disabled_tests", "--gtest_filter=Victim.DISABLED_" + test});
+  QByteArray said;
+  while (!said.contains("begun") && process.waitForReadyRead(60000))
+    said += process.readAllStandardOutput();
+  EXPECT_TRUE(said.contains("begun")) << said.constData();
+  QTest::qSleep(std::max(1, after_ms));
+  process.kill();
+  process.waitForFinished();
+  EXPECT_EQ(process.exitStatus(), QProcess::CrashExit);
+  return said + process.readAllStandardOutput();
+}
+
+std::size_t lines_of(const QString& table) { return std::size_t(content(table).count('\n')); }
+
+TEST(KilledStudio, ARecordingKeepsEveryFrameThatItsTableListed) {
+  std::size_t most = 0;
+  for (int kill = 0; kill < kills(); ++kill) {
+    SCOPED_TRACE(kill);
+    const QTemporaryDir folder;
+    (void)kill_in_the_middle("Records", folder.path(), pause_ms(kill, 2000));
+    const QString recording = folder.filePath("recording");
+    const std::size_t lines = lines_of(recording + "/frames.csv");
+    const auto opened = Recording::open(recording.toStdString());
+    ASSERT_TRUE(opened.has_value()) << opened.error().text();
+    EXPECT_FALSE(opened->complete());
+    EXPECT_GE(opened->frames().size() + 1, lines);  // the first line names the columns
+    for (std::size_t i = 0; i < opened->frames().size(); ++i)
+      EXPECT_TRUE(opened->read(i).has_value()) << i;
+    most = std::max(most, opened->frames().size());
+  }
+  EXPECT_GT(most, 0u);
+}
+
+std::map<QString, QByteArray> files_of(const QString& folder) {
+  std::map<QString, QByteArray> out;
+  for (const QString& name : QDir(folder).entryList(QDir::Files))
+    out[name] = content(folder + "/" + name);
+  return out;
+}
+
+TEST(KilledStudio, AMeshIsTheOldOneOrTheNewOneAndTheRecordingIsAsItWas) {
+  const QTemporaryDir folder;
+  ASSERT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", folder.filePath("letter"),
+                              "--frames", "12", "--scanner", "kinect-v2"}),
+            0);
+  const auto before = files_of(folder.filePath("letter"));
+  const auto depth_before = files_of(folder.filePath("letter/depth"));
+  QByteArray mesh;  // the last one that was said to be saved
+  for (int kill = 0; kill < kills(); ++kill) {
+    SCOPED_TRACE(kill);
+    const QByteArray said = kill_in_the_middle("ReconstructsAndSavesAgainAndAgain", folder.path(),
+                                               pause_ms(kill, 3000));
+    EXPECT_EQ(files_of(folder.filePath("letter")), before);
+    EXPECT_EQ(files_of(folder.filePath("letter/depth")), depth_before);
+    const QByteArray now = content(folder.filePath("mesh.ply"));
+    if (!mesh.isEmpty() || said.contains("saved")) {
+      EXPECT_TRUE(read_mesh(folder.filePath("mesh.ply").toStdString()).has_value());
+    }
+    // The same recording and options: the same bytes, each time.
+    if (!mesh.isEmpty()) {
+      EXPECT_TRUE(now == mesh);
+    }
+    if (!now.isEmpty()) mesh = now;
+  }
+}
+
+}  // namespace
+}  // namespace turnscan::studio
