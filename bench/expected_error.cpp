@@ -61,8 +61,8 @@ void judge(const rigs::Recipe& recipe, Tally& tally) {
   const ObjectResult& object = run->reconstruction.objects.front();
   EvaluateOptions options;
   options.align = Align::kIcp;
-  const TriangleMesh& truth = simulation->placed.front().mesh;
   const VirtualScan& pass = simulation->scan.pass(0);
+  const TriangleMesh& truth = pass.objects().front();
   const SequenceView posed = rigs::at_true_poses(frames, pass);
   const auto result = evaluate(object.mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
   if (!result) return fmt::print("     not judged: {}\n", result.error().text());

@@ -206,14 +206,21 @@ TEST(ShareOfNeighbours, IsThatOfTheFilter) {
               1.0 / 3.0, 0.03);
 }
 
+TEST(ShareOfNeighbours, IsThatOfTheFilterWhereEveryViewIsFromAnotherSide) {
+  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.0, 0.0015, 0.1), 0.0015), 0.0);
+  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(0.25, 0.003, 0.1), 0.0015), 0.25, 0.04);
+  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(1.0 / 3.0, 0.003, 0.1), 0.0015),
+              1.0 / 3.0, 0.04);
+  // What bends is the surface.
+  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.0, 0.0002, 0.1), 0.0015), 0.0);
+}
+
 TEST(ShareOfNeighbours, IsZeroWhereNothingTells) {
   EXPECT_EQ(estimation::share_of_neighbours({}, 0.001), 0.0);
   // Without noise.
   EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.3, 0.0, 0.005), 3e-5), 0.0);
   // What differs is the surface, which turned.
   EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.3, 0.0001, 0.02), 3e-5), 0.0);
-  // Views too far apart.
-  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.3, 0.003, 0.1), 0.0015), 0.0);
   // Rays of another kind.
   std::vector<views::DepthView> parallel = noisy_views(0.3, 0.003, 0.005);
   for (views::DepthView& view : parallel) view.parallel = true;

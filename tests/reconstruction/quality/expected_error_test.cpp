@@ -65,5 +65,28 @@ TEST(ExpectedErrors, ScaleWithTheNoise) {
               2.0f * expected_errors(mesh, support, kScale)[at(20, 20)], 1e-6f);
 }
 
+/// A slab of so much thickness, its corners apart.
+TriangleMesh slab(float thickness_m) {
+  TriangleMesh mesh = sheet(0.0f), below = mesh;
+  for (Vec3f& p : below.vertices) p.y() -= thickness_m;
+  const auto first = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), below.vertices.begin(), below.vertices.end());
+  for (const auto& [a, b, c] : below.triangles)
+    mesh.triangles.push_back({first + a, first + c, first + b});
+  return mesh;
+}
+
+TEST(ExpectedErrors, AreLargerBehindAFilterMostAtThinWalls) {
+  const ErrorScale filtered{0.0015, 0.002, true};
+  const auto middle_of = [](const TriangleMesh& mesh, const ErrorScale& scale) {
+    return expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f),
+                           scale)[at(20, 20)];
+  };
+  const TriangleMesh thick = slab(0.010f), thin = slab(0.003f);
+  EXPECT_EQ(middle_of(thick, kScale), middle_of(thin, kScale));
+  EXPECT_GT(middle_of(thick, filtered), middle_of(thick, kScale));
+  EXPECT_GT(middle_of(thin, filtered), 1.3f * middle_of(thick, filtered));
+}
+
 }  // namespace
 }  // namespace turnscan::quality

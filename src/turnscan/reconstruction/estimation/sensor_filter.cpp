@@ -8,7 +8,7 @@ namespace turnscan::estimation {
 
 namespace {
 
-/// Second differences over this many pixels are free of a filter over three.
+/// Differences over this many pixels are free of a filter over three.
 constexpr int kApart = 3;
 constexpr std::size_t kFewest = 2000;  // differences that an estimate needs
 /// What the differences may exceed the noise by, which a filter hides half of, before they show how
@@ -16,9 +16,11 @@ constexpr std::size_t kFewest = 2000;  // differences that an estimate needs
 constexpr double kNoiseSlack = 3.0;
 /// Below, what neighbours have in common moves no edge that matters.
 constexpr double kLeastShare = 0.1;
+/// Of the ratios of variances, within one view: what a surface that bends adds fits no filter.
+constexpr double kMostMiss = 0.08;
 
-/// Absolute second differences over 1, 2 and 3 pixels along the rows of the difference of two
-/// views.
+/// Absolute differences over 1, 2 and 3 pixels along rows: second ones of the difference of two
+/// views, or third ones of one view.
 struct Differences {
   std::array<std::vector<double>, kApart> over;
   void append(const Differences& other) {
@@ -63,6 +65,26 @@ Differences differences(const views::DepthView& a, const views::DepthView& b) {
   return out;
 }
 
+/// Third differences, which smooth surfaces hardly have.
+Differences differences(const views::DepthView& view) {
+  Differences out;
+  constexpr int kReach = 3 * kApart;
+  for (int y = 0; y < view.height; ++y) {
+    const auto row = view.pixels.begin() + std::ptrdiff_t(y) * view.width;
+    for (int x = 0; x + kReach < view.width; ++x) {
+      if (!std::all_of(row + x, row + x + kReach + 1, [](std::uint32_t p) {
+            return (p & 0xffffu) != 0 && (p & views::DepthView::kEdge) == 0;
+          }))
+        continue;
+      for (int n = 1; n <= kApart; ++n) {
+        const auto at = [&](int k) { return int(row[x + k * n] & 0xffffu); };
+        out.over[std::size_t(n - 1)].push_back(std::abs(at(3) - 3 * at(2) + 3 * at(1) - at(0)));
+      }
+    }
+  }
+  return out;
+}
+
 /// Standard deviation of normal errors, from their absolute values; the largest tenth may be
 /// strays.
 double spread(std::vector<double>& values) {
@@ -71,41 +93,72 @@ double spread(std::vector<double>& values) {
   return std::accumulate(values.begin(), most, 0.0) / double(most - values.begin()) / 0.6573;
 }
 
+/// Covariances of a filtered row at 0, 1 and 2 pixels' distance, of independent noise of
+/// variance 1.
+std::array<double, 3> covariances(double share) {
+  const double own = 1.0 - 2.0 * share;
+  return {own * own + 2.0 * share * share, 2.0 * share * own, share * share};
+}
+
 /// Variance of second differences over 1 or 2 pixels, over that of independent noise, which pixels
 /// that lie 3 apart have.
-std::array<double, 2> expected(double share) {
-  const double own = 1.0 - 2.0 * share;
-  const double none = own * own + 2.0 * share * share, one = 2.0 * share * own, two = share * share;
+std::array<double, 2> expected_of_second(double share) {
+  const auto [none, one, two] = covariances(share);
   return {1.0 - (8.0 * one - 2.0 * two) / (6.0 * none), 1.0 - 8.0 * two / (6.0 * none)};
 }
 
-}  // namespace
+/// The same of third differences.
+std::array<double, 2> expected_of_third(double share) {
+  const auto [none, one, two] = covariances(share);
+  return {1.0 - (30.0 * one - 12.0 * two) / (20.0 * none), 1.0 - 30.0 * two / (20.0 * none)};
+}
 
-double share_of_neighbours(std::span<const views::DepthView> views, double noise_m) {
-  if (views.size() < 2) return 0.0;
-  std::vector<Differences> own(views.size() - 1);
-  parallel_for(own.size(), 1, [&](std::size_t v) {
-    if (nearly_same_place(views[v], views[v + 1])) own[v] = differences(views[v], views[v + 1]);
-  });
-  Differences all;
-  for (const Differences& one : own) all.append(one);
+/// The share whose ratios are nearest to those of the differences. variances: of a difference of
+/// independent values. 0 where there are too few, where rounding or the surface makes them, or
+/// where no share misses the ratios by less than most_miss.
+double share_from(Differences& all, double variances, std::array<double, 2> (*expected)(double),
+                  double most_miss, double unit_m, double noise_m) {
   if (all.over[0].size() < kFewest) return 0.0;
-  // A second difference of the difference of two views has 12 variances of independent noise.
   std::array<double, kApart> deviation{};
   for (std::size_t n = 0; n < deviation.size(); ++n)
-    deviation[n] = spread(all.over[n]) * double(views[0].unit_m) / std::sqrt(12.0);
+    deviation[n] = spread(all.over[n]) * unit_m / std::sqrt(variances);
   // Less than a unit is mostly rounding.
-  if (!(deviation[2] > double(views[0].unit_m)) || deviation[2] > kNoiseSlack * noise_m) return 0.0;
+  if (!(deviation[2] > unit_m) || deviation[2] > kNoiseSlack * noise_m) return 0.0;
   const double one = std::pow(deviation[0] / deviation[2], 2),
                two = std::pow(deviation[1] / deviation[2], 2);
   double best = 0.0, least = 1e30;
   for (int step = 0; step <= 100; ++step) {
     const double share = step / 300.0;
     const auto [first, second] = expected(share);
-    const double miss = std::pow(one - first, 2) + std::pow(two - second, 2);
+    const double miss = std::hypot(one - first, two - second);
     if (miss < least) least = miss, best = share;
   }
-  return best < kLeastShare ? 0.0 : best;
+  return best < kLeastShare || least > most_miss ? 0.0 : best;
+}
+
+}  // namespace
+
+double share_of_neighbours(std::span<const views::DepthView> views, double noise_m) {
+  if (views.empty()) return 0.0;
+  const double unit_m = double(views[0].unit_m);
+  std::vector<Differences> own(views.size());
+  parallel_for(own.size() - 1, 1, [&](std::size_t v) {
+    if (nearly_same_place(views[v], views[v + 1])) own[v] = differences(views[v], views[v + 1]);
+  });
+  const auto joined = [&] {
+    Differences all;
+    for (const Differences& one : own) all.append(one);
+    return all;
+  };
+  Differences between = joined();
+  if (between.over[0].size() >= kFewest)
+    return share_from(between, 12.0, expected_of_second, 1e30, unit_m, noise_m);
+  // Few frames a turn: no two from nearly the same place.
+  parallel_for(own.size(), 1, [&](std::size_t v) {
+    if (!views[v].parallel && views[v].unit_m == views[0].unit_m) own[v] = differences(views[v]);
+  });
+  Differences within = joined();
+  return share_from(within, 20.0, expected_of_third, kMostMiss, unit_m, noise_m);
 }
 
 }  // namespace turnscan::estimation

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/vertex_neighbours.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 #include <turnscan/reconstruction/quality/expected_error.hpp>
+#include <turnscan/reconstruction/quality/thin_walls.hpp>
 
 namespace turnscan::quality {
 
@@ -15,6 +17,8 @@ namespace {
 constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
 constexpr double kBlurShare = 0.2, kFilteredBlur = 3.0;  // the second is a factor
 constexpr double kMixedShare = 0.55;
+/// Behind a filter, of the distance between pixels, at walls thinner than two of them.
+constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
 /// Along edges of the mesh, to the nearest vertex that was measured (Dijkstra 1959); metres.
 std::vector<float> way_to_measured(const TriangleMesh& mesh, const mesh::VertexNeighbours& beside,
@@ -59,6 +63,8 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
+  std::optional<ThinWalls> walls;
+  if (scale.filtered) walls.emplace(mesh);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
@@ -69,8 +75,12 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
     const double mixed = scale.filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
     const double hidden = kHiddenShare * double(way[v]);
-    out[v] = float(
-        std::sqrt(noise * noise + blur * blur + floor * floor + mixed * mixed + hidden * hidden));
+    const double thin = walls && walls->thinner_than(kThinPixels * scale.spacing_m, v)
+                            ? kThinShare * scale.spacing_m
+                            : 0.0;
+    double squares = 0.0;
+    for (const double part : {noise, blur, floor, mixed, hidden, thin}) squares += part * part;
+    out[v] = float(std::sqrt(squares));
   });
   return out;
 }

@@ -14,9 +14,10 @@ struct ErrorScale {
 /// Standard deviation of each vertex along its normal. support: of each vertex the sum of the
 /// weights of its measurements (mesh_refinement::MeshFit). Where something was measured: noise
 /// averaged over it, what pixels blur where the surface bends, and a floor; behind a sensor's own
-/// filter also what it mixes where little is seen (at outlines). Elsewhere a share of the way along
-/// the surface to where something was. The shares are fitted to simulated scans
-/// (bench/expected_error; docs/report.md).
+/// filter also what it mixes where little is seen (at outlines), and a share of the distance
+/// between pixels at walls thinner than two of them, of which measurements agree with each other on
+/// a wrong surface. Elsewhere a share of the way along the surface to where something was. The
+/// shares are fitted to simulated scans (bench/expected_error; docs/report.md).
 std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<float>& support,
                                    const ErrorScale& scale);
 

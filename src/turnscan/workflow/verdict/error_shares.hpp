@@ -1,0 +1,28 @@
+#pragma once
+// How much of a surface lies how near to the truth, from the expected errors of its vertices.
+
+#include <vector>
+
+namespace turnscan {
+
+class ErrorShares {
+ public:
+  /// A piece of the surface. expected_error_m: standard deviation, 0 or more; area_m2: its weight.
+  void add(double expected_error_m, double area_m2);
+
+  /// Share of the surface, 0 to 1, expected within so much of the truth; 0 of no surface. The
+  /// errors of simulated scans (bench/expected_error) have the tails of Student's t with five
+  /// degrees of freedom, scaled to 0.683 within one expected error.
+  double within(double distance_m) const;
+
+  /// Its inverse, by bisection; up to a metre.
+  double error_of(double share) const;
+
+ private:
+  struct Piece {
+    double sigma_m, area_m2;
+  };
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace turnscan
