@@ -13,6 +13,7 @@
 
 #include "tests/support/memory_sequence.hpp"
 #include "tests/support/rig.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan {
 namespace {
@@ -70,6 +71,7 @@ TEST(CalibrateFromMotion, FindsAxisSpeedAndSignWithoutAHint) {
 }
 
 TEST(CalibrateFromMotion, FollowsASlowStart) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 90, 1.1);
   const double speed = 1.1 * 2.0 * std::numbers::pi / 30.0;
   o.angle = [speed](double t) {
@@ -141,6 +143,7 @@ TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {
 
 // Pairs of views alone lead each other astray, here to 0.12 degrees; the model does not.
 TEST(CalibrateFromMotion, FollowsTheRippleOfAMotor) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 120, 1.1);
   const double speed = 1.1 * 2.0 * std::numbers::pi / 30.0;
   o.angle = [speed](double t) { return speed * t + 0.01 * std::sin(speed * t); };
