@@ -69,6 +69,21 @@ TEST_F(Roles, FilesOfSeveralObjectsAreOutputs) {
   EXPECT_TRUE(allowed_numbered("a.ply", "b.ply", "c.json"));
 }
 
+TEST_F(Roles, FilesOfPassesThatDoNotFitAreOutputs) {
+  const auto allowed_numbered = [&](const char* input, const char* mesh, const char* other) {
+    return check_file_roles({{at(input)}, {at(mesh), at(other)}, at(mesh)}).has_value();
+  };
+  folder.put("rec/scan-pass2.ply", "x");
+  folder.put("rec/whole-pass12.3mf", "x");
+  EXPECT_FALSE(allowed_numbered("rec", "rec/scan.ply", "r.json"));
+  EXPECT_FALSE(allowed_numbered("rec", "rec/whole.3mf", "r.json"));
+  EXPECT_FALSE(allowed_numbered("a.ply", "new.ply", "new-pass2.ply"));
+  EXPECT_FALSE(allowed_numbered("a.ply", "new.ply", "new-pass2-1.ply"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "new.3mf", "new-pass2-1.3mf"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "new.ply", "new-pass.ply"));
+  EXPECT_TRUE(allowed_numbered("a.ply", "new.ply", "new-pass2x.ply"));
+}
+
 TEST_F(Roles, NoInputLiesInAFolderThatIsEmptied) {
   const auto allowed_beside = [&](const std::string& input, const std::string& removed) {
     return check_file_roles({{input}, {}, {}, removed}).has_value();

@@ -38,17 +38,27 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether a file name is OUT-1, OUT-2, ... of this one, as write_objects() numbers them.
+/// Whether a file name is OUT-1, OUT-2, ... of this one, as write_objects() numbers them, or
+/// OUT-pass2, OUT-pass2-1, ..., as mesh_of_pass() names those of passes.
 bool is_numbered(const fs::path& name, const fs::path& out) {
-  const std::string stem = name.stem().string(), begin = out.stem().string() + "-";
-  return name.extension() == out.extension() && stem.starts_with(begin) &&
-         is_number(std::string_view(stem).substr(begin.size()));
+  const std::string stem = name.stem().string(), begin = out.stem().string();
+  if (name.extension() != out.extension() || !stem.starts_with(begin)) return false;
+  std::string_view rest = std::string_view(stem).substr(begin.size());
+  constexpr std::string_view kPass = "-pass";
+  if (rest.starts_with(kPass)) {
+    rest.remove_prefix(kPass.size());
+    const std::string_view pass = rest.substr(0, rest.find('-'));
+    if (!is_number(pass)) return false;
+    rest.remove_prefix(pass.size());
+    if (rest.empty()) return true;
+  }
+  return numbers_objects(out.string()) && rest.starts_with('-') && is_number(rest.substr(1));
 }
 
 /// Those that lie there already.
 std::vector<std::string> numbered_files(const std::string& out) {
   std::vector<std::string> files;
-  if (!numbers_objects(out)) return files;
+  if (out.empty()) return files;
   const fs::path parent = fs::path(out).parent_path();
   std::error_code error;
   for (fs::directory_iterator file(parent.empty() ? "." : parent, error), end;
@@ -59,7 +69,7 @@ std::vector<std::string> numbered_files(const std::string& out) {
 
 /// Of an output by its own name, and of what lies there already by any name.
 Result<> check_numbered_differ(const FileRoles& roles) {
-  if (!numbers_objects(roles.numbered)) return {};
+  if (roles.numbered.empty()) return {};
   std::set<FileId> ids;
   for (const std::string& file : numbered_files(roles.numbered))
     if (const auto id = id_of(file)) ids.insert(*id);
@@ -71,8 +81,8 @@ Result<> check_numbered_differ(const FileRoles& roles) {
     if ((name.parent_path() == out.parent_path() && is_numbered(name.filename(), out)) ||
         (id && ids.count(*id) > 0))
       return fail_at(output, ErrorCode::kInvalidOption,
-                     "two outputs would be written to this file, as several objects are numbered "
-                     "after {}; give them different names",
+                     "two outputs would be written to this file, as several objects and "
+                     "passes are numbered after {}; give them different names",
                      roles.numbered);
   }
   return {};

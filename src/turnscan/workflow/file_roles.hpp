@@ -12,8 +12,8 @@ namespace turnscan {
 struct FileRoles {
   std::vector<std::string> inputs;   ///< a folder stands for every file in it
   std::vector<std::string> outputs;  ///< none is a folder
-  std::string numbered{};  ///< one of the outputs, of which several objects make OUT-1, OUT-2, ...;
-                           ///< may be empty
+  std::string numbered{};  ///< one of the outputs, of which several objects make OUT-1, OUT-2, ...,
+                           ///< and passes that do not fit OUT-pass2, ...; may be empty
   std::string removed{};   ///< a folder that is emptied before the work; may be empty
 };
 
