@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   parser.process(app);
   MainWindow window;
   window.show();
+  window.offer_lost_session();
   for (const QString& file : parser.positionalArguments()) window.open(file);
   return QApplication::exec();
 }

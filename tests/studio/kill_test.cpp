@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <QDir>
+#include <QDirIterator>
 #include <QFile>
 #include <QFileInfo>
 #include <QProcess>
@@ -18,7 +19,9 @@
 
 #include "driver.hpp"
 #include "explorer/explorer.hpp"
+#include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/session.hpp"
 #include "scanner/record_panel.hpp"
 #include "scanner/scanner.hpp"
 #include "window/main_window.hpp"
@@ -81,12 +84,35 @@ TEST_F(Victim, DISABLED_ReconstructsAndSavesAgainAndAgain) {
   }
 }
 
+TriangleMesh tetrahedron() {
+  TriangleMesh mesh;
+  mesh.vertices = {{0.0f, 0.0f, 0.0f}, {0.1f, 0.0f, 0.0f}, {0.0f, 0.1f, 0.0f}, {0.0f, 0.0f, 0.1f}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  return mesh;
+}
+
+TEST_F(Victim, DISABLED_HasModels) {
+  show_window(window, {1000, 700});
+  ASSERT_TRUE(write_mesh(path("saved.stl").toStdString(), tetrahedron()));
+  window.open(path("saved.stl"));
+  ASSERT_TRUE(wait_idle(window));
+  ModelStore& store = window.explorer().store();
+  const int made = store.add("made", mesh_model(tetrahedron(), "a test"));
+  store.set_color(made, QColor("#336699"), false);
+  store.set_visible(made, false);
+  store.remove(store.add("removed", mesh_model(tetrahedron(), "a test")));
+  window.explorer().session().flush();
+  say("begun");
+  run_for(60000);
+}
+
 /// Starts a test of Victim as a process of its own, waits until it says "begun", and kills it
 /// after the pause. What it said.
 QByteArray kill_in_the_middle(const QString& test, const QString& folder, int after_ms) {
   QProcess process;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert(kFolder, folder);
+  environment.insert("TMPDIR", folder);  // where its home is
   process.setProcessEnvironment(environment);
   process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
   process.start("/proc/self/exe",
@@ -154,6 +180,100 @@ TEST(KilledStudio, AMeshIsTheOldOneOrTheNewOneAndTheRecordingIsAsItWas) {
     }
     if (!now.isEmpty()) mesh = now;
   }
+}
+
+TEST(KilledStudio, ItsModelsAreThereAgainAfterTheNextStart) {
+  const QTemporaryDir folder;
+  (void)kill_in_the_middle("HasModels", folder.path(), 1);
+  QString root;
+  for (QDirIterator at(folder.path(), {"sessions"},
+                       QDir::Dirs | QDir::Hidden | QDir::NoDotAndDotDot,
+                       QDirIterator::Subdirectories);
+       at.hasNext();)
+    root = at.next();
+  const auto lost = SessionKeeper::find_lost(root);
+  ASSERT_TRUE(lost.has_value()) << root.toStdString();
+  MainWindow window;
+  show_window(window, {1000, 700});
+  window.explorer().restore_session(*lost);
+  ASSERT_TRUE(wait_idle(window));
+  const ModelStore& store = window.explorer().store();
+  ASSERT_EQ(store.models().size(), 2u);
+  EXPECT_EQ(store.models()[0].name, "saved");
+  EXPECT_EQ(store.file_of(*store.models()[0].data), folder.filePath("saved.stl"));
+  EXPECT_EQ(store.models()[1].name, "made");
+  EXPECT_EQ(store.models()[1].color, QColor("#336699"));
+  EXPECT_FALSE(store.models()[1].visible);
+  EXPECT_EQ(store.models()[1].data->mesh.triangles.size(), 4u);
+  EXPECT_EQ(store.unsaved(), QStringList{"made"});
+  // Kept by this session now, so that the lost one may go.
+  window.explorer().session().flush();
+  EXPECT_FALSE(SessionKeeper::find_lost(root).has_value());
+}
+
+TEST(KilledStudio, WhatASessionLeftInPiecesIsRefusedOrReadInPart) {
+  const QTemporaryDir root;
+  const auto put = [&](const QString& session, const QByteArray& list) {
+    QDir(root.path()).mkpath(session);
+    QFile file(root.filePath(session + "/session.json"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(list);
+  };
+  put("1", "{\"models\": [{\"name\"");
+  put("2", "");
+  EXPECT_FALSE(SessionKeeper::find_lost(root.path()).has_value());
+  EXPECT_FALSE(QDir(root.filePath("1")).exists());
+  put("3", R"({"models": [{"name": "gone", "file": "9.ply"}, {"name": 4}]})");
+  const auto lost = SessionKeeper::find_lost(root.path());
+  ASSERT_TRUE(lost.has_value());
+  MainWindow window;
+  show_window(window, {1000, 700});
+  window.explorer().restore_session(*lost);
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_TRUE(window.explorer().store().models().empty());
+  EXPECT_TRUE(QDir(lost->folder).exists());
+}
+
+TEST(KilledStudio, ASessionThatEndsWellOrStillLivesIsNotLost) {
+  const QTemporaryDir root;
+  ModelStore store;
+  {
+    SessionKeeper keeper(store, root.path());
+    store.add("made", mesh_model(tetrahedron(), "a test"));
+    keeper.flush();
+    EXPECT_FALSE(QDir(root.path()).entryList(QDir::Dirs | QDir::NoDotAndDotDot).isEmpty());
+    EXPECT_FALSE(SessionKeeper::find_lost(root.path()).has_value());
+  }
+  EXPECT_TRUE(QDir(root.path()).entryList(QDir::AllEntries | QDir::NoDotAndDotDot).isEmpty());
+}
+
+TEST(CloseQuestion, IsAskedWhenSomethingIsInNoFile) {
+  const QTemporaryDir folder;
+  MainWindow window;
+  show_window(window, {1000, 700});
+  QStringList asked;
+  bool answer = false;
+  window.set_close_question([&](const QStringList& at_stake) {
+    asked << at_stake;
+    return answer;
+  });
+  ModelStore& store = window.explorer().store();
+  const int id = store.add("made", mesh_model(tetrahedron(), "a test"));
+  EXPECT_FALSE(window.close());
+  ASSERT_EQ(asked.size(), 1);
+  EXPECT_TRUE(asked[0].contains("made"));
+  window.explorer().save_as(id, folder.filePath("made.stl"));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_TRUE(store.unsaved().isEmpty());
+  store.set_data(id, mesh_model(tetrahedron(), "an edit"), "edit");
+  EXPECT_EQ(store.unsaved(), QStringList{"made"});
+  store.undo();
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(asked.size(), 1);
+  store.redo();
+  answer = true;
+  EXPECT_TRUE(window.close());
+  EXPECT_EQ(asked.size(), 2);
 }
 
 }  // namespace

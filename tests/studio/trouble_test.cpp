@@ -37,6 +37,7 @@ class Trouble : public ::testing::Test, FirstStart {
   /// A window that a test may close and destroy.
   std::unique_ptr<MainWindow> open_window() {
     auto window = std::make_unique<MainWindow>();
+    window->set_close_question([](const QStringList&) { return true; });
     show_window(*window, {1000, 700});
     return window;
   }

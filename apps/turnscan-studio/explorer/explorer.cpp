@@ -9,6 +9,7 @@
 #include "explorer/edits.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/session.hpp"
 #include "explorer/side_panel.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/tool_panel.hpp"
@@ -34,7 +35,8 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       stages_(new StagePanel(this)),
       compare_(new ComparePanel(*store_, this)),
       tools_(new ToolPanel(view(), this)),
-      side_(new SidePanel(this)) {
+      side_(new SidePanel(this)),
+      session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)) {
   auto* models = section_with(list_, tr("Models"), true, this);
   auto* stages = section_with(stages_, tr("Processing"), true, this);
   auto* tools = section_with(tools_, tr("Tools"), true, this);
@@ -49,6 +51,7 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
                             {tr("Simulate a scan"), [this] { Q_EMIT mode_wanted("simulator"); }}});
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
   connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
+  connect(session_, &SessionKeeper::failed, this, &Mode::status);
   connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
   connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
@@ -67,7 +70,9 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   on_selection(0);
 }
 
-ExplorerMode::~ExplorerMode() = default;
+ExplorerMode::~ExplorerMode() {
+  delete session_;  // before the store that it looks at
+}
 
 void ExplorerMode::shut_down() { stages_->store(); }
 

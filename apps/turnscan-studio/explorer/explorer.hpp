@@ -13,7 +13,9 @@ namespace turnscan::studio {
 
 class ComparePanel;
 class ModelList;
+class SessionKeeper;
 class SidePanel;
+struct LostSession;
 class StagePanel;
 class ToolPanel;
 
@@ -38,12 +40,15 @@ class ExplorerMode : public Mode {
   void run_stage(const QString& stage);
   void save_as(int id, const QString& path);
   void save_preset(const QString& path);
+  /// Opens what a session before has left, as one step of undo.
+  void restore_session(const LostSession& lost);
 
   ModelStore& store() { return *store_; }
   ModelList& list() { return *list_; }
   StagePanel& stages() { return *stages_; }
   ComparePanel& comparison() { return *compare_; }
   ToolPanel& tools() { return *tools_; }
+  SessionKeeper& session() { return *session_; }
   SidePanel& side() { return *side_; }
 
  Q_SIGNALS:
@@ -70,6 +75,7 @@ class ExplorerMode : public Mode {
   ComparePanel* compare_;
   ToolPanel* tools_;
   SidePanel* side_;
+  SessionKeeper* session_;
   struct Shown {
     int item = 0;
     ModelDataPtr data;

@@ -11,6 +11,7 @@
 #include "explorer/explorer.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/session.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/stage_runs.hpp"
 #include "view/scene_view.hpp"
@@ -43,6 +44,7 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then) 
       [this, path, then](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(NamedModels models, load_models(path.toStdString(), context));
         return Finish([this, path, then, models = std::move(models)] {
+          for (const auto& model : models) store_->set_file(model.second, path);
           const auto ids = store_->add_all(models, tr("open %1").arg(QFileInfo(path).fileName()));
           list_->select(ids.back());
           Q_EMIT file_opened(path);
@@ -168,7 +170,33 @@ void ExplorerMode::save_as(int id, const QString& path) {
       [this, saved = model->data, path](const RunContext& context) -> Result<Finish> {
         context.begin_phase("write", 0);
         TURNSCAN_TRY(save_model(*saved, path.toStdString()));
-        return Finish([this, path] { Q_EMIT status(tr("Wrote %1").arg(shown_path(path))); });
+        return Finish([this, saved, path] {
+          store_->set_file(saved, path);
+          Q_EMIT status(tr("Wrote %1").arg(shown_path(path)));
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::restore_session(const LostSession& lost) {
+  stages_->show_error({});
+  jobs().start(
+      tr("Restore the session"), this,
+      [this, lost](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(RestoredModels made, restore(lost, context));
+        return Finish([this, lost, made = std::move(made)] {
+          for (std::size_t i = 0; i < made.models.size(); ++i)
+            if (const QString& file = made.files[int(i)]; !file.isEmpty())
+              store_->set_file(made.models[i].data, file);
+          if (!made.models.empty())
+            list_->select(store_->add_models(made.models, tr("restore the session")).back());
+          if (made.missing.isEmpty()) {
+            session_->take_over(lost);
+            return;
+          }
+          stages_->show_error(tr("These could not be restored, and are kept in %1: %2")
+                                  .arg(lost.folder, made.missing.join(", ")));
+        });
       },
       [this](const QString& text) { stages_->show_error(text); });
 }

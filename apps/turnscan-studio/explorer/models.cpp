@@ -57,14 +57,23 @@ int ModelStore::add(const QString& name, ModelDataPtr data) {
 
 std::vector<int> ModelStore::add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
                                      const QString& what) {
-  step(what);
-  std::vector<int> ids;
+  std::vector<Model> models;
   for (const auto& [name, data] : made) {
     Model model;
-    model.id = next_id_++;
-    model.name = free_name(name);
+    model.name = name;
     model.data = data;
     model.color = model_color(next_color_++);
+    models.push_back(std::move(model));
+  }
+  return add_models(std::move(models), what);
+}
+
+std::vector<int> ModelStore::add_models(std::vector<Model> models, const QString& what) {
+  step(what);
+  std::vector<int> ids;
+  for (Model& model : models) {
+    model.id = next_id_++;
+    model.name = free_name(model.name);
     ids.push_back(model.id);
     models_.push_back(std::move(model));
   }
@@ -122,6 +131,29 @@ void ModelStore::remove(int id) {
   step(tr("delete"));
   std::erase_if(models_, [&](const Model& m) { return m.id == id; });
   Q_EMIT changed();
+}
+
+void ModelStore::set_file(const ModelDataPtr& data, const QString& file) {
+  std::erase_if(files_, [&](const auto& known) {
+    const auto there = known.first.lock();
+    return !there || there == data;
+  });
+  files_.emplace_back(data, file);
+  Q_EMIT changed();
+}
+
+QString ModelStore::file_of(const ModelData& data) const {
+  if (data.kind == ModelKind::kRecording) return data.source;
+  for (const auto& [known, file] : files_)
+    if (known.lock().get() == &data) return file;
+  return {};
+}
+
+QStringList ModelStore::unsaved() const {
+  QStringList out;
+  for (const Model& model : models_)
+    if (file_of(*model.data).isEmpty()) out << model.name;
+  return out;
 }
 
 void ModelStore::undo() {

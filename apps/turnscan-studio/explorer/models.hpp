@@ -4,6 +4,7 @@
 #include <QColor>
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -67,12 +68,21 @@ class ModelStore : public QObject {
   /// Several models as one step.
   std::vector<int> add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
                            const QString& what);
+  /// The same, with colours and visibility of their own; ids are given anew.
+  std::vector<int> add_models(std::vector<Model> models, const QString& what);
   void rename(int id, const QString& name);
   void set_visible(int id, bool visible);
   void set_color(int id, const QColor& color, bool own_colors);
   void set_data(int id, ModelDataPtr data, const QString& what);
   void duplicate(int id);
   void remove(int id);
+
+  /// The data are in this file now: opened from there, or saved.
+  void set_file(const ModelDataPtr& data, const QString& file);
+  /// Empty: in no file. A recording is its own folder.
+  QString file_of(const ModelData& data) const;
+  /// Names of the models that are in no file.
+  QStringList unsaved() const;
 
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
@@ -95,6 +105,7 @@ class ModelStore : public QObject {
 
   std::vector<Model> models_;
   std::vector<State> undo_, redo_;
+  std::vector<std::pair<std::weak_ptr<const ModelData>, QString>> files_;
   int next_id_ = 1, next_color_ = 0;
 };
 

@@ -43,6 +43,7 @@ class ScannerMode : public Mode {
   void scan_another_side(const AnotherSide& side);
   void set_device(const QString& uri);
   RecordPanel& recording() { return *record_; }
+  bool is_recording() const { return recording_; }
   const Calibration* calibration() const { return calibration_.get(); }
   void load_calibration(const QString& path);
   void save_calibration(const QString& path);

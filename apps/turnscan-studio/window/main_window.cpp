@@ -8,6 +8,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QSettings>
 #include <QStackedWidget>
@@ -19,6 +20,7 @@
 #include "app/jobs.hpp"
 #include "app/paths.hpp"
 #include "explorer/explorer.hpp"
+#include "explorer/session.hpp"
 #include "scanner/scanner.hpp"
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
@@ -32,6 +34,16 @@ namespace {
 
 constexpr int kRecentFiles = 10;
 
+bool ask_in_a_dialog(QWidget* window, const QStringList& at_stake) {
+  QMessageBox question(QMessageBox::Warning, QObject::tr("Quit?"), at_stake.join("\n\n"),
+                       QMessageBox::NoButton, window);
+  const auto* quit =
+      question.addButton(QObject::tr("Quit without saving"), QMessageBox::DestructiveRole);
+  question.setDefaultButton(question.addButton(QObject::tr("Stay"), QMessageBox::RejectRole));
+  question.exec();
+  return question.clickedButton() == quit;
+}
+
 }  // namespace
 
 MainWindow::MainWindow()
@@ -42,7 +54,8 @@ MainWindow::MainWindow()
       scanner_(nullptr),
       explorer_(nullptr),
       simulator_(nullptr),
-      status_(new QLabel(this)) {
+      status_(new QLabel(this)),
+      ask_to_close_([this](const QStringList& stake) { return ask_in_a_dialog(this, stake); }) {
   setWindowTitle(tr("turnscan Studio"));
   setAcceptDrops(true);
   auto* center = new QWidget(this);
@@ -203,7 +216,41 @@ void MainWindow::dropEvent(QDropEvent* event) {
     if (url.isLocalFile() && !mode().open_file(url.toLocalFile())) open(url.toLocalFile());
 }
 
+/// What closing the window would end or lose.
+QStringList MainWindow::at_stake() const {
+  QStringList out;
+  const QStringList models = explorer_->store().unsaved();
+  if (!models.isEmpty())
+    out << tr("%n model(s) in no file: %1", nullptr, int(models.size())).arg(models.join(", "));
+  if (scanner_->is_recording()) out << tr("A recording runs; it ends, and what it has is kept");
+  return out;
+}
+
+void MainWindow::offer_lost_session() {
+  const auto lost = SessionKeeper::find_lost(SessionKeeper::default_root());
+  if (!lost) return;
+  QStringList names;
+  for (const KeptModel& model : lost->models) names << model.name;
+  QMessageBox question(
+      QMessageBox::Question, tr("Restore the last session?"),
+      tr("The last session did not end well. It had these models:\n%1").arg(names.join(", ")),
+      QMessageBox::NoButton, this);
+  const auto* restore = question.addButton(tr("Restore"), QMessageBox::AcceptRole);
+  const auto* discard = question.addButton(tr("Discard"), QMessageBox::DestructiveRole);
+  question.addButton(tr("Ask again later"), QMessageBox::RejectRole);
+  question.exec();
+  if (question.clickedButton() == discard) SessionKeeper::discard(*lost);
+  if (question.clickedButton() != restore) return;
+  show_mode("explorer");
+  explorer_->restore_session(*lost);
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  const QStringList stake = at_stake();
+  if (!stake.isEmpty() && !ask_to_close_(stake)) {
+    event->ignore();
+    return;
+  }
   QSettings().setValue("window/geometry", saveGeometry());
   for (int i = 0; i < stack_->count(); ++i) static_cast<Mode*>(stack_->widget(i))->shut_down();
   jobs_->cancel();

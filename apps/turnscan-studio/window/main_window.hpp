@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,13 @@ class MainWindow : public QMainWindow {
   void show_mode(const QString& name);  ///< "scanner", "explorer" or "simulator"
   void screenshot(const QString& path);
 
+  /// Asked before the window closes with something at stake, one line each; true: close. A dialog,
+  /// unless a test answers.
+  using CloseQuestion = std::function<bool(const QStringList& at_stake)>;
+  void set_close_question(CloseQuestion question) { ask_to_close_ = std::move(question); }
+  /// Offers what a session that did not end well has left, if there is one.
+  void offer_lost_session();
+
   JobRunner& jobs() { return *jobs_; }
   ViewSettings& settings() { return *settings_; }
   ExplorerMode& explorer() { return *explorer_; }
@@ -50,6 +58,7 @@ class MainWindow : public QMainWindow {
   void apply_settings();
   void update_undo();
   void restore_window();
+  QStringList at_stake() const;
 
   JobRunner* jobs_;
   ViewSettings* settings_;
@@ -61,6 +70,7 @@ class MainWindow : public QMainWindow {
   std::vector<std::pair<QString, QToolButton*>> mode_buttons_;
   QLabel* status_;
   MainMenu menu_;
+  CloseQuestion ask_to_close_;
 };
 
 }  // namespace turnscan::studio
