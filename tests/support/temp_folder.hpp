@@ -43,6 +43,11 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
+/// Makes or replaces a file.
+inline void write_file(const std::filesystem::path& path, std::string_view content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
 inline std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

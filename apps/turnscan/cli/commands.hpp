@@ -19,5 +19,6 @@ std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_capture_command();
 std::unique_ptr<Command> make_scan_command();
 std::unique_ptr<Command> make_turntable_command();
+std::unique_ptr<Command> make_batch_command();
 
 }  // namespace turnscan::cli

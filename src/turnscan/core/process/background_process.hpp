@@ -1,0 +1,47 @@
+#pragma once
+// A program that runs beside this one.
+
+#include <sys/types.h>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <turnscan/core/result.hpp>
+
+namespace turnscan::process {
+
+/// How a program has ended.
+struct ProcessEnd {
+  int exit_code = -1;  ///< -1 if a signal ended it
+  int signal = 0;
+  std::uint64_t peak_bytes = 0;  ///< largest resident set, of it or of a child that it waited for
+  double cpu_seconds = 0.0;      ///< with the children that it waited for
+};
+
+/// The program is ended (SIGKILL) with the thread that started it or with this object, whichever
+/// comes first. In a process group of its own: Ctrl-C in a terminal does not reach it.
+class BackgroundProcess {
+ public:
+  /// In this folder (empty: this process's). Its standard input is empty; output and errors are
+  /// appended to log, which is made if need be. Fails with kIo when no process can be made; a
+  /// program that cannot be started exits with 127.
+  static Result<BackgroundProcess> start(const std::filesystem::path& program,
+                                         std::span<const std::string> arguments,
+                                         const std::filesystem::path& log,
+                                         const std::filesystem::path& folder = {});
+  BackgroundProcess(BackgroundProcess&& other) noexcept;
+  BackgroundProcess& operator=(BackgroundProcess&& other) noexcept;
+  ~BackgroundProcess();
+
+  /// nullopt while it runs. To be called until it gives the end, and not again.
+  std::optional<ProcessEnd> poll();
+  /// Sends SIGTERM, or SIGKILL when now.
+  void stop(bool now) const;
+
+ private:
+  explicit BackgroundProcess(pid_t child) : child_(child) {}
+  pid_t child_ = -1;
+};
+
+}  // namespace turnscan::process

@@ -1,0 +1,44 @@
+#pragma once
+// How a batch stands: a row for each task.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <turnscan/core/result.hpp>
+#include <turnscan/workflow/batch/batch_folder.hpp>
+#include <vector>
+
+namespace turnscan::batch {
+
+/// What the report of a result says.
+struct ResultFacts {
+  std::string verdict;                 ///< the worst of its objects: green, amber, red; or empty
+  std::vector<std::string> sentences;  ///< of the verdict, those that are not good
+  std::uint64_t objects = 0, triangles = 0, frames = 0;
+  bool watertight = false;  ///< all objects
+};
+
+struct SummaryRow {
+  const BatchTask* task = nullptr;
+  TaskRecord record;
+  ResultFacts facts;      ///< of done tasks
+  std::string thumbnail;  ///< relative to the batch's folder; empty: none
+};
+
+struct BatchSummary {
+  std::vector<SummaryRow> rows;  ///< refer to the tasks
+  std::size_t count(TaskState state) const;
+};
+
+/// Reads states and reports; looks at no input.
+BatchSummary summarize(const BatchFolder& folder, const std::vector<BatchTask>& tasks);
+
+std::string summary_csv(const BatchSummary& summary);
+std::string summary_json(const BatchSummary& summary);
+std::string summary_page(const BatchSummary& summary, const std::string& title);
+
+/// summary.csv, .json and .html in the batch's folder; returns their names.
+Result<std::vector<std::string>> write_summary(const BatchSummary& summary,
+                                               const std::filesystem::path& folder);
+
+}  // namespace turnscan::batch
