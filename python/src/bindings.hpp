@@ -1,0 +1,10 @@
+#pragma once
+
+#include "errors.hpp"
+
+namespace turnscan::python {
+
+void bind_simulate(py::module_& module);
+void bind_stream(py::module_& module);
+
+}  // namespace turnscan::python

@@ -1,0 +1,246 @@
+#include "frames.hpp"
+
+#include <pybind11/stl.h>
+
+#include <turnscan/recording/recording.hpp>
+
+#include "arrays.hpp"
+#include "call.hpp"
+
+namespace turnscan::python {
+
+py::object matrix_of(const std::optional<Pose>& pose) {
+  if (!pose) return py::none();
+  py::array_t<double> matrix({4, 4});
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix.mutable_at(row, column) = pose->matrix()(row, column);
+  return matrix;
+}
+
+std::optional<Pose> pose_of(const py::object& matrix) {
+  if (matrix.is_none()) return std::nullopt;
+  const py::array_t<double, py::array::forcecast> array(matrix);
+  if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
+    raise({ErrorCode::kFormat, "pose: a matrix of four rows of four is needed", ""});
+  Eigen::Matrix4d values;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) values(row, column) = array.at(row, column);
+  return unwrap(pose_from(values));
+}
+
+namespace {
+
+Vec3d vector_of(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
+std::array<double, 3> array_of(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
+
+struct RecordingObject : SequenceObject {
+  explicit RecordingObject(Recording opened) : recording(std::move(opened)) {}
+  const FrameSequence& sequence() const override { return recording; }
+  std::string title() const override { return recording.folder().string(); }
+  Recording recording;
+};
+
+/// Frames that a program hands over one after the other.
+class ListedFrames : public FrameSequence {
+ public:
+  const SequenceHeader& header() const override { return header_; }
+  const std::vector<FrameInfo>& frames() const override { return infos_; }
+  Result<Frame> read(std::size_t position) const override {
+    Frame frame = frames_.at(position);
+    frame.info = infos_.at(position);
+    return frame;
+  }
+  void add(Frame frame) {
+    frame.info.index = static_cast<std::uint32_t>(frames_.size());
+    infos_.push_back(frame.info);
+    frames_.push_back(std::move(frame));
+  }
+  SequenceHeader header_;
+
+ private:
+  std::vector<FrameInfo> infos_;
+  std::vector<Frame> frames_;
+};
+
+struct FramesObject : SequenceObject {
+  const FrameSequence& sequence() const override { return frames; }
+  std::string title() const override { return "frames"; }
+  ListedFrames frames;
+};
+
+void bind_camera(py::module_& module) {
+  using Intrinsics = CameraIntrinsics;
+  py::class_<Intrinsics>(module, "Intrinsics")
+      .def(py::init([](int width, int height, double fx, double fy, double cx, double cy,
+                       const std::array<double, 5>& distortion) {
+             Intrinsics made{width, height, fx, fy, cx, cy, distortion};
+             unwrap(made.check());
+             return made;
+           }),
+           py::arg("width"), py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"),
+           py::arg("cy"), py::arg("distortion") = std::array<double, 5>{})
+      .def_readonly("width", &Intrinsics::width)
+      .def_readonly("height", &Intrinsics::height)
+      .def_readonly("fx", &Intrinsics::fx)
+      .def_readonly("fy", &Intrinsics::fy)
+      .def_readonly("cx", &Intrinsics::cx)
+      .def_readonly("cy", &Intrinsics::cy)
+      .def_readonly("distortion", &Intrinsics::distortion);
+  py::class_<SensorInfo>(module, "Sensor")
+      .def(py::init([](const Intrinsics& intrinsics, double depth_unit, const py::object& pose,
+                       const std::string& model) {
+             SensorInfo made;
+             made.intrinsics = intrinsics;
+             made.depth_unit_m = depth_unit;
+             made.T_table_sensor = pose_of(pose);
+             made.model = model;
+             return made;
+           }),
+           py::arg("intrinsics"), py::arg("depth_unit") = 1e-4, py::arg("pose") = py::none(),
+           py::arg("model") = "")
+      .def_readonly("intrinsics", &SensorInfo::intrinsics)
+      .def_readonly("depth_unit", &SensorInfo::depth_unit_m)
+      .def_readonly("depth_bias", &SensorInfo::depth_bias_m)
+      .def_readonly("model", &SensorInfo::model)
+      .def_property_readonly("pose",
+                             [](const SensorInfo& s) { return matrix_of(s.T_table_sensor); });
+  py::class_<TurntableInfo>(module, "Turntable")
+      .def(py::init([](const std::array<double, 3>& axis, const std::array<double, 3>& center,
+                       std::optional<double> radius, std::optional<double> speed) {
+             TurntableInfo made;
+             made.axis = vector_of(axis).normalized();
+             made.center_m = vector_of(center);
+             made.radius_m = radius;
+             made.speed_rad_s = speed;
+             return made;
+           }),
+           py::arg("axis"), py::arg("center"), py::arg("radius") = py::none(),
+           py::arg("speed") = py::none())
+      .def_property_readonly("axis", [](const TurntableInfo& t) { return array_of(t.axis); })
+      .def_property_readonly("center", [](const TurntableInfo& t) { return array_of(t.center_m); })
+      .def_readonly("radius", &TurntableInfo::radius_m)
+      .def_readonly("speed", &TurntableInfo::speed_rad_s);
+}
+
+void bind_frame(py::module_& module) {
+  const auto info = [](auto member) {
+    return [member](const Frame& frame) { return frame.info.*member; };
+  };
+  py::class_<Frame>(module, "Frame")
+      .def_property_readonly(
+          "depth", [](const py::object& self) { return view_of(self.cast<Frame&>().depth, self); })
+      .def_property_readonly(
+          "color", [](const py::object& self) { return view_of(self.cast<Frame&>().color, self); })
+      .def_property_readonly(
+          "points",
+          [](const py::object& self) { return view_of(self.cast<Frame&>().points.points, self); })
+      .def_property_readonly("index", info(&FrameInfo::index))
+      .def_property_readonly("time", info(&FrameInfo::time_s))
+      .def_property_readonly("sensor", info(&FrameInfo::sensor))
+      .def_property_readonly("pass_", info(&FrameInfo::pass))
+      .def_property_readonly("turn", info(&FrameInfo::turn))
+      .def_property_readonly("angle", info(&FrameInfo::angle_rad))
+      .def_property_readonly("pose",
+                             [](const Frame& f) { return matrix_of(f.info.T_table_sensor); })
+      .def_property_readonly("dropped",
+                             [](const Frame& f) { return f.info.status == FrameStatus::kDropped; });
+}
+
+Frame frame_at(const SequenceObject& self, py::ssize_t position) {
+  const auto count = static_cast<py::ssize_t>(self.sequence().frames().size());
+  if (position < 0) position += count;
+  if (position < 0 || position >= count) throw py::index_error("there is no such frame");
+  const py::gil_scoped_release free;
+  auto frame = self.sequence().read(static_cast<std::size_t>(position));
+  const py::gil_scoped_acquire gil;
+  return unwrap(std::move(frame));
+}
+
+void add_frame(FramesObject& self, const py::object& depth, std::optional<double> angle,
+               std::optional<double> time, std::uint32_t sensor, std::uint32_t pass,
+               std::uint32_t turn, const py::object& pose, const py::object& color) {
+  if (sensor >= self.frames.header_.sensors.size())
+    raise({ErrorCode::kInvalidOption, fmt::format("sensor: there is no {}", sensor), ""});
+  Frame frame;
+  set_images(frame, depth, color);
+  const CameraIntrinsics& camera = self.frames.header_.sensors[sensor].intrinsics;
+  if (frame.depth.width != camera.width || frame.depth.height != camera.height)
+    raise({ErrorCode::kFormat,
+           fmt::format("depth: the image has {} x {} pixels, its camera {} x {}", frame.depth.width,
+                       frame.depth.height, camera.width, camera.height),
+           ""});
+  frame.info.angle_rad = angle;
+  if (time) frame.info.time_s = *time;
+  frame.info.sensor = sensor;
+  frame.info.pass = pass;
+  frame.info.turn = turn;
+  frame.info.T_table_sensor = pose_of(pose);
+  self.frames.add(std::move(frame));
+}
+
+}  // namespace
+
+void set_images(Frame& frame, const py::object& depth, const py::object& color) {
+  const py::array_t<std::uint16_t, py::array::c_style | py::array::forcecast> image(depth);
+  if (image.ndim() != 2 || image.size() == 0)
+    raise({ErrorCode::kFormat, "depth: an image of rows and columns is needed", ""});
+  frame.depth.width = static_cast<int>(image.shape(1));
+  frame.depth.height = static_cast<int>(image.shape(0));
+  frame.depth.pixels.assign(image.data(), image.data() + image.size());
+  if (color.is_none()) return;
+  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> colors(color);
+  if (colors.ndim() != 3 || colors.shape(2) != 3)
+    raise(
+        {ErrorCode::kFormat, "color: an image of rows, columns and three channels is needed", ""});
+  frame.color = ColorImage(static_cast<int>(colors.shape(1)), static_cast<int>(colors.shape(0)));
+  const std::uint8_t* from = colors.data();
+  for (Rgb& pixel : frame.color.pixels) {
+    pixel = {from[0], from[1], from[2]};
+    from += 3;
+  }
+}
+
+void bind_frames(py::module_& module) {
+  bind_camera(module);
+  bind_frame(module);
+  py::class_<SequenceObject, std::shared_ptr<SequenceObject>>(module, "Sequence")
+      .def("__len__", [](const SequenceObject& self) { return self.sequence().frames().size(); })
+      .def("__getitem__", &frame_at, py::arg("position"))
+      .def_property_readonly(
+          "sensors", [](const SequenceObject& self) { return self.sequence().header().sensors; })
+      .def_property_readonly("turntable", [](const SequenceObject& self) {
+        return self.sequence().header().turntable;
+      });
+  py::class_<RecordingObject, SequenceObject, std::shared_ptr<RecordingObject>>(module, "Recording")
+      .def(py::init([](const std::string& path) {
+             return std::make_shared<RecordingObject>(
+                 call(py::none(), [&](const RunContext&) { return Recording::open(path); }));
+           }),
+           py::arg("path"))
+      .def_property_readonly("path", &RecordingObject::title)
+      .def_property_readonly("notes", [](const RecordingObject& r) { return r.recording.notes(); })
+      .def_property_readonly("complete",
+                             [](const RecordingObject& r) { return r.recording.complete(); });
+  py::class_<FramesObject, SequenceObject, std::shared_ptr<FramesObject>>(module, "_Frames")
+      .def(py::init([](std::vector<SensorInfo> sensors, std::optional<TurntableInfo> turntable) {
+             auto made = std::make_shared<FramesObject>();
+             if (sensors.empty())
+               raise({ErrorCode::kInvalidOption, "sensors: there is none; give one", ""});
+             made->frames.header_.sensors = std::move(sensors);
+             made->frames.header_.turntable = std::move(turntable);
+             return made;
+           }),
+           py::arg("sensors"), py::arg("turntable") = py::none())
+      .def("_add", &add_frame)
+      .def(
+          "save",
+          [](const FramesObject& self, const std::string& path, const py::object& progress) {
+            call(progress, [&](const RunContext& context) {
+              return write_recording(path, self.frames, context);
+            });
+          },
+          py::arg("path"), py::arg("progress") = py::none());
+}
+
+}  // namespace turnscan::python

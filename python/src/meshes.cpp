@@ -1,0 +1,106 @@
+#include "meshes.hpp"
+
+#include <pybind11/stl.h>
+
+#include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
+
+#include "arrays.hpp"
+#include "call.hpp"
+#include "option_arguments.hpp"
+
+namespace turnscan::python {
+
+namespace {
+
+template <class T>
+using Rows = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+template <class T>
+void check_rows(const Rows<T>& array, const char* name, py::ssize_t count) {
+  if (array.ndim() == 2 && array.shape(1) == 3 && (count < 0 || array.shape(0) == count)) return;
+  raise({ErrorCode::kFormat, fmt::format("{}: an array of N rows of three is needed", name), ""});
+}
+
+MeshObject make_mesh(const Rows<float>& vertices, const Rows<std::uint32_t>& triangles,
+                     const std::optional<Rows<std::uint8_t>>& colors) {
+  check_rows(vertices, "vertices", -1);
+  check_rows(triangles, "triangles", -1);
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (py::ssize_t i = 0; i < vertices.shape(0); ++i)
+    mesh->vertices.emplace_back(vertices.at(i, 0), vertices.at(i, 1), vertices.at(i, 2));
+  for (py::ssize_t i = 0; i < triangles.shape(0); ++i)
+    mesh->triangles.push_back({triangles.at(i, 0), triangles.at(i, 1), triangles.at(i, 2)});
+  if (colors) {
+    check_rows(*colors, "colors", vertices.shape(0));
+    for (py::ssize_t i = 0; i < colors->shape(0); ++i)
+      mesh->colors.push_back({colors->at(i, 0), colors->at(i, 1), colors->at(i, 2)});
+  }
+  unwrap(validate_mesh(*mesh));
+  return {mesh};
+}
+
+MeshObject load_mesh(const std::string& path, const std::optional<std::string>& unit) {
+  ReadMeshOptions options;
+  if (unit) options.metres_per_unit = unwrap(metres_per(*unit));
+  TriangleMesh mesh = call(
+      py::none(), [&](const RunContext& context) { return read_mesh(path, options, context); });
+  return {std::make_shared<TriangleMesh>(std::move(mesh))};
+}
+
+py::object evaluate_mesh(const MeshObject& mesh, const MeshObject& reference,
+                         const py::object& progress, const py::kwargs& options) {
+  EvaluateOptions chosen;
+  set_options(describe(chosen), options);
+  const Evaluation result = call(progress, [&](const RunContext& context) {
+    return evaluate(*mesh.mesh, *reference.mesh, chosen, {}, context);
+  });
+  return py::module_::import("json").attr("loads")(to_json(result));
+}
+
+}  // namespace
+
+void bind_meshes(py::module_& module) {
+  py::class_<MeshObject>(module, "Mesh")
+      .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"),
+           py::arg("colors") = py::none())
+      .def_static("load", &load_mesh, py::arg("path"), py::arg("unit") = py::none())
+      .def(
+          "save",
+          [](const MeshObject& self, const std::string& path) {
+            call(py::none(), [&](const RunContext&) { return write_mesh(path, *self.mesh); });
+          },
+          py::arg("path"))
+      .def_property_readonly("vertices",
+                             [](const py::object& self) {
+                               return view_of(self.cast<MeshObject&>().mesh->vertices, self);
+                             })
+      .def_property_readonly("triangles",
+                             [](const py::object& self) {
+                               const auto& triangles = self.cast<MeshObject&>().mesh->triangles;
+                               return view_of(
+                                   reinterpret_cast<const std::uint32_t*>(triangles.data()),
+                                   {static_cast<py::ssize_t>(triangles.size()), 3}, self);
+                             })
+      .def_property_readonly("normals",
+                             [](const py::object& self) {
+                               return view_of(self.cast<MeshObject&>().mesh->normals, self);
+                             })
+      .def_property_readonly("colors",
+                             [](const py::object& self) {
+                               return view_of(self.cast<MeshObject&>().mesh->colors, self);
+                             })
+      .def_property_readonly("name", [](const MeshObject& self) { return self.mesh->name; })
+      .def("__repr__", [](const MeshObject& self) {
+        return fmt::format("Mesh({} vertices, {} triangles)", self.mesh->vertices.size(),
+                           self.mesh->triangles.size());
+      });
+  module.def("evaluate", &evaluate_mesh, py::arg("mesh"), py::arg("reference"),
+             py::arg("progress") = py::none());
+  module.def("_evaluate_options", [] {
+    EvaluateOptions options;
+    return described(describe(options));
+  });
+}
+
+}  // namespace turnscan::python

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <turnscan/core/triangle_mesh.hpp>
+
+#include "errors.hpp"
+
+namespace turnscan::python {
+
+/// A mesh as Python holds it. It does not change once it is made: arrays look into it.
+struct MeshObject {
+  std::shared_ptr<const TriangleMesh> mesh;
+};
+
+void bind_meshes(py::module_& module);
+
+}  // namespace turnscan::python

@@ -1,0 +1,245 @@
+"""`import turnscan`: the same as the command line, with numpy's arrays.
+
+PYTHONPATH names the folder of the package (CTest sets it), TURNSCAN_BIN the program.
+"""
+
+import gc
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import turnscan
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = os.environ.get("TURNSCAN_BIN", "turnscan")
+FAST = {"voxel_size": "6mm", "method": "volumetric"}
+
+
+def memory_mb():
+    pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGESIZE") / 1e6
+
+
+class InAFolder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory(prefix="turnscan-python-")
+        cls.dir = pathlib.Path(cls.kept.name)
+        cls.recording = str(cls.dir / "recording")
+        cls.simulation = turnscan.simulate("builtin:cylinder", out=cls.recording, frames=24)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.kept.cleanup()
+
+
+class Recordings(InAFolder):
+    def test_frames_are_views_of_what_was_recorded(self):
+        recording = turnscan.Recording(self.recording)
+        self.assertEqual(len(recording), 24)
+        self.assertTrue(recording.complete)
+        frame = recording[3]
+        self.assertEqual((frame.index, frame.depth.dtype, frame.depth.shape),
+                         (3, np.uint16, (424, 512)))
+        self.assertTrue((frame.depth == recording[3 - 24].depth).all())
+        self.assertIs(frame.depth.base, frame, "no copy")
+        with self.assertRaises(ValueError):
+            frame.depth[0, 0] = 1
+        depth = frame.depth
+        del frame
+        gc.collect()
+        self.assertTrue((depth == recording[3].depth).all(), "a view keeps its frame")
+        with self.assertRaises(IndexError):
+            recording[24]
+        self.assertEqual(sum(1 for _ in recording), 24)
+
+    def test_cameras_poses_and_the_turntable_are_there(self):
+        recording = turnscan.Recording(self.recording)
+        sensor = recording.sensors[0]
+        self.assertEqual((sensor.intrinsics.width, sensor.intrinsics.height), (512, 424))
+        self.assertAlmostEqual(math.hypot(*recording.turntable.axis), 1.0)
+        self.assertGreater(recording.turntable.radius, 0.1)
+
+    def test_errors_have_a_code_and_a_path(self):
+        with self.assertRaises(turnscan.Error) as caught:
+            turnscan.Recording("nowhere")
+        self.assertEqual(caught.exception.code, "not-found")
+        self.assertIn("nowhere", caught.exception.path)
+        with self.assertRaises(turnscan.OptionError) as caught:
+            turnscan.reconstruct(self.recording, voxel_sise=1)
+        self.assertIn("voxel-size", str(caught.exception))
+        with self.assertRaises(ValueError):
+            turnscan.reconstruct(self.recording, voxel_size="9km")
+        with self.assertRaises(turnscan.OptionError):
+            turnscan.reconstruct(self.recording, voxel_size=[1])
+
+
+class Reconstructing(InAFolder):
+    def command_line_mesh(self):
+        out = self.dir / "command.ply"
+        subprocess.run([BIN, "reconstruct", self.recording, "--voxel-size", "6mm", "--method",
+                        "volumetric", "--out", out, "--quiet"], check=True, capture_output=True)
+        return out.read_bytes()
+
+    def test_numpy_frames_give_the_bytes_of_the_command_line(self):
+        recording = turnscan.Recording(self.recording)
+        frames = turnscan.Frames(recording.sensors, recording.turntable)
+        for frame in recording:
+            frames.add(np.array(frame.depth), frame.angle, time=frame.time, turn=frame.turn,
+                       pose=frame.pose)
+        made = turnscan.reconstruct(frames, **FAST)
+        out = self.dir / "frames.ply"
+        self.assertEqual(made.save(str(out)), [str(out)])
+        self.assertEqual(out.read_bytes(), self.command_line_mesh())
+        self.assertIn(made.verdicts[0], ("green", "amber", "red"))
+        self.assertTrue(made.report["objects"][0]["mesh"]["watertight"])
+
+    def test_frames_in_metres_are_rounded_to_the_sensors_unit(self):
+        recording = turnscan.Recording(self.recording)
+        unit = recording.sensors[0].depth_unit
+        frames = turnscan.Frames(recording.sensors, recording.turntable)
+        raw = recording[0].depth
+        metres = raw * unit
+        metres[raw == 0] = np.nan
+        frames.add(metres, 0.0)
+        self.assertTrue((frames[0].depth == np.where(raw < 65535, raw, 0)).all())
+        with self.assertRaises(turnscan.Error):
+            frames.add(np.zeros((3, 4), np.uint16))
+        with self.assertRaises(turnscan.Error):
+            frames.add(np.zeros(5, np.uint16))
+
+    def test_a_stream_takes_frames_as_any_device_delivers_them(self):
+        recording = turnscan.Recording(self.recording)
+        sensor = recording.sensors[0]
+        stream = turnscan.Stream(recording.turntable, sensor.depth_unit, **FAST)
+        speed = recording.turntable.speed
+        for frame in recording:
+            angle = frame.angle if frame.angle is not None else frame.time * speed
+            stream.add(frame.depth, sensor.intrinsics, angle)
+        self.assertEqual(len(stream), 24)
+        meshes = stream.finish()
+        truth = self.simulation.truth[0]
+        figures = turnscan.evaluate(meshes[0], truth, samples=2000)
+        self.assertLess(figures["accuracy"]["median_m"], 2e-3)
+        with self.assertRaises(turnscan.Error):
+            stream.finish()
+
+    def test_progress_is_told_and_what_it_raises_cancels(self):
+        phases = []
+        turnscan.reconstruct(self.recording, progress=lambda phase, part: phases.append(part),
+                             **FAST)
+        self.assertGreater(len(phases), 2)
+        self.assertTrue(all(0 <= part <= 1 for part in phases))
+
+        def stop(phase, part):
+            raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            turnscan.reconstruct(self.recording, progress=stop, **FAST)
+
+    def test_ctrl_c_ends_a_call(self):
+        # A test that was started in the background would ignore it.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            turnscan.reconstruct(self.recording, voxel_size="0.4mm")
+            time.sleep(20)  # had it ended before
+        self.assertLess(time.monotonic() - begin, 15)
+
+    def test_other_threads_run_meanwhile(self):
+        counted, stop = [0], threading.Event()
+
+        def count():
+            while not stop.wait(0.001):
+                counted[0] += 1
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        turnscan.reconstruct(self.recording, **FAST)
+        stop.set()
+        thread.join()
+        self.assertGreater(counted[0], 5)
+
+    def test_memory_does_not_grow_with_runs(self):
+        recording = turnscan.Recording(self.recording)
+        for _ in range(5):
+            [frame.depth.sum() for frame in recording]
+        before = memory_mb()
+        for _ in range(20):
+            [frame.depth.sum() for frame in recording]
+        self.assertLess(memory_mb() - before, 20, "480 frames of 0.4 MB were read")
+
+    def test_calibrate_finds_the_turntable(self):
+        found = turnscan.calibrate(self.recording, way="platter")
+        true = turnscan.Recording(self.recording).turntable
+        self.assertGreater(np.dot(found.turntable.axis, true.axis), math.cos(math.radians(1)))
+        self.assertLess(np.linalg.norm(np.subtract(found.turntable.center, true.center)), 5e-3)
+        found.save(str(self.dir / "table.json"))
+        self.assertTrue((self.dir / "table.json").exists())
+
+
+class Meshes(unittest.TestCase):
+    VERTICES = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    TRIANGLES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+
+    def test_go_to_numpy_and_come_from_it(self):
+        mesh = turnscan.Mesh(self.VERTICES, self.TRIANGLES, np.full((4, 3), 7, np.uint8))
+        self.assertEqual(mesh.vertices.tolist(), self.VERTICES)
+        self.assertEqual(mesh.triangles.tolist(), self.TRIANGLES)
+        self.assertEqual(mesh.colors.max(), 7)
+        self.assertEqual(mesh.normals.shape, (0, 3))
+        self.assertEqual((mesh.vertices.dtype, mesh.triangles.dtype), (np.float32, np.uint32))
+
+    def test_are_written_and_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.stl")
+            turnscan.Mesh(self.VERTICES, self.TRIANGLES).save(path)
+            self.assertEqual(len(turnscan.Mesh.load(path).triangles), 4)
+            self.assertAlmostEqual(float(turnscan.Mesh.load(path, unit="m").vertices.max()), 1e3,
+                                   places=3)
+
+    def test_that_are_none_are_refused(self):
+        with self.assertRaises(turnscan.Error):
+            turnscan.Mesh(self.VERTICES, [[0, 1, 9]])
+        with self.assertRaises(turnscan.Error):
+            turnscan.Mesh([[0, 1]], self.TRIANGLES)
+
+
+class Options(unittest.TestCase):
+    def test_come_from_the_tables_of_the_command_line(self):
+        reference = (ROOT / "docs" / "reference.md").read_text()
+        for command in ("reconstruct", "simulate", "evaluate"):
+            listed = turnscan.options(command)
+            self.assertGreater(len(listed), 5)
+            section = reference.split(f"## turnscan {command}\n")[1].split("\n## ")[0]
+            for option in listed:
+                self.assertIn("--" + option["name"].replace("_", "-"), section)
+
+
+class Documentation(unittest.TestCase):
+    """The examples of docs/python.md run in order, in one folder, as one program."""
+
+    def test_examples_of_the_page_run(self):
+        text = (ROOT / "docs" / "python.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+        self.assertGreater(len(blocks), 3)
+        with tempfile.TemporaryDirectory() as folder:
+            result = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=folder,
+                                    text=True, capture_output=True, timeout=300)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
