@@ -55,7 +55,7 @@ std::shared_ptr<RunObject> reconstruct_frames(
   return made;
 }
 
-std::vector<MeshObject> meshes_of(const std::shared_ptr<RunObject>& self) {
+std::vector<MeshObject> meshes_of_run(const std::shared_ptr<RunObject>& self) {
   std::vector<MeshObject> meshes;
   for (const ObjectResult& object : self->run.reconstruction.objects)
     meshes.push_back({std::shared_ptr<const TriangleMesh>(self, &object.mesh)});
@@ -91,8 +91,7 @@ std::vector<MeshObject> meshes_of(const Reconstruction& reconstruction) {
 
 void bind_reconstruct(py::module_& module) {
   py::class_<RunObject, std::shared_ptr<RunObject>>(module, "Reconstruction")
-      .def_property_readonly("meshes",
-                             py::overload_cast<const std::shared_ptr<RunObject>&>(&meshes_of))
+      .def_property_readonly("meshes", &meshes_of_run)
       .def_property_readonly("notes",
                              [](const RunObject& self) { return self.run.reconstruction.notes; })
       .def_property_readonly(
