@@ -3,10 +3,10 @@ include(CMakePackageConfigHelpers)
 
 get_property(floors GLOBAL PROPERTY TURNSCAN_FLOORS)
 install(TARGETS ${floors} EXPORT turnscanTargets
-        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-        FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
+        FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 install(EXPORT turnscanTargets NAMESPACE turnscan::
-        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan" COMPONENT development)
 configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/turnscanConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/turnscanConfig.cmake"
@@ -16,7 +16,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/turnscanConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/turnscanConfig.cmake"
               "${PROJECT_BINARY_DIR}/turnscanConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/TurnscanPcl.cmake"
-        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan")
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan" COMPONENT development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/scanners"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/turnscan")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"

@@ -1,12 +1,13 @@
 """Version, help, the reference page, and every way to use the command line wrongly."""
 
 import re
+import subprocess
 
 import harness
 from harness import FAILED, ROOT, USAGE, run
 
 COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "simulate", "demo",
-            "reference"]
+            "batch", "reference"]
 
 
 class Help(harness.TestCase):
@@ -30,6 +31,38 @@ class Help(harness.TestCase):
         for command in COMMANDS:
             for line in self.ok(command, "--help").stdout.splitlines():
                 self.assertLessEqual(len(line), 104, line)
+
+    def test_bash_completes_commands_options_and_choices(self):
+        script = self.dir / "completion"
+        script.write_text(self.ok("reference", "bash").stdout)
+
+        def completed(*words):
+            text = f"source {script}; COMP_WORDS=(\"$@\"); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); " \
+                   "_turnscan; echo ${COMPREPLY[@]}"
+            return subprocess.run(["bash", "-c", text, "bash", "turnscan", *words], text=True,
+                                  capture_output=True, check=True).stdout.split()
+
+        self.assertIn("reconstruct", completed("re"))
+        self.assertEqual(completed("reconstruct", "--voxel-si"), ["--voxel-size"])
+        self.assertEqual(set(completed("reconstruct", "--method", "")),
+                         {"volumetric", "poisson", "concave-hull"})
+        self.assertEqual(completed("reconstruct", "scan"), [], "files are the shell's own")
+
+    def test_every_option_is_in_the_manual_page_and_in_each_completion(self):
+        options = set(re.findall(r"`(?:-\w, )?(--[\w-]+)", self.ok("reference").stdout))
+        self.assertGreater(len(options), 100)
+        pages = {shell: self.ok("reference", shell).stdout for shell in ("man", "bash", "zsh")}
+        for option in options:
+            self.assertIn(option.replace("-", "\\-"), pages["man"])
+            self.assertIn(option, pages["bash"])
+            self.assertIn(option, pages["zsh"])
+            self.assertIn(f" -l {option[2:]} ", self.ok_fish())
+        self.refused(USAGE, "reference", "tcsh", says="FORMAT")
+
+    def ok_fish(self):
+        if not hasattr(self, "fish"):
+            self.fish = self.ok("reference", "fish").stdout
+        return self.fish
 
     def test_the_reference_page_in_docs_is_what_the_program_prints(self):
         page = (ROOT / "docs" / "reference.md").read_text()

@@ -75,7 +75,7 @@ ArgumentGroup keys_of(const std::string& name, const std::string& title, const O
   ArgumentGroup group{name, title, {}};
   for (const OptionField& field : table.fields())
     group.arguments.push_back(
-        {field.name, without_full_stop(field.help), field.get(), allowed_text(field)});
+        {field.name, without_full_stop(field.help), field.get(), allowed_text(field), {}});
   return group;
 }
 
@@ -178,6 +178,7 @@ void CommandLine::bind(const OptionField& field, const std::string& title, Argum
     option = app_.add_option(flag);
     info.usage = flag + " " + label;
     info.allowed = allowed_text(field);
+    info.choices = field.choices;
     option->option_text(label);
     option->type_size(1)->expected(1);
   }

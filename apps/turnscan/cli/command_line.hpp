@@ -20,10 +20,11 @@ namespace turnscan::cli {
 
 /// One argument as --help and the reference page show it.
 struct ArgumentInfo {
-  std::string usage;          ///< "--voxel-size LENGTH", "RECORDING"
-  std::string help;           ///< one sentence or more
-  std::string default_value;  ///< empty: none
-  std::string allowed;        ///< range or choices; empty: anything
+  std::string usage;                   ///< "--voxel-size LENGTH", "RECORDING"
+  std::string help;                    ///< one sentence or more
+  std::string default_value;           ///< empty: none
+  std::string allowed;                 ///< range or choices; empty: anything
+  std::vector<std::string> choices{};  ///< of an enumeration
 };
 
 struct ArgumentGroup {

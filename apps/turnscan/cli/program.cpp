@@ -13,7 +13,9 @@
 #include <turnscan/workflow/text/shown_text.hpp>
 
 #include "cli/command_line.hpp"
+#include "cli/completion.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/man_page.hpp"
 #include "cli/progress_display.hpp"
 #include "cli/reference_page.hpp"
 
@@ -221,26 +223,38 @@ void Program::add(const std::string& name, const std::string& help,
   parts_->entries.emplace_back(help, std::move(command), app);
 }
 
-std::string Program::reference() const {
+Result<std::string> Program::reference(const std::string& format) const {
   std::vector<CommandReference> commands;
   for (const Entry& entry : parts_->entries)
     commands.push_back({entry.app->get_name(), entry.help, entry.line.groups()});
-  return reference_page(commands, {scanner_file()});
+  if (format == "markdown") return reference_page(commands, {scanner_file()});
+  if (format == "man") return man_page(commands);
+  if (format == "bash") return bash_completion(commands);
+  if (format == "zsh") return zsh_completion(commands);
+  if (format == "fish") return fish_completion(commands);
+  return fail(ErrorCode::kInvalidOption,
+              "FORMAT {}: there is no such format; use markdown, man, bash, zsh or fish", format);
 }
 
 void Program::add_reference() {
   class ReferenceCommand : public Command {
    public:
     explicit ReferenceCommand(const Program& program) : program_(program) {}
-    void declare(CommandLine&) override {}
+    void declare(CommandLine& line) override {
+      line.optional_positional("FORMAT", format_,
+                               "markdown: this page (default); man: the manual page; bash, zsh, "
+                               "fish: what the shell completes");
+    }
     FileRoles files() const override { return {}; }
     Result<> run(Session& session) override {
-      session.print("{}", program_.reference());
+      TURNSCAN_ASSIGN(const std::string page, program_.reference(format_));
+      session.print("{}", page);
       return {};
     }
 
    private:
     const Program& program_;
+    std::string format_ = "markdown";
   };
   add("reference", "Print the reference page of all commands and options (docs/reference.md)",
       std::make_unique<ReferenceCommand>(*this));

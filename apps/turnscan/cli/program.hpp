@@ -27,7 +27,8 @@ class Program {
   int run_command(Entry& entry);
   /// Of the program or the chosen command.
   std::string help();
-  std::string reference() const;
+  /// markdown, man, bash, zsh or fish. Fails with kInvalidOption for another format.
+  Result<std::string> reference(const std::string& format) const;
 
   struct Parts;
   std::unique_ptr<Parts> parts_;

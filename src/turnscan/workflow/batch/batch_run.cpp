@@ -229,7 +229,11 @@ class BatchRunner {
 
 fs::path own_program() {
   std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error);
+  std::string path = fs::read_symlink("/proc/self/exe", error).string();
+  // What the system says of a program that was replaced meanwhile: the new one lies there.
+  constexpr std::string_view kReplaced = " (deleted)";
+  if (path.ends_with(kReplaced)) path.resize(path.size() - kReplaced.size());
+  return path;
 }
 
 Result<> save_batch(const std::string& path, const std::vector<BatchTask>& tasks) {
