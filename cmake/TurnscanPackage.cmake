@@ -59,6 +59,8 @@ turnscan_package(python python3-turnscan python
   "turntable scanning and reconstruction for Python 3"
   "Recordings, simulation, calibration, reconstruction and evaluation of turnscan\nas a Python module, with numpy's arrays."
   "turnscan (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/postinst;${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/prerm")
 turnscan_package(development libturnscan-dev libdevel
   "turntable scanning and reconstruction (development files)"
   "Headers, static libraries and the CMake package of turnscan."
