@@ -1,7 +1,7 @@
 // turnscan-mesh-convert FILE [METRES_PER_UNIT]
 // Reads FILE (3MF, GLB, or whatever assimp knows) and writes its objects in metres to standard
-// output, as one binary PLY after another. On failure: exit 1 and one line on standard error,
-// "CODE: SENTENCE", where CODE is the name of a turnscan::ErrorCode.
+// output, as one binary PLY after another, each with its texture behind it. On failure: exit 1 and
+// one line on standard error, "CODE: SENTENCE", where CODE is the name of a turnscan::ErrorCode.
 
 #include <unistd.h>
 
@@ -14,6 +14,7 @@
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
+#include <turnscan/io/mesh/texture_block.hpp>
 
 #include "assimp_mesh.hpp"
 
@@ -47,7 +48,10 @@ Result<> convert(int argc, char** argv) {
     for (Vec3f& p : mesh.vertices) p = (p.cast<double>() * unit).cast<float>();
   return write_file_atomically("/dev/stdout", [&](FileSink& sink) -> Result<> {
     for (const TriangleMesh& mesh : read_meshes.meshes)
-      if (!mesh.empty()) TURNSCAN_TRY(mesh_io::write_ply_mesh(sink, std::span(&mesh, 1)));
+      if (!mesh.empty()) {
+        TURNSCAN_TRY(mesh_io::write_ply_mesh(sink, std::span(&mesh, 1)));
+        TURNSCAN_TRY(mesh_io::write_texture_block(sink, mesh));
+      }
     return {};
   });
 }

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
@@ -96,6 +97,9 @@ class InfoCommand : public Command {
     session.print("{} vertices{}, {} triangles in {} {}, {}\n", report.vertices,
                   mesh.colors.empty() ? "" : " with colours", report.triangles, report.components,
                   report.components == 1 ? "piece" : "pieces", size_text(bounds(mesh.vertices)));
+    if (has_texture(mesh))
+      session.print("A texture of {} x {} pixels\n", mesh.texture->image.width,
+                    mesh.texture->image.height);
     session.print("Area {:.2f} cm2", report.area_m2 * 1e4);
     if (report.closed) session.print(", volume {:.2f} cm3", report.volume_m3 * 1e6);
     session.print("\n{}", check_sentences(report));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <turnscan/core/image.hpp>
@@ -11,6 +12,8 @@
 
 namespace turnscan {
 
+struct MeshTexture;
+
 /// Indexed triangles, metres, counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Vec3f> vertices;
@@ -18,6 +21,8 @@ struct TriangleMesh {
   std::vector<Vec3f> normals;  ///< per vertex or empty
   std::vector<Rgb> colors;     ///< per vertex or empty
   std::string name;            ///< object name in formats that have one; may be empty
+  /// Or nullptr; copies share it. See core/mesh_texture.hpp.
+  std::shared_ptr<const MeshTexture> texture = nullptr;
 
   bool empty() const { return triangles.empty(); }
 };

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <limits>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/mesh/glb_accessor.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/srgb.hpp>
+#include <turnscan/io/mesh/texture_budget.hpp>
+#include <utility>
 
 namespace turnscan::mesh_io {
 
@@ -26,7 +29,7 @@ bool nested_too_deeply(std::string_view bytes) {
   return false;
 }
 
-/// Pictures are not needed, and a GLB file has all of its content in itself.
+/// Pictures are decoded later, by our own reader, and a GLB file has all of its content in itself.
 void forbid_files_and_images(tinygltf::TinyGLTF& loader) {
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                            const unsigned char*, int, void*) { return true; },
@@ -119,7 +122,54 @@ class SceneReader {
       if (const char* why = add(primitive, transform, mesh)) return why;
     if (mesh.normals.size() != mesh.vertices.size()) mesh.normals.clear();
     if (mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
+    add_texture(source, mesh);
     return nullptr;
+  }
+
+  /// If all of the mesh has places in the same picture. What is wrong with a picture costs the mesh
+  /// its texture, not its shape.
+  void add_texture(const tinygltf::Mesh& source, TriangleMesh& mesh) {
+    const auto places = std::exchange(places_, {});
+    if (places.size() != mesh.vertices.size() || source.primitives.empty()) return;
+    int picture = -1;
+    for (const tinygltf::Primitive& primitive : source.primitives) {
+      const int own = picture_of(primitive);
+      if (own < 0 || (picture >= 0 && picture != own)) return;
+      picture = own;
+    }
+    auto image = budget_.decode(bytes_of_picture(picture));
+    if (!image) return;
+    auto texture = std::make_shared<MeshTexture>();
+    texture->image = std::move(*image);
+    for (const auto& t : mesh.triangles)
+      texture->corners.push_back({places[t[0]], places[t[1]], places[t[2]]});
+    mesh.texture = std::move(texture);
+    if (has_texture(mesh)) weld_seams(mesh);
+  }
+
+  /// Of the base colour, on the first set of places; -1 where there is none.
+  int picture_of(const tinygltf::Primitive& primitive) const {
+    if (primitive.material < 0 ||
+        static_cast<std::size_t>(primitive.material) >= model_.materials.size())
+      return -1;
+    const auto& info = model_.materials[static_cast<std::size_t>(primitive.material)]
+                           .pbrMetallicRoughness.baseColorTexture;
+    if (info.index < 0 || info.texCoord != 0 ||
+        static_cast<std::size_t>(info.index) >= model_.textures.size())
+      return -1;
+    const int source = model_.textures[static_cast<std::size_t>(info.index)].source;
+    return source >= 0 && static_cast<std::size_t>(source) < model_.images.size() ? source : -1;
+  }
+
+  std::string_view bytes_of_picture(int picture) const {
+    const int index = model_.images[static_cast<std::size_t>(picture)].bufferView;
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.bufferViews.size()) return {};
+    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size())
+      return {};
+    const auto& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) return {};
+    return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
   }
 
   std::optional<GlbAccessor> attribute(const tinygltf::Primitive& primitive,
@@ -130,7 +180,7 @@ class SceneReader {
   }
 
   const char* add(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform,
-                  TriangleMesh& mesh) const {
+                  TriangleMesh& mesh) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
         mode != TINYGLTF_MODE_TRIANGLE_FAN)
@@ -145,11 +195,16 @@ class SceneReader {
   }
 
   void add_vertices(const tinygltf::Primitive& primitive, const GlbAccessor& positions,
-                    const Eigen::Affine3d& transform, TriangleMesh& mesh) const {
+                    const Eigen::Affine3d& transform, TriangleMesh& mesh) {
     const std::size_t n = positions.count();
     const auto vector = [](const GlbAccessor& a, std::size_t i) {
       return Vec3d(a.at(i, 0), a.at(i, 1), a.at(i, 2));
     };
+    if (const auto places = attribute(primitive, "TEXCOORD_0");
+        places && places->count() == n && places->components() == 2 &&
+        places_.size() == mesh.vertices.size())
+      for (std::size_t i = 0; i < n; ++i)
+        places_.emplace_back(float(places->at(i, 0)), float(places->at(i, 1)));
     const bool all_normals = mesh.normals.size() == mesh.vertices.size();
     const bool all_colors = mesh.colors.size() == mesh.vertices.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -209,6 +264,8 @@ class SceneReader {
   std::vector<std::uint8_t> visited_;
   std::vector<Open> open_;
   std::vector<TriangleMesh> meshes_;
+  TextureBudget budget_;
+  std::vector<Eigen::Vector2f> places_;  // in the picture, of the vertices of the mesh being read
 };
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/clean_name.hpp>
+#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/srgb.hpp>
 #include <turnscan/io/mesh/tinygltf.hpp>
@@ -18,29 +20,77 @@ class Builder {
     model_.asset.version = "2.0";
     model_.asset.generator = "turnscan";
     model_.buffers.emplace_back();
-    add_material();
+    add_material(-1);
     model_.scenes.emplace_back();
     model_.defaultScene = 0;
-    for (const TriangleMesh& mesh : meshes) add(mesh);
+    for (const TriangleMesh& mesh : meshes) {
+      if (!has_texture(mesh)) {
+        add(mesh, nullptr);
+        continue;
+      }
+      const SplitMesh split = split_at_seams(mesh);
+      add(split.mesh, &split.places);
+      pictures_.push_back({model_.meshes.size() - 1, &mesh.texture->image});
+    }
+  }
+
+  /// The pictures follow all arrays, whose numbers must lie at multiples of four bytes.
+  Result<> add_pictures() {
+    for (const auto& [mesh, picture] : pictures_) {
+      TURNSCAN_ASSIGN(const std::string png, encode_color_png(*picture));
+      std::vector<unsigned char>& buffer = model_.buffers[0].data;
+      tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+      view.buffer = 0;
+      view.byteOffset = buffer.size();
+      view.byteLength = png.size();
+      buffer.insert(buffer.end(), png.begin(), png.end());
+      buffer.resize((buffer.size() + 3) / 4 * 4, 0);
+      tinygltf::Image& image = model_.images.emplace_back();
+      image.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
+      image.mimeType = "image/png";
+      add_sampler();
+      tinygltf::Texture& texture = model_.textures.emplace_back();
+      texture.source = static_cast<int>(model_.images.size()) - 1;
+      texture.sampler = 0;
+      add_material(static_cast<int>(model_.textures.size()) - 1);
+      model_.meshes[mesh].primitives[0].material = static_cast<int>(model_.materials.size()) - 1;
+    }
+    return {};
   }
 
   const tinygltf::Model& model() const { return model_; }
 
  private:
   /// Without it, viewers take the surface for metal, which looks black.
-  void add_material() {
+  void add_material(int texture) {
     tinygltf::Material& material = model_.materials.emplace_back();
+    material.pbrMetallicRoughness.baseColorTexture.index = texture;
     material.pbrMetallicRoughness.metallicFactor = 0.0;
     material.pbrMetallicRoughness.roughnessFactor = 0.9;
   }
 
-  void add(const TriangleMesh& mesh) {
+  /// Places beyond the picture repeat it, as in memory.
+  void add_sampler() {
+    if (!model_.samplers.empty()) return;
+    tinygltf::Sampler& sampler = model_.samplers.emplace_back();
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_REPEAT;
+  }
+
+  /// Colours of vertices would be multiplied with the texture.
+  void add(const TriangleMesh& mesh, const std::vector<Eigen::Vector2f>* places) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
     primitive.attributes["POSITION"] = add_positions(mesh);
     if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = add_vectors(mesh.normals);
-    if (!mesh.colors.empty()) primitive.attributes["COLOR_0"] = add_colors(mesh);
+    if (!mesh.colors.empty() && places == nullptr)
+      primitive.attributes["COLOR_0"] = add_colors(mesh);
+    if (places != nullptr)
+      primitive.attributes["TEXCOORD_0"] = add_array(
+          places->data(), sizeof(Eigen::Vector2f), places->size(), TINYGLTF_COMPONENT_TYPE_FLOAT,
+          TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.indices = add_indices(mesh);
     tinygltf::Mesh& target = model_.meshes.emplace_back();
     target.primitives.push_back(std::move(primitive));
@@ -108,13 +158,17 @@ class Builder {
   }
 
   tinygltf::Model model_;
+  std::vector<std::pair<std::size_t, const ColorImage*>> pictures_;  ///< of meshes, by position
 };
 
 /// The lengths in the file have 32 bits.
 bool fits(std::span<const TriangleMesh> meshes) {
   std::uint64_t bytes = 0;
   for (const TriangleMesh& mesh : meshes)
-    bytes += mesh.vertices.size() * 32 + mesh.triangles.size() * 12 + 2000;
+    bytes +=
+        mesh.vertices.size() * 32 + mesh.triangles.size() * 12 + 2000 +
+        (has_texture(mesh) ? mesh.triangles.size() * 100 + mesh.texture->image.pixels.size() * 3
+                           : 0);
   return bytes < std::numeric_limits<std::uint32_t>::max();
 }
 
@@ -123,7 +177,8 @@ bool fits(std::span<const TriangleMesh> meshes) {
 Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes) {
   if (!fits(meshes))
     return fail(ErrorCode::kUnsupported, "GLB cannot hold more than 4 GB; write PLY");
-  const Builder builder(meshes);
+  Builder builder(meshes);
+  TURNSCAN_TRY(builder.add_pictures());
   std::ostringstream stream;
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model(), stream, false, true))
     return fail(ErrorCode::kLibrary, "tinygltf did not write the meshes");

@@ -1,6 +1,7 @@
 #pragma once
 // The formats of meshes, one function each.
 
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <turnscan/core/result.hpp>
@@ -16,10 +17,26 @@ using Meshes = Result<std::vector<TriangleMesh>>;
 // coordinates not finite. Fail with kFormat or kUnsupported.
 
 Meshes decode_ply_mesh(std::string_view bytes);
-/// Several PLY files, one directly behind the other.
+/// Several PLY files, one directly behind the other, each with a texture block behind it or none.
 Meshes decode_ply_sequence(std::string_view bytes);
 Meshes decode_stl(std::string_view bytes);
 Meshes decode_obj(std::string_view bytes);
+
+/// Places of an object's triangles in the picture of a material, as MeshTexture has them; empty
+/// where not all have one, or they have several materials.
+struct ObjPlaces {
+  std::vector<std::array<Eigen::Vector2f, 3>> corners;
+  std::string material;
+};
+struct ObjObjects {
+  std::vector<TriangleMesh> meshes;
+  std::vector<ObjPlaces> places;       ///< per mesh
+  std::vector<std::string> libraries;  ///< names of material libraries
+};
+Result<ObjObjects> parse_obj(std::string_view bytes);
+/// The same with the textures that lie beside the file; what is missing or damaged there is left
+/// out: the shape is whole without it.
+Meshes read_obj(const std::filesystem::path& path, std::string_view bytes);
 Meshes decode_off(std::string_view bytes);
 
 struct MeshesWithUnit {
@@ -40,7 +57,11 @@ Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
                              std::span<const float> confidence);
 Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
+/// Without textures.
 Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
+/// With those of files_beside_obj(), of which `library` is the MTL's name; none if that is empty.
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const std::string& library);
 Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);
 Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes);
 

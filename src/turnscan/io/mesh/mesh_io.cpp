@@ -11,6 +11,7 @@
 #include <turnscan/io/mesh/mesh_convert.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/io/mesh/obj_material.hpp>
 
 namespace turnscan {
 
@@ -130,7 +131,8 @@ Result<std::vector<TriangleMesh>> read_meshes(const fs::path& path, const ReadMe
   const ReadFormat* format = find_format(kReadFormats, path);
   if (format == nullptr) return read_foreign(path, options.metres_per_unit, ctx);
   return file::decode_file(path, [&](std::string_view bytes) -> mesh_io::Meshes {
-    TURNSCAN_ASSIGN(auto meshes, format->decode(bytes));
+    TURNSCAN_ASSIGN(auto meshes, format->extension == "obj" ? mesh_io::read_obj(path, bytes)
+                                                            : format->decode(bytes));
     return finish(std::move(meshes), options.metres_per_unit.value_or(format->metres_per_unit));
   });
 }
@@ -145,7 +147,27 @@ Result<TriangleMesh> read_mesh(const fs::path& path, const ReadMeshOptions& opti
 Result<> write_meshes(const fs::path& path, std::span<const TriangleMesh> meshes) {
   TURNSCAN_ASSIGN(const WriteFormat* format, write_format(path));
   TURNSCAN_TRY(check_for_writing(path, meshes));
-  return write_file_atomically(path, [&](FileSink& sink) { return format->write(sink, meshes); });
+  const auto beside = texture_files(path, meshes);
+  if (beside.empty())
+    return write_file_atomically(path, [&](FileSink& sink) { return format->write(sink, meshes); });
+  TURNSCAN_TRY(mesh_io::write_files_beside_obj(path, meshes));
+  return write_file_atomically(path, [&](FileSink& sink) {
+    return mesh_io::write_obj(sink, meshes, beside.front().filename().string());
+  });
+}
+
+std::vector<fs::path> texture_files(const fs::path& path, std::span<const TriangleMesh> meshes) {
+  if (file::lower_extension(path) != "obj") return {};
+  // Pipes and devices have nothing beside them.
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return {};
+  return mesh_io::files_beside_obj(path, meshes);
+}
+
+bool holds_textures(const fs::path& path) {
+  const std::string extension = file::lower_extension(path);
+  return extension == "glb" || extension == "obj" || extension == "3mf";
 }
 
 Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh) {

@@ -20,7 +20,9 @@ struct ReadMeshOptions {
 
 /// Objects of a mesh file, by the ending of its name: ply, obj, stl, off, 3mf, glb; any other
 /// ending goes to assimp. Polygons are cut into fans; elements and properties other than
-/// vertices, normals, colours and faces are skipped. STL's vertices are merged where they are
+/// vertices, normals, colours and faces are skipped. Textures come along from OBJ (PNG or JPEG in
+/// its folder), 3MF and GLB, where all of an object has the same picture; vertices are then joined
+/// across the picture's seams. STL's vertices are merged where they are
 /// exactly equal. 3MF, GLB and assimp's formats are read in a child process with a limit on memory
 /// and time, which ends at once when ctx is cancelled.
 /// Fails with kFormat (damaged; a count that the file's length cannot hold; an index out of range;
@@ -38,7 +40,8 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& path,
 /// Writes by the ending of the name, atomically: ply (binary little-endian), obj (text), glb in
 /// metres; stl (binary), 3mf in millimetres. OBJ, 3MF (each a build item) and GLB hold several
 /// objects; PLY and STL get them joined. Colours are kept by PLY, OBJ (after the coordinates), 3MF
-/// (a colour group) and GLB (COLOR_0); normals by PLY, OBJ and GLB.
+/// (a colour group) and GLB (COLOR_0); normals by PLY, OBJ and GLB. Textures are kept by GLB, by
+/// 3MF, in place of colours there, and by OBJ in files beside it (texture_files()).
 /// Fails with kUnsupported (another ending), kTooFewPoints (no mesh, or one without triangles),
 /// kFormat (a coordinate that is not finite), or as write_file_atomically. Throws
 /// std::invalid_argument when an attribute's length does not fit or an index is out of range.
@@ -48,6 +51,12 @@ Result<> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh)
 /// Stanford's scans have: `confidence`. Throws std::invalid_argument when its length does not fit.
 Result<> write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                     std::span<const float> confidence);
+
+/// The files that write_meshes() writes beside an OBJ file: its MTL, and a PNG for each texture.
+std::vector<std::filesystem::path> texture_files(const std::filesystem::path& path,
+                                                 std::span<const TriangleMesh> meshes);
+/// Whether a file of this ending keeps textures.
+bool holds_textures(const std::filesystem::path& path);
 
 /// To be asked before long work: whether write_meshes could write there (ending known, folder
 /// there and writable, not a directory).

@@ -22,6 +22,10 @@ struct ObjContent {
   bool one_normal_each = true;           ///< no vertex has different normals in different faces
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Object> objects;
+  std::vector<Eigen::Vector2f> places;                 ///< in pictures, from the lower left corner
+  std::vector<std::array<std::uint32_t, 3>> place_of;  ///< per triangle, kNone where no face says
+  std::vector<std::uint32_t> material_of;              ///< per triangle
+  std::vector<std::string> materials{""}, libraries;
 };
 
 class ObjReader {
@@ -43,7 +47,10 @@ class ObjReader {
     if (word == "vn") return normal();
     if (word == "f") return face();
     if (word == "o") return object();
-    return nullptr;  // texture, material, groups, curves
+    if (word == "vt") return place();
+    if (word == "usemtl") use_material(std::string(cursor_.rest_of_line()));
+    if (word == "mtllib") content_.libraries.emplace_back(cursor_.rest_of_line());
+    return nullptr;  // groups, curves
   }
 
   const char* object() {
@@ -84,13 +91,32 @@ class ObjReader {
     return nullptr;
   }
 
+  const char* place() {
+    Eigen::Vector2f at;
+    for (int i = 0; i < 2; ++i)
+      if (!cursor_.floating(at[i])) at[i] = 0.0F;  // one number is a place in a line of colours
+    content_.places.push_back(at);
+    return nullptr;
+  }
+
+  void use_material(std::string name) {
+    auto& all = content_.materials;
+    const auto same = std::find(all.begin(), all.end(), name);
+    material_ = static_cast<std::uint32_t>(same - all.begin());
+    if (same == all.end()) all.push_back(std::move(name));
+  }
+
   const char* face() {
     polygon_.clear();
+    polygon_places_.clear();
     for (cursor_.skip_blanks(); !cursor_.at_line_end(); cursor_.skip_blanks())
       if (const char* why = corner(cursor_.word())) return why;
     if (polygon_.size() < 3) return "a face without three vertices";
-    for (std::size_t i = 2; i < polygon_.size(); ++i)
+    for (std::size_t i = 2; i < polygon_.size(); ++i) {
       content_.triangles.push_back({polygon_[0], polygon_[i - 1], polygon_[i]});
+      content_.place_of.push_back({polygon_places_[0], polygon_places_[i - 1], polygon_places_[i]});
+      content_.material_of.push_back(material_);
+    }
     return nullptr;
   }
 
@@ -101,6 +127,12 @@ class ObjReader {
     if (vertex == kNone) return "the index of a vertex is out of range";
     polygon_.push_back(vertex);
     const std::size_t second = slash == std::string_view::npos ? slash : text.find('/', slash + 1);
+    polygon_places_.push_back(
+        slash == std::string_view::npos
+            ? kNone
+            : index(text.substr(slash + 1,
+                                second == std::string_view::npos ? second : second - slash - 1),
+                    content_.places.size()));
     if (second == std::string_view::npos) return nullptr;
     const std::uint32_t normal = index(text.substr(second + 1), content_.normals.size());
     if (normal == kNone) return "the index of a normal is out of range";
@@ -122,7 +154,8 @@ class ObjReader {
 
   text::TextCursor cursor_;
   ObjContent content_;
-  std::vector<std::uint32_t> polygon_;
+  std::vector<std::uint32_t> polygon_, polygon_places_;
+  std::uint32_t material_ = 0;
 };
 
 std::vector<Vec3f> normals_per_vertex(const ObjContent& content) {
@@ -186,13 +219,36 @@ class Cutter {
   std::vector<std::uint32_t> used_;
 };
 
-std::vector<TriangleMesh> objects_of(ObjContent&& content) {
+/// Places of the triangles [begin, end), if all have some and are of one material.
+ObjPlaces places_of(const ObjContent& content, std::size_t begin, std::size_t end) {
+  ObjPlaces out;
+  for (std::size_t t = begin; t < end; ++t) {
+    const auto& place = content.place_of[t];
+    if (content.material_of[t] != content.material_of[begin] ||
+        std::find(place.begin(), place.end(), kNone) != place.end())
+      return {};
+    auto& corners = out.corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector2f& p = content.places[place[k]];
+      corners[k] = {p.x(), 1.0F - p.y()};
+      if (!corners[k].allFinite()) return {};
+    }
+  }
+  if (begin < end) out.material = content.materials[content.material_of[begin]];
+  return out;
+}
+
+std::vector<TriangleMesh> objects_of(ObjContent&& content, std::vector<ObjPlaces>& places) {
   auto objects = std::move(content.objects);
   if (objects.size() > 1 && objects.back().first_triangle == content.triangles.size())
     objects.pop_back();
   std::vector<TriangleMesh> meshes;
   const std::size_t count = objects.size();
   content.objects = objects;
+  for (std::size_t i = 0; i < count; ++i)
+    places.push_back(
+        places_of(content, objects[i].first_triangle,
+                  i + 1 < count ? objects[i + 1].first_triangle : content.triangles.size()));
   TriangleMesh whole = whole_mesh(std::move(content));
   if (count == 1) {
     meshes.push_back(std::move(whole));
@@ -221,10 +277,18 @@ std::string join_lines(std::string_view bytes) {
 
 }  // namespace
 
-Meshes decode_obj(std::string_view bytes) {
+Result<ObjObjects> parse_obj(std::string_view bytes) {
   const std::string joined = bytes.find('\\') == bytes.npos ? std::string() : join_lines(bytes);
   TURNSCAN_ASSIGN(ObjContent content, ObjReader(joined.empty() ? bytes : joined).read());
-  return objects_of(std::move(content));
+  ObjObjects out;
+  out.libraries = std::move(content.libraries);
+  out.meshes = objects_of(std::move(content), out.places);
+  return out;
+}
+
+Meshes decode_obj(std::string_view bytes) {
+  TURNSCAN_ASSIGN(ObjObjects objects, parse_obj(bytes));
+  return std::move(objects.meshes);
 }
 
 }  // namespace turnscan::mesh_io

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
+#include <turnscan/io/mesh/obj_material.hpp>
 
 namespace turnscan::mesh_io {
 
@@ -18,12 +20,17 @@ void append_vertex(fmt::memory_buffer& text, const TriangleMesh& mesh, std::size
   text.push_back('\n');
 }
 
+/// places: numbers of the corners' places in the picture, or nullptr.
 void append_face(fmt::memory_buffer& text, const std::array<std::uint32_t, 3>& triangle,
-                 std::uint64_t first, bool normals) {
+                 std::uint64_t first, bool normals, const std::array<std::uint64_t, 3>* places) {
   text.push_back('f');
-  for (const std::uint32_t v : triangle) {
-    const std::uint64_t number = first + v;
-    if (normals)
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint64_t number = first + triangle[k];
+    if (places != nullptr && normals)
+      fmt::format_to(fmt::appender(text), " {}/{}/{}", number, (*places)[k], number);
+    else if (places != nullptr)
+      fmt::format_to(fmt::appender(text), " {}/{}", number, (*places)[k]);
+    else if (normals)
       fmt::format_to(fmt::appender(text), " {}//{}", number, number);
     else
       fmt::format_to(fmt::appender(text), " {}", number);
@@ -53,13 +60,16 @@ std::string object_name(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes) {
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const std::string& library) {
   TURNSCAN_TRY(sink.write("# turnscan, unit metre\n"));
+  if (!library.empty()) TURNSCAN_TRY(sink.write("mtllib " + library + "\n"));
   // Normals have the numbers of their vertices: all objects have them or none.
   const bool normals = std::none_of(meshes.begin(), meshes.end(),
                                     [](const TriangleMesh& m) { return m.normals.empty(); });
-  std::uint64_t first = 1;
-  for (const TriangleMesh& mesh : meshes) {
+  std::uint64_t first = 1, first_place = 1;
+  for (std::size_t number = 0; number < meshes.size(); ++number) {
+    const TriangleMesh& mesh = meshes[number];
     if (meshes.size() > 1 || !mesh.name.empty())
       TURNSCAN_TRY(sink.write("o " + object_name(mesh) + "\n"));
     const std::size_t n = mesh.vertices.size();
@@ -68,12 +78,30 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes) {
       const Vec3f& v = mesh.normals[i];
       fmt::format_to(fmt::appender(text), "vn {} {} {}\n", v.x(), v.y(), v.z());
     }));
+    SplitMesh split;
+    if (!library.empty() && has_texture(mesh)) split = split_at_seams(mesh);
+    TURNSCAN_TRY(write_lines(sink, split.places.size(), [&](auto& text, auto i) {
+      const Eigen::Vector2f& p = split.places[i];
+      fmt::format_to(fmt::appender(text), "vt {} {}\n", p.x(), 1.0F - p.y());
+    }));
+    if (!split.places.empty()) TURNSCAN_TRY(sink.write("usemtl " + material_name(number) + "\n"));
     TURNSCAN_TRY(write_lines(sink, mesh.triangles.size(), [&](auto& text, auto i) {
-      append_face(text, mesh.triangles[i], first, normals);
+      if (split.places.empty()) {
+        append_face(text, mesh.triangles[i], first, normals, nullptr);
+        return;
+      }
+      std::array<std::uint64_t, 3> places{};
+      for (std::size_t k = 0; k < 3; ++k) places[k] = first_place + split.mesh.triangles[i][k];
+      append_face(text, mesh.triangles[i], first, normals, &places);
     }));
     first += n;
+    first_place += split.places.size();
   }
   return {};
+}
+
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes) {
+  return write_obj(sink, meshes, "");
 }
 
 }  // namespace turnscan::mesh_io

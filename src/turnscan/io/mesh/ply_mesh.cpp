@@ -1,5 +1,6 @@
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/io/mesh/texture_block.hpp>
 #include <turnscan/io/ply/ply_read.hpp>
 #include <turnscan/io/ply/ply_write.hpp>
 
@@ -32,6 +33,7 @@ Meshes decode_ply_sequence(std::string_view bytes) {
     TURNSCAN_ASSIGN(auto content, ply::parse_ply(bytes, ply::PlyParts::kFaces));
     bytes.remove_prefix(content.end);
     meshes.push_back(mesh_from(std::move(content)));
+    TURNSCAN_TRY(take_texture_block(bytes, meshes.back()));
   }
   return meshes;
 }

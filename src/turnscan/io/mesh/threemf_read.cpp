@@ -1,7 +1,10 @@
 #include <cmath>
 #include <limits>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/mesh/lib3mf_handle.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
+#include <turnscan/io/mesh/texture_budget.hpp>
+#include <utility>
 
 namespace turnscan::mesh_io {
 
@@ -13,6 +16,7 @@ constexpr int kMaxDepth = 32;  // of objects made of objects
 constexpr std::size_t kMaxPlaced = 100000;
 constexpr std::size_t kMaxElements = 10000000;  // vertices and triangles
 constexpr std::size_t kMaxElementsPerByte = 4;  // of a large file
+constexpr std::uint64_t kMaxPictureBytes = std::uint64_t(256) << 20;
 
 double metres_of(unsigned unit) {
   switch (unit) {
@@ -81,6 +85,7 @@ class ThreemfReader {
     mesh.name = name_of(object);
     add_object(object, transform_from(fields), 0, mesh);
     if (mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
+    add_texture(mesh);
     meshes_.push_back(std::move(mesh));
   }
 
@@ -146,7 +151,51 @@ class ThreemfReader {
           (transform * Vec3f(v.m_fPosition[0], v.m_fPosition[1], v.m_fPosition[2]).cast<double>())
               .cast<float>());
     add_triangles(triangles, first, vertex_count, transform.linear().determinant() < 0.0, target);
+    add_places(object, triangle_count, transform.linear().determinant() < 0.0);
     if (target.colors.size() == first) add_colors(object, triangles, vertex_count, target);
+  }
+
+  /// Places of an object's triangles, if all have one in the same picture.
+  void add_places(const Lib3mfHandle& object, std::size_t count, bool mirrored) {
+    Lib3mfHandle handler;
+    std::vector<NMR::MODELMESHTEXTURE2D> places(count);
+    if (NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()) != LIB3MF_OK ||
+        NMR::lib3mf_propertyhandler_gettexturearray(handler.get(), places.data()) != LIB3MF_OK)
+      return;
+    for (const NMR::MODELMESHTEXTURE2D& place : places) {
+      if (place.m_nTextureID == 0) return;
+      if (texture_id_ != 0 && texture_id_ != place.m_nTextureID) return;
+      texture_id_ = place.m_nTextureID;
+      auto& corners = places_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t from = mirrored ? 2 - k : k;
+        corners[k] = {place.m_fU[from], 1.0F - place.m_fV[from]};
+      }
+    }
+  }
+
+  /// To the item that was read. What is wrong with a picture costs it its texture, not its shape.
+  void add_texture(TriangleMesh& mesh) {
+    auto corners = std::exchange(places_, {});
+    const DWORD id = std::exchange(texture_id_, 0);
+    if (id == 0 || corners.size() != mesh.triangles.size()) return;
+    Lib3mfHandle texture, attachment;
+    ULONG64 size = 0;
+    if (NMR::lib3mf_model_gettexture2dbyid(model_.get(), id, texture.out()) != LIB3MF_OK ||
+        NMR::lib3mf_texture2d_getattachment(texture.get(), attachment.out()) != LIB3MF_OK ||
+        NMR::lib3mf_attachment_getstreamsize(attachment.get(), &size) != LIB3MF_OK ||
+        size > kMaxPictureBytes)
+      return;
+    std::string bytes(size, '\0');
+    if (NMR::lib3mf_attachment_writetobuffer(
+            attachment.get(), reinterpret_cast<unsigned char*>(bytes.data()), size) != LIB3MF_OK)
+      return;
+    auto image = budget_.decode(bytes);
+    if (!image) return;
+    auto made = std::make_shared<MeshTexture>();
+    made->image = std::move(*image);
+    made->corners = std::move(corners);
+    mesh.texture = std::move(made);
   }
 
   static void add_triangles(const std::vector<NMR::MODELMESHTRIANGLE>& triangles, std::size_t first,
@@ -188,6 +237,9 @@ class ThreemfReader {
   Lib3mfHandle model_;
   std::vector<TriangleMesh> meshes_;
   std::size_t placed_ = 0, elements_left_;
+  std::vector<std::array<Eigen::Vector2f, 3>> places_;  // of the item being read
+  DWORD texture_id_ = 0;
+  TextureBudget budget_;
 };
 
 }  // namespace

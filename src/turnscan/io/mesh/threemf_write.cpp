@@ -1,7 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <clocale>
 #include <cstring>
+#include <locale>
+#include <optional>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/clean_name.hpp>
+#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/mesh/lib3mf_handle.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 
@@ -43,6 +49,31 @@ bool is_degenerate(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
+/// lib3mf writes places in textures through streams, which take the global locale: while it lives,
+/// that one has points. Programs that leave it alone see no change.
+class ClassicStreams {
+ public:
+  explicit ClassicStreams(std::span<const TriangleMesh> meshes) {
+    const std::locale now;
+    const bool commas = std::use_facet<std::numpunct<wchar_t>>(now).decimal_point() != L'.' ||
+                        std::use_facet<std::numpunct<char>>(now).decimal_point() != '.';
+    if (!commas || std::none_of(meshes.begin(), meshes.end(), has_texture)) return;
+    c_locale_ = std::setlocale(LC_ALL, nullptr);
+    before_ = std::locale::global(std::locale::classic());
+  }
+  ~ClassicStreams() {
+    if (!before_) return;
+    std::locale::global(*before_);
+    std::setlocale(LC_ALL, c_locale_.c_str());
+  }
+  ClassicStreams(const ClassicStreams&) = delete;
+  ClassicStreams& operator=(const ClassicStreams&) = delete;
+
+ private:
+  std::optional<std::locale> before_;
+  std::string c_locale_;
+};
+
 class Writer {
  public:
   explicit Writer(std::span<const TriangleMesh> meshes) {
@@ -68,7 +99,10 @@ class Writer {
     Lib3mfHandle object;
     require(NMR::lib3mf_model_addmeshobject(model_.get(), object.out()), model_);
     add_geometry(object, mesh);
-    if (!mesh.colors.empty()) add_colors(object, mesh);
+    if (has_texture(mesh))
+      add_texture(object, mesh, number);
+    else if (!mesh.colors.empty())
+      add_colors(object, mesh);
     if (!mesh.name.empty())
       require(NMR::lib3mf_object_setnameutf8(object.get(), file::clean_name(mesh.name).c_str()),
               object);
@@ -86,8 +120,13 @@ class Writer {
         vertices[i].m_fPosition[k] =
             static_cast<float>(static_cast<double>(mesh.vertices[i][k]) * 1000.0);
     triangles_.clear();
-    for (const auto& t : mesh.triangles)
-      if (!is_degenerate(t)) triangles_.push_back({{t[0], t[1], t[2]}});  // the format forbids it
+    kept_.clear();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const auto& t = mesh.triangles[i];
+      if (is_degenerate(t)) continue;  // the format forbids it
+      triangles_.push_back({{t[0], t[1], t[2]}});
+      kept_.push_back(i);
+    }
     if (triangles_.empty()) throw Lib3mfFailure("all triangles are degenerate");
     require(NMR::lib3mf_meshobject_setgeometry(
                 object.get(), vertices.data(), static_cast<unsigned>(vertices.size()),
@@ -113,13 +152,54 @@ class Writer {
             fallback);
   }
 
+  /// A picture in the package, whose origin is the lower left corner. The default property is the
+  /// place of the first corner.
+  void add_texture(const Lib3mfHandle& object, const TriangleMesh& mesh, std::size_t number) {
+    const auto png = encode_color_png(mesh.texture->image);
+    if (!png) throw Lib3mfFailure(png.error().message);
+    std::string path = fmt::format("/3D/Textures/texture{}.png", number + 1);
+    std::string relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dtexture";
+    Lib3mfHandle attachment, texture;
+    require(NMR::lib3mf_model_addattachmentutf8(model_.get(), path.data(), relation.data(),
+                                                attachment.out()),
+            model_);
+    auto* bytes = reinterpret_cast<unsigned char*>(const_cast<char*>(png->data()));
+    require(NMR::lib3mf_attachment_readfrombuffer(attachment.get(), bytes, png->size()),
+            attachment);
+    require(
+        NMR::lib3mf_model_addtexture2dfromattachment(model_.get(), attachment.get(), texture.out()),
+        model_);
+    require(NMR::lib3mf_texture2d_setcontenttype(texture.get(), NMR::MODELTEXTURETYPE_PNG),
+            texture);
+    DWORD id = 0;
+    require(NMR::lib3mf_resource_getresourceid(texture.get(), &id), texture);
+    std::vector<NMR::MODELMESHTEXTURE2D> places(triangles_.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      places[i].m_nTextureID = id;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector2f& p = mesh.texture->corners[kept_[i]][k];
+        places[i].m_fU[k] = p.x();
+        places[i].m_fV[k] = 1.0F - p.y();
+      }
+    }
+    Lib3mfHandle handler, fallback;
+    require(NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()), object);
+    require(NMR::lib3mf_propertyhandler_settexturearray(handler.get(), places.data()), handler);
+    require(NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), fallback.out()), object);
+    require(NMR::lib3mf_defaultpropertyhandler_settexture(fallback.get(), id, places[0].m_fU[0],
+                                                          places[0].m_fV[0]),
+            fallback);
+  }
+
   Lib3mfHandle model_;
   std::vector<NMR::MODELMESHTRIANGLE> triangles_;  ///< of the mesh being added
+  std::vector<std::size_t> kept_;                  ///< their positions in it
 };
 
 }  // namespace
 
 Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes) {
+  const ClassicStreams points(meshes);
   try {
     const std::string bytes = Writer(meshes).write();
     if (bytes.empty()) return fail(ErrorCode::kLibrary, "lib3mf wrote nothing");

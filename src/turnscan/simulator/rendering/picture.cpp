@@ -250,7 +250,7 @@ OptionTable describe(PictureOptions& o) {
               "Above 1 the picture comes nearer than all of the object.")
       .flag("picture-ground", o.ground, "A floor in the picture that catches shadows.")
       .flag("picture-smooth", o.smooth, "Interpolated normals in the picture.")
-      .flag("picture-colours", o.use_colors, "Vertex colours in the picture.")
+      .flag("picture-colours", o.use_colors, "Textures and vertex colours in the picture.")
       .number("picture-samples", o.ambient_samples, {0, 1024},
               "Rays for each of a pixel's four samples that look for the sky.");
   return table;

@@ -20,7 +20,7 @@ struct PictureOptions {
   double zoom = 1.0;           ///< above 1: nearer than all of the meshes in the picture
   bool ground = true;          ///< a floor below the meshes that catches their shadow
   bool smooth = true;          ///< interpolated normals; edges above 40 deg stay sharp
-  bool use_colors = true;      ///< vertex colours where a mesh has them
+  bool use_colors = true;      ///< textures, or vertex colours, where a mesh has them
   Rgb surface{204, 196, 184};  ///< of meshes without colours
   Rgb background{255, 255, 255};
   int ambient_samples = 8;  ///< rays a sample (four samples a pixel) for ambient occlusion

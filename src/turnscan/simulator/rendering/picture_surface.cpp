@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/simulator/rendering/picture_surface.hpp>
 
 namespace turnscan::rendering {
@@ -49,6 +50,10 @@ Vec3f PictureSurface::normal(const RayHit& hit) const {
 }
 
 Vec3f PictureSurface::albedo(const RayHit& hit, const Vec3f& otherwise) const {
+  if (has_texture(mesh_)) {
+    const Vec3f c = texture_at(mesh_, hit.triangle, hit.u, hit.v) / 255.0f;
+    return c.array().pow(2.2f).matrix();
+  }
   if (mesh_.colors.size() != mesh_.vertices.size()) return otherwise;
   const auto& t = mesh_.triangles[hit.triangle];
   return (1.0f - hit.u - hit.v) * linear_of(mesh_.colors[t[0]]) +

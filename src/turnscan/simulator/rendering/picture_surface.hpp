@@ -16,7 +16,7 @@ class PictureSurface {
   /// Interpolated from the faces about each corner that are within 40 deg of the one hit, so that
   /// edges stay sharp; without smooth, the hit's own normal. Unit length, on the side of the hit's.
   Vec3f normal(const RayHit& hit) const;
-  /// Linear light, from vertex colours; `otherwise` where there are none.
+  /// Linear light, from the texture, else vertex colours; `otherwise` where there are none.
   Vec3f albedo(const RayHit& hit, const Vec3f& otherwise) const;
 
  private:

@@ -1,5 +1,7 @@
 #include <turnscan/workflow/text/mesh_text.hpp>
 
+#include <turnscan/core/mesh_texture.hpp>
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -51,7 +53,10 @@ nlohmann::json mesh_json(const TriangleMesh& mesh, const MeshReport& r) {
           {"misoriented_edges", r.misoriented_edges},
           {"invalid_triangles", r.invalid_triangles},
           {"degenerate_triangles", r.degenerate_triangles},
-          {"colored", !mesh.colors.empty()}};
+          {"colored", !mesh.colors.empty()},
+          {"texture_px", has_texture(mesh)
+                             ? nlohmann::json{mesh.texture->image.width, mesh.texture->image.height}
+                             : nlohmann::json()}};
 }
 
 }  // namespace

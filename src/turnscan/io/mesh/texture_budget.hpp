@@ -1,0 +1,20 @@
+#pragma once
+// How much of pictures one file may ask for: it can name the same one any number of times.
+
+#include <string_view>
+#include <turnscan/core/image.hpp>
+#include <turnscan/core/result.hpp>
+
+namespace turnscan::mesh_io {
+
+class TextureBudget {
+ public:
+  /// Decodes a picture. Fails as decode_color(), and with kResourceLimit when the pictures of the
+  /// file together have more than kMaxImagePixels pixels.
+  Result<ColorImage> decode(std::string_view bytes);
+
+ private:
+  std::uint64_t pixels_ = 0, tries_ = 0;
+};
+
+}  // namespace turnscan::mesh_io
