@@ -1,3 +1,4 @@
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
@@ -503,6 +504,69 @@ TEST(VirtualScanOptionsTest, RefusesAScanWithoutScanners) {
   const auto scan = VirtualScan::create({}, o);
   ASSERT_FALSE(scan);
   EXPECT_EQ(scan.error().code, ErrorCode::kInvalidOption);
+}
+
+/// A tall triangle with a texture: red to the left of u = 1/2, blue to the right of it.
+TriangleMesh textured_wall() {
+  TriangleMesh mesh;
+  mesh.vertices = {{-0.2f, 0.0f, 0.0f}, {0.0f, 0.4f, 0.0f}, {0.2f, 0.0f, 0.0f}};
+  mesh.triangles = {{0, 1, 2}};
+  auto texture = std::make_shared<MeshTexture>();
+  texture->image = ColorImage(64, 64, Rgb{200, 20, 20});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 32; x < 64; ++x) texture->image.at(x, y) = {20, 20, 200};
+  texture->corners.push_back({Eigen::Vector2f(0.1f, 0.9f), {0.5f, 0.1f}, {0.9f, 0.9f}});
+  mesh.texture = std::move(texture);
+  return mesh;
+}
+
+TEST(ColourCamera, SeesTheTextureFromItsOwnPlaceAndTheHeaderSaysWhereItIs) {
+  VirtualScanOptions o = noiseless();
+  o.motion.frames = 1;
+  o.record.color = true;
+  o.color_camera.width = 160;
+  o.color_camera.pan_rad = 0.02;
+  const VirtualScan scan = scan_of({textured_wall()}, o);
+  const SensorInfo& sensor = scan.header().sensors[0];
+  ASSERT_TRUE(sensor.color_intrinsics);
+  EXPECT_EQ(sensor.color_intrinsics->height, 90);
+  const auto frame = scan.read(0);
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->color.width, 160);
+  for (const double side : {-0.02, 0.02}) {
+    const Vec3d p = scan.T_table_sensor(0).inverse() * Vec3d(side, 0.1, 0.0);
+    const Eigen::Vector2d at = sensor.color_intrinsics->project(sensor.T_color_sensor * p);
+    const Rgb seen = frame->color.at(int(std::lround(at.x())), int(std::lround(at.y())));
+    const Rgb is = side < 0.0 ? Rgb{200, 20, 20} : Rgb{20, 20, 200};
+    EXPECT_NEAR(seen.r, is.r, 1) << side;
+    EXPECT_NEAR(seen.b, is.b, 1) << side;
+  }
+}
+
+TEST(ColourCamera, DriftsFromFrameToFrameAndIsGivenInTheWrongPlaceOnlyIfAsked) {
+  VirtualScanOptions o = noiseless();
+  o.motion.frames = 3;
+  o.motion.turns = 0.01;
+  o.record.color = true;
+  o.color_camera.width = 80;
+  const auto sum_of = [](const VirtualScan& scan, std::size_t i) {
+    double sum = 0.0;
+    for (const Rgb c : scan.read(i)->color.pixels) sum += c.r + c.g + c.b;
+    return sum;
+  };
+  const VirtualScan steady = scan_of({textured_wall()}, o);
+  EXPECT_NEAR(sum_of(steady, 0) / sum_of(steady, 2), 1.0, 0.01);
+  o.color_camera.drift = 0.3;
+  o.color_camera.given_turn_rad = 0.01;
+  o.color_camera.given_shift_m = 0.005;
+  const VirtualScan drifting = scan_of({textured_wall()}, o);
+  EXPECT_GT(std::abs(sum_of(drifting, 0) / sum_of(drifting, 2) - 1.0) +
+                std::abs(sum_of(drifting, 0) / sum_of(drifting, 1) - 1.0),
+            0.02);
+  const Pose error = drifting.header().sensors[0].T_color_sensor *
+                     steady.header().sensors[0].T_color_sensor.inverse();
+  EXPECT_NEAR(Eigen::AngleAxisd(error.linear()).angle(), 0.01, 1e-6);
+  EXPECT_NEAR(error.translation().norm(), 0.005, 1e-4);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/simulator/color/color_image.hpp>
 #include <turnscan/simulator/scan_image.hpp>
 
 namespace turnscan::sampling {
@@ -8,9 +9,6 @@ namespace {
 
 constexpr Rgb kPlatterColor{140, 142, 146};
 constexpr Rgb kEmptyColor{28, 30, 34};
-constexpr float kPlainGrey = 190.0f;
-
-Vec3f as_vector(Rgb c) { return {float(c.r), float(c.g), float(c.b)}; }
 
 Rgb shaded(const Vec3f& color, float light) {
   const Vec3f c = (light * color).cwiseMin(255.0f).cwiseMax(0.0f) + Vec3f::Constant(0.5f);
@@ -58,13 +56,9 @@ Albedo albedo_of(const std::vector<std::span<const TriangleMesh>>& meshes) {
 
 Vec3f Paint::color(const Samples& samples, std::size_t i, const SampleHit& hit) const {
   const std::uint32_t object = samples.object(i);
-  if (object == kPlatter) return as_vector(kPlatterColor);
-  const TriangleMesh& mesh = meshes_[samples.body(i)][object];
-  if (mesh.colors.size() != mesh.vertices.size()) return Vec3f::Constant(kPlainGrey);
-  const auto& t = mesh.triangles[samples.triangle[i]];
-  const auto u = static_cast<float>(hit.u), v = static_cast<float>(hit.v);
-  return (1.0f - u - v) * as_vector(mesh.colors[t[0]]) + u * as_vector(mesh.colors[t[1]]) +
-         v * as_vector(mesh.colors[t[2]]);
+  if (object == kPlatter) return platter_color();
+  return surface_color(meshes_[samples.body(i)][object], samples.triangle[i],
+                       static_cast<float>(hit.u), static_cast<float>(hit.v));
 }
 
 ColorImage color_image(const SampleTracer& tracer, std::span<const Body> bodies,

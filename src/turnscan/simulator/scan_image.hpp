@@ -11,7 +11,8 @@ namespace turnscan::sampling {
 /// is no return.
 DepthImage depth_image(const SampleGrid& grid, std::span<const float> z, double unit_m);
 
-/// Colour of a hit by its triangle's vertices; meshes[body][object]. Grey without colours.
+/// Colour of a hit by the mesh's texture or its triangle's vertices; meshes[body][object]. Grey
+/// without colours.
 class Paint {
  public:
   explicit Paint(std::vector<std::span<const TriangleMesh>> meshes) : meshes_(std::move(meshes)) {}

@@ -213,6 +213,7 @@ std::vector<SceneTable> describe(SceneDescription& scene) {
   tables.push_back({"events", "What happens meanwhile", std::move(events)});
   tables.push_back({"noise", "Noise", describe(scene.measure)});
   tables.push_back({"recording", "Recording", describe(scene.record)});
+  tables.push_back({"colour-camera", "Colour camera", describe(scene.color_camera)});
   return tables;
 }
 
@@ -268,6 +269,7 @@ Result<VirtualScanOptions> scan_options(const SceneDescription& scene) {
   options.hand = scene.hand;
   options.measure = scene.measure;
   options.record = scene.record;
+  options.color_camera = scene.color_camera;
   return options;
 }
 

@@ -45,6 +45,7 @@ struct SceneDescription {
   HandOptions hand;
   MeasureOptions measure;
   RecordOptions record;
+  ColorCameraOptions color_camera;
 };
 
 struct SceneTable {

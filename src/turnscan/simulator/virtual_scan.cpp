@@ -3,7 +3,9 @@
 #include <cmath>
 #include <mutex>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/random.hpp>
 #include <turnscan/core/version.hpp>
+#include <turnscan/simulator/color/color_image.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/scan_image.hpp>
 #include <turnscan/simulator/virtual_bench.hpp>
@@ -61,7 +63,8 @@ struct VirtualScan::Impl {
   VirtualBench bench;
   std::vector<SampleTracer> tracers;
   std::vector<SensorNoise> noises;
-  Albedo albedo;  ///< none where no noise asks for it
+  std::optional<sampling::ColorCamera> color_camera;  ///< with an image of its own
+  Albedo albedo;                                      ///< none where no noise asks for it
   mutable std::vector<Tally> tallies;
   TurntableInfo turntable;
   SequenceHeader header;
@@ -101,6 +104,10 @@ struct VirtualScan::Impl {
     }
     if (noise.kind == NoiseKind::kModel || noise.kind == NoiseKind::kPhysics)
       albedo = sampling::albedo_of(bench.meshes());
+    if (options.record.color && options.color_camera.width > 0) {
+      TURNSCAN_ASSIGN(color_camera,
+                      sampling::ColorCamera::create(options.color_camera, bench.meshes()));
+    }
     tallies = std::vector<Tally>(scanner_count());
     return {};
   }
@@ -113,6 +120,10 @@ struct VirtualScan::Impl {
     } else {
       sensor.intrinsics = scanner.model.camera;
       sensor.depth_unit_m = scanner.model.depth_unit_m;
+      if (options.record.color && options.color_camera.width > 0) {
+        sensor.color_intrinsics = intrinsics_of(options.color_camera);
+        sensor.T_color_sensor = given_T_color_sensor(options.color_camera);
+      }
     }
     return sensor;
   }
@@ -220,6 +231,21 @@ struct VirtualScan::Impl {
     return sampling::mean_image(images);
   }
 
+  /// Of a camera of its own; over the exposure.
+  ColorImage own_color_image(const SensorView& view, std::size_t position) const {
+    Image<Vec3f> light;
+    if (view.moments.empty()) light = color_camera->light(view.bodies, view.T_world_sensor);
+    for (const SensorMoment& moment : view.moments) {
+      const Image<Vec3f> one = color_camera->light(moment.bodies, moment.T_world_sensor);
+      if (light.empty()) light = Image<Vec3f>(one.width, one.height, Vec3f::Zero());
+      for (std::size_t i = 0; i < one.pixels.size(); ++i)
+        light.pixels[i] += one.pixels[i] / float(view.moments.size());
+    }
+    const auto seed = static_cast<std::uint64_t>(options.measure.seed);
+    return color_camera->exposed(
+        light, hash_key(seed, 0x636f6c6f, instant_of(position), scanner_of(position)));
+  }
+
   TrueSamples true_samples(std::size_t position) const {
     const std::size_t k = scanner_of(position);
     const PlatterState& state = state_of(position);
@@ -277,7 +303,9 @@ struct VirtualScan::Impl {
     }
     frame.depth = sampling::depth_image(space.exact, space.measured.z,
                                         options.scanners[k].model.depth_unit_m);
-    if (color) frame.color = color_image(view, space.exact, paint);
+    if (color)
+      frame.color =
+          color_camera ? own_color_image(view, position) : color_image(view, space.exact, paint);
     return frame;
   }
 };

@@ -84,6 +84,7 @@ Result<> check(const VirtualScanOptions& o) {
   TURNSCAN_TRY(check_fields(o.object_move));
   TURNSCAN_TRY(check_fields(o.hand));
   TURNSCAN_TRY(check_fields(o.measure));
+  TURNSCAN_TRY(check_fields(o.color_camera));
   return check_fields(o.record);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/simulator/color/color_camera.hpp>
 #include <turnscan/simulator/scanner/scanner_model.hpp>
 #include <turnscan/simulator/scene/hand.hpp>
 #include <turnscan/simulator/scene/object_move.hpp>
@@ -70,6 +71,7 @@ struct VirtualScanOptions {
   HandOptions hand;
   MeasureOptions measure;
   RecordOptions record;
+  ColorCameraOptions color_camera;
   std::uint32_t first_instant = 0;  ///< of the random numbers; see VirtualPasses
 };
 
