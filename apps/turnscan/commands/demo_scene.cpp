@@ -88,6 +88,7 @@ Result<> write_piece(const Piece& piece, const fs::path& folder, int picture_siz
                   color_by_error(piece.mesh, piece.truth, kErrorScale_m, context));
   TURNSCAN_ASSIGN(const ColorImage picture, draw(piece, errors, picture_size_px, context));
   TURNSCAN_TRY(write_mesh(file(".ply"), piece.mesh));
+  if (piece.mesh.texture != nullptr) TURNSCAN_TRY(write_mesh(file(".glb"), piece.mesh));
   TURNSCAN_TRY(write_mesh(file(".stl"), piece.mesh));
   TURNSCAN_TRY(write_mesh(file("-reference.ply"), piece.truth));
   TURNSCAN_TRY(write_mesh(file("-errors.ply"), errors));

@@ -2,6 +2,7 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/recording/recording.hpp>
 
+#include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
@@ -64,6 +65,8 @@ class ReconstructCommand : public Command {
     FileRoles files{recordings_, {files_.mesh, files_.advice_picture}, files_.mesh};
     files.outputs.insert(files.outputs.end(), reports_.begin(), reports_.end());
     files.inputs.push_back(request_.turntable);
+    for (const std::string& file : texture_files_of(files_.mesh, request_.options.texture))
+      files.outputs.push_back(file);
     for (const std::string& text : save_stages_) files.outputs.push_back(stage_file(text));
     for (const std::string& text : pass_poses_)
       files.inputs.push_back(text.substr(text.find('=') + 1));
@@ -111,6 +114,7 @@ class ReconstructCommand : public Command {
     files_.report = reports.json;
     files_.page = reports.page;
     TURNSCAN_TRY(check_outputs(files_));
+    TURNSCAN_TRY(check_textured_mesh_file(files_.mesh, request_.options.texture));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
     for (const std::string& text : pass_poses_) {
       TURNSCAN_ASSIGN(PassPose pose, parse_pass_pose(text));

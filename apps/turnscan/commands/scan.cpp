@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/scan/scan.hpp>
@@ -58,6 +59,8 @@ class ScanCommand : public Command {
   FileRoles files() const override {
     std::vector<std::string> outputs{request_.mesh, request_.advice_picture};
     outputs.insert(outputs.end(), reports_.begin(), reports_.end());
+    for (const std::string& file : texture_files_of(request_.mesh, request_.reconstruct.texture))
+      outputs.push_back(file);
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file), outputs,
             request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }

@@ -26,7 +26,8 @@ std::vector<OptionGroup> describe_stages(ReconstructOptions& o) {
           {"base", describe(o.base)},
           {"surface", describe(o.surface)},
           {"volumetric", describe(o.volumetric)},
-          {"finish", describe(o.finish)}};
+          {"finish", describe(o.finish)},
+          {"texture", describe(o.texture)}};
 }
 
 OptionTable describe(ReconstructOptions& options) {

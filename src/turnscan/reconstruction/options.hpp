@@ -7,6 +7,7 @@
 #include <turnscan/reconstruction/options/outlier_options.hpp>
 #include <turnscan/reconstruction/options/point_options.hpp>
 #include <turnscan/reconstruction/options/surface_options.hpp>
+#include <turnscan/reconstruction/options/texture_options.hpp>
 #include <turnscan/reconstruction/options/volumetric_options.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 #include <vector>
@@ -26,6 +27,7 @@ struct ReconstructOptions {
   SurfaceOptions surface;
   VolumetricOptions volumetric;
   FinishOptions finish;
+  TextureOptions texture;
   bool color = false;
   /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
   /// methods from points keep sums only, and the sink gets the later stages.

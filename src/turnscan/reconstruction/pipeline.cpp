@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/reconstruction/texture/texture_objects.hpp>
 
 namespace turnscan {
 
@@ -15,9 +16,9 @@ constexpr std::size_t kFramesAtOnce = 64;
 Result<Reconstruction> reconstruct(const FrameSequence& sequence, const ReconstructOptions& options,
                                    const StageSink& sink, const RunContext& context,
                                    std::vector<PassPlacement> passes) {
-  TURNSCAN_ASSIGN(auto stream,
-                  ReconstructionStream::create(sequence.header(), options, std::move(passes)));
+  TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(sequence.header(), options, passes));
   TURNSCAN_TRY(context.check());
+  if (options.texture.texture) TURNSCAN_TRY(texture::check_colors(sequence));
   const auto& frames = sequence.frames();
   context.begin_phase("read frames", frames.size());
   for (std::size_t begin = 0; begin < frames.size(); begin += kFramesAtOnce) {
@@ -27,7 +28,10 @@ Result<Reconstruction> reconstruct(const FrameSequence& sequence, const Reconstr
     TURNSCAN_TRY(stream.add(
         infos, [&](std::size_t i) { return sequence.read(begin + i); }, context));
   }
-  return stream.finish(sink, context);
+  TURNSCAN_ASSIGN(Reconstruction out, stream.finish(sink, context));
+  if (options.texture.texture)
+    TURNSCAN_TRY(texture::texture_objects(sequence, options, passes, out, context));
+  return out;
 }
 
 }  // namespace turnscan

@@ -41,6 +41,28 @@ Json verdict_json(const Verdict& verdict) {
   return {{"colour", verdict.colour()}, {"sentences", sentences}};
 }
 
+Json texture_json(const TextureReport& texture) {
+  Json gains = Json::array(), cameras = Json::array();
+  for (const Vec3f& g : texture.gains) gains.push_back({g.x(), g.y(), g.z()});
+  for (const TextureReport::Camera& camera : texture.cameras)
+    cameras.push_back({{"sensor", camera.sensor},
+                       {"refined", camera.refined},
+                       {"misplaced_px", camera.misplaced_px},
+                       {"moved_mm", camera.moved_m * 1e3},
+                       {"turned_deg", camera.turned_rad * kDegreesPerRadian}});
+  return {{"size_px", texture.size_px},
+          {"texel_mm", texture.texel_m * 1e3},
+          {"charts", texture.charts},
+          {"stretch", texture.stretch},
+          {"filled_share", texture.filled_share},
+          {"one_view_share", texture.one_view_share},
+          {"views", texture.views},
+          {"gains", gains},
+          {"colour_cameras", cameras},
+          {"disagreement_px", texture.disagreement_px},
+          {"albedo", texture.albedo}};
+}
+
 Json object_json(const ObjectResult& o) {
   const Vec3d size = bounds(o.mesh.vertices).size() * 1e3;
   Json out = {{"name", o.mesh.name},
@@ -53,6 +75,7 @@ Json object_json(const ObjectResult& o) {
               {"invented_area_cm2", o.invented_area_m2 * 1e4},
               {"mesh", check_json(o.check)},
               {"notes", o.notes}};
+  if (o.texture) out["texture"] = texture_json(*o.texture);
   if (o.verdict) out["verdict"] = verdict_json(*o.verdict);
   return out;
 }

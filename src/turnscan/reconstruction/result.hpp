@@ -46,6 +46,29 @@ struct VertexQuality {
   std::uint8_t directions = 0;  ///< sectors of 30 degrees from which they did
 };
 
+/// What became of the colour images of a mesh's texture.
+struct TextureReport {
+  int size_px = 0;              ///< a side of the picture
+  double texel_m = 0.0;         ///< side of a texel on the surface, about
+  std::size_t charts = 0;       ///< connected parts of the surface in the picture
+  double stretch = 1.0;         ///< greatest of a triangle: longer by that in one direction
+  double filled_share = 0.0;    ///< of the surface that no image showed, filled from around it
+  double one_view_share = 0.0;  ///< of it where images did not fit and one was taken
+  std::size_t views = 0;        ///< images that were used
+  /// Per view, by which its red, green and blue were multiplied (linear light); mean 1.
+  std::vector<Vec3f> gains;
+  /// Per sensor with colours that are not registered to depth: by how many pixels its camera was
+  /// misplaced (rms over the surface), and by how many the images still disagree.
+  struct Camera {
+    std::uint32_t sensor = 0;
+    double misplaced_px = 0.0, moved_m = 0.0, turned_rad = 0.0;
+    bool refined = false;  ///< false: left as it was
+  };
+  std::vector<Camera> cameras;
+  double disagreement_px = 0.0;  ///< median shift between an image and the best one
+  bool albedo = false;           ///< shading was taken out
+};
+
 struct ObjectResult {
   TriangleMesh mesh;
   MeshReport check;
@@ -59,9 +82,10 @@ struct ObjectResult {
   std::vector<VertexQuality> quality;  ///< per vertex, volumetric only; else empty
   /// Per triangle; empty where it is not known, without the repair of methods from points.
   std::vector<Evidence> evidence;
-  bool left_open = false;          ///< as asked for: not closed, and no fault
-  std::vector<std::string> notes;  ///< what was repaired, for people
-  std::optional<Verdict> verdict;  ///< once it was judged (workflow/verdict)
+  bool left_open = false;                ///< as asked for: not closed, and no fault
+  std::vector<std::string> notes;        ///< what was repaired, for people
+  std::optional<TextureReport> texture;  ///< of mesh.texture
+  std::optional<Verdict> verdict;        ///< once it was judged (workflow/verdict)
 };
 
 /// How well the motion of a pass is known that was found from the surfaces.

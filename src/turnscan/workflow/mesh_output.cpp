@@ -6,12 +6,36 @@
 
 namespace turnscan {
 
+namespace {
+
+void add_texture_files(const std::string& path, std::span<const TriangleMesh> meshes,
+                       std::vector<std::string>& files) {
+  for (const auto& file : texture_files(path, meshes)) files.push_back(file.string());
+}
+
+}  // namespace
+
 Result<> check_mesh_file(const std::string& path) {
   auto good = check_mesh_output(path);
   if (good) return good;
   Error error = std::move(good).error();
   if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kInvalidOption;
   return tl::unexpected<Error>(std::move(error));
+}
+
+Result<> check_textured_mesh_file(const std::string& path, const TextureOptions& options) {
+  TURNSCAN_TRY(check_mesh_file(path));
+  if (!options.texture || holds_textures(path)) return {};
+  return fail_at(path, ErrorCode::kInvalidOption,
+                 "a {} file holds no texture; write .glb, .obj or .3mf, or leave --texture out "
+                 "(--colour gives the vertices colours)",
+                 ending_of(path));
+}
+
+std::vector<std::string> texture_files_of(const std::string& path, const TextureOptions& options) {
+  if (!options.texture || ending_of(path) != ".obj") return {};
+  const std::string stem = path.substr(0, path.size() - 4);
+  return {stem + ".mtl", stem + ".png"};
 }
 
 Result<> check_watertight(const Reconstruction& r) {
@@ -36,12 +60,16 @@ Result<std::vector<std::string>> write_objects(const std::string& path, const Re
   if (meshes.size() == 1 || !numbers_objects(path)) {
     TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence)
                                     : write_meshes(path, meshes));
-    return std::vector<std::string>{path};
+    std::vector<std::string> files{path};
+    add_texture_files(path, meshes, files);
+    return files;
   }
   std::vector<std::string> files;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    files.push_back(with_suffix(path, fmt::format("-{}", i + 1)));
-    TURNSCAN_TRY(write_mesh(files.back(), meshes[i], r.objects[i].confidence));
+    const std::string file = with_suffix(path, fmt::format("-{}", i + 1));
+    TURNSCAN_TRY(write_mesh(file, meshes[i], r.objects[i].confidence));
+    files.push_back(file);
+    add_texture_files(file, std::span(&meshes[i], 1), files);
   }
   return files;
 }

@@ -11,6 +11,13 @@ namespace turnscan {
 /// that is no mesh format's, else as check_mesh_output().
 Result<> check_mesh_file(const std::string& path);
 
+/// The same for a mesh with a texture, if one is asked for: fails with kInvalidOption for formats
+/// that have none.
+Result<> check_textured_mesh_file(const std::string& path, const TextureOptions& options);
+
+/// The files that a texture adds beside a mesh file of that name, if one is asked for.
+std::vector<std::string> texture_files_of(const std::string& path, const TextureOptions& options);
+
 /// Succeeds when every mesh is closed, 2-manifold and consistently outward. Fails with kLibrary,
 /// naming the first object that is not and why.
 Result<> check_watertight(const Reconstruction& reconstruction);

@@ -267,8 +267,8 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
 MethodEntry entry_of(SurfaceMethod method) {
   MethodEntry entry;
   entry.method = method;
-  entry.option_stages = {"crop",       "outliers", "merge",  "voxels", "candidates",
-                         "components", "normals",  "refine", "base",   "finish"};
+  entry.option_stages = {"crop",    "outliers", "merge", "voxels", "candidates", "components",
+                         "normals", "refine",   "base",  "finish", "texture"};
   entry.options = {"method", "repair"};
   entry.saveable_stages = {"merged", "voxels", "candidates", "refined", "oriented"};
   entry.create = &PointMethod::create;

@@ -394,7 +394,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
 MethodEntry volumetric_method() {
   MethodEntry entry;
   entry.method = SurfaceMethod::kVolumetric;
-  entry.option_stages = {"crop", "volumetric", "finish"};
+  entry.option_stages = {"crop", "volumetric", "finish", "texture"};
   entry.options = {"speed",      "pass", "colour",           "voxel-size",
                    "voxel-grid", "keep", "min-object-share", "object-gap",
                    "method"};

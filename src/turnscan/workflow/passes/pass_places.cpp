@@ -32,6 +32,7 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
   out.surface.repair = true;
   out.merge.pass.reset();
   out.finish = FinishOptions();
+  out.texture = TextureOptions();
   out.volumetric.triangles.reset();
   out.volumetric.max_error_m.reset();
   out.volumetric.mark_invented = false;

@@ -11,6 +11,7 @@
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/reconstruction/texture/texture_objects.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/unfinished.hpp>
 
@@ -87,7 +88,7 @@ class ScanRun {
   CaptureSetup& setup() { return request_.setup; }
 
   Result<> check_files() {
-    TURNSCAN_TRY(check_mesh_file(request_.mesh));
+    TURNSCAN_TRY(check_textured_mesh_file(request_.mesh, request_.reconstruct.texture));
     TURNSCAN_TRY(check_report_files({request_.report, request_.page}));
     TURNSCAN_TRY(check_output_file(request_.advice_picture, ".png"));
     out_.recording = recording_of(request_);
@@ -175,13 +176,20 @@ class ScanRun {
   }
 
   Result<Reconstruction> reconstruct_all() {
-    if (live_) return live_->finish(context_);
+    if (live_) {
+      TURNSCAN_ASSIGN(Reconstruction made, live_->finish(context_));
+      TURNSCAN_TRY(add_textures(std::nullopt, made));
+      return made;
+    }
     if (ahead_) {
       TURNSCAN_ASSIGN(ScanAhead::Outcome ahead, ahead_->finish(context_));
       if (!ahead.note.empty()) out_.notes.push_back(ahead.note);
       out_.ahead = {ahead.frames_ahead, ahead.kept, ahead.closure_m, ahead.closure_limit_m};
-      if (ahead.kept) choice_.calibration = std::move(ahead.calibration);
-      if (ahead.kept) return std::move(ahead.reconstruction);
+      if (ahead.kept) {
+        TURNSCAN_TRY(add_textures(ahead.calibration, ahead.reconstruction));
+        choice_.calibration = std::move(ahead.calibration);
+        return std::move(ahead.reconstruction);
+      }
     }
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
     TURNSCAN_ASSIGN(const CalibratedFrames calibrated,
@@ -189,6 +197,18 @@ class ScanRun {
     choice_ = calibrated.choice;
     if (!choice_.note.empty()) out_.notes.push_back(choice_.note);
     return reconstruct(*calibrated.frames, calibrated.options, {}, context_);
+  }
+
+  /// From the recording, to meshes that were made while it was written.
+  Result<> add_textures(const std::optional<Calibration>& found, Reconstruction& made) const {
+    if (!request_.reconstruct.texture.texture) return {};
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
+    TURNSCAN_TRY(texture::check_colors(recording));
+    ReconstructOptions options = request_.reconstruct;
+    if (!found) return texture::texture_objects(recording, options, {}, made, context_);
+    options.merge.speed_rad_s.reset();  // it is in the angles
+    TURNSCAN_ASSIGN(const auto placed, with_calibration(recording, *found));
+    return texture::texture_objects(*placed, options, {}, made, context_);
   }
 
   /// For the next scan with this device. That it cannot be kept is no reason to fail.

@@ -1,6 +1,7 @@
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 
 #include <map>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
 #include <turnscan/workflow/text/text_table.hpp>
 #include <turnscan/workflow/text/verdict_text.hpp>
@@ -49,6 +50,30 @@ std::string choices_text(const Reconstruction& r) {
   return table.text();
 }
 
+std::string texture_text(const Reconstruction& r) {
+  std::string text;
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    const auto& texture = r.objects[i].texture;
+    if (!texture) continue;
+    text += fmt::format(
+        "Texture{}: {} x {} pixels of {:.2f} mm in {} charts from {} views; {:.1f} % of the "
+        "surface "
+        "was in none of them and is filled from around it\n",
+        r.objects.size() < 2 ? "" : fmt::format(" of object {}", i + 1), texture->size_px,
+        texture->size_px, texture->texel_m * 1e3, texture->charts, texture->views,
+        texture->filled_share * 100.0);
+    for (const TextureReport::Camera& camera : texture->cameras)
+      text += camera.refined
+                  ? fmt::format(
+                        "Colour camera of sensor {}: misplaced by {:.1f} pixels, {:.1f} mm "
+                        "and {:.2f} deg; corrected for the texture\n",
+                        camera.sensor, camera.misplaced_px, camera.moved_m * 1e3,
+                        camera.turned_rad * kDegreesPerRadian)
+                  : fmt::format("Colour camera of sensor {}: taken as it is\n", camera.sensor);
+  }
+  return text;
+}
+
 std::string times_text(const Reconstruction& r) {
   std::string text;
   double total = 0.0;
@@ -70,6 +95,8 @@ std::string reconstruction_text(const Reconstruction& r) {
   if (r.dropped_frames > 0) text += fmt::format("{} frames were dropped\n", r.dropped_frames);
   text += fmt::format("\n{}", objects_text(r));
   if (!r.choices.empty()) text += fmt::format("\n{}", choices_text(r));
+  if (const std::string texture = texture_text(r); !texture.empty())
+    text += fmt::format("\n{}", texture);
   text += fmt::format("\n{}", times_text(r));
   for (const std::string& note : r.notes) text += fmt::format("Note: {}\n", note);
   for (std::size_t i = 0; i < r.objects.size(); ++i) {

@@ -1,0 +1,299 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/texture/blending.hpp>
+#include <turnscan/reconstruction/texture/charts.hpp>
+#include <turnscan/reconstruction/texture/light.hpp>
+
+namespace turnscan::texture {
+
+namespace {
+
+constexpr float kOutlier = 10.0f;     // levels of 255 from what is usual: counts a quarter
+constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
+constexpr float kSaturatedWeight = 0.1f;
+constexpr float kNearRimWeight = 1e-3f;
+constexpr double kMostShift_px = 1.0;
+constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
+constexpr double kExplained = 0.4;  // of the squared difference, by a shift
+constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
+
+/// A view's colours as floats of 255, after its correction.
+class Corrector {
+ public:
+  explicit Corrector(const Correction& correction) : correction_(correction) {
+    tables_.resize(correction.gains.size());
+    for (std::size_t view = 0; view < tables_.size(); ++view)
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 256; ++i)
+          tables_[view][std::size_t(c * 256 + i)] =
+              srgb_of(linear_of(float(i)) * correction.gains[view][c]);
+  }
+
+  Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s) const {
+    const auto& table = tables_[view];
+    const Vec3f color(table[s.r], table[256u + s.g], table[512u + s.b]);
+    if (correction_.shading.empty()) return color;
+    const float light = 1.0f / correction_.shading[block][slot];
+    return {srgb_of(linear_of(color.x()) * light), srgb_of(linear_of(color.y()) * light),
+            srgb_of(linear_of(color.z()) * light)};
+  }
+
+ private:
+  const Correction& correction_;
+  std::vector<std::array<float, 768>> tables_;
+};
+
+/// Sums over the texels of a block of how a view's pattern lies beside that of the best one (Lucas
+/// and Kanade 1981): the matrix of the gradients, gradients times difference, squared differences.
+struct ShiftSums {
+  float xx = 0.0f, xy = 0.0f, yy = 0.0f, xe = 0.0f, ye = 0.0f, ee = 0.0f, n = 0.0f;
+  void add(const ShiftSums& o) {
+    xx += o.xx, xy += o.xy, yy += o.yy, xe += o.xe, ye += o.ye, ee += o.ee, n += o.n;
+  }
+};
+
+struct Shift {
+  double texels = 0.0;
+  bool known = false;
+  bool explains = false;  ///< that the two views differ
+};
+
+/// Along the directions in which the pattern is strong enough.
+Shift shift_of(const ShiftSums& s) {
+  Shift out;
+  if (!(s.n >= 24.0f)) return out;
+  Eigen::Matrix2d gradients;
+  gradients << double(s.xx), double(s.xy), double(s.xy), double(s.yy);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(gradients);
+  const Eigen::Vector2d right(double(s.xe), double(s.ye));
+  double explained = 0.0, squared = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    const double value = solver.eigenvalues()[i];
+    if (!(value > double(s.n) * kNoise * kNoise)) continue;
+    const double d = solver.eigenvectors().col(i).dot(right) / value;
+    squared += d * d;
+    explained += d * d * value;
+    out.known = true;
+  }
+  out.texels = std::sqrt(squared);
+  // A highlight or a shadow differs without being shifted.
+  out.explains = explained > kExplained * double(s.ee);
+  return out;
+}
+
+using BlockShifts = std::array<ShiftSums, kSlots>;
+
+class Blender {
+ public:
+  Blender(const TexelBlocks& blocks, const ChosenViews& chosen, const TexelSamples& samples,
+          const Corrector& corrected, const RunContext& context)
+      : blocks_(blocks),
+        chosen_(chosen),
+        samples_(samples),
+        corrected_(corrected),
+        context_(context) {}
+
+  void measure_shifts() {
+    shifts_.resize(blocks_.count());
+    parallel_for(blocks_.count(), 64, [&](std::size_t b) {
+      if (!context_.cancelled()) shifts_[b] = shifts_of(b);
+    });
+  }
+
+  /// One bit a slot: it lies elsewhere. Shifts of the slots that are known are appended.
+  std::uint8_t misplaced(std::size_t b, double texels_per_px, std::vector<float>& px) const {
+    std::uint8_t out = 0;
+    for (std::size_t k = 1; k < kSlots; ++k) {
+      if (chosen_.view[b][k] == kNoView) break;
+      const Shift shift = shift_of(sum_around(b, k));
+      if (!shift.known) continue;
+      px.push_back(float(shift.texels / texels_per_px));
+      if (shift.explains && shift.texels > kMostShift_px * texels_per_px)
+        out = std::uint8_t(out | 1u << k);
+    }
+    return out;
+  }
+
+  void blend(std::size_t b, std::uint8_t left_out, Rgb* colors, std::uint8_t* known) const {
+    for (int i = 0; i < kBlockTexels; ++i) {
+      if (blocks_.triangle(b, i) == kNoTriangle) continue;
+      std::array<Vec3f, kSlots> color;
+      std::array<float, kSlots> weight;
+      std::size_t n = 0;
+      for (std::size_t k = 0; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
+        const Sample& s = samples_.of(b, k)[i];
+        if (s.valid == 0 || (left_out >> k & 1u) != 0) continue;
+        take(b, k, s, color[n], weight[n]);
+        ++n;
+      }
+      // A texel that only those show which were left out takes what there is.
+      for (std::size_t k = 0; n == 0 && k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
+        const Sample& s = samples_.of(b, k)[i];
+        if (s.valid == 0) continue;
+        take(b, k, s, color[0], weight[0]);
+        n = 1;
+      }
+      if (n == 0) continue;
+      colors[i] = rounded(robust_mean(color, weight, n));
+      known[i] = 1;
+    }
+  }
+
+ private:
+  void take(std::size_t b, std::size_t k, const Sample& s, Vec3f& color, float& weight) const {
+    const std::uint16_t view = chosen_.view[b][k];
+    color = corrected_(b, k, view, s);
+    const float sharp = std::clamp(samples_.sharpness[view], kLeastSharpness, kMostSharpness);
+    weight = chosen_.weight[b][k] / std::max(chosen_.weight[b][0], 1e-20f) * sharp * sharp;
+    if (float(std::max({s.r, s.g, s.b})) >= kSaturated) weight *= kSaturatedWeight;
+    if (s.valid == Sample::kNearRim) weight *= kNearRimWeight;
+    weight = std::max(weight, 1e-9f);
+  }
+
+  static Rgb rounded(const Vec3f& c) {
+    const auto byte = [](float v) { return std::uint8_t(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
+    return {byte(c.x()), byte(c.y()), byte(c.z())};
+  }
+
+  /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
+  /// the surface from view to view: where several views have one, they do not agree with each
+  /// other.
+  static Vec3f robust_mean(const std::array<Vec3f, kSlots>& color,
+                           const std::array<float, kSlots>& weight, std::size_t n) {
+    if (n == 1) return color[0];
+    constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
+    const auto nearness = [&](std::size_t j, std::size_t k) {
+      const float r = 1.0f + kPerLevel * (color[j] - color[k]).squaredNorm();
+      return 1.0f / (r * r);
+    };
+    // A highlight is where the best views look: the others have a say in what is usual.
+    std::array<float, kSlots> vote{};
+    for (std::size_t k = 0; k < n; ++k) vote[k] = std::sqrt(std::sqrt(weight[k]));
+    std::size_t usual = 0;
+    float most = -1.0f;
+    for (std::size_t k = 0; k < n; ++k) {
+      float support = 0.0f;
+      for (std::size_t j = 0; j < n; ++j) support += vote[j] * nearness(j, k);
+      if (support > most) most = support, usual = k;
+    }
+    Vec3f sum = Vec3f::Zero();
+    float weights = 0.0f;
+    for (std::size_t k = 0; k < n; ++k) {
+      const float w = weight[k] * nearness(k, usual);
+      sum += w * color[k];
+      weights += w;
+    }
+    return sum / weights;
+  }
+
+  BlockShifts shifts_of(std::size_t b) const {
+    BlockShifts out;
+    if (chosen_.view[b][0] == kNoView || chosen_.view[b][1] == kNoView) return out;
+    std::array<float, kBlockTexels> best{};
+    std::array<std::uint8_t, kBlockTexels> there{};
+    fill(b, 0, best, there);
+    for (std::size_t k = 1; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
+      std::array<float, kBlockTexels> other{};
+      std::array<std::uint8_t, kBlockTexels> seen{};
+      fill(b, k, other, seen);
+      ShiftSums& s = out[k];
+      for (int y = 1; y + 1 < kBlock_px; ++y) {
+        for (int x = 1; x + 1 < kBlock_px; ++x) {
+          const auto i = std::size_t(y * kBlock_px + x);
+          if (!there[i] || !there[i - 1] || !there[i + 1] || !there[i - kBlock_px] ||
+              !there[i + kBlock_px] || !seen[i])
+            continue;
+          const float gx = 0.5f * (best[i + 1] - best[i - 1]);
+          const float gy = 0.5f * (best[i + kBlock_px] - best[i - kBlock_px]);
+          const float e = best[i] - other[i];
+          s.add({gx * gx, gx * gy, gy * gy, gx * e, gy * e, e * e, 1.0f});
+        }
+      }
+    }
+    return out;
+  }
+
+  void fill(std::size_t b, std::size_t k, std::array<float, kBlockTexels>& light,
+            std::array<std::uint8_t, kBlockTexels>& there) const {
+    const Sample* s = samples_.of(b, k);
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+      if (s[i].valid != Sample::kWell) continue;
+      const Vec3f c = corrected_(b, k, chosen_.view[b][k], s[i]);
+      light[i] = 0.3f * c.x() + 0.59f * c.y() + 0.11f * c.z();
+      there[i] = 1;
+    }
+  }
+
+  /// Of the block and those around it where the same two views meet.
+  ShiftSums sum_around(std::size_t b, std::size_t k) const {
+    ShiftSums sum;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::int32_t at =
+            blocks_.block_at(blocks_.left(b) + dx * kBlock_px, blocks_.top(b) + dy * kBlock_px);
+        if (at < 0) continue;
+        const auto other = std::size_t(at);
+        if (blocks_.chart(other) != blocks_.chart(b)) continue;
+        for (std::size_t l = 1; l < kSlots; ++l)
+          if (chosen_.view[other][l] == chosen_.view[b][k]) sum.add(shifts_[other][l]);
+      }
+    }
+    return sum;
+  }
+
+  const TexelBlocks& blocks_;
+  const ChosenViews& chosen_;
+  const TexelSamples& samples_;
+  const Corrector& corrected_;
+  const RunContext& context_;
+  std::vector<BlockShifts> shifts_;
+};
+
+}  // namespace
+
+Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
+                      const TexelSamples& samples, const Correction& correction,
+                      double texels_per_m, const RunContext& context) {
+  const Corrector corrected(correction);
+  Blender blender(blocks, chosen, samples, corrected, context);
+  blender.measure_shifts();
+  TURNSCAN_TRY(context.check());
+  Blended out;
+  out.colors.resize(blocks.count() * kBlockTexels);
+  out.known.assign(out.colors.size(), 0);
+  const double texels_per_px = texels_per_m / std::max(chosen.pixels_per_m, 1e-9);
+  struct Part {
+    std::vector<float> px;
+    std::size_t several = 0, one = 0;
+  };
+  auto parts = parallel_chunks<Part>(blocks.count(), 512, [&](std::size_t begin, std::size_t end) {
+    Part part;
+    for (std::size_t b = begin; b < end && !context.cancelled(); ++b) {
+      const std::uint8_t left_out = blender.misplaced(b, texels_per_px, part.px);
+      blender.blend(b, left_out, &out.colors[b * kBlockTexels], &out.known[b * kBlockTexels]);
+      std::size_t views = 0, kept = 0;
+      for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k) {
+        ++views;
+        kept += (left_out >> k & 1u) == 0 ? 1 : 0;
+      }
+      part.several += views > 1 ? 1 : 0;
+      part.one += views > 1 && kept == 1 ? 1 : 0;
+    }
+    return part;
+  });
+  TURNSCAN_TRY(context.check());
+  std::vector<float> px;
+  std::size_t several = 0, one = 0;
+  for (const Part& part : parts) {
+    px.insert(px.end(), part.px.begin(), part.px.end());
+    several += part.several, one += part.one;
+  }
+  out.disagreement_px = median(px);
+  out.one_view_share = several > 0 ? double(one) / double(several) : 0.0;
+  return out;
+}
+
+}  // namespace turnscan::texture

@@ -1,0 +1,30 @@
+#pragma once
+// One colour per texel out of those of several views.
+
+#include <turnscan/reconstruction/texture/exposure.hpp>
+
+namespace turnscan::texture {
+
+/// What is done to a view's colours before they are compared: gain, and the shading of each block.
+struct Correction {
+  std::vector<Vec3f> gains;                        ///< per view
+  std::vector<std::array<float, kSlots>> shading;  ///< per block and slot; empty: none
+};
+
+struct Blended {
+  std::vector<Rgb> colors;          ///< per block and texel
+  std::vector<std::uint8_t> known;  ///< whether a view shows it
+  double one_view_share = 0.0;      ///< of the blocks with several views: one was taken
+  double disagreement_px = 0.0;     ///< median shift of a view against the best one
+};
+
+/// Views whose pattern lies more than a pixel from that of the best one are left out of a block and
+/// those around it; the others' colours are averaged, weighted by resolution, incidence and
+/// sharpness, each the less the farther it lies from the colour that
+/// most of them agree on. The same for any number
+/// of threads. Fails with kCancelled.
+Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
+                      const TexelSamples& samples, const Correction& correction,
+                      double texels_per_m, const RunContext& context);
+
+}  // namespace turnscan::texture

@@ -1,0 +1,279 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/reconstruction/texture/camera_refinement.hpp>
+#include <turnscan/reconstruction/texture/refinement_parts.hpp>
+#include <turnscan/reconstruction/texture/texel_samples.hpp>
+
+namespace turnscan::texture {
+
+namespace {
+
+constexpr std::size_t kViewsForPlace = 16;
+constexpr std::size_t kPoints = 12000;
+constexpr int kMargin_px = 40;
+constexpr int kShiftReach = 32,
+              kShiftStep = 2;  // pixels in which a shift of the images is looked for
+constexpr double kTurnSigma_rad = 0.02, kShiftSigma_m = 0.01;
+/// One outline point is worth this much of another's evidence: neighbours err alike.
+constexpr double kOutlineShare = 0.02;
+constexpr double kOutlineSigma_px = 0.7;
+
+/// What is kept of an image.
+GreyWindow grey_window(const ColorImage& image, const DrawnMesh& drawn) {
+  GreyWindow out;
+  out.left = std::max(0, drawn.left() - kMargin_px);
+  out.top = std::max(0, drawn.top() - kMargin_px);
+  const int right = std::min(image.width, drawn.left() + drawn.width() + kMargin_px);
+  const int bottom = std::min(image.height, drawn.top() + drawn.height() + kMargin_px);
+  out.light = Image<float>(std::max(0, right - out.left), std::max(0, bottom - out.top));
+  for (int y = 0; y < out.light.height; ++y)
+    for (int x = 0; x < out.light.width; ++x) {
+      const Rgb c = image.at(out.left + x, out.top + y);
+      out.light.at(x, y) = 0.3f * float(c.r) + 0.59f * float(c.g) + 0.11f * float(c.b);
+    }
+  return out;
+}
+
+/// Brings the windows to one mean over what the mesh covers: exposure drifts.
+void level(std::vector<GreyWindow>& windows, const std::vector<DrawnMesh>& drawn) {
+  std::vector<double> means(windows.size(), 0.0);
+  double all = 0.0, used = 0.0;
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    double sum = 0.0, count = 0.0;
+    for (int y = 0; y < drawn[k].height(); ++y)
+      for (int x = 0; x < drawn[k].width(); ++x) {
+        if (!drawn[k].covered(x, y)) continue;
+        sum += double(windows[k].light.at(drawn[k].left() + x - windows[k].left,
+                                          drawn[k].top() + y - windows[k].top));
+        count += 1.0;
+      }
+    if (!(count > 0.0 && sum > 0.0)) continue;
+    means[k] = sum / count;
+    all += means[k], used += 1.0;
+  }
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    if (!(means[k] > 0.0)) continue;
+    const auto gain = float(all / used / means[k]);
+    for (float& value : windows[k].light.pixels) value *= gain;
+  }
+}
+
+class Refiner {
+ public:
+  Refiner(const TriangleMesh& mesh, std::vector<ColorView> views, const Pose& start,
+          const RunContext& context)
+      : mesh_(mesh), views_(std::move(views)), start_(start), T_(start), context_(context) {
+    const std::vector<Vec3f> normals = vertex_normals(mesh);
+    const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kPoints);
+    for (std::size_t v = 0; v < mesh.vertices.size(); v += step) {
+      points_.push_back(mesh.vertices[v]);
+      normals_.push_back(normals[v]);
+    }
+  }
+
+  Result<> read(const FrameSequence& sequence) {
+    place();
+    draw();
+    windows_.resize(views_.size());
+    std::vector<std::optional<Error>> errors(views_.size());
+    parallel_for(views_.size(), 1, [&](std::size_t k) {
+      if (context_.cancelled()) return;
+      auto image = image_of(sequence, views_[k]);
+      if (!image)
+        errors[k] = std::move(image).error();
+      else if (!image->empty() && !drawn_[k].empty())
+        windows_[k] = grey_window(*image, drawn_[k]);
+    });
+    TURNSCAN_TRY(context_.check());
+    for (auto& error : errors)
+      if (error) return tl::unexpected<Error>(std::move(*error));
+    return {};
+  }
+
+  Result<> run() {
+    if (points_.empty()) return {};
+    level(windows_, drawn_);
+    const std::vector<GreyWindow> soft = all_blurred(1.5);
+    shift_roughly(soft);
+    draw();
+    for (const double reach : {9.0, 7.0, 5.0}) TURNSCAN_TRY(step(outlines(soft, reach), nullptr));
+    for (const double sigma : {3.0, 1.5, 0.8}) {
+      draw();
+      const std::vector<GreyWindow> grey = all_blurred(sigma);
+      for (int round = 0; round < 3; ++round) {
+        const MotionEquations outline = outlines(soft, 3.0);
+        const MotionEquations pattern = pattern_equations(views_, drawn_, grey, points_, normals_);
+        TURNSCAN_TRY(step(outline, &pattern));
+      }
+    }
+    return {};
+  }
+
+  /// How well the images fit with the camera at T: smaller is better.
+  double misfit(const Pose& T) {
+    T_ = T;
+    place();
+    draw();
+    const std::vector<GreyWindow> soft = all_blurred(1.5);
+    double strength = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      strength += edge_strength(views_[k], outlines_[k], soft[k], Eigen::Vector2f::Zero());
+      count += double(outlines_[k].size());
+    }
+    const MotionEquations pattern = pattern_equations(views_, drawn_, soft, points_, normals_);
+    const double a = count > 0.0 ? strength / count : 0.0;
+    const double b = pattern.weight > 0.0 ? pattern.error / pattern.weight : 0.0;
+    return std::sqrt(b) - a;
+  }
+
+  const Pose& pose() const { return T_; }
+
+  double moved_px(const Pose& from, const Pose& to) const {
+    double sum = 0.0, count = 0.0;
+    for (ColorView view : views_) {
+      ColorView other = view;
+      view.set_pose(from);
+      other.set_pose(to);
+      for (std::size_t i = 0; i < points_.size(); i += 16) {
+        const Projection a = view.project(points_[i]), b = other.project(points_[i]);
+        if (!(a.z > 0.0f && b.z > 0.0f)) continue;
+        sum += double((a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v));
+        count += 1.0;
+      }
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  }
+
+ private:
+  void place() {
+    for (ColorView& view : views_) view.set_pose(T_);
+  }
+
+  void draw() {
+    std::vector<std::optional<DrawnMesh>> drawn(views_.size());
+    outlines_.resize(views_.size());
+    parallel_for(views_.size(), 1, [&](std::size_t k) {
+      drawn[k].emplace(views_[k], mesh_);
+      outlines_[k] = outline_of(views_[k], *drawn[k]);
+    });
+    drawn_.clear();
+    for (auto& d : drawn) drawn_.push_back(std::move(*d));
+  }
+
+  /// A camera that looks aside shifts all its images alike: the shift at which outlines lie on
+  /// edges in all of them.
+  void shift_roughly(const std::vector<GreyWindow>& soft) {
+    const double start = strength_at(soft, Eigen::Vector2f::Zero());
+    constexpr int kSide = 2 * kShiftReach / kShiftStep + 1;
+    const auto shift_of = [](std::size_t i) {
+      return Eigen::Vector2f(float(int(i) % kSide * kShiftStep - kShiftReach),
+                             float(int(i) / kSide * kShiftStep - kShiftReach));
+    };
+    std::vector<double> strength(std::size_t(kSide * kSide));
+    parallel_for(strength.size(), 1,
+                 [&](std::size_t i) { strength[i] = strength_at(soft, shift_of(i)); });
+    const auto best =
+        std::size_t(std::max_element(strength.begin(), strength.end()) - strength.begin());
+    if (!(strength[best] > 1.05 * start)) return;
+    const Eigen::Vector2f shift = shift_of(best);
+    const CameraIntrinsics& camera = views_.front().camera;
+    Motion motion = Motion::Zero();
+    motion[0] = -double(shift.y()) / camera.fy;
+    motion[1] = double(shift.x()) / camera.fx;
+    T_ = pose_of(motion) * T_;
+    place();
+  }
+
+  double strength_at(const std::vector<GreyWindow>& soft, const Eigen::Vector2f& shift) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < views_.size(); ++k)
+      sum += edge_strength(views_[k], outlines_[k], soft[k], shift);
+    return sum;
+  }
+
+  std::vector<GreyWindow> all_blurred(double sigma) const {
+    std::vector<GreyWindow> out(windows_.size());
+    parallel_for(out.size(), 1, [&](std::size_t k) {
+      if (!windows_[k].light.empty()) out[k] = blurred(windows_[k], sigma);
+    });
+    return out;
+  }
+
+  MotionEquations outlines(const std::vector<GreyWindow>& soft, double reach) const {
+    std::vector<MotionEquations> parts(views_.size());
+    parallel_for(views_.size(), 1, [&](std::size_t k) {
+      if (!soft[k].light.empty())
+        parts[k] = outline_equations(views_[k], outlines_[k], soft[k], reach);
+    });
+    MotionEquations all;
+    for (const MotionEquations& part : parts) all.add(part);
+    return all;
+  }
+
+  /// One Gauss-Newton step. What the evidence does not determine stays as it was at the start: a
+  /// turn counts as known to a degree, a shift to a centimetre.
+  Result<> step(const MotionEquations& outline, const MotionEquations* pattern) {
+    TURNSCAN_TRY(context_.check());
+    MotionEquations sum;
+    const double per_outline = kOutlineShare / (kOutlineSigma_px * kOutlineSigma_px);
+    sum.matrix = per_outline * outline.matrix;
+    sum.right = per_outline * outline.right;
+    if (pattern != nullptr && pattern->weight > 0.0) {
+      const double variance = std::max(1.0, pattern->error / pattern->weight);
+      sum.matrix += kOutlineShare / variance * pattern->matrix;
+      sum.right += kOutlineShare / variance * pattern->right;
+    }
+    const Pose so_far = T_ * start_.inverse();
+    const Eigen::AngleAxisd turned(so_far.linear());
+    Motion from_start;
+    from_start << turned.angle() * turned.axis(), so_far.translation();
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = i < 3 ? kTurnSigma_rad : kShiftSigma_m;
+      sum.matrix(i, i) += 1.0 / (sigma * sigma);
+      sum.right[i] -= from_start[i] / (sigma * sigma);
+    }
+    const Motion motion = sum.matrix.ldlt().solve(sum.right);
+    if (!motion.allFinite()) return {};
+    T_ = pose_of(motion) * T_;
+    place();
+    return {};
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<ColorView> views_;
+  const Pose start_;
+  Pose T_;
+  const RunContext& context_;
+  std::vector<Vec3f> points_, normals_;
+  std::vector<DrawnMesh> drawn_;
+  std::vector<std::vector<OutlinePoint>> outlines_;  // as drawn
+  std::vector<GreyWindow> windows_;
+};
+
+}  // namespace
+
+Result<RefinedCamera> refine_camera(const FrameSequence& sequence, const TriangleMesh& mesh,
+                                    const std::vector<ColorView>& views, const Pose& T_color_sensor,
+                                    const RunContext& context) {
+  RefinedCamera out;
+  out.T_color_sensor = T_color_sensor;
+  std::vector<ColorView> some;
+  const std::size_t n = std::min(views.size(), kViewsForPlace);
+  for (std::size_t i = 0; i < n; ++i) some.push_back(views[i * views.size() / n]);
+  if (some.size() < 3) return out;
+  Refiner refiner(mesh, std::move(some), T_color_sensor, context);
+  TURNSCAN_TRY(refiner.read(sequence));
+  TURNSCAN_TRY(refiner.run());
+  const Pose found = refiner.pose();
+  const double after = refiner.misfit(found), before = refiner.misfit(T_color_sensor);
+  if (!(after < before)) return out;
+  out.misplaced_px = refiner.moved_px(T_color_sensor, found);
+  out.T_color_sensor = found;
+  out.refined = true;
+  return out;
+}
+
+}  // namespace turnscan::texture

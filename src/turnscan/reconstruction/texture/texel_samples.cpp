@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/texture/charts.hpp>
+#include <turnscan/reconstruction/texture/texel_samples.hpp>
+
+namespace turnscan::texture {
+
+namespace {
+
+constexpr float kLeastViewCosine = 0.12f;
+constexpr float kNearRim = 0.02f;  // what a place near a rim is worth: better than nothing
+constexpr std::size_t kViewsAtOnce = 8;
+constexpr int kMostSubsamples = 4;
+
+/// A few texels that stand for a block.
+struct BlockProbe {
+  std::array<Vec3f, 3> position;
+  Vec3f normal = Vec3f::Zero();
+};
+
+BlockProbe probe_of(const TexelBlocks& blocks, std::size_t block) {
+  std::array<int, kBlockTexels> covered{};
+  int n = 0;
+  for (int i = 0; i < kBlockTexels; ++i)
+    if (blocks.triangle(block, i) != kNoTriangle) covered[std::size_t(n++)] = i;
+  BlockProbe probe;
+  const std::array<int, 3> which{covered[0], covered[std::size_t(n / 2)],
+                                 covered[std::size_t(n - 1)]};
+  for (std::size_t k = 0; k < 3; ++k) {
+    probe.position[k] = blocks.surface(block, which[k]).position;
+    probe.normal += blocks.normal(block, which[k]);
+  }
+  probe.normal.normalize();
+  return probe;
+}
+
+/// Pixels squared per area of surface, by the square of the cosine of incidence: once for the
+/// foreshortening, once because flat views are worth less.
+float quality_of(const BlockProbe& probe, const ColorView& view, const DrawnMesh& drawn) {
+  const Vec3f to_eye = view.eye() - probe.position[1];
+  const float distance = to_eye.norm();
+  const float cosine = probe.normal.dot(to_eye) / distance;
+  if (!(cosine > kLeastViewCosine)) return 0.0f;
+  float seen = 0.0f;
+  for (const Vec3f& p : probe.position) {
+    const Shown shown = drawn.shows(view.project(p));
+    seen += shown == Shown::kWell ? 1.0f : shown == Shown::kNearRim ? kNearRim : 0.0f;
+  }
+  const float scale = view.focal_px() / distance;
+  return scale * scale * cosine * cosine * seen / 3.0f;
+}
+
+/// The best so far, in falling order, and the best of the others.
+struct Ranking {
+  std::array<std::uint16_t, kSlots + 1> view;
+  std::array<float, kSlots + 1> quality{};
+  Ranking() { view.fill(kNoView); }
+  void add(std::uint16_t which, float value) {
+    if (!(value > quality[kSlots])) return;
+    std::size_t at = kSlots;
+    for (; at > 0 && value > quality[at - 1]; --at) {
+      view[at] = view[at - 1];
+      quality[at] = quality[at - 1];
+    }
+    view[at] = which;
+    quality[at] = value;
+  }
+};
+
+/// Energy of the second derivatives over that of the first ones, of the object's inside: falls as
+/// an image blurs, whatever it shows.
+double sharpness_of(const ColorImage& image, const DrawnMesh& drawn) {
+  double first = 0.0, second = 0.0;
+  for (int y = 2; y + 2 < drawn.height(); y += 2) {
+    for (int x = 2; x + 2 < drawn.width(); ++x) {
+      if (!drawn.covered(x - 2, y) || !drawn.covered(x + 2, y)) continue;
+      const int row = drawn.top() + y, column = drawn.left() + x;
+      const auto g = [&](int dx) { return double(image.at(column + dx, row).g); };
+      const double d = g(1) - g(-1), dd = g(2) - 2.0 * g(0) + g(-2);
+      first += d * d;
+      second += dd * dd;
+    }
+  }
+  return first > 0.0 ? second / first : 0.0;
+}
+
+/// By how many pixels the view's image moves from a texel to the next, at most.
+int subsamples(const TexelBlocks::Surface& s, const ColorView& view) {
+  const Projection a = view.project(s.position), b = view.project(s.position + s.right),
+                   c = view.project(s.position + s.down);
+  if (!(a.z > 0.0f && b.z > 0.0f && c.z > 0.0f)) return 1;
+  const float step = std::max(std::hypot(b.u - a.u, b.v - a.v), std::hypot(c.u - a.u, c.v - a.v));
+  return std::clamp(int(step + 0.5f), 1, kMostSubsamples);
+}
+
+class BlockSampler {
+ public:
+  BlockSampler(const TexelBlocks& blocks, const ColorView& view, const DrawnMesh& drawn,
+               const ColorImage& image)
+      : blocks_(blocks), view_(view), drawn_(drawn), image_(image) {}
+
+  void sample(std::size_t block, Sample* out) const {
+    int side = 0;
+    for (int i = 0; i < kBlockTexels; ++i) {
+      if (blocks_.triangle(block, i) == kNoTriangle) continue;
+      const TexelBlocks::Surface s = blocks_.surface(block, i);
+      const Projection p = view_.project(s.position);
+      const Shown shown = drawn_.shows(p);
+      if (shown == Shown::kNot || !within(p)) continue;
+      if (side == 0) side = subsamples(s, view_);
+      const Vec3f color = side == 1 ? pixel_at(image_, p.u, p.v) : mean(s, side);
+      const auto byte = [](float v) { return std::uint8_t(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
+      out[i] = {byte(color.x()), byte(color.y()), byte(color.z()),
+                std::uint8_t(shown == Shown::kWell ? Sample::kWell : Sample::kNearRim)};
+    }
+  }
+
+ private:
+  bool within(const Projection& p) const {
+    return p.u >= 1.0f && p.v >= 1.0f && p.u < float(image_.width - 2) &&
+           p.v < float(image_.height - 2);
+  }
+
+  Vec3f mean(const TexelBlocks::Surface& s, int side) const {
+    Vec3f sum = Vec3f::Zero();
+    int n = 0;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const float fx = (float(x) + 0.5f) / float(side) - 0.5f;
+        const float fy = (float(y) + 0.5f) / float(side) - 0.5f;
+        const Projection p = view_.project(s.position + fx * s.right + fy * s.down);
+        if (!(p.z > 0.0f) || !within(p)) continue;
+        sum += pixel_at(image_, p.u, p.v);
+        ++n;
+      }
+    return n > 0 ? Vec3f(sum / float(n)) : sum;
+  }
+
+  const TexelBlocks& blocks_;
+  const ColorView& view_;
+  const DrawnMesh& drawn_;
+  const ColorImage& image_;
+};
+
+/// What each view is to sample.
+struct SampleJob {
+  std::uint32_t block;
+  std::uint8_t slot;
+};
+
+std::vector<std::vector<SampleJob>> jobs_of(const ChosenViews& chosen, std::size_t views) {
+  std::vector<std::vector<SampleJob>> out(views);
+  for (std::size_t b = 0; b < chosen.view.size(); ++b)
+    for (std::size_t k = 0; k < kSlots; ++k)
+      if (chosen.view[b][k] != kNoView)
+        out[chosen.view[b][k]].push_back({std::uint32_t(b), std::uint8_t(k)});
+  return out;
+}
+
+}  // namespace
+
+Vec3f pixel_at(const ColorImage& image, float u, float v) {
+  const int x = int(u), y = int(v);
+  const float fx = u - float(x), fy = v - float(y);
+  const Rgb* above = &image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+  const Rgb* below = above + image.width;
+  const auto mix = [&](std::uint8_t Rgb::*channel) {
+    const float top =
+        float(above[0].*channel) + fx * (float(above[1].*channel) - float(above[0].*channel));
+    const float low =
+        float(below[0].*channel) + fx * (float(below[1].*channel) - float(below[0].*channel));
+    return top + fy * (low - top);
+  };
+  return {mix(&Rgb::r), mix(&Rgb::g), mix(&Rgb::b)};
+}
+
+Result<ColorImage> image_of(const FrameSequence& sequence, const ColorView& view) {
+  TURNSCAN_ASSIGN(Frame frame, sequence.read(view.position));
+  if (frame.color.empty() ||
+      (frame.color.width == view.camera.width && frame.color.height == view.camera.height))
+    return std::move(frame.color);
+  return fail(ErrorCode::kFormat,
+              "frame {}: its colour image has {} x {} pixels, but its camera {} x {}; correct the "
+              "camera in the recording",
+              frame.info.index, frame.color.width, frame.color.height, view.camera.width,
+              view.camera.height);
+}
+
+Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& blocks,
+                                 const std::vector<ColorView>& views, const RunContext& context) {
+  std::vector<BlockProbe> probes(blocks.count());
+  parallel_for(probes.size(), 512, [&](std::size_t b) { probes[b] = probe_of(blocks, b); });
+  std::vector<Ranking> rankings(blocks.count());
+  for (std::size_t begin = 0; begin < views.size(); begin += kViewsAtOnce) {
+    const std::size_t end = std::min(begin + kViewsAtOnce, views.size());
+    std::vector<std::optional<DrawnMesh>> drawn(end - begin);
+    parallel_for(drawn.size(), 1, [&](std::size_t i) { drawn[i].emplace(views[begin + i], mesh); });
+    TURNSCAN_TRY(context.check());
+    parallel_for(probes.size(), 512, [&](std::size_t b) {
+      for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (!drawn[i]->empty())
+          rankings[b].add(std::uint16_t(begin + i),
+                          quality_of(probes[b], views[begin + i], *drawn[i]));
+    });
+    context.advance(end - begin);
+  }
+  ChosenViews out;
+  out.view.resize(blocks.count());
+  out.weight.resize(blocks.count());
+  std::vector<float> best;
+  for (std::size_t b = 0; b < rankings.size(); ++b) {
+    const Ranking& ranking = rankings[b];
+    if (b % 16 == 0 && ranking.quality[0] > 0.0f) best.push_back(std::sqrt(ranking.quality[0]));
+    const float other = ranking.quality[kSlots];
+    for (std::size_t k = 0; k < kSlots; ++k) {
+      out.view[b][k] = ranking.view[k];
+      const float q = ranking.quality[k];
+      out.weight[b][k] = q * q - other * other + 1e-6f * q * q;
+    }
+  }
+  out.pixels_per_m = median(best);
+  return out;
+}
+
+Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleMesh& mesh,
+                                  const TexelBlocks& blocks, const std::vector<ColorView>& views,
+                                  const ChosenViews& chosen, const RunContext& context) {
+  TexelSamples out;
+  out.samples.resize(blocks.count() * kSlots * kBlockTexels);
+  std::vector<double> sharpness(views.size(), 0.0);
+  const auto jobs = jobs_of(chosen, views.size());
+  std::vector<std::optional<Error>> errors(views.size());
+  parallel_for(views.size(), 1, [&](std::size_t i) {
+    if (context.cancelled() || jobs[i].empty()) return;
+    auto image = image_of(sequence, views[i]);
+    if (!image) {
+      errors[i] = std::move(image).error();
+      return;
+    }
+    context.advance();
+    if (image->empty()) return;
+    const DrawnMesh drawn(views[i], mesh);
+    if (drawn.empty()) return;
+    sharpness[i] = sharpness_of(*image, drawn);
+    const BlockSampler sampler(blocks, views[i], drawn, *image);
+    for (const SampleJob& job : jobs[i])
+      sampler.sample(job.block, &out.samples[(job.block * kSlots + job.slot) * kBlockTexels]);
+  });
+  TURNSCAN_TRY(context.check());
+  for (auto& error : errors)
+    if (error) return tl::unexpected<Error>(std::move(*error));
+  std::vector<double> known;
+  for (const double s : sharpness)
+    if (s > 0.0) known.push_back(s);
+  const double usual = median(known, 1.0);
+  for (const double s : sharpness) out.sharpness.push_back(float(s / usual));
+  return out;
+}
+
+}  // namespace turnscan::texture

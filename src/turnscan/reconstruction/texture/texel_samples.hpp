@@ -1,0 +1,53 @@
+#pragma once
+// Colours of the texels in those views that see them best.
+
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/reconstruction/texture/color_view.hpp>
+#include <turnscan/reconstruction/texture/texel_blocks.hpp>
+
+namespace turnscan::texture {
+
+/// Views of a block, best first.
+inline constexpr std::size_t kSlots = 8;
+inline constexpr std::uint16_t kNoView = 0xffff;
+
+/// Per block and slot.
+struct ChosenViews {
+  std::vector<std::array<std::uint16_t, kSlots>> view;  ///< kNoView: no other one sees it
+  /// By resolution and incidence, in pixels squared per area; falls to 0 for the last view that is
+  /// left out, so that the weights of neighbouring blocks are alike.
+  std::vector<std::array<float, kSlots>> weight;
+  double pixels_per_m = 0.0;  ///< of the best views, median
+};
+
+/// Looks which of the views show each block, by the mesh's own depth, rims left out. The same for
+/// any number of threads. Fails with kCancelled.
+Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& blocks,
+                                 const std::vector<ColorView>& views, const RunContext& context);
+
+struct Sample {
+  static constexpr std::uint8_t kWell = 1, kNearRim = 2;
+  std::uint8_t r = 0, g = 0, b = 0, valid = 0;
+};
+
+struct TexelSamples {
+  std::vector<Sample> samples;   ///< per block, slot and texel
+  std::vector<float> sharpness;  ///< per view, over the median; 0: it has no image
+  const Sample* of(std::size_t block, std::size_t slot) const {
+    return &samples[(block * kSlots + slot) * kBlockTexels];
+  }
+};
+
+/// Reads the frame of each view once, on all cores: a few are in memory at a time. Fails as
+/// FrameSequence::read(), with kFormat when an image has not its camera's size, with kCancelled.
+Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleMesh& mesh,
+                                  const TexelBlocks& blocks, const std::vector<ColorView>& views,
+                                  const ChosenViews& chosen, const RunContext& context);
+
+/// The image of a view's frame; empty where the frame has none. Fails as sample_views().
+Result<ColorImage> image_of(const FrameSequence& sequence, const ColorView& view);
+
+/// Bilinear; 0 to 255. u, v at least one pixel inside.
+Vec3f pixel_at(const ColorImage& image, float u, float v);
+
+}  // namespace turnscan::texture

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/mesh_texture.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/texture/camera_refinement.hpp>
+#include <turnscan/reconstruction/texture/charts.hpp>
+#include <turnscan/reconstruction/texture/color_view.hpp>
+#include <turnscan/reconstruction/texture/filling.hpp>
+#include <turnscan/reconstruction/texture/texture_objects.hpp>
+#include <turnscan/turntable/rotation.hpp>
+
+namespace turnscan::texture {
+
+namespace {
+
+constexpr int kLeastSize_px = 256, kMostSize_px = 4096;  // chosen by itself
+constexpr double kTexelsPerPixel = 1.5;  // so that the texels blur nothing that the images show
+
+double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& center) {
+  std::vector<double> all;
+  for (const ColorView& view : views)
+    all.push_back(double(view.focal_px() / (view.eye() - center).norm()));
+  return median(all, 1000.0);
+}
+
+int size_for(const TriangleMesh& mesh, const TextureOptions& options, double texels_per_m) {
+  if (options.size_px) return *options.size_px / kBlock_px * kBlock_px;
+  const double side = expected_side_px(mesh, texels_per_m);
+  const int rounded = int(std::min(side / 256.0, 1000.0) + 1.0) * 256;
+  return std::clamp(rounded, kLeastSize_px, kMostSize_px);
+}
+
+/// From the object's frame to that in which lamps stand still: the table's at angle 0.
+std::vector<Eigen::Matrix3f> rig_rotations(const FrameSequence& sequence,
+                                           const std::vector<ColorView>& views) {
+  std::vector<Eigen::Matrix3f> out;
+  for (const ColorView& view : views) {
+    Pose T_rig_object = view.T_sensor_object;
+    if (const auto& T = sequence.header().sensors[view.sensor].T_table_sensor)
+      T_rig_object = *T * T_rig_object;
+    out.push_back(T_rig_object.linear().cast<float>());
+  }
+  return out;
+}
+
+std::vector<Vec3f> block_normals(const TexelBlocks& blocks) {
+  std::vector<Vec3f> out(blocks.count(), Vec3f::UnitY());
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    Vec3f sum = Vec3f::Zero();
+    for (int i = 0; i < kBlockTexels; i += 9)
+      if (blocks.triangle(b, i) != kNoTriangle) sum += blocks.normal(b, i);
+    for (int i = 0; i < kBlockTexels && sum.squaredNorm() == 0.0f; ++i)
+      if (blocks.triangle(b, i) != kNoTriangle) sum = blocks.normal(b, i);
+    if (sum.squaredNorm() > 0.0f) out[b] = sum.normalized();
+  }
+  return out;
+}
+
+/// Light on each block in each of its views.
+std::vector<std::array<float, kSlots>> shading_of(const FixedLight& light,
+                                                  const ChosenViews& chosen,
+                                                  const std::vector<Vec3f>& normals,
+                                                  const std::vector<Eigen::Matrix3f>& rotation) {
+  std::vector<std::array<float, kSlots>> out(normals.size());
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    out[b].fill(1.0f);
+    for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
+      out[b][k] = std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
+  }
+  return out;
+}
+
+/// Finds the colour cameras of all sensors that have their own, and puts the views there.
+Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
+                        std::vector<ColorView>& views, TextureReport& report,
+                        const RunContext& context) {
+  std::map<std::uint32_t, std::vector<ColorView>> of_sensor;
+  for (const ColorView& view : views)
+    if (sequence.header().sensors[view.sensor].color_intrinsics)
+      of_sensor[view.sensor].push_back(view);
+  for (const auto& [sensor, own] : of_sensor) {
+    const Pose& before = sequence.header().sensors[sensor].T_color_sensor;
+    TURNSCAN_ASSIGN(const RefinedCamera found, refine_camera(sequence, mesh, own, before, context));
+    const Pose motion = found.T_color_sensor * before.inverse();
+    report.cameras.push_back(
+        {sensor, found.misplaced_px,
+         (found.T_color_sensor.inverse().translation() - before.inverse().translation()).norm(),
+         Eigen::AngleAxisd(motion.linear()).angle(), found.refined});
+    for (ColorView& view : views)
+      if (view.sensor == sensor) view.set_pose(found.T_color_sensor);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<> check_colors(const FrameSequence& sequence) {
+  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
+    const FrameInfo& info = sequence.frames()[i];
+    if (info.status != FrameStatus::kOk || info.sensor >= sequence.header().sensors.size() ||
+        sequence.header().sensors[info.sensor].kind != SensorKind::kDepthCamera)
+      continue;
+    TURNSCAN_ASSIGN(const Frame frame, sequence.read(i));
+    if (!frame.color.empty()) return {};
+    break;
+  }
+  return fail(ErrorCode::kMissingData,
+              "the frames have no colour images to make a texture from; leave --texture out, or "
+              "record colours");
+}
+
+Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<ColorView> views,
+                                   const TextureOptions& options, TriangleMesh& mesh,
+                                   const RunContext& context) {
+  TextureReport report;
+  const Vec3f center = bounds(mesh.vertices).center().cast<float>();
+  views = spread_views(views, center);
+  report.views = views.size();
+  context.begin_phase("texture", 2 * views.size());
+  if (options.refine_camera) TURNSCAN_TRY(refine_cameras(sequence, mesh, views, report, context));
+  const double finest = kTexelsPerPixel * best_pixels_per_m(views, center);
+  const int size = size_for(mesh, options, finest);
+  // A size that was asked for is used in full.
+  TURNSCAN_ASSIGN(const Atlas atlas,
+                  make_atlas(mesh, size, options.size_px ? 1e9 : finest, context));
+  const std::vector<Vec3f> vertex_normal = vertex_normals(mesh);
+  const TexelBlocks blocks(mesh, atlas, vertex_normal);
+  TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
+  TURNSCAN_ASSIGN(const TexelSamples samples,
+                  sample_views(sequence, mesh, blocks, views, chosen, context));
+  const BlockMeans means = block_means(blocks, chosen, samples);
+  Correction correction;
+  correction.gains = solve_gains(chosen, means, views.size());
+  if (options.albedo) {
+    const std::vector<Vec3f> normals = block_normals(blocks);
+    const auto rotation = rig_rotations(sequence, views);
+    const FixedLight light = solve_light(chosen, means, correction.gains, normals, rotation);
+    correction.shading = shading_of(light, chosen, normals, rotation);
+    report.albedo = true;
+  }
+  TURNSCAN_ASSIGN(const Blended blended,
+                  blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
+  auto texture = std::make_shared<MeshTexture>();
+  texture->image = filled_picture(mesh, blocks, blended);
+  texture->corners = atlas.corners;
+  for (auto& corners : texture->corners)
+    for (Eigen::Vector2f& corner : corners) corner /= float(atlas.size_px);
+  mesh.texture = std::move(texture);
+  report.size_px = atlas.size_px;
+  report.texel_m = 1.0 / atlas.texels_per_m;
+  report.charts = atlas.charts;
+  report.stretch = atlas.stretch;
+  report.filled_share = filled_share(blocks, blended);
+  report.one_view_share = blended.one_view_share;
+  report.disagreement_px = blended.disagreement_px;
+  report.gains = correction.gains;
+  return report;
+}
+
+Result<> texture_objects(const FrameSequence& sequence, const ReconstructOptions& options,
+                         const std::vector<PassPlacement>& passes, Reconstruction& reconstruction,
+                         const RunContext& context) {
+  const StageTimer timer(reconstruction.stages, "texture");
+  TURNSCAN_ASSIGN(const FramePoses poses,
+                  frame_poses(sequence.header(), sequence.frames(), options.merge.speed_rad_s));
+  std::vector<Pose> T_object_table;
+  for (const PassPlacement& pass : passes) T_object_table.push_back(pass.T_object_table);
+  std::optional<std::uint32_t> pass;
+  if (options.merge.pass) pass = std::uint32_t(*options.merge.pass);
+  const auto views = color_views(sequence, poses.T_table_sensor, T_object_table, pass);
+  for (ObjectResult& object : reconstruction.objects) {
+    TURNSCAN_ASSIGN(object.texture,
+                    texture_mesh(sequence, views, options.texture, object.mesh, context));
+  }
+  return {};
+}
+
+}  // namespace turnscan::texture

@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <turnscan/core/mesh_texture.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/texture/color_view.hpp>
+#include <turnscan/reconstruction/texture/texture_objects.hpp>
+
+#include "tests/reconstruction/texture/painted_ellipsoid.hpp"
+
+namespace turnscan::texture {
+namespace {
+
+using testing::ellipsoid_frames;
+using testing::ellipsoid_mesh;
+using testing::EllipsoidPictures;
+
+struct Textured {
+  TriangleMesh mesh;
+  TextureReport report;
+};
+
+Textured texture_of(const EllipsoidPictures& pictures, const TextureOptions& options = {},
+                    const RunContext& context = RunContext()) {
+  const MemoryFrames frames = ellipsoid_frames(pictures);
+  std::vector<Pose> poses;
+  for (const FrameInfo& info : frames.frames()) poses.push_back(*info.T_table_sensor);
+  Textured out;
+  out.mesh = ellipsoid_mesh(90);
+  auto report = texture_mesh(frames, color_views(frames, poses, {}, std::nullopt), options,
+                             out.mesh, context);
+  EXPECT_TRUE(report) << report.error().text();
+  if (report) out.report = *report;
+  return out;
+}
+
+/// How far the texture is from the pattern where the camera looks at the surface from the front:
+/// root of the mean square, levels.
+double error_of(const TriangleMesh& mesh) {
+  double sum = 0.0, count = 0.0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const Vec3f p = (mesh.vertices[v[0]] + mesh.vertices[v[1]] + mesh.vertices[v[2]]) / 3.0f;
+    if (p.y() < -0.015f) continue;
+    const Vec3f is = texture_at(mesh, t, 1.0f / 3, 1.0f / 3);
+    sum += double((is - testing::pattern_at(p.cast<double>())).squaredNorm()) / 3.0;
+    count += 1.0;
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(TextureMesh, ShowsThePatternOfTheImages) {
+  const Textured made = texture_of({});
+  ASSERT_TRUE(has_texture(made.mesh));
+  EXPECT_LT(error_of(made.mesh), 5.0);
+  EXPECT_GT(made.report.filled_share, 0.02);  // nobody looks from below
+  EXPECT_LT(made.report.filled_share, 0.4);
+  EXPECT_EQ(made.report.views, 24u);
+}
+
+TEST(TextureMesh, TakesOutAnExposureThatDrifts) {
+  EllipsoidPictures pictures;
+  pictures.gain = [](int f) {
+    return Vec3f(1.0f + 0.2f * float(std::sin(f * 2.1)), 1.0f + 0.2f * float(std::sin(f * 1.3)),
+                 1.0f + 0.2f * float(std::cos(f * 2.9)));
+  };
+  const Textured made = texture_of(pictures);
+  ASSERT_EQ(made.report.gains.size(), 24u);
+  // Up to one common factor.
+  Vec3f product = Vec3f::Zero();
+  for (int f = 0; f < 24; ++f)
+    product += made.report.gains[std::size_t(f)].cwiseProduct(pictures.gain(f)) / 24.0f;
+  for (int f = 0; f < 24; ++f)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(made.report.gains[std::size_t(f)][c] * pictures.gain(f)[c], product[c], 0.02f)
+          << f;
+  EXPECT_LT(error_of(made.mesh), 8.0);
+}
+
+TEST(TextureMesh, LeavesNoTrailOfAHighlight) {
+  EllipsoidPictures pictures;
+  pictures.gloss = [](const Vec3d& normal, const Vec3d& to_eye) {
+    const Vec3d half = (to_eye + Vec3d(0.3, -0.5, -0.8).normalized()).normalized();
+    return 120.0f * float(std::pow(std::max(0.0, normal.dot(half)), 250.0));
+  };
+  EXPECT_LT(error_of(texture_of(pictures).mesh), 8.0);
+}
+
+TEST(TextureMesh, FindsAColourCameraThatIsNotWhereItWasSaidToBe) {
+  EllipsoidPictures pictures;
+  pictures.given_T_color_sensor.linear() =
+      Eigen::AngleAxisd(0.008, Vec3d(0.6, 0.64, 0.48).normalized()).toRotationMatrix();
+  pictures.given_T_color_sensor.translation() = Vec3d(0.002, -0.002, 0.001);
+  TextureOptions options;
+  const Textured found = texture_of(pictures, options);
+  ASSERT_EQ(found.report.cameras.size(), 1u);
+  EXPECT_TRUE(found.report.cameras[0].refined);
+  EXPECT_GT(found.report.cameras[0].misplaced_px, 2.0);
+  EXPECT_LT(error_of(found.mesh), 8.0);
+  options.refine_camera = false;
+  EXPECT_GT(error_of(texture_of(pictures, options).mesh), 20.0);
+}
+
+TEST(TextureMesh, IsTheSameForOneThreadAndSeveral) {
+  set_thread_count(1);
+  const Textured one = texture_of({});
+  set_thread_count(4);
+  const Textured several = texture_of({});
+  set_thread_count(0);
+  EXPECT_EQ(one.mesh.texture->image.pixels, several.mesh.texture->image.pixels);
+  EXPECT_EQ(one.mesh.texture->corners, several.mesh.texture->corners);
+}
+
+TEST(TextureMesh, TakesTheSizeThatWasAskedFor) {
+  TextureOptions options;
+  options.size_px = 300;  // down to whole blocks
+  const Textured made = texture_of({}, options);
+  EXPECT_EQ(made.mesh.texture->image.width, 296);
+  EXPECT_EQ(made.report.size_px, 296);
+}
+
+TEST(TextureMesh, EndsWhenItIsCancelled) {
+  const MemoryFrames frames = ellipsoid_frames({});
+  std::vector<Pose> poses;
+  for (const FrameInfo& info : frames.frames()) poses.push_back(*info.T_table_sensor);
+  TriangleMesh mesh = ellipsoid_mesh(40);
+  const RunContext context;
+  context.cancel();
+  const auto report =
+      texture_mesh(frames, color_views(frames, poses, {}, std::nullopt), {}, mesh, context);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(mesh.texture, nullptr);
+}
+
+TEST(TextureMesh, WantsColours) {
+  EXPECT_TRUE(check_colors(ellipsoid_frames({})));
+  std::vector<Frame> frames(1);
+  SequenceHeader header;
+  header.sensors.resize(1);
+  const auto none = check_colors(MemoryFrames(header, std::move(frames)));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kMissingData);
+}
+
+}  // namespace
+}  // namespace turnscan::texture
