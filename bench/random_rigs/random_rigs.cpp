@@ -168,7 +168,8 @@ class Bench {
 
   static void print(const Errors& e, const Calibration& found, double spent) {
     fmt::print(
-        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s; {:+.3f} in range) height {:+.2f} "
+        "     axis {:.3f} deg ({:.1f} s) line {:.3f} mm ({:.1f} s; {:+.3f} in range) height "
+        "{:+.2f} "
         "mm ({:.1f} s) "
         "angles {:.3f} deg ({:.1f} s) speed {:+.3f} % ({:.1f} s); {:.1f} s of processor{}\n",
         e.axis_deg, e.axis, e.line_mm, e.line, e.line_range_mm, e.height_mm, e.height, e.angles_deg,
