@@ -248,8 +248,7 @@ class StillSlices {
       if (wide > kLeastDesk_m &&
           window.pixels > std::max(kSpreadShare * disc,
                                    kSpreadColumns * 2.0 * wide * column * double(kSpreadSlices)))
-        return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, true,
-                turning_.reach_m};
+        return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, true, turning_.reach_m};
       if (double(k) * kSlice_m < kAbove_m) continue;
       empty = slices_[k].pixels < least ? empty + kSlice_m : 0.0;
       if (empty >= gap) break;
