@@ -143,7 +143,9 @@ void SessionKeeper::write() {
       for (const auto& [file, data] : kept_)
         if (data.lock() == model.data) entry.file = file;
       if (entry.file.isEmpty()) {
-        entry.file = QString("%1.ply").arg(next_file_++);
+        // PLY keeps the confidence of vertices, but no texture.
+        entry.file =
+            QString("%1.%2").arg(next_file_++).arg(model.data->mesh.texture ? "glb" : "ply");
         files.emplace_back(entry.file, model.data);
       }
       kept.emplace(entry.file, model.data);
