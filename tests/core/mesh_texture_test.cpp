@@ -34,7 +34,8 @@ TEST(MeshTexture, IsLostWhenTheTrianglesAreOthers) {
 }
 
 TEST(MeshTexture, GivesThePixelsAtTheirCentresAndTheirMeansBetween) {
-  const ColorImage& image = textured().texture->image;
+  const TriangleMesh mesh = textured();
+  const ColorImage& image = mesh.texture->image;
   const Vec3f middle = texture_at(image, {2.5f / 8, 3.5f / 8});
   EXPECT_NEAR(middle.x(), 4 * 26, 1e-3f);
   EXPECT_NEAR(texture_at(image, {3.0f / 8, 3.5f / 8}).x(), 4 * 26.5f, 1e-3f);

@@ -551,7 +551,8 @@ TEST(ColourCamera, DriftsFromFrameToFrameAndIsGivenInTheWrongPlaceOnlyIfAsked) {
   o.color_camera.width = 80;
   const auto sum_of = [](const VirtualScan& scan, std::size_t i) {
     double sum = 0.0;
-    for (const Rgb c : scan.read(i)->color.pixels) sum += c.r + c.g + c.b;
+    const Frame frame = scan.read(i).value();
+    for (const Rgb c : frame.color.pixels) sum += c.r + c.g + c.b;
     return sum;
   };
   const VirtualScan steady = scan_of({textured_wall()}, o);

@@ -76,7 +76,7 @@ TriangleMesh slab(float thickness_m) {
   return mesh;
 }
 
-TEST(ExpectedErrors, AreLargerBehindAFilterMostAtThinWalls) {
+TEST(ExpectedErrors, AreLargerAtWallsThatAFilterCannotTellApart) {
   const ErrorScale filtered{0.0015, 0.002, true};
   const auto middle_of = [](const TriangleMesh& mesh, const ErrorScale& scale) {
     return expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f),
@@ -84,7 +84,6 @@ TEST(ExpectedErrors, AreLargerBehindAFilterMostAtThinWalls) {
   };
   const TriangleMesh thick = slab(0.010f), thin = slab(0.003f);
   EXPECT_EQ(middle_of(thick, kScale), middle_of(thin, kScale));
-  EXPECT_GT(middle_of(thick, filtered), middle_of(thick, kScale));
   EXPECT_GT(middle_of(thin, filtered), 1.3f * middle_of(thick, filtered));
 }
 
