@@ -234,6 +234,20 @@ struct Rig::Impl {
   }
 };
 
+RigOptions near_rig(int frames, double turns) {
+  RigOptions o;
+  o.shrink = 2;
+  o.noise_m = 0.001;
+  o.distance_m = 0.6;
+  o.elevation_rad = 0.45;
+  o.aim_height_m = 0.07;
+  o.frames = frames;
+  o.fps = 1.0;
+  const double speed_rad_s = 2.0 * kPi * turns / frames;
+  o.angle = [speed_rad_s](double t) { return speed_rad_s * t; };
+  return o;
+}
+
 RigOptions random_rig(std::uint64_t seed) {
   const auto random = [&](std::uint64_t k, double low, double high) {
     return between(hash_key(seed, 55, k), low, high);

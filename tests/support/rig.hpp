@@ -35,6 +35,10 @@ struct RigOptions {
 /// The random rig: 0.6 to 1.2 m away, 10 to 50 deg up, radius 10 to 25 cm, roll to 10 deg.
 RigOptions random_rig(std::uint64_t seed);
 
+/// A small camera 0.6 m from a platter that turns evenly, `frames` of so many turns at one a
+/// second.
+RigOptions near_rig(int frames, double turns);
+
 /// Frames have times; the header has no turntable and the frames no angles.
 class Rig : public FrameSequence {
  public:

@@ -28,17 +28,9 @@ SequenceView letter_on(const testing::Rig& rig) {
 }
 
 testing::Rig turning_rig(std::uint64_t seed = 1) {
-  testing::RigOptions o;
-  o.shrink = 2;
-  o.noise_m = 0.001;
-  o.distance_m = 0.6;
-  o.elevation_rad = 0.45;
-  o.aim_height_m = 0.07;
-  o.frames = int(kFrames);
-  o.fps = 1.0;
+  testing::RigOptions o = testing::near_rig(int(kFrames), kTurns);
   o.seed = seed;
   o.objects = {*builtin_object("letter-a")};
-  o.angle = [](double t) { return kTurns * kTurn / kFrames * t; };
   return testing::Rig(o);
 }
 

@@ -17,16 +17,9 @@ constexpr double kSpeed = 1.2 * 2.0 * kPi / 48.0;
 
 /// A recording of the letter over 1.2 turns that says what is true, if the table turns evenly.
 testing::MemorySequence recording(double drift_m = 0.0, testing::AngleLaw law = {}) {
-  testing::RigOptions o;
-  o.shrink = 2;
-  o.noise_m = 0.001;
-  o.distance_m = 0.6;
-  o.elevation_rad = 0.45;
-  o.aim_height_m = 0.07;
-  o.frames = 48;
-  o.fps = 1.0;
+  testing::RigOptions o = testing::near_rig(48, 1.2);
   o.objects = {*builtin_object("letter-a")};
-  o.angle = law ? std::move(law) : [](double t) { return kSpeed * t; };
+  if (law) o.angle = std::move(law);
   const testing::Rig rig(o);
   testing::MemorySequence out;
   out.header_value = rig.header();

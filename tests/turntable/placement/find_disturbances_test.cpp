@@ -18,17 +18,9 @@ constexpr int kFrames = 60;
 constexpr double kTurns = 1.1;
 
 testing::RigOptions rig_options(const std::string& object, double x_m, std::uint64_t seed) {
-  testing::RigOptions o;
-  o.shrink = 2;
-  o.noise_m = 0.001;
-  o.distance_m = 0.6;
-  o.elevation_rad = 0.45;
-  o.aim_height_m = 0.07;
-  o.frames = kFrames;
-  o.fps = 1.0;
+  testing::RigOptions o = testing::near_rig(kFrames, kTurns);
   o.seed = seed;
   o.objects = {place(*builtin_object(object), x_m, 0.0, 0.6)};
-  o.angle = [](double t) { return kTurns * kTurn / kFrames * t; };
   return o;
 }
 

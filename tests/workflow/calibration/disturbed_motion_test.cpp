@@ -16,16 +16,8 @@ constexpr std::size_t kMovedAt = 24;
 
 /// The letter A on its platter, displaced by x_m.
 testing::Rig turning_rig(double x_m) {
-  testing::RigOptions o;
-  o.shrink = 2;
-  o.noise_m = 0.001;
-  o.distance_m = 0.6;
-  o.elevation_rad = 0.45;
-  o.aim_height_m = 0.07;
-  o.frames = kFrames;
-  o.fps = 1.0;
+  testing::RigOptions o = testing::near_rig(kFrames, 1.4);
   o.objects = {place(*builtin_object("letter-a"), x_m, 0.0, 0.6)};
-  o.angle = [](double t) { return 1.4 * kTurn / kFrames * t; };
   return testing::Rig(o);
 }
 
