@@ -24,6 +24,7 @@
 #include "explorer/session.hpp"
 #include "scanner/record_panel.hpp"
 #include "scanner/scanner.hpp"
+#include "tests/io/scarcity.hpp"
 #include "window/main_window.hpp"
 
 namespace turnscan::studio {
@@ -245,6 +246,25 @@ TEST(KilledStudio, ASessionThatEndsWellOrStillLivesIsNotLost) {
     EXPECT_FALSE(SessionKeeper::find_lost(root.path()).has_value());
   }
   EXPECT_TRUE(QDir(root.path()).entryList(QDir::AllEntries | QDir::NoDotAndDotDot).isEmpty());
+}
+
+TEST(KilledStudio, WhatAFullDiskKeptOutOfASessionIsWrittenLater) {
+  const QTemporaryDir root;
+  ModelStore store;
+  SessionKeeper keeper(store, root.path());
+  int said = 0;
+  QObject::connect(&keeper, &SessionKeeper::failed, [&said] { ++said; });
+  store.add("made", mesh_model(tetrahedron(), "a test"));
+  {
+    const turnscan::testing::FullDisk full(10);
+    keeper.flush();
+  }
+  EXPECT_EQ(said, 1);
+  keeper.flush();
+  const QDir session(
+      root.filePath(QDir(root.path()).entryList(QDir::Dirs | QDir::NoDotAndDotDot).value(0)));
+  EXPECT_EQ(session.entryList({"*.ply"}).size(), 1);
+  EXPECT_TRUE(session.exists("session.json"));
 }
 
 TEST(CloseQuestion, IsAskedWhenSomethingIsInNoFile) {

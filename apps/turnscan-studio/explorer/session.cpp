@@ -124,13 +124,15 @@ void SessionKeeper::report(const QString& text) {
 void SessionKeeper::write() {
   if (!lock_) {
     if (store_.models().empty()) return;
-    if (!QDir().mkpath(folder_)) {
+    // Locked before it is there: no other start takes it for a lost one.
+    QDir().mkpath(QFileInfo(folder_).path());
+    auto lock = std::make_unique<QLockFile>(lock_of(folder_));
+    lock->setStaleLockTime(0);
+    if (!lock->tryLock(0) || !QDir().mkpath(folder_)) {
       report(tr("The session is not kept: %1 cannot be made").arg(folder_));
       return;
     }
-    lock_ = std::make_unique<QLockFile>(lock_of(folder_));
-    lock_->setStaleLockTime(0);
-    lock_->tryLock(0);
+    lock_ = std::move(lock);
   }
   std::vector<KeptModel> list;
   std::vector<std::pair<QString, ModelDataPtr>> files;
@@ -168,7 +170,12 @@ void SessionKeeper::write() {
     if (const auto written = write_all(); !written) {
       const QString reason = QString::fromStdString(written.error().text());
       QMetaObject::invokeMethod(
-          this, [this, reason] { report(tr("The session is not kept: %1").arg(reason)); },
+          this,
+          [this, reason, replaced] {
+            kept_.clear();  // whatever was not written is tried again with the next change
+            taken_over_ << replaced;
+            report(tr("The session is not kept: %1").arg(reason));
+          },
           Qt::QueuedConnection);
       return;
     }
