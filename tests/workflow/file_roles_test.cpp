@@ -25,6 +25,10 @@ struct Roles : ::testing::Test {
     }
     return checked.has_value();
   }
+  /// With a mesh after which those of several objects and passes are numbered.
+  bool allowed_numbered(const char* input, const char* mesh, const char* other) const {
+    return check_file_roles({{at(input)}, {at(mesh), at(other)}, at(mesh)}).has_value();
+  }
   const TempFolder folder;
 };
 
@@ -51,9 +55,6 @@ TEST_F(Roles, TwoOutputsAreTwoFiles) {
 }
 
 TEST_F(Roles, FilesOfSeveralObjectsAreOutputs) {
-  const auto allowed_numbered = [&](const char* input, const char* mesh, const char* other) {
-    return check_file_roles({{at(input)}, {at(mesh), at(other)}, at(mesh)}).has_value();
-  };
   folder.put("rec/scan-12.ply", "x");
   folder.put("b-1.ply", "x");
   fs::create_hard_link(at("b-1.ply"), at("rec/hard.ply"));
@@ -70,9 +71,6 @@ TEST_F(Roles, FilesOfSeveralObjectsAreOutputs) {
 }
 
 TEST_F(Roles, FilesOfPassesThatDoNotFitAreOutputs) {
-  const auto allowed_numbered = [&](const char* input, const char* mesh, const char* other) {
-    return check_file_roles({{at(input)}, {at(mesh), at(other)}, at(mesh)}).has_value();
-  };
   folder.put("rec/scan-pass2.ply", "x");
   folder.put("rec/whole-pass12.3mf", "x");
   EXPECT_FALSE(allowed_numbered("rec", "rec/scan.ply", "r.json"));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+
 #include "tests/geometry/shapes.hpp"
 
 namespace turnscan::quality {
@@ -12,7 +14,8 @@ using test::sphere;
 using test::torus;
 
 std::size_t count_thinner(const TriangleMesh& mesh, double thickness_m) {
-  const ThinWalls walls(mesh);
+  const auto normals = vertex_normals(mesh);
+  const ThinWalls walls(mesh, normals);
   std::size_t count = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     count += walls.thinner_than(thickness_m, v) ? 1 : 0;

@@ -64,7 +64,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
   std::optional<ThinWalls> walls;
-  if (scale.filtered) walls.emplace(mesh);
+  if (scale.filtered) walls.emplace(mesh, normals);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));

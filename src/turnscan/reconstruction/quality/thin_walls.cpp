@@ -1,10 +1,9 @@
-#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/quality/thin_walls.hpp>
 
 namespace turnscan::quality {
 
-ThinWalls::ThinWalls(const TriangleMesh& mesh)
-    : mesh_(mesh), distance_(mesh), side_(mesh), normals_(vertex_normals(mesh)) {}
+ThinWalls::ThinWalls(const TriangleMesh& mesh, std::span<const Vec3f> normals)
+    : mesh_(mesh), distance_(mesh), side_(mesh), normals_(normals) {}
 
 bool ThinWalls::thinner_than(double thickness_m, std::size_t vertex) const {
   const Vec3d behind =

@@ -286,7 +286,7 @@ class Judge {
 
   void say_thin() {
     if (!object_.check.closed) return;
-    const quality::ThinWalls walls(object_.mesh);
+    const quality::ThinWalls walls(object_.mesh, normals_);
     const double nozzle = share_thinner_than(kNozzle_m, walls), pixels = 2.0 * run_.frame_spacing_m;
     if (nozzle > 0.002)
       say("thin", Level::kGood,
