@@ -23,6 +23,7 @@
 #include "driver.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/tool_panel.hpp"
+#include "explorer/verdict_panel.hpp"
 #include "view/scene_view.hpp"
 #include "window/main_window.hpp"
 
@@ -82,6 +83,47 @@ TEST_F(Explorer, ReconstructsARecordingToTheBytesOfTheCommandLine) {
   for (int i = 0; i < 20 && window.explorer().store().can_undo(); ++i)
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(window.explorer().store().models().empty());
+}
+
+TEST_F(Explorer, ShowsTheVerdictOfTheCommandLineAndExportsItsReport) {
+  const QString recording = record_letter(folder);
+  window.open(recording);
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_TRUE(click(button_with(window.explorer(), "Reconstruct")));
+  ASSERT_TRUE(wait_idle(window));
+  QByteArray told;
+  ASSERT_EQ(run_command_line({"reconstruct", recording, "-o", path("cli.ply")}, &told), 0);
+  const QStringList lines = window.explorer().verdict().text().split('\n');
+  ASSERT_GT(lines.size(), 3);
+  EXPECT_TRUE(told.contains("Verdict: " + lines[0].section(' ', -1).toUtf8()))
+      << told.toStdString();
+  for (const QString& sentence : lines.mid(1))
+    EXPECT_TRUE(QString::fromUtf8(told).contains(sentence)) << sentence.toStdString();
+  auto* colors = qobject_cast<QComboBox*>(in_panel("verdict_colors"));
+  ASSERT_NE(colors, nullptr);
+  ASSERT_EQ(colors->count(), 4);  // own, expected error, seen by, invented
+  const QImage own = window.mode().view().screenshot();
+  std::vector<QImage> shown = {own};
+  for (int i = 1; i < colors->count(); ++i) {
+    colors->setCurrentIndex(i);
+    ASSERT_TRUE(wait_idle(window));
+    keep_picture(window, "verdict-" + colors->currentData().toString());
+    shown.push_back(window.mode().view().screenshot());
+    for (std::size_t j = 0; j + 1 < shown.size(); ++j) EXPECT_NE(shown[j], shown.back()) << i << j;
+  }
+  colors->setCurrentIndex(0);
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_EQ(window.mode().view().screenshot(), own);
+  window.explorer().export_report(2, path("letter.html"));
+  ASSERT_TRUE(wait_idle(window));
+  const QByteArray page = content(path("letter.html"));
+  EXPECT_TRUE(page.startsWith("<!doctype html>"));
+  EXPECT_TRUE(page.contains(lines[1].toHtmlEscaped().toUtf8()));
+  window.explorer().list().select(1);  // the recording: nothing is known of a mesh
+  EXPECT_FALSE(button_with(window.explorer(), "Export report…")->isEnabled());
+  window.explorer().export_report(2, "/proc/letter.html");
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_FALSE(QFile::exists("/proc/letter.html"));
 }
 
 /// A bumpy ball of n points.

@@ -13,6 +13,7 @@
 #include "explorer/side_panel.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/tool_panel.hpp"
+#include "explorer/verdict_panel.hpp"
 #include "view/scene_view.hpp"
 #include "widgets/section.hpp"
 
@@ -36,13 +37,15 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       compare_(new ComparePanel(*store_, this)),
       tools_(new ToolPanel(view(), this)),
       side_(new SidePanel(this)),
+      verdict_(new VerdictPanel(this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)) {
   auto* models = section_with(list_, tr("Models"), true, this);
   auto* stages = section_with(stages_, tr("Processing"), true, this);
   auto* tools = section_with(tools_, tr("Tools"), true, this);
   auto* comparison = section_with(compare_, tr("Compare"), false, this);
   auto* side = section_with(side_, tr("Another side"), true, this);
-  for (Section* each : {models, side, tools, stages, comparison}) panel()->addWidget(each);
+  auto* verdict = section_with(verdict_, tr("Verdict"), true, this);
+  for (Section* each : {models, verdict, side, tools, stages, comparison}) panel()->addWidget(each);
   panel()->addStretch();
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
@@ -63,6 +66,8 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   connect(tools_, &ToolPanel::cut_wanted, this, &ExplorerMode::cut_selected);
   connect(tools_, &ToolPanel::lassoed, this, &ExplorerMode::remove_lassoed);
   connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
+  connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
+  connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
   connect(side_, &SidePanel::scan_wanted, this, [this] {
     const Model* model = store_->find(list_->selected());
     if (model && model->data->missing) Q_EMIT another_side_wanted(model->data->missing->side);
@@ -137,8 +142,46 @@ void ExplorerMode::sync() {
     shown.data = model.data;
   }
   draw_missing();
-  const Model* colored = store_->find(legend_model_);
-  view().set_legend(colored && style_of(*colored).visible ? legend_ : Legend());
+  draw_colored();
+}
+
+/// The selected mesh in the colours that were chosen for it lies in its own place.
+void ExplorerMode::draw_colored() {
+  const Model* model = store_->find(list_->selected());
+  const bool wanted = model && colored_.drawable && colored_.of == model->data;
+  if (wanted) {
+    ItemStyle style = style_of(*model);
+    style.own_colors = true;
+    if (colored_.item == 0) {
+      colored_.item = view().add(colored_.drawable, style);
+    } else {
+      view().set_style(colored_.item, style);
+    }
+    style.visible = false;
+    view().set_style(shown_[model->id].item, style);
+  } else if (colored_.item != 0) {
+    view().remove(colored_.item);
+    colored_ = {};
+  }
+  const Model* compared = store_->find(legend_model_);
+  const bool of_comparison = compared && style_of(*compared).visible;
+  view().set_legend(wanted && style_of(*model).visible ? colored_.legend
+                    : of_comparison                    ? legend_
+                                                       : Legend());
+}
+
+void ExplorerMode::report_dialog() {
+  const Model* model = store_->find(list_->selected());
+  if (!model || !model->data->quality) return;
+  QSettings settings;
+  const QString folder = settings.value("files/folder").toString();
+  const QString path = QFileDialog::getSaveFileName(
+      this, tr("Export the report of %1").arg(model->name),
+      QString("%1/%2.html").arg(folder.isEmpty() ? "." : folder, model->name),
+      tr("Report page (*.html)"));
+  if (path.isEmpty()) return;
+  settings.setValue("files/folder", QFileInfo(path).absolutePath());
+  export_report(model->id, path);
 }
 
 ItemStyle ExplorerMode::style_of(const Model& model) const {
@@ -175,7 +218,7 @@ void ExplorerMode::remove_lassoed(const Outline& outline, const Eigen::Matrix4d&
 void ExplorerMode::draw_missing() {
   const Model* model = store_->find(list_->selected());
   const bool wanted = model && model->data->missing && model->data->missing->drawable &&
-                      side_->drawn() && style_of(*model).visible;
+                      side_->drawn() && style_of(*model).visible && verdict_->color_way().isEmpty();
   if (missing_.item != 0 && (!wanted || missing_.data != model->data)) {
     view().remove(missing_.item);
     missing_ = {};
@@ -190,7 +233,13 @@ void ExplorerMode::draw_missing() {
 void ExplorerMode::on_selection(int id) {
   const Model* model = store_->find(id);
   side_->show_missing(model ? model->data->missing : nullptr);
+  verdict_->show_quality(model ? model->data->quality : nullptr);
   draw_missing();
+  if (model && model->data->quality && colored_.of != model->data) {
+    color_selected();
+  } else {
+    draw_colored();
+  }
   const bool recording = model && model->data->kind == ModelKind::kRecording;
   const bool cloud = model && model->data->kind == ModelKind::kCloud;
   stages_->set_target(recording, cloud);

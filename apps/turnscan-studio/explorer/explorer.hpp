@@ -18,6 +18,7 @@ class SidePanel;
 struct LostSession;
 class StagePanel;
 class ToolPanel;
+class VerdictPanel;
 
 class ExplorerMode : public Mode {
   Q_OBJECT
@@ -40,6 +41,8 @@ class ExplorerMode : public Mode {
   void run_stage(const QString& stage);
   void save_as(int id, const QString& path);
   void save_preset(const QString& path);
+  /// The report page of the run that made a model.
+  void export_report(int id, const QString& path);
   /// Opens what a session before has left, as one step of undo.
   void restore_session(const LostSession& lost);
 
@@ -50,6 +53,7 @@ class ExplorerMode : public Mode {
   ToolPanel& tools() { return *tools_; }
   SessionKeeper& session() { return *session_; }
   SidePanel& side() { return *side_; }
+  VerdictPanel& verdict() { return *verdict_; }
 
  Q_SIGNALS:
   void file_opened(const QString& path);
@@ -67,6 +71,9 @@ class ExplorerMode : public Mode {
   ItemStyle style_of(const Model& model) const;
   void sync();
   void draw_missing();
+  void color_selected();
+  void draw_colored();
+  void report_dialog();
   void on_selection(int id);
 
   ModelStore* store_;
@@ -75,6 +82,7 @@ class ExplorerMode : public Mode {
   ComparePanel* compare_;
   ToolPanel* tools_;
   SidePanel* side_;
+  VerdictPanel* verdict_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;
@@ -84,6 +92,13 @@ class ExplorerMode : public Mode {
   Legend legend_;
   std::map<int, Shown> shown_;  ///< by model
   Shown missing_;               ///< what no view saw of the selected mesh
+  /// The selected mesh in the colours of a property.
+  struct Colored {
+    int item = 0;
+    ModelDataPtr of;
+    DrawablePtr drawable;
+    Legend legend;
+  } colored_;
 };
 
 }  // namespace turnscan::studio

@@ -3,6 +3,7 @@
 #include <QFileInfo>
 #include <turnscan/evaluation/colormap.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/workflow/page/page_output.hpp>
 
 #include "app/jobs.hpp"
 #include "app/paths.hpp"
@@ -11,9 +12,11 @@
 #include "explorer/explorer.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/scan_quality.hpp"
 #include "explorer/session.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/stage_runs.hpp"
+#include "explorer/verdict_panel.hpp"
 #include "view/scene_view.hpp"
 
 namespace turnscan::studio {
@@ -174,6 +177,42 @@ void ExplorerMode::save_as(int id, const QString& path) {
           store_->set_file(saved, path);
           Q_EMIT status(tr("Wrote %1").arg(shown_path(path)));
         });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::color_selected() {
+  const Model* model = store_->find(list_->selected());
+  const QString way = verdict_->color_way();
+  if (colored_.item != 0) view().remove(colored_.item);
+  colored_ = {};
+  sync();
+  if (!model || !model->data->quality || way.isEmpty()) return;
+  jobs().start(
+      tr("Colour the mesh"), this,
+      [this, data = model->data, way](const RunContext& context) -> Result<Finish> {
+        context.begin_phase("prepare the view", 0);
+        return Finish([this, data, way, made = color_mesh(*data->quality, way)] {
+          if (verdict_->color_way() != way) return;  // another was chosen meanwhile
+          colored_ = {0, data, made.drawable, made.legend};
+          draw_colored();
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::export_report(int id, const QString& path) {
+  const Model* model = store_->find(id);
+  if (!model || !model->data->quality) return;
+  stages_->show_error({});
+  jobs().start(
+      tr("Export %1").arg(QFileInfo(path).fileName()), this,
+      [this, page = model->data->quality->page, path](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(const ReportPage made, write_page(path.toStdString(), *page, context));
+        const QString note =
+            made.has_viewer ? QString() : tr("; without the 3D view, which this build lacks");
+        return Finish(
+            [this, path, note] { Q_EMIT status(tr("Wrote %1%2").arg(shown_path(path), note)); });
       },
       [this](const QString& text) { stages_->show_error(text); });
 }

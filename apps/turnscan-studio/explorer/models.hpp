@@ -20,6 +20,8 @@ class Recording;
 
 namespace turnscan::studio {
 
+struct ScanQuality;
+
 enum class ModelKind { kMesh, kCloud, kRecording };
 
 /// Of a mesh made from a recording.
@@ -37,6 +39,7 @@ struct ModelData {
   std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
   std::shared_ptr<const Recording> recording;
   std::shared_ptr<const MissingSurface> missing;  ///< of a mesh; nullptr: not known
+  std::shared_ptr<const ScanQuality> quality;     ///< of a mesh as the scan made it, or nullptr
   QString source;                                 ///< file, or what was run to make it
   QString report;                                 ///< several lines for people
   DrawablePtr drawable;

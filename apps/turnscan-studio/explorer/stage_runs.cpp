@@ -13,6 +13,7 @@
 #include "explorer/cloud_sequence.hpp"
 #include "explorer/edits.hpp"
 #include "explorer/reconstruct_until.hpp"
+#include "explorer/scan_quality.hpp"
 #include "widgets/text.hpp"
 
 namespace turnscan::studio {
@@ -90,6 +91,8 @@ std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, cons
 }
 
 StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context,
+                  const std::shared_ptr<const PageInput>& page = nullptr,
+                  std::size_t first_of_page = 0,
                   const std::shared_ptr<const MissingSurface>& missing = nullptr) {
   StageRun out;
   const QString report = QString::fromStdString(reconstruction_text(result));
@@ -103,6 +106,9 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
                                          report, std::move(object.confidence));
     auto data = std::make_shared<ModelData>(*made);
     if (out.models.empty()) data->missing = missing;
+    const std::size_t on_page = first_of_page + out.models.size();
+    if (page && object.verdict)
+      data->quality = std::make_shared<ScanQuality>(ScanQuality{*object.verdict, page, on_page});
     out.models.emplace_back(name, std::move(data));
     context.advance();
   }
@@ -119,11 +125,16 @@ Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions&
   TURNSCAN_ASSIGN(ReconstructRun made,
                   run_reconstruction(*model.data->recording, request, context));
   const bool any = !made.reconstruction.objects.empty();
+  const auto page =
+      std::make_shared<const PageInput>(page_input(made, options, model.name.toStdString()));
+  std::size_t on_page = made.reconstruction.objects.size();
   const auto missing = any ? missing_of(made, model) : nullptr;
-  StageRun out = mesh_run(std::move(made.reconstruction), model, context, missing);
+  StageRun out = mesh_run(std::move(made.reconstruction), model, context, page, 0, missing);
   QStringList reasons;
   for (PassApart& pass : made.apart) {
-    StageRun apart = mesh_run(std::move(pass.reconstruction), model, context);
+    const std::size_t objects = pass.reconstruction.objects.size();
+    StageRun apart = mesh_run(std::move(pass.reconstruction), model, context, page, on_page);
+    on_page += objects;
     for (auto& [name, data] : apart.models)
       out.models.emplace_back(QObject::tr("%1 of %2").arg(name, QString::fromStdString(pass.name)),
                               std::move(data));
