@@ -140,6 +140,24 @@ TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   EXPECT_TRUE(mesh == other) << mesh.left(400).toStdString() << other.left(400).toStdString();
 }
 
+TEST_F(Scanner, TheSurfaceGrowsWhileItRecordsWithNothingTyped) {
+  // Neither the table's place nor its speed is known.
+  mode().set_device("virtual:doll?sensor=kinect-v2&realtime=1&prepared=240&frames=240&turns=1");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record"); }, 120.0));
+  for (QCheckBox* box : mode().findChildren<QCheckBox*>())
+    if (box->text() == "Make the mesh when it is done") box->setChecked(false);
+  ASSERT_TRUE(click(named(mode(), "record")));
+  const auto said = [&](const QString& text) {
+    for (const QLabel* label : mode().findChildren<QLabel*>("quiet"))
+      if (label->text().contains(text)) return true;
+    return false;
+  };
+  EXPECT_TRUE(wait_for([&] { return said("of the surface is still missing"); }));
+  keep_picture(window, "scanner-growing");
+  ASSERT_TRUE(wait_for([&] { return !mode().is_recording(); }));
+}
+
 /// Pixels of the colour in which what no view saw is drawn.
 int magenta(const QImage& image) {
   int count = 0;

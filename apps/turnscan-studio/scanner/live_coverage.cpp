@@ -59,12 +59,26 @@ double LiveCoverage::share_well() const {
 
 int LiveCoverage::sides() const { return std::popcount(sides_); }
 
-std::optional<Rgb> LiveCoverage::color_at(const Vec3f& p) const {
-  if (!p.allFinite() || double(p.cwiseAbs().maxCoeff()) >= cell_m_ * double(kCellLimit - 1))
-    return std::nullopt;
+int LiveCoverage::sides_at(const Vec3f& p) const {
+  if (!p.allFinite() || double(p.cwiseAbs().maxCoeff()) >= cell_m_ * double(kCellLimit - 2))
+    return 0;
   const auto found = cells_.find(key_of(p, cell_m_));
-  if (found == cells_.end() || found->second.frames < 2) return std::nullopt;
-  return color_of_sides(std::popcount(found->second.sides));
+  if (found == cells_.end() || found->second.frames < 2) return 0;
+  return std::popcount(found->second.sides);
+}
+
+std::optional<Rgb> LiveCoverage::color_at(const Vec3f& p) const {
+  const int sides = sides_at(p);
+  return sides > 0 ? std::optional<Rgb>(color_of_sides(sides)) : std::nullopt;
+}
+
+std::optional<Rgb> LiveCoverage::color_near(const Vec3f& p) const {
+  int best = sides_at(p);
+  const auto step = float(cell_m_);
+  for (int i = 0; i < 27 && best < kWell; ++i)
+    best = std::max(
+        best, sides_at(p + step * Vec3f(float(i % 3 - 1), float(i / 3 % 3 - 1), float(i / 9 - 1))));
+  return best > 0 ? std::optional<Rgb>(color_of_sides(best)) : std::nullopt;
 }
 
 PointCloud LiveCoverage::cloud() const {
@@ -78,8 +92,9 @@ PointCloud LiveCoverage::cloud() const {
 }
 
 Rgb color_of_sides(int sides) {
-  if (sides >= LiveCoverage::kWell) return {91, 168, 120};
-  return sides == 2 ? Rgb{214, 190, 84} : Rgb{226, 140, 60};
+  if (sides >= LiveCoverage::kWell) return {0, 158, 115};
+  if (sides == 2) return {240, 228, 66};
+  return sides == 1 ? Rgb{230, 159, 0} : Rgb{204, 121, 167};
 }
 
 }  // namespace turnscan::studio

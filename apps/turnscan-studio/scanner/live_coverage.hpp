@@ -30,6 +30,8 @@ class LiveCoverage {
   /// Colour of the place at p, table frame, by the sides that it was seen from; nullopt where none
   /// or only one frame saw it.
   std::optional<Rgb> color_at(const Vec3f& p) const;
+  /// The best of the cell at p and those beside it: for a place that lies on the surface about.
+  std::optional<Rgb> color_near(const Vec3f& p) const;
   double cell_m() const { return cell_m_; }
   /// A point per cell, coloured by sides: color_of_sides().
   PointCloud cloud() const;
@@ -40,13 +42,17 @@ class LiveCoverage {
     std::uint32_t points = 0, frames = 0, last_frame = 0;
     std::uint64_t sides = 0;
   };
+  /// Sides from which the cell at p was seen; 0: by no frame, or only one.
+  int sides_at(const Vec3f& p) const;
+
   double cell_m_;
   std::uint32_t frame_ = 0;
   std::uint64_t sides_ = 0;
   std::unordered_map<std::uint64_t, Cell> cells_;
 };
 
-/// 1: little, LiveCoverage::kWell and more: well.
+/// 0: not at all, 1: little, LiveCoverage::kWell and more: well. Colours of M. Okabe and K. Ito,
+/// which people with any colour vision tell apart.
 Rgb color_of_sides(int sides);
 
 }  // namespace turnscan::studio

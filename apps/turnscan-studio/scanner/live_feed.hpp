@@ -20,8 +20,11 @@ namespace turnscan::studio {
 /// What a recording has seen of the object so far.
 struct CoverageSummary {
   double area_m2 = 0.0, share_well = 0.0;
+  /// Of the surface, as it would be closed now, that no frame has seen; nullopt: not known yet.
+  std::optional<double> share_missing;
   int sides = 0;
-  DrawablePtr picture;  ///< sensor frame, as the table stands now; nullptr once taken
+  bool is_surface = false;  ///< the picture is a mesh, else points
+  DrawablePtr picture;      ///< sensor frame, as the table stands now; nullptr once taken
 };
 
 /// What is shown of a sensor. Copied out as a whole.

@@ -20,13 +20,15 @@ constexpr double kPictureEvery_s = 0.06, kSeenEvery_s = 0.25, kSilence_s = 2.0;
 constexpr std::size_t kSeenPerFrame = 12000;
 constexpr double kCropMargin_m = 0.006;
 constexpr double kBehind_m = 0.003;  // the picture itself, in the same colours, lies before it
+constexpr double kBefore_m = 0.006;  // a surface lies before the picture, out of its noise
 
 /// What stands on the platter; nullopt where that is not known.
 std::optional<SensorCrop> object_crop(const SequenceHeader& header, std::size_t sensor) {
   if (!header.turntable) return std::nullopt;
   const auto pose = sensor_pose(header, sensor);
   if (!pose) return std::nullopt;
-  const double radius = header.turntable->radius_m.value_or(1e9);
+  const double reach = header.turntable->reach_m.value_or(1e9);
+  const double radius = header.turntable->radius_m.value_or(reach);
   return SensorCrop(Cylinder{kCropMargin_m, 2.0, radius}, *pose);
 }
 
@@ -81,7 +83,9 @@ void LiveFeed::Session::record(const RecordingRequest& request, const RunContext
     feed_.state_.seen.reset();
   }
   const auto result = capture_now(request, context);
+  surface_.reset();
   seen_.reset();
+  motion_.reset();
   const std::lock_guard lock(feed_.mutex_);
   LiveState& state = feed_.state_;
   state.recording = false;
@@ -107,7 +111,7 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
     TURNSCAN_ASSIGN(motor, open_motor(request.motor_port, request.motor, settings, context));
   }
   settle_speed(motor.has_value(), options, header_);
-  begin_seen(header_, options);
+  begin_seen(options);
   CaptureHooks hooks;
   hooks.motor = motor ? &*motor : nullptr;
   hooks.frame = [this](const Frame& frame) -> Result<> {
@@ -116,10 +120,13 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
     return {};
   };
   hooks.progress = [this](const CaptureProgress& progress) {
+    take_motion(progress.motion);
     const std::lock_guard lock(feed_.mutex_);
     feed_.state_.progress = progress;
   };
-  auto result = capture(source_, request.folder, header_, settings, options, hooks, context);
+  // header_ gets what the motion shows meanwhile.
+  const SequenceHeader header = header_;
+  auto result = capture(source_, request.folder, header, settings, options, hooks, context);
   // For the next time that this device is used. That it cannot be kept is no reason to fail.
   const auto& identities = source_.info().identities;
   if (const auto known = calibration(); result && result->recorded && known && !identities.empty())
@@ -127,28 +134,59 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
   return result;
 }
 
-void LiveFeed::Session::begin_seen(const SequenceHeader& header, const CaptureOptions& options) {
+void LiveFeed::Session::begin_seen(const CaptureOptions& options) {
   first_time_s_.reset();
-  speed_rad_s_ = options.speed_rad_s;
-  if (!speed_rad_s_ && header.turntable) speed_rad_s_ = header.turntable->speed_rad_s;
+  shown_.reset();
+  motion_.reset();
   seen_.reset();
-  T_turned_sensor_.assign(header.sensors.size(), std::nullopt);
-  if (header.turntable) seen_.emplace(cell_size(header));
+  mesh_ = {};
+  speed_rad_s_ = options.speed_rad_s;
+  if (!speed_rad_s_ && header_.turntable) speed_rad_s_ = header_.turntable->speed_rad_s;
+  table_given_ = header_.turntable.has_value();
+  T_turned_sensor_.assign(header_.sensors.size(), std::nullopt);
+  surface_ = std::make_unique<LiveSurface>(header_);
+}
+
+void LiveFeed::Session::take_motion(const std::shared_ptr<const Calibration>& shown) {
+  if (!shown || shown == shown_) return;
+  shown_ = shown;
+  const auto motion = live_motion(table_given_ ? &*header_.turntable : nullptr, shown.get(),
+                                  std::nullopt, false, first_time_s_.value_or(0.0));
+  if (motion) place_by(*motion);
+}
+
+void LiveFeed::Session::place_by(const LiveMotion& motion) {
+  motion_ = motion;
+  header_.turntable = motion.table;
+  seen_.emplace(cell_size(header_));
+  for (const auto& frame : surface_->frames())
+    if (const auto turned = motion.turned_rad(frame->info)) count_seen(*frame, *turned);
+  surface_->set_motion(motion);
 }
 
 void LiveFeed::Session::see(const Frame& frame) {
-  if (!seen_ || frame.info.status != FrameStatus::kOk) return;
-  std::optional<double> turned = frame.info.angle_rad;
-  if (!turned && speed_rad_s_ && std::isfinite(frame.info.time_s)) {
-    if (!first_time_s_) first_time_s_ = frame.info.time_s;
-    turned = *speed_rad_s_ * (frame.info.time_s - *first_time_s_);
+  if (!surface_ || frame.info.status != FrameStatus::kOk) return;
+  if (!first_time_s_ && std::isfinite(frame.info.time_s)) first_time_s_ = frame.info.time_s;
+  const bool has_angle = frame.info.angle_rad.has_value();
+  if (!motion_ && (speed_rad_s_ || has_angle)) {
+    const auto motion = live_motion(table_given_ ? &*header_.turntable : nullptr, nullptr,
+                                    speed_rad_s_, has_angle, first_time_s_.value_or(0.0));
+    if (motion) place_by(*motion);
   }
+  surface_->add(frame);
+  if (!motion_) return;
+  const std::optional<double> turned = motion_->turned_rad(frame.info);
+  if (!turned) return;
+  count_seen(frame, *turned);
+  if (frame.info.sensor == 0 && seconds_since(last_seen_) > kSeenEvery_s) show_seen(*turned);
+}
+
+void LiveFeed::Session::count_seen(const Frame& frame, double turned_rad) {
   const std::size_t s = frame.info.sensor;
   const auto crop = object_crop(header_, s);
   const auto points = points_of(frame, header_.sensors.at(s), rays_.at(s));
-  if (!turned || !crop || !points) return;
-  const Pose pose = *sensor_pose(header_, s);
-  const Pose back = Pose(Eigen::AngleAxisd(-*turned, Vec3d::UnitY())) * pose;
+  if (!crop || !points) return;
+  const Pose back = Pose(Eigen::AngleAxisd(-turned_rad, Vec3d::UnitY())) * *sensor_pose(header_, s);
   T_turned_sensor_.at(s) = back;
   const auto& all = points->cloud.points;
   const std::size_t step = all.size() / kSeenPerFrame + 1;
@@ -156,25 +194,64 @@ void LiveFeed::Session::see(const Frame& frame) {
   // Another part of the pixels each time, so that all of them come round.
   for (std::size_t i = frame.info.index % step; i < all.size(); i += step)
     if (crop->keeps(all[i])) kept.push_back((back * all[i].cast<double>()).cast<float>());
-  seen_->add(kept, *turned);
-  if (s == 0 && seconds_since(last_seen_) > kSeenEvery_s) show_seen(*turned, pose);
+  seen_->add(kept, turned_rad);
 }
 
-void LiveFeed::Session::show_seen(double turned_rad, const Pose& T_table_sensor) {
+void LiveFeed::Session::show_seen(double turned_rad) {
   last_seen_ = Clock::now();
   CoverageSummary summary;
   summary.area_m2 = seen_->area_m2();
   summary.share_well = seen_->share_well();
   summary.sides = seen_->sides();
-  PointCloud cloud = seen_->cloud();
-  const Pose now = T_table_sensor.inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
-  for (Vec3f& p : cloud.points) {
-    const Vec3d at = now * p.cast<double>();
-    p = (at + kBehind_m * at.normalized()).cast<float>();
+  if (auto update = surface_->take()) mesh_ = std::move(update->mesh);
+  const Pose T_sensor_table =
+      sensor_pose(header_, 0)->inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
+  summary.is_surface = !mesh_.empty();
+  if (summary.is_surface) {
+    double missing = 0.0;
+    summary.picture = draw_surface(mesh_, T_sensor_table, missing);
+    summary.share_missing = missing;
+  } else {
+    summary.picture = draw_cells(T_sensor_table);
   }
-  summary.picture = make_drawable(cloud, seen_->cell_m());
   const std::lock_guard lock(feed_.mutex_);
   feed_.state_.seen = std::move(summary);
+}
+
+/// Coloured by the sides from which each place was seen, and where no frame has seen it by
+/// color_of_sides(0).
+DrawablePtr LiveFeed::Session::draw_surface(const TriangleMesh& mesh, const Pose& T_sensor_table,
+                                            double& share_missing) const {
+  TriangleMesh shown = mesh;
+  std::vector<char> missing(mesh.vertices.size(), 0);
+  shown.colors.resize(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto color = seen_->color_near(mesh.vertices[v]);
+    missing[v] = color ? 0 : 1;
+    shown.colors[v] = color.value_or(color_of_sides(0));
+    const Vec3d at = T_sensor_table * mesh.vertices[v].cast<double>();
+    shown.vertices[v] = (at - kBefore_m * at.normalized()).cast<float>();
+  }
+  for (Vec3f& normal : shown.normals)
+    normal = (T_sensor_table.linear() * normal.cast<double>()).cast<float>();
+  double all_m2 = 0.0, missing_m2 = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3f& p = mesh.vertices[a];
+    const double area = 0.5 * double((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).norm());
+    all_m2 += area;
+    if (missing[a] != 0 && missing[b] != 0 && missing[c] != 0) missing_m2 += area;
+  }
+  share_missing = all_m2 > 0.0 ? missing_m2 / all_m2 : 0.0;
+  return make_drawable(shown);
+}
+
+DrawablePtr LiveFeed::Session::draw_cells(const Pose& T_sensor_table) const {
+  PointCloud cloud = seen_->cloud();
+  for (Vec3f& p : cloud.points) {
+    const Vec3d at = T_sensor_table * p.cast<double>();
+    p = (at + kBehind_m * at.normalized()).cast<float>();
+  }
+  return make_drawable(cloud, seen_->cell_m());
 }
 
 void LiveFeed::Session::note_silence() {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <turnscan/core/camera.hpp>
+#include <turnscan/workflow/scan/live_surface.hpp>
 
 #include "scanner/live_coverage.hpp"
 #include "scanner/live_feed.hpp"
@@ -27,9 +28,17 @@ struct LiveFeed::Session {
   /// As the recording will have it: where the table stands is in it, if that is known.
   SequenceHeader header_with_table();
   Result<CaptureResult> capture_now(const RecordingRequest& request, const RunContext& context);
-  void begin_seen(const SequenceHeader& header, const CaptureOptions& options);
+  void begin_seen(const CaptureOptions& options);
+  /// What the motion has shown meanwhile, if that is new.
+  void take_motion(const std::shared_ptr<const Calibration>& shown);
+  /// From now on frames are placed so, and those of before that are still there.
+  void place_by(const LiveMotion& motion);
   void see(const Frame& frame);
-  void show_seen(double turned_rad, const Pose& T_table_sensor);
+  void count_seen(const Frame& frame, double turned_rad);
+  void show_seen(double turned_rad);
+  DrawablePtr draw_surface(const TriangleMesh& mesh, const Pose& T_sensor_table,
+                           double& share_missing) const;
+  DrawablePtr draw_cells(const Pose& T_sensor_table) const;
   void show(const Frame& frame);
   DrawablePtr draw(const Frame& frame, std::size_t& count);
   Tint tint_of(std::size_t sensor) const;
@@ -44,8 +53,13 @@ struct LiveFeed::Session {
 
   // Of a recording.
   SequenceHeader header_;
+  bool table_given_ = false;  ///< else header_ has the one that the motion has shown
   std::optional<double> speed_rad_s_, first_time_s_;
+  std::shared_ptr<const Calibration> shown_;  ///< by the motion, as far as it was taken
+  std::optional<LiveMotion> motion_;
   std::optional<LiveCoverage> seen_;
+  std::unique_ptr<LiveSurface> surface_;
+  TriangleMesh mesh_;  ///< the newest of surface_, table frame
   /// Of the last frame of each sensor, the table turned back; where that is known.
   std::vector<std::optional<Pose>> T_turned_sensor_;
 };

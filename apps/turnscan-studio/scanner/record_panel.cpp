@@ -182,6 +182,17 @@ QString RecordPanel::progress_text(const LiveState& state) const {
       .arg(space);
 }
 
+QString RecordPanel::seen_text(const CoverageSummary& seen) const {
+  QString text = tr("Seen so far: about %1 cm², %2 % of it well (from %3 sides or more)")
+                     .arg(1e4 * seen.area_m2, 0, 'f', 0)
+                     .arg(100.0 * seen.share_well, 0, 'f', 0)
+                     .arg(LiveCoverage::kWell);
+  if (seen.share_missing)
+    text +=
+        tr("; %1 % of the surface is still missing").arg(100.0 * *seen.share_missing, 0, 'f', 0);
+  return text;
+}
+
 void RecordPanel::show_state(const LiveState& state, bool open) {
   record_->setEnabled(open);
   record_->setText(state.recording        ? tr("Stop recording")
@@ -196,12 +207,9 @@ void RecordPanel::show_state(const LiveState& state, bool open) {
     text_->setText(progress_text(state));
     text_->setVisible(true);
     seen_->setVisible(true);
-    seen_->setText(
-        state.seen ? tr("Seen so far: about %1 cm², %2 % of it well (from %3 sides or more)")
-                         .arg(1e4 * state.seen->area_m2, 0, 'f', 0)
-                         .arg(100.0 * state.seen->share_well, 0, 'f', 0)
-                         .arg(LiveCoverage::kWell)
-                   : tr("What is covered is shown once the table's place and speed are known."));
+    seen_->setText(state.seen ? seen_text(*state.seen)
+                              : tr("The surface is shown once the object's motion is known, "
+                                   "seconds after it begins to turn."));
   }
   if (!state.outcome.empty()) {
     text_->setText(tr("Recorded %1").arg(QString::fromStdString(state.outcome)));

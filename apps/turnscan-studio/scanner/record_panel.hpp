@@ -18,6 +18,7 @@ class MessageLabel;
 class MotorPanel;
 class OptionForm;
 class ParagraphLabel;
+struct CoverageSummary;
 struct LiveState;
 struct RecordingRequest;
 
@@ -48,6 +49,7 @@ class RecordPanel : public QWidget {
   struct Options;
   void build_options();
   void build_next_pass(QVBoxLayout* layout);
+  QString seen_text(const CoverageSummary& seen) const;
   QString progress_text(const LiveState& state) const;
 
   std::unique_ptr<Options> options_;

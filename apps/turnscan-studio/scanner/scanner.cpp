@@ -27,13 +27,16 @@ namespace turnscan::studio {
 
 namespace {
 
-Legend legend_of_sides() {
+Legend legend_of_sides(bool is_surface) {
   Legend legend;
   legend.title = QObject::tr("Seen from");
   legend.entries = {{to_color(color_of_sides(1)), QObject::tr("1 side")},
                     {to_color(color_of_sides(2)), QObject::tr("2 sides")},
                     {to_color(color_of_sides(LiveCoverage::kWell)),
                      QObject::tr("%1 or more").arg(LiveCoverage::kWell)}};
+  if (is_surface)
+    legend.entries.insert(legend.entries.begin(),
+                          {to_color(color_of_sides(0)), QObject::tr("nowhere yet")});
   return legend;
 }
 
@@ -253,10 +256,10 @@ void ScannerMode::show_seen(const LiveState& state) {
     style.boxed = style.in_view = false;
     style.point_scale = 3.0;
     seen_item_ = view().add(state.seen->picture, style);
-    view().set_legend(legend_of_sides());
   } else {
     view().replace(seen_item_, state.seen->picture);
   }
+  view().set_legend(legend_of_sides(state.seen->is_surface));
 }
 
 /// Shows the averaged scan in place of the live picture.

@@ -192,6 +192,7 @@ class Session {
     progress.dropped =
         counted_since(before_, source_.statistics()).dropped() + counts.dropped_by_disk;
     progress.turned_rad = turns_.turned_rad();
+    progress.motion = turns_.motion();
     progress.seconds = result_.seconds;
     progress.free_bytes = counts.free_bytes;
     progress.fraction = std::clamp(fraction, 0.0, 1.0);

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <turnscan/capture/motor/motor.hpp>
 #include <turnscan/capture/recorder/recorder.hpp>
 #include <turnscan/capture/source/frame_source.hpp>
+#include <turnscan/core/calibration.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan {
@@ -61,6 +63,9 @@ struct CaptureProgress {
   double seconds = 0.0;              ///< of the sensor's time
   std::uint64_t free_bytes = 0;
   double fraction = 0.0;  ///< of what the limits ask for; 0 where that is not known
+  /// Where the turns are counted by the object's motion, what that has shown so far; it is found
+  /// once more after half a turn. Else nullptr.
+  std::shared_ptr<const Calibration> motion;
 };
 
 struct CaptureHooks {

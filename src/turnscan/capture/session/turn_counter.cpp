@@ -86,7 +86,7 @@ bool TurnCounter::time_to_look() const {
 void TurnCounter::take_result() {
   if (!search_.valid()) return;
   if (!wait_ && search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  const Result<Calibration> found = search_.get();
+  Result<Calibration> found = search_.get();
   found_well_ = last_search_;
   if (found_well_) kept_.clear();
   if (!found) {
@@ -105,6 +105,7 @@ void TurnCounter::take_result() {
   speed_ = speed;
   start_time_ = found->start_s;
   found_ = "motion";
+  motion_ = std::make_shared<const Calibration>(std::move(*found));
 }
 
 }  // namespace turnscan::session

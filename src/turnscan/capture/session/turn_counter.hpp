@@ -29,6 +29,8 @@ class TurnCounter {
   /// "angles of the frames", "stated speed", "motion"; empty: not known yet.
   const std::string& found() const { return found_; }
   std::optional<double> speed_rad_s() const { return speed_; }
+  /// What the motion has shown so far, where found() is "motion"; else nullptr.
+  const std::shared_ptr<const Calibration>& motion() const { return motion_; }
   /// Why the speed was not found so far; empty: no attempt has failed.
   const std::string& trouble() const { return trouble_; }
 
@@ -44,6 +46,7 @@ class TurnCounter {
   std::optional<double> first_time_, last_time_, first_angle_, start_time_;
   std::optional<double> turned_;
   std::string found_, trouble_;
+  std::shared_ptr<const Calibration> motion_;
 
   std::vector<std::shared_ptr<const Frame>> kept_;
   std::size_t every_ = 1, seen_ = 0;
