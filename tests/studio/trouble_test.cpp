@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QDialog>
 #include <QDir>
 #include <QFile>
 #include <QLabel>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTest>
@@ -208,6 +210,41 @@ TEST_F(Trouble, CancellingAndClosingInTheMiddleOfEachJobLeaveNothingBehind) {
     EXPECT_EQ(QDir(folder.path()).entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot),
               before);
   }
+}
+
+TEST_F(Trouble, WhatWentWrongIsSaidAndStaysInTheMessages) {
+  auto window = open_window();
+  for (const char* name : {"first.stl", "second.obj"}) {
+    QFile bad(path(name));
+    ASSERT_TRUE(bad.open(QIODevice::WriteOnly));
+    bad.write("this is no mesh");
+    bad.close();
+    window->open(path(name));
+  }
+  ASSERT_TRUE(wait_idle(*window));
+  EXPECT_TRUE(shows_error(*window, "first.stl"));
+  EXPECT_TRUE(shows_error(*window, "second.obj"));
+  window->open(large_ball());
+  ASSERT_TRUE(wait_idle(*window));
+  window->explorer().save_as(1, path("good.stl"));
+  ASSERT_TRUE(wait_idle(*window));
+  const auto* status = window->statusBar()->findChild<QLabel*>();
+  ASSERT_NE(status, nullptr);
+  EXPECT_TRUE(status->text().startsWith("Wrote ")) << status->text().toStdString();
+  window->explorer().save_as(1, path("no-such-folder/bad.stl"));
+  ASSERT_TRUE(wait_idle(*window));
+  EXPECT_EQ(status->text(), "Save bad.stl: failed");
+  window->explorer().save_as(1, path("late.ply"));
+  window->jobs().cancel();
+  ASSERT_TRUE(wait_idle(*window));
+  EXPECT_EQ(status->text(), "Save late.ply: cancelled");
+  QTest::keyClick(window.get(), Qt::Key_L, Qt::ControlModifier);
+  const auto* dialog = window->findChild<QDialog*>("messages");
+  ASSERT_NE(dialog, nullptr);
+  const QString text = dialog->findChild<QPlainTextEdit*>()->toPlainText();
+  for (const char* said :
+       {"first.stl", "second.obj", "Wrote ", "Save bad.stl: failed", "Save late.ply: cancelled"})
+    EXPECT_TRUE(text.contains(said)) << said;
 }
 
 TEST_F(Trouble, StoppingARecordingIsNoLoss) {

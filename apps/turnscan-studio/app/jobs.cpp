@@ -108,6 +108,11 @@ void JobRunner::end(const std::shared_ptr<Job>& job, Result<Finish> result) {
     if (!result && result.error().code != ErrorCode::kCancelled && job->on_error)
       job->on_error(QString::fromStdString(result.error().text()));
   }
+  if (!result && result.error().code == ErrorCode::kCancelled) {
+    Q_EMIT cancelled(job->title);
+  } else if (!result) {
+    Q_EMIT failed(job->title);
+  }
   Q_EMIT finished(job->title, result.has_value());
 }
 

@@ -35,12 +35,24 @@ Mode::Mode(const Services& services, QWidget* parent)
   area_ = new QScrollArea(side);
   body_ = scrolled_body(area_);
   column->addWidget(area_, 1);
+  auto* lower_rule = new QFrame(side);
+  lower_rule->setObjectName("rule");
+  lower_rule->setFixedHeight(1);
+  column->addWidget(lower_rule);
+  footer_ = new QVBoxLayout;
+  footer_->setContentsMargins(14, 8, 14, 10);
+  footer_->setSpacing(6);
+  column->addLayout(footer_);
   split->addWidget(view_);
   split->addWidget(side);
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 0);
   split->setSizes({900, 390});
   layout->addWidget(split);
+}
+
+void Mode::set_footer(std::initializer_list<QWidget*> parts) {
+  for (QWidget* part : parts) footer_->addWidget(part);
 }
 
 void Mode::reveal(QWidget* part) {

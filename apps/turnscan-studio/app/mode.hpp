@@ -2,6 +2,7 @@
 // What the three modes have in common: a view on the left, a panel on the right.
 
 #include <QWidget>
+#include <initializer_list>
 
 #include "app/another_side.hpp"
 
@@ -40,8 +41,10 @@ class Mode : public QWidget {
   virtual void shut_down() {}
 
  Q_SIGNALS:
-  /// One line for the status bar.
+  /// One line for the status bar and the messages: what has happened.
   void status(const QString& text);
+  /// One line for the status bar: what is selected.
+  void described(const QString& text);
   /// undo_text() or redo_text() is another one.
   void undo_changed();
   /// Another mode is where it goes on; see MainWindow::show_mode().
@@ -56,6 +59,9 @@ class Mode : public QWidget {
   ViewSettings& settings() const { return services_.settings; }
   /// Sections go here.
   QVBoxLayout* panel() const { return body_; }
+  /// What stays in sight below the sections, from above: errors, progress, the main action. The
+  /// action comes last, so that a longer text does not move it.
+  void set_footer(std::initializer_list<QWidget*> parts);
   /// Scrolls the panel so that a part of it is seen.
   void reveal(QWidget* part);
 
@@ -64,6 +70,7 @@ class Mode : public QWidget {
   SceneView* view_;
   QScrollArea* area_;
   QVBoxLayout* body_;
+  QVBoxLayout* footer_;
 };
 
 }  // namespace turnscan::studio

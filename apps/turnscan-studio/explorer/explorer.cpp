@@ -47,6 +47,7 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   auto* verdict = section_with(verdict_, tr("Verdict"), true, this);
   for (Section* each : {models, verdict, side, tools, stages, comparison}) panel()->addWidget(each);
   panel()->addStretch();
+  set_footer({stages_->error(), stages_->action()});
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
   view().set_empty_actions({{tr("Open…"), [this] { open_dialog(); }},
@@ -244,7 +245,7 @@ void ExplorerMode::on_selection(int id) {
   const bool cloud = model && model->data->kind == ModelKind::kCloud;
   stages_->set_target(recording, cloud);
   tools_->set_box(model && !recording ? box_of(*model->data->drawable) : Box());
-  if (model) Q_EMIT status(QString("%1: %2").arg(model->name, count_text(*model->data)));
+  if (model) Q_EMIT described(QString("%1: %2").arg(model->name, count_text(*model->data)));
 }
 
 }  // namespace turnscan::studio

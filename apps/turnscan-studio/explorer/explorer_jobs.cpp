@@ -54,7 +54,8 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then) 
           if (then) then();
         });
       },
-      [this](const QString& text) { stages_->show_error(text); });
+      // Of several files each that is bad is named.
+      [this](const QString& text) { stages_->add_error(text); });
 }
 
 void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {

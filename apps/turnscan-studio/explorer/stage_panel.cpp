@@ -69,9 +69,7 @@ void StagePanel::build() {
   auto* top = new QVBoxLayout;
   top->setSpacing(8);
   top->setContentsMargins(0, 2, 0, 6);
-  top->addWidget(mesh_);
   top->addLayout(make_preset_buttons());
-  top->addWidget(error_);
   layout->addLayout(top);
   for (OptionGroup& stage : describe_stages(*options_))
     layout->addWidget(make_section(stage.name, std::move(stage.table)));
@@ -150,6 +148,12 @@ void StagePanel::show_used(const std::vector<Choice>& choices) {
 }
 
 void StagePanel::show_error(const QString& text) { error_->show_text(text); }
+
+void StagePanel::add_error(const QString& text) { error_->add_text(text); }
+
+QWidget* StagePanel::error() const { return error_; }
+
+QWidget* StagePanel::action() const { return mesh_; }
 
 void StagePanel::set_target(bool recording, bool cloud) {
   mesh_->setEnabled(recording || cloud);

@@ -34,6 +34,10 @@ class StagePanel : public QWidget {
   /// What the automatic values were.
   void show_used(const std::vector<Choice>& choices);
   void show_error(const QString& text);
+  void add_error(const QString& text);
+  /// What is to stay in sight.
+  QWidget* error() const;
+  QWidget* action() const;
   /// Which buttons make sense for the selected model.
   void set_target(bool recording, bool cloud);
 

@@ -44,7 +44,8 @@ QString speed_settings(const QString& device) {
 
 }  // namespace
 
-RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_unique<Options>()) {
+RecordPanel::RecordPanel(QWidget* parent)
+    : QWidget(parent), options_(std::make_unique<Options>()), footer_(new QWidget(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
@@ -61,20 +62,23 @@ RecordPanel::RecordPanel(QWidget* parent) : QWidget(parent), options_(std::make_
   build_options();
   reconstruct_ = new QCheckBox(tr("Make the mesh when it is done"), this);
   reconstruct_->setChecked(QSettings().value("scanner/reconstruct", true).toBool());
-  record_ = button(tr("Record"), tr("Record until the turns are done"), this);
+  layout->addWidget(reconstruct_);
+  record_ = button(tr("Record"), tr("Record until the turns are done"), footer_);
   record_->setObjectName("record");
   record_->setEnabled(false);
-  bar_ = new QProgressBar(this);
+  bar_ = new QProgressBar(footer_);
   bar_->setRange(0, 1000);
   bar_->setTextVisible(false);
   bar_->setVisible(false);
-  text_ = quiet_label({}, this);
+  text_ = quiet_label({}, footer_);
   text_->setObjectName("quiet");
-  seen_ = quiet_label({}, this);
-  error_ = new MessageLabel(this);
-  for (QWidget* part :
-       std::initializer_list<QWidget*>{reconstruct_, record_, bar_, text_, seen_, error_})
-    layout->addWidget(part);
+  seen_ = quiet_label({}, footer_);
+  error_ = new MessageLabel(footer_);
+  auto* lower = new QVBoxLayout(footer_);
+  lower->setContentsMargins(0, 0, 0, 0);
+  lower->setSpacing(6);
+  for (QWidget* part : std::initializer_list<QWidget*>{error_, seen_, text_, bar_, record_})
+    lower->addWidget(part);
   text_->setVisible(false);
   seen_->setVisible(false);
   connect(browse, &QPushButton::clicked, this, [this] {

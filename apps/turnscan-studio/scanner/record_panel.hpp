@@ -41,6 +41,8 @@ class RecordPanel : public QWidget {
   void show_state(const LiveState& state, bool open);
   MotorPanel& motor() { return *motor_; }
   void store() const;
+  /// Errors, progress and the button, which are to stay in sight.
+  QWidget* footer() const { return footer_; }
 
  Q_SIGNALS:
   void clicked();
@@ -55,6 +57,7 @@ class RecordPanel : public QWidget {
   std::unique_ptr<Options> options_;
   QString device_;
   QString next_pass_;  ///< folder that gets another pass; empty: none
+  QWidget* footer_;
   ParagraphLabel* advice_;
   QPushButton* leave_;
   QLineEdit* folder_;

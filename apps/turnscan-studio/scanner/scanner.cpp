@@ -109,6 +109,7 @@ void ScannerMode::build_recording() {
   auto* section = new Section(tr("3  Recording"), true, this);
   record_ = new RecordPanel(section);
   section->body()->addWidget(record_);
+  set_footer({record_->footer()});
   connect(record_, &RecordPanel::clicked, this, &ScannerMode::toggle_record);
   panel()->addWidget(section);
 }

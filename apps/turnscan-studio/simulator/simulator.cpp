@@ -132,9 +132,8 @@ void SimulatorMode::build_run() {
   next->addWidget(reconstruct_);
   error_ = new MessageLabel(section);
   section->body()->addLayout(row);
-  section->body()->addWidget(run_);
   section->body()->addLayout(next);
-  section->body()->addWidget(error_);
+  set_footer({error_, run_});
   send_->setEnabled(false);
   reconstruct_->setEnabled(false);
   connect(browse, &QPushButton::clicked, this, [this] {

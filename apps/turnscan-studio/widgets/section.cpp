@@ -1,4 +1,5 @@
 #include "widgets/section.hpp"
+#include "widgets/message_log.hpp"
 
 #include <QFrame>
 #include <QPushButton>
@@ -55,8 +56,15 @@ MessageLabel::MessageLabel(QWidget* parent) : QLabel(parent) {
 }
 
 void MessageLabel::show_text(const QString& text) {
+  messages().add(text, true);
   setText(text);
   setVisible(!text.isEmpty());
+}
+
+void MessageLabel::add_text(const QString& added) {
+  messages().add(added, true);
+  setText(text().isEmpty() ? added : text() + "\n" + added);
+  setVisible(true);
 }
 
 ParagraphLabel::ParagraphLabel(QWidget* parent) : QLabel(parent) {

@@ -28,11 +28,13 @@ class Section : public QWidget {
   QVBoxLayout* body_;
 };
 
-/// An error where it belongs; hidden without text.
+/// An error where it belongs, and in the messages; hidden without text.
 class MessageLabel : public QLabel {
  public:
   explicit MessageLabel(QWidget* parent = nullptr);
   void show_text(const QString& text);
+  /// On a line below what is shown.
+  void add_text(const QString& text);
 };
 
 /// A paragraph of several lines, of which a panel shows all.

@@ -1,11 +1,14 @@
 #include "window/main_menu.hpp"
 
 #include <QAction>
+#include <QDialog>
 #include <QFileDialog>
 #include <QKeySequence>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QVBoxLayout>
 #include <functional>
 #include <turnscan/core/version.hpp>
 #include <vector>
@@ -15,6 +18,7 @@
 #include "explorer/explorer.hpp"
 #include "view/scene_view.hpp"
 #include "view/view_settings.hpp"
+#include "widgets/message_log.hpp"
 #include "window/main_window.hpp"
 
 namespace turnscan::studio {
@@ -70,6 +74,26 @@ void show_keys(MainWindow& window) {
           "Wheel or right button: nearer, farther\nArrows, +, -: the same by keys\n"
           "1 to 7: from front, back, left, right, top, bottom, corner\nHome: show everything\n"
           "B: bounding boxes\nF1 to F3: the modes\nEsc: cancel the running job"));
+}
+
+void show_messages(MainWindow& window) {
+  auto* dialog = new QDialog(&window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName("messages");
+  dialog->setWindowTitle(menu_text("Messages"));
+  dialog->resize(720, 360);
+  auto* text = new QPlainTextEdit(dialog);
+  text->setReadOnly(true);
+  text->setAccessibleName(menu_text("Messages, oldest first"));
+  const auto fill = [text] {
+    text->setPlainText(messages().text());
+    text->moveCursor(QTextCursor::End);
+  };
+  QObject::connect(&messages(), &MessageLog::added, text, fill);
+  fill();
+  auto* layout = new QVBoxLayout(dialog);
+  layout->addWidget(text);
+  dialog->show();
 }
 
 void show_about(MainWindow& window) {
@@ -148,6 +172,7 @@ MainMenu make_main_menu(MainWindow& window) {
   out.dark = add_view_menu(window);
   add_entries(window, *add_menu(window, "&Help"),
               {{menu_text("Keys and mouse"), show_keys, {}},
+               {menu_text("Messages"), show_messages, QKeySequence("Ctrl+L")},
                {menu_text("About turnscan Studio"), show_about, {}}});
   return out;
 }

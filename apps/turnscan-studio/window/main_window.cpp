@@ -10,6 +10,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -25,6 +26,7 @@
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
 #include "view/view_settings.hpp"
+#include "widgets/message_log.hpp"
 #include "widgets/theme.hpp"
 #include "window/job_bar.hpp"
 
@@ -78,6 +80,11 @@ MainWindow::MainWindow()
   simulator_ = new SimulatorMode({*jobs_, *settings_}, stack_);
   add_mode("simulator", tr("Scanner Simulator"), tr("Try a rig before it is built (F3)"),
            simulator_);
+  connect(jobs_, &JobRunner::cancelled, this,
+          [this](const QString& title) { say(tr("%1: cancelled").arg(title)); });
+  // What the status line said of a job before is no longer so.
+  connect(jobs_, &JobRunner::failed, this,
+          [this](const QString& title) { say(tr("%1: failed").arg(title)); });
   connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
   menu_ = make_main_menu(*this);
   connect(menu_.recent, &QMenu::aboutToShow, this, &MainWindow::fill_recent);
@@ -117,7 +124,8 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
   static_cast<QHBoxLayout*>(mode_bar_->layout())->insertWidget(int(mode_buttons_.size()), button);
   mode_buttons_.emplace_back(name, button);
   connect(button, &QToolButton::clicked, this, [this, name] { show_mode(name); });
-  connect(mode, &Mode::status, status_, &QLabel::setText);
+  connect(mode, &Mode::status, this, &MainWindow::say);
+  connect(mode, &Mode::described, status_, &QLabel::setText);
   connect(mode, &Mode::mode_wanted, this, &MainWindow::show_mode);
   connect(mode, &Mode::undo_changed, this, [this] {
     if (menu_.undo) update_undo();
@@ -144,6 +152,11 @@ void MainWindow::show_mode(const QString& name) {
 
 Mode& MainWindow::mode() const { return *static_cast<Mode*>(stack_->currentWidget()); }
 
+void MainWindow::say(const QString& text) {
+  status_->setText(text);
+  messages().add(text, false);
+}
+
 void MainWindow::open(const QString& path) {
   show_mode("explorer");
   explorer_->open_file(path);
@@ -151,7 +164,7 @@ void MainWindow::open(const QString& path) {
 
 void MainWindow::screenshot(const QString& path) {
   const QImage picture = mode().view().screenshot();
-  const auto no = [this](const QString& text) { status_->setText(text); };
+  const auto no = [this](const QString& text) { say(text); };
   jobs_->start(
       tr("Save screenshot"), this,
       [this, picture, path](const RunContext&) -> Result<Finish> {
@@ -160,7 +173,7 @@ void MainWindow::screenshot(const QString& path) {
         if (!picture.save(&buffer, "PNG"))
           return fail_at(path.toStdString(), ErrorCode::kIo, "the picture cannot be packed");
         TURNSCAN_TRY(write_file_atomically(path.toStdString(), png.toStdString()));
-        return Finish([this, path] { status_->setText(tr("Wrote %1").arg(shown_path(path))); });
+        return Finish([this, path] { say(tr("Wrote %1").arg(shown_path(path))); });
       },
       no);
 }
@@ -201,6 +214,10 @@ void MainWindow::update_undo() {
 void MainWindow::restore_window() {
   const QSettings settings;
   resize(1440, 900);
+  // With its frame, of whose size nothing is known before it is shown.
+  constexpr int kFrame = 48;
+  if (const QScreen* on = screen())
+    resize(size().boundedTo(on->availableSize() - QSize(kFrame / 3, kFrame)));
   restoreGeometry(settings.value("window/geometry").toByteArray());
   const QString last = settings.value("window/mode").toString();  // before a mode is stored
   show_mode("explorer");

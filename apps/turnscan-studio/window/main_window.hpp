@@ -30,6 +30,8 @@ class MainWindow : public QMainWindow {
   void open(const QString& path);
   void show_mode(const QString& name);  ///< "scanner", "explorer" or "simulator"
   void screenshot(const QString& path);
+  /// Into the status bar and the messages.
+  void say(const QString& text);
 
   /// Asked before the window closes with something at stake, one line each; true: close. A dialog,
   /// unless a test answers.
