@@ -97,6 +97,20 @@ TEST(SceneFile, ReadsWhatItWrites) {
   EXPECT_NE(text.find("file = \"builtin:doll\""), std::string::npos);
 }
 
+TEST(SceneFile, ReadsNamesOfAnyCharactersThatItWrites) {
+  SceneDescription scene;
+  const std::string many(40, '[');
+  for (const std::string& name :
+       {std::string("/a\nb\r\t\x01\x7f.obj"), std::string("/back\\slash\\\"quote\".obj"),
+        "/" + many + "\\" + many + ".obj", "/" + std::string(60, '.') + "/own.obj"}) {
+    scene.object = name;
+    SceneDescription again;
+    const auto read = parse_scene(scene_toml(scene), "/scenes/one.toml", again);
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_EQ(again.object, name);
+  }
+}
+
 TEST(SceneFile, ReadsATextAsItReadsAFile) {
   SceneDescription scene;
   ASSERT_TRUE(parse_scene("[object]\nfile = 'own.obj'\n", "/scenes/one.toml", scene));

@@ -117,6 +117,11 @@ std::vector<ScannerEntry> scanners_of(const SceneDescription& scene) {
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {  // TOML has no control characters within a text
+      out += fmt::format("\\u{:04x}", code);
+      continue;
+    }
     if (c == '"' || c == '\\') out += '\\';
     out += c;
   }

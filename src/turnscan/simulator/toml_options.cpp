@@ -21,16 +21,21 @@ std::string excess_of(std::string_view line, int& depth) {
   if (line.size() > kLongestLine) return fmt::format("has more than {} bytes", kLongestLine);
   int dots = 0;
   char quote = '\0';
-  for (const char c : line) {
-    if (c == ',' || c == '=') dots = 0;
-    if (c == '.' && ++dots > kMostDots)
-      return fmt::format("has a key of more than {} parts", kMostDots);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote == '"' && c == '\\') {
+      ++i;  // what is escaped ends no text
+      continue;
+    }
     if (quote == '\0' && (c == '"' || c == '\'')) {
       quote = c;
     } else if (c == quote) {
       quote = '\0';
     }
     if (quote != '\0') continue;
+    if (c == ',' || c == '=') dots = 0;
+    if (c == '.' && ++dots > kMostDots)
+      return fmt::format("has a key of more than {} parts", kMostDots);
     if (c == ']' || c == '}') depth = std::max(depth - 1, 0);
     if ((c == '[' || c == '{') && ++depth > kDeepest)
       return fmt::format("nests lists and tables more than {} deep", kDeepest);
