@@ -118,6 +118,33 @@ TEST_F(Scanner, WhatIsKnownOfOneDeviceIsNotBelievedOfTheNext) {
   EXPECT_NE(mode().calibration(), nullptr);
 }
 
+TEST_F(Scanner, ATableThatHasMovedIsToldAndTheMotionTakesOver) {
+  const auto play_until_checked = [&](const QString& uri) {
+    mode().load_calibration(folder.filePath("table.json"));
+    mode().set_device(uri);
+    EXPECT_TRUE(click(button_with(mode(), "Play")));
+    EXPECT_TRUE(wait_for([&] { return mode().rig_check().has_value(); }));
+  };
+  const QString uri = "virtual:doll?sensor=kinect-v2&realtime=1&frames=6000";
+  ASSERT_EQ(run_command_line({"calibrate", "--device", uri + "&seed=3", "--detect", "--save",
+                              folder.filePath("table.json")}),
+            0);
+  play_until_checked(uri);
+  EXPECT_FALSE(mode().rig_check()->moved) << mode().rig_check()->text;
+  auto* banner = named(mode(), "rig_moved");
+  ASSERT_NE(banner, nullptr);
+  EXPECT_FALSE(banner->isVisible());
+  ASSERT_TRUE(click(button_with(mode(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Play"); }));
+  play_until_checked(uri + "&table-x=10mm");
+  EXPECT_TRUE(mode().rig_check()->moved) << mode().rig_check()->text;
+  EXPECT_TRUE(banner->isVisible());
+  keep_picture(window, "scanner-moved");
+  ASSERT_TRUE(click(button_with(*banner, "Use motion")));
+  EXPECT_EQ(mode().calibration(), nullptr);
+  EXPECT_TRUE(wait_for([&] { return !banner->isVisible(); }));
+}
+
 TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   mode().set_device(
       "virtual:letter-a?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=200");

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <turnscan/capture/session/capture.hpp>
+#include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <vector>
@@ -38,8 +39,9 @@ struct LiveState {
   bool table_known = false;  ///< by a calibration, or the source says it
   /// Of this very device, from the last time that it was used; nullptr once taken.
   std::shared_ptr<const Calibration> kept;
-  DrawablePtr picture;       ///< of the last frame, sensor frame; nullptr once taken
-  std::size_t averaged = 0;  ///< frames collected of those asked for
+  DrawablePtr picture;          ///< of the last frame, sensor frame; nullptr once taken
+  std::size_t averaged = 0;     ///< frames collected of those asked for
+  std::optional<RigCheck> rig;  ///< the platter beside the calibration; nullopt: not looked at
 
   bool recording = false;
   CaptureProgress progress;

@@ -264,7 +264,10 @@ void LiveFeed::Session::take(const Frame& frame) {
   last_frame_ = Clock::now();
   if (frame.info.status != FrameStatus::kOk) return;
   show(frame);
+  // While it records, the processor is for the recording, whose own frames are checked afterwards.
+  if (!surface_) rig_watch_.take(frame, source_.info().header, calibration());
   const std::lock_guard lock(feed_.mutex_);
+  feed_.state_.rig = rig_watch_.found();
   if (feed_.collected_.size() < feed_.wanted_) feed_.collected_.push_back(frame);
   feed_.state_.averaged = feed_.collected_.size();
 }

@@ -8,6 +8,7 @@
 #include "scanner/live_coverage.hpp"
 #include "scanner/live_feed.hpp"
 #include "scanner/live_picture.hpp"
+#include "scanner/rig_watch.hpp"
 
 namespace turnscan::studio {
 
@@ -50,6 +51,8 @@ struct LiveFeed::Session {
   Clock::time_point last_seen_ = Clock::now(), last_frame_ = Clock::now();
   std::uint64_t frames_at_rate_ = 0;
   double fps_ = 0.0;
+
+  RigWatch rig_watch_;
 
   // Of a recording.
   SequenceHeader header_;

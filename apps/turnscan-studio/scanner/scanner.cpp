@@ -109,9 +109,44 @@ void ScannerMode::build_recording() {
   auto* section = new Section(tr("3  Recording"), true, this);
   record_ = new RecordPanel(section);
   section->body()->addWidget(record_);
-  set_footer({record_->footer()});
+  set_footer({make_banner(), record_->footer()});
   connect(record_, &RecordPanel::clicked, this, &ScannerMode::toggle_record);
   panel()->addWidget(section);
+}
+
+/// Shown when the platter is not where the calibration has it.
+QWidget* ScannerMode::make_banner() {
+  banner_ = new QWidget(this);
+  banner_->setObjectName("rig_moved");
+  auto* layout = new QVBoxLayout(banner_);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  banner_text_ = new MessageLabel(banner_);
+  auto* row = new QHBoxLayout;
+  auto* again =
+      button(tr("Calibrate again"),
+             tr("Take an averaged scan of the empty table, then press Calibrate"), banner_);
+  auto* motion =
+      button(tr("Use motion"),
+             tr("Forget the calibration: the object's motion shows where the table is"), banner_);
+  row->addWidget(again);
+  row->addWidget(motion);
+  layout->addWidget(banner_text_);
+  layout->addLayout(row);
+  connect(again, &QPushButton::clicked, this, [this] {
+    forget_calibration();
+    start_average();
+  });
+  connect(motion, &QPushButton::clicked, this, &ScannerMode::forget_calibration);
+  banner_->setVisible(false);
+  return banner_;
+}
+
+void ScannerMode::show_rig(const std::optional<RigCheck>& rig) {
+  rig_ = calibration_ ? rig : std::nullopt;
+  const bool moved = rig_ && rig_->moved;
+  if (moved && !banner_->isVisible()) banner_text_->show_text(QString::fromStdString(rig_->text));
+  banner_->setVisible(moved && !recording_);
 }
 
 void ScannerMode::showEvent(QShowEvent* event) {
@@ -216,6 +251,7 @@ void ScannerMode::show_state(const LiveState& state) {
   if (!state.error.empty()) device_error_->show_text(QString::fromStdString(state.error));
   record_->show_state(state, state.open);
   show_seen(state);
+  show_rig(state.open ? state.rig : std::nullopt);
   if (!state.open) return;
   if (state.kept && !calibration_) show_calibration(state.kept, true);
   average_->setEnabled(!averaging_);

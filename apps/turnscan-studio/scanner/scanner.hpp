@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 #include <vector>
 
@@ -51,6 +52,8 @@ class ScannerMode : public Mode {
   void add_pick(const Vec3d& point);
   void undo_pick();
   std::size_t picks() const { return picks_.size(); }
+  /// The last look at the platter beside the calibration.
+  const std::optional<RigCheck>& rig_check() const { return rig_; }
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -63,6 +66,8 @@ class ScannerMode : public Mode {
   QLayout* make_pick_buttons(QWidget* parent);
   QLayout* make_calibration_files(QWidget* parent);
   void build_recording();
+  QWidget* make_banner();
+  void show_rig(const std::optional<RigCheck>& rig);
   void list_devices();
   QString chosen_uri() const;
   /// A table and its speed are those of one device: what is known of another's is put away.
@@ -102,6 +107,9 @@ class ScannerMode : public Mode {
   QCheckBox* filter_;
   QLabel *live_text_, *calibration_text_;
   RecordPanel* record_;
+  QWidget* banner_;
+  MessageLabel* banner_text_;
+  std::optional<RigCheck> rig_;
   OptionForm *average_form_, *detect_form_;
   MessageLabel *device_error_, *calibration_error_;
   int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0, seen_item_ = 0;
