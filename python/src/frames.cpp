@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <turnscan/recording/recording.hpp>
 
 #include "arrays.hpp"
@@ -73,20 +74,27 @@ void bind_camera(py::module_& module) {
   using Intrinsics = CameraIntrinsics;
   py::class_<Intrinsics>(module, "Intrinsics")
       .def(py::init([](int width, int height, double fx, double fy, double cx, double cy,
-                       const std::array<double, 5>& distortion) {
-             Intrinsics made{width, height, fx, fy, cx, cy, distortion};
+                       const std::vector<double>& distortion) {
+             Intrinsics made{width, height, fx, fy, cx, cy, {}};
+             if (distortion.size() != 5 && distortion.size() != made.distortion.size())
+               throw py::value_error("distortion: it has " + std::to_string(distortion.size()) +
+                                     " numbers, not 5 (k1 k2 p1 p2 k3) or 8 (and k4 k5 k6)");
+             std::copy(distortion.begin(), distortion.end(), made.distortion.begin());
              unwrap(made.check());
              return made;
            }),
            py::arg("width"), py::arg("height"), py::arg("fx"), py::arg("fy"), py::arg("cx"),
-           py::arg("cy"), py::arg("distortion") = std::array<double, 5>{})
+           py::arg("cy"), py::arg("distortion") = std::vector<double>(5, 0.0))
       .def_readonly("width", &Intrinsics::width)
       .def_readonly("height", &Intrinsics::height)
       .def_readonly("fx", &Intrinsics::fx)
       .def_readonly("fy", &Intrinsics::fy)
       .def_readonly("cx", &Intrinsics::cx)
       .def_readonly("cy", &Intrinsics::cy)
-      .def_readonly("distortion", &Intrinsics::distortion);
+      .def_property_readonly("distortion", [](const Intrinsics& self) {
+        const auto& d = self.distortion;
+        return std::vector<double>(d.begin(), self.rational() ? d.end() : d.begin() + 5);
+      });
   py::class_<SensorInfo>(module, "Sensor")
       .def(py::init([](const Intrinsics& intrinsics, double depth_unit, const py::object& pose,
                        const std::string& model) {

@@ -18,15 +18,15 @@ CameraIntrinsics pinhole() {
   return camera;
 }
 
-CameraIntrinsics with_distortion(const std::array<double, 5>& distortion) {
+CameraIntrinsics with_distortion(const std::array<double, 8>& distortion) {
   CameraIntrinsics camera = pinhole();
   camera.distortion = distortion;
   return camera;
 }
 
 // Typical of the factory calibrations of depth cameras.
-const std::array<double, 5> kMild{0.09, -0.27, 0.001, -0.002, 0.09};
-const std::array<double, 5> kBarrel{-0.2, 0.03, 0.0, 0.0, 0.0};
+const std::array<double, 8> kMild{0.09, -0.27, 0.001, -0.002, 0.09};
+const std::array<double, 8> kBarrel{-0.2, 0.03, 0.0, 0.0, 0.0};
 
 TEST(Camera, RayOfThePrincipalPointIsTheOpticalAxis) {
   EXPECT_EQ(pinhole().ray(255.5, 211.5), Vec3d(0, 0, 1));
@@ -51,7 +51,7 @@ TEST(Camera, ProjectDistortsAsBrownConradyInTheOrderOfOpenCv) {
 }
 
 TEST(Camera, RayUndoesTheDistortionOverTheWholeImage) {
-  for (const auto& distortion : {std::array<double, 5>{}, kMild, kBarrel}) {
+  for (const auto& distortion : {std::array<double, 8>{}, kMild, kBarrel}) {
     const CameraIntrinsics camera = with_distortion(distortion);
     for (int v = 0; v < camera.height; v += 8) {
       for (int u = 0; u < camera.width; u += 8) {
@@ -68,6 +68,67 @@ TEST(Camera, RayIsNotANumberWhereNoRayGivesThatImagePoint) {
   const CameraIntrinsics camera = with_distortion({-0.5, 0, 0, 0, 0});
   EXPECT_TRUE(camera.ray(255.5 + 0.5 * 365.0, 211.5).allFinite());
   EXPECT_FALSE(camera.ray(255.5 + 0.6 * 365.0, 211.5).allFinite());
+}
+
+/// The factory calibration of an Azure Kinect (pyk4a's test recording), rounded, in the mode WFOV.
+CameraIntrinsics wide_rational() {
+  CameraIntrinsics camera;
+  camera.width = camera.height = 1024;
+  camera.fx = 504.6, camera.fy = 504.7;
+  camera.cx = 524.8, camera.cy = 528.8;
+  camera.distortion = {0.54794,   -0.02097, 2.056e-5, -7.21e-5,
+                       -0.002652, 0.88968,  0.08613,  -0.01391};
+  return camera;
+}
+
+TEST(Camera, ProjectDividesByTheRationalModelsDenominator) {
+  // By hand: x = 0.2, y = 0.1, r2 = 0.05.
+  const double radial = (1.0 + 0.1 * 0.05 - 0.2 * 0.0025 + 0.3 * 0.000125) /
+                        (1.0 + 0.4 * 0.05 + 0.5 * 0.0025 - 0.6 * 0.000125);
+  const double x = 0.2 * radial + 2 * 0.01 * 0.02 + 0.02 * (0.05 + 2 * 0.04);
+  const CameraIntrinsics camera = with_distortion({0.1, -0.2, 0.01, 0.02, 0.3, 0.4, 0.5, -0.6});
+  EXPECT_TRUE(camera.rational());
+  EXPECT_NEAR(camera.project({0.4, 0.2, 2.0}).x(), 365.0 * x + 255.5, 1e-9);
+  EXPECT_FALSE(with_distortion(kMild).rational());
+}
+
+TEST(Camera, RayUndoesTheRationalModelUpToItsEnd) {
+  const CameraIntrinsics camera = wide_rational();
+  const double most = std::sqrt(camera.lens().largest_r2);
+  EXPECT_GT(most, 1.75);  // the calibration's own word is 1.74
+  int covered = 0, beyond = 0;
+  for (int v = 0; v < camera.height; v += 16) {
+    for (int u = 0; u < camera.width; u += 16) {
+      const Vec3d ray = camera.ray(u, v);
+      if (!ray.allFinite()) {
+        ++beyond;
+        continue;
+      }
+      ++covered;
+      ASSERT_LE(ray.head<2>().norm(), 1.001 * most);
+      const Eigen::Vector2d back = camera.project(ray * 1.3);
+      ASSERT_NEAR(back.x(), u, 1e-6) << "pixel " << u << ", " << v;
+      ASSERT_NEAR(back.y(), v, 1e-6) << "pixel " << u << ", " << v;
+    }
+  }
+  EXPECT_GT(covered, 3000);
+  EXPECT_FALSE(camera.ray(0, 0).allFinite());
+  EXPECT_GT(beyond, 100);
+}
+
+TEST(Camera, ProjectIsNotANumberWhereTheRationalModelFoldsBack) {
+  // (1 + 0.1 s) / (1 + s^2): the distorted radius falls from about 0.8 on.
+  const CameraIntrinsics camera = with_distortion({0.1, 0, 0, 0, 0, 0, 1.0, 0});
+  EXPECT_TRUE(camera.project({0.5, 0, 1}).allFinite());
+  EXPECT_FALSE(camera.project({2.0, 0, 1}).allFinite());
+  const auto lens = lens_as<float>(camera.lens());
+  float before = 0.0f;
+  for (float r = 0.1f; r < 20.0f; r += 0.1f) {
+    float x = r, y = 0.0f;
+    distort_rational(lens, x, y);
+    EXPECT_GT(x, before);
+    before = x;
+  }
 }
 
 TEST(Camera, RayTableHoldsTheRaysRowByRow) {

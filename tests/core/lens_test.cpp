@@ -33,5 +33,31 @@ TEST(BrownConrady, IsTheSameForFloatsAndForVectorsOfThem) {
   }
 }
 
+TEST(BrownConrady, WithADenominatorOfOneTheRationalFormIsBrowns) {
+  double x = 0.3, y = -0.2, a = x, b = y, c = x, d = y;
+  distort(kLens, x, y);
+  distort_rational(kLens, a, b);
+  distort_any(kLens, c, d);
+  EXPECT_NEAR(a, x, 1e-15);
+  EXPECT_NEAR(b, y, 1e-15);
+  EXPECT_EQ(c, x);
+  EXPECT_EQ(d, y);
+}
+
+TEST(BrownConrady, TheRationalFormIsTheSameForFloatsAndForVectorsOfThem) {
+  using Lanes = float __attribute__((vector_size(16)));
+  constexpr BrownConrady<float> kRational{0.55f, -0.02f, 0.001f, -0.002f, -0.003f,
+                                          0.89f, 0.09f,  -0.01f, 2.0f};
+  Lanes xs{0.3f, -0.1f, 0.0f, 1.7f}, ys{-0.2f, 0.4f, 0.0f, 0.6f};
+  for (int lane = 0; lane < 4; ++lane) {
+    float x = xs[lane], y = ys[lane];
+    Lanes a = xs, b = ys;
+    distort_rational<TangentialProduct::kShared>(kRational, x, y);
+    distort_rational<TangentialProduct::kShared>(kRational, a, b);
+    EXPECT_EQ(a[lane], x);
+    EXPECT_EQ(b[lane], y);
+  }
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -48,6 +48,19 @@ Error json_refusal(const std::string& text) {
   return result ? Error{} : result.error();
 }
 
+TEST(RecordingJson, WritesFiveCoefficientsOfALensOrTheEightOfARationalOne) {
+  RecordingDescription d = full_description();
+  EXPECT_THAT(recording_json(d), HasSubstr("\"distortion\": [0.1,-0.2,0.001,-0.002,0.03]"));
+  auto& distortion = d.header.sensors[0].intrinsics.distortion;
+  distortion = {0.5, -0.02, 0.0, 0.0, -0.003, 0.9, 0.1, -0.01};
+  const std::string text = recording_json(d);
+  EXPECT_THAT(text, HasSubstr("[0.5,-0.02,0.0,0.0,-0.003,0.9,0.1,-0.01]"));
+  const auto back = parse_recording_json(text);
+  ASSERT_TRUE(back) << back.error().text();
+  EXPECT_EQ(back->header.sensors[0].intrinsics.distortion, distortion);
+  EXPECT_EQ(json_refusal(changed(text, ",0.9,", ",")).code, ErrorCode::kFormat);
+}
+
 TEST(RecordingJson, WhatIsWrittenIsReadBack) {
   const RecordingDescription d = full_description();
   const auto back = parse_recording_json(recording_json(d));

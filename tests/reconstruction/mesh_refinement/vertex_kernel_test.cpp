@@ -18,7 +18,7 @@ struct TestView {
   std::vector<std::uint32_t> pixels;
   VertexKernelView view{};
 
-  TestView(bool distorted, bool parallel) : pixels(97 * 61) {
+  TestView(int distorted, bool parallel) : pixels(97 * 61) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const auto raw = static_cast<std::uint32_t>(5000.0f + 20.0f * uniform(i));
       const std::uint32_t edge = mix64(i) % 7 == 0 ? 0x10000u : 0u;
@@ -30,10 +30,12 @@ struct TestView {
     view.translation[2] = 0.5f;
     view.fx = view.fy = parallel ? 900.0f : 450.0f;
     view.cx = 48.3f, view.cy = 30.2f;
-    if (distorted)
+    if (distorted > 0)
       view.lens.k1 = 0.1f, view.lens.k2 = -0.2f, view.lens.p1 = 0.001f, view.lens.p2 = -0.002f;
+    if (distorted == 2)
+      view.lens.k4 = 0.9f, view.lens.k5 = 0.1f, view.lens.k6 = -0.01f, view.lens.largest_r2 = 0.01f;
     view.unit = 1e-4f, view.bias = 0.001f;
-    view.distorted = distorted ? 1 : 0, view.parallel = parallel ? 1 : 0;
+    view.distorted = distorted, view.parallel = parallel ? 1 : 0;
   }
 };
 
@@ -64,7 +66,7 @@ std::array<std::vector<float>, 3> sums_of(const VertexKernel& kernel,
 }
 
 TEST(VertexKernel, GivesTheSameBytesForEveryInstructionSet) {
-  for (const bool distorted : {false, true}) {
+  for (const int distorted : {0, 1, 2}) {
     for (const bool parallel : {false, true}) {
       const TestView test(distorted, parallel);
       const auto plain = sums_of(*VertexKernels::find(InstructionSet::kPortable), test.view);

@@ -35,7 +35,11 @@ views::DepthView scene(Projection projection, std::uint64_t seed) {
   view.cx = 47.3f, view.cy = 30.8f;
   if (projection == Projection::kDistorted) {
     view.distorted = true;
-    view.distortion = {0.1f, -0.2f, 0.001f, -0.002f, 0.05f};
+    view.lens = {0.1f, -0.2f, 0.001f, -0.002f, 0.05f};
+  }
+  if (projection == Projection::kRational) {  // of an Azure Kinect's depth camera, rounded
+    view.distorted = true;
+    view.lens = {0.548f, -0.021f, 0.001f, -0.002f, -0.0027f, 0.89f, 0.086f, -0.0139f, 9.0f};
   }
   view.bias_m = 0.003f;
   view.pixels.assign(std::size_t(view.width) * std::size_t(view.height), 0);
@@ -60,7 +64,7 @@ views::DepthView scene(Projection projection, std::uint64_t seed) {
 }
 
 constexpr Projection kProjections[] = {Projection::kPinhole, Projection::kDistorted,
-                                       Projection::kParallel};
+                                       Projection::kRational, Projection::kParallel};
 
 struct First {
   float at[3];

@@ -74,7 +74,7 @@ TEST(ScannerModel, TakesFocalLengthCentreAndDistortionOfALens) {
   EXPECT_EQ(model.camera.fy, 510.0);
   EXPECT_EQ(model.camera.cx, 300.0);
   EXPECT_EQ(model.camera.cy, 250.0);
-  EXPECT_EQ(model.camera.distortion, (std::array<double, 5>{0.1, 0, 0, 0, -0.02}));
+  EXPECT_EQ(model.camera.distortion, (std::array<double, 8>{0.1, 0, 0, 0, -0.02}));
 }
 
 TEST(ScannerModel, PutsTheEmitterOfAMatrixScannerWhereTheDirectionSays) {

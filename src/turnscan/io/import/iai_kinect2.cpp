@@ -60,15 +60,10 @@ Result<std::vector<double>> matrix(std::string_view text, std::string_view name,
 Result<CameraIntrinsics> parse_camera(std::string_view text, int width, int height) {
   TURNSCAN_ASSIGN(const auto k, matrix(text, "cameraMatrix", 9, 9));
   TURNSCAN_ASSIGN(const auto d, matrix(text, "distortionCoefficients", 5, 8));
-  if (std::any_of(d.begin() + 5, d.end(), [](double v) { return v != 0.0; }))
-    return fail(ErrorCode::kUnsupported,
-                "it has {} coefficients of distortion, but only 5 are known here; calibrate "
-                "without 'rational'",
-                d.size());
   CameraIntrinsics camera;
   camera.width = width, camera.height = height;
   camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
-  for (std::size_t i = 0; i < 5; ++i) camera.distortion[i] = d[i];
+  std::copy(d.begin(), d.end(), camera.distortion.begin());
   TURNSCAN_TRY(camera.check());
   return camera;
 }

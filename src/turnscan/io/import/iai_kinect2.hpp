@@ -16,10 +16,10 @@ struct Kinect2Calibration {
 /// Reads calib_depth.yaml (depthShift, millimetres, which is added to every depth), calib_ir.yaml
 /// (512 x 424), and, where both are there, calib_color.yaml (1920 x 1080) and calib_pose.yaml,
 /// whose rotation and translation (metres) take a point from the depth to the colour camera.
-/// The images are expected as that driver's users see them: not mirrored. A calibration with
-/// eight coefficients of distortion is taken when the last three are zero.
-/// Fails with kNotFound with neither of the first two, kUnsupported for eight coefficients, and
-/// with kFormat when a value is missing, wrong or beyond 1 m, or a rotation is none.
+/// The images are expected as that driver's users see them: not mirrored. Five to
+/// eight coefficients of distortion are taken.
+/// Fails with kNotFound with neither of the first two, and with kFormat when a value is missing,
+/// wrong or beyond 1 m, or a rotation is none.
 Result<Kinect2Calibration> read_iai_kinect2(const std::filesystem::path& folder);
 
 }  // namespace turnscan

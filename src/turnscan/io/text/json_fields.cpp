@@ -9,6 +9,8 @@ namespace turnscan::text {
 
 namespace {
 
+constexpr std::size_t kBrown = 5;  // coefficients without the rational model's denominator
+
 Result<double> finite_number(const Json& value, const std::string& place) {
   if (!value.is_number()) return fail(ErrorCode::kFormat, "{} is not a number", place);
   const double number = value.get<double>();
@@ -191,8 +193,9 @@ Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object) {
   TURNSCAN_ASSIGN(camera.cy, object.number("cy"));
   if (object.has("distortion")) {
     TURNSCAN_ASSIGN(const std::vector<double> k, object.numbers("distortion"));
-    if (k.size() != camera.distortion.size())
-      return fail(ErrorCode::kFormat, "{} has {} numbers, not 5 (k1 k2 p1 p2 k3)",
+    if (k.size() != kBrown && k.size() != camera.distortion.size())
+      return fail(ErrorCode::kFormat,
+                  "{} has {} numbers, not 5 (k1 k2 p1 p2 k3) or 8 (and k4 k5 k6)",
                   object.place_of("distortion"), k.size());
     std::copy(k.begin(), k.end(), camera.distortion.begin());
   }
@@ -212,13 +215,16 @@ OrderedJson json_of(const Pose& pose) {
 }
 
 OrderedJson json_of(const CameraIntrinsics& camera) {
+  OrderedJson distortion = OrderedJson::array();
+  const std::size_t count = camera.rational() ? camera.distortion.size() : kBrown;
+  for (std::size_t i = 0; i < count; ++i) distortion.push_back(camera.distortion[i]);
   return {{"width", camera.width},
           {"height", camera.height},
           {"fx", camera.fx},
           {"fy", camera.fy},
           {"cx", camera.cx},
           {"cy", camera.cy},
-          {"distortion", camera.distortion}};
+          {"distortion", std::move(distortion)}};
 }
 
 std::string json_text(const OrderedJson& value) {

@@ -55,7 +55,7 @@ Result<Json> parse_json(std::string_view text);
 
 /// 16 numbers or four rows of four. place is for the error.
 Result<Pose> pose_from_json(const Json& value, const std::string& place);
-/// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3); checked.
+/// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3, and k4 k5 k6); checked.
 Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object);
 
 OrderedJson json_of(const Vec3d& v);

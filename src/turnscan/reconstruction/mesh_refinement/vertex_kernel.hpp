@@ -17,7 +17,8 @@ struct VertexKernelView {
   float fx, fy, cx, cy;
   BrownConrady<float> lens;
   float unit, bias;
-  int distorted, parallel;
+  int distorted;  ///< 1: by Brown's model, 2: by the rational one
+  int parallel;
 };
 
 /// Vertices of a mesh, structure of arrays; all arrays, those of the sums included, are padded to a

@@ -34,10 +34,17 @@ TURNSCAN_INLINE void look_up(const VertexKernelView& f, const Perspective& persp
     row.a[i] = row.x[i] / z;
     row.b[i] = row.y[i] / z;
   }
-  if (f.distorted != 0) {
+  if (f.distorted == 1) {
     for (std::size_t i = 0; i < kRow; ++i) {
       float a = row.a[i], b = row.b[i];
       distort(f.lens, a, b);
+      u[i] = a * f.fx + f.cx;
+      v[i] = b * f.fy + f.cy;
+    }
+  } else if (f.distorted == 2) {
+    for (std::size_t i = 0; i < kRow; ++i) {
+      float a = row.a[i], b = row.b[i];
+      distort_rational(f.lens, a, b);
       u[i] = a * f.fx + f.cx;
       v[i] = b * f.fy + f.cy;
     }

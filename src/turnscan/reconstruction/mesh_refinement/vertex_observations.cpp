@@ -55,9 +55,9 @@ VertexKernelView kernel_view(const views::DepthView& view) {
     k.translation[row] = view.translation[row];
   }
   k.fx = view.fx, k.fy = view.fy, k.cx = view.cx, k.cy = view.cy;
-  k.lens = view.lens();
+  k.lens = view.lens;
   k.unit = view.unit_m, k.bias = view.bias_m;
-  k.distorted = view.distorted ? 1 : 0;
+  k.distorted = !view.distorted ? 0 : view.lens.rational() ? 2 : 1;
   k.parallel = view.parallel ? 1 : 0;
   return k;
 }

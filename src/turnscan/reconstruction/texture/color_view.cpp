@@ -14,6 +14,12 @@ constexpr std::size_t kMostViews = 240;
 
 }  // namespace
 
+void ColorView::set_camera(const CameraIntrinsics& intrinsics) {
+  camera = intrinsics;
+  distorted = camera.distorted();
+  lens = lens_as<float>(camera.lens());
+}
+
 void ColorView::set_pose(const Pose& T_color_sensor) {
   const Pose T = T_color_sensor * T_sensor_object;
   rotation = T.linear().cast<float>();
@@ -24,11 +30,7 @@ Projection ColorView::project(const Vec3f& p_object) const {
   const Vec3f p = rotation * p_object + translation;
   if (!(p.z() > 0.0f)) return {};
   float x = p.x() / p.z(), y = p.y() / p.z();
-  if (camera.distorted()) {
-    const auto& d = camera.distortion;
-    distort(BrownConrady<float>{float(d[0]), float(d[1]), float(d[2]), float(d[3]), float(d[4])}, x,
-            y);
-  }
+  if (distorted) distort_any(lens, x, y);
   return {x * float(camera.fx) + float(camera.cx), y * float(camera.fy) + float(camera.cy), p.z()};
 }
 
@@ -157,7 +159,7 @@ std::vector<ColorView> color_views(const FrameSequence& sequence,
     view.position = i;
     view.sensor = info.sensor;
     view.T_sensor_object = T_object_sensor.inverse();
-    view.camera = sensor.color_intrinsics.value_or(sensor.intrinsics);
+    view.set_camera(sensor.color_intrinsics.value_or(sensor.intrinsics));
     view.set_pose(sensor.color_intrinsics ? sensor.T_color_sensor : Pose::Identity());
     out.push_back(std::move(view));
   }

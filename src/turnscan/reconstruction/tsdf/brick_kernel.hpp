@@ -26,7 +26,7 @@ struct BrickSums {
   PartSums part[kParts];
 };
 
-enum class Projection : std::uint8_t { kPinhole, kDistorted, kParallel };
+enum class Projection : std::uint8_t { kPinhole, kDistorted, kRational, kParallel };
 
 /// Min/max-depth bounds of a view for the visibility of boxes of one size. Conservative: they hold
 /// all pixels onto which a box may project.

@@ -24,6 +24,8 @@ inline void project(const BrickKernelView& f, const F& x, const F& y, const F& i
     F a = x * inverse, b = y * inverse;
     if constexpr (kProjection == Projection::kDistorted)
       distort<TangentialProduct::kShared>(f.lens, a, b);
+    if constexpr (kProjection == Projection::kRational)
+      distort_rational<TangentialProduct::kShared>(f.lens, a, b);
     u = a * f.fx + (f.cx + right);
     v = b * f.fy + (f.cy + down);
   }
@@ -160,6 +162,8 @@ VisibilityMasks group_visibility(const BrickKernelView& view, const float first[
     return group_masks<Projection::kPinhole>(view, first);
   if (view.projection == Projection::kDistorted)
     return group_masks<Projection::kDistorted>(view, first);
+  if (view.projection == Projection::kRational)
+    return group_masks<Projection::kRational>(view, first);
   return group_masks<Projection::kParallel>(view, first);
 }
 
@@ -167,6 +171,8 @@ PartVisibilityMasks part_visibility(const BrickKernelView& view, const float fir
   if (view.projection == Projection::kPinhole) return part_masks<Projection::kPinhole>(view, first);
   if (view.projection == Projection::kDistorted)
     return part_masks<Projection::kDistorted>(view, first);
+  if (view.projection == Projection::kRational)
+    return part_masks<Projection::kRational>(view, first);
   return part_masks<Projection::kParallel>(view, first);
 }
 
@@ -175,6 +181,8 @@ bool integrate(const BrickKernelView& view, const float first[3], unsigned parts
     return integrate_parts<Projection::kPinhole>(view, first, parts, sums);
   if (view.projection == Projection::kDistorted)
     return integrate_parts<Projection::kDistorted>(view, first, parts, sums);
+  if (view.projection == Projection::kRational)
+    return integrate_parts<Projection::kRational>(view, first, parts, sums);
   return integrate_parts<Projection::kParallel>(view, first, parts, sums);
 }
 

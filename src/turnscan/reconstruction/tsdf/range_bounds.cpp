@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <turnscan/reconstruction/tsdf/range_bounds.hpp>
 
 namespace turnscan::tsdf {
@@ -10,15 +11,51 @@ namespace {
 
 constexpr int kPartSide = 4;  // samples
 
+/// What a rational lens shows up to an undistorted or a distorted radius at z = 1.
+struct RationalReach {
+  double stretch = 1.0;  ///< upper bound of the distortion's derivative
+  double shrink = 1.0;   ///< lower bound of the distorted radius by the undistorted one
+  double radius = 0.0;   ///< the undistorted one
+};
+
+/// Up to the undistorted radius, or if `distorted` is given to that one. Sampled: the factor is a
+/// fraction of polynomials of r^2 without poles up to the lens's largest radius, and constant
+/// beyond.
+RationalReach rational_reach(const BrownConrady<float>& lens, double radius,
+                             std::optional<double> distorted = std::nullopt) {
+  constexpr int kSamples = 256;
+  constexpr double kSafety = 1.02;
+  const double end = distorted ? std::sqrt(double(lens.largest_r2)) : radius;
+  RationalReach out;
+  double before = 0.0;
+  for (int i = 1; i <= kSamples; ++i) {
+    const double r = end * i / kSamples;
+    float x = float(r), y = 0.0f;
+    distort_rational(BrownConrady<float>{lens.k1, lens.k2, 0, 0, lens.k3, lens.k4, lens.k5, lens.k6,
+                                         lens.largest_r2},
+                     x, y);
+    out.radius = r;
+    out.shrink = std::min(out.shrink, double(x) / r);
+    out.stretch = std::max({out.stretch, double(x) / r, (double(x) - before) * kSamples / end});
+    before = double(x);
+    if (distorted && before >= *distorted) break;
+  }
+  out.stretch = kSafety * out.stretch +
+                6.0 * out.radius * (std::abs(double(lens.p1)) + std::abs(double(lens.p2)));
+  out.shrink /= kSafety;
+  return out;
+}
+
 /// Upper bound of the derivative of the lens's distortion, up to a radius at z = 1.
 double largest_stretch(const views::DepthView& view, double radius) {
   if (!view.distorted) return 1.0;
-  const auto& k = view.distortion;
+  const auto& k = view.lens;
+  if (k.rational()) return rational_reach(k, radius).stretch;
   const double r2 = radius * radius;
   return 1.0 +
-         r2 * (3.0 * std::abs(double(k[0])) +
-               r2 * (5.0 * std::abs(double(k[1])) + r2 * 7.0 * std::abs(double(k[4])))) +
-         6.0 * radius * (std::abs(double(k[2])) + std::abs(double(k[3])));
+         r2 * (3.0 * std::abs(double(k.k1)) +
+               r2 * (5.0 * std::abs(double(k.k2)) + r2 * 7.0 * std::abs(double(k.k3)))) +
+         6.0 * radius * (std::abs(double(k.p1)) + std::abs(double(k.p2)));
 }
 
 /// Largest |x / z| and |y / z| of what the window shows, and somewhat beyond.
@@ -28,7 +65,12 @@ std::array<double, 2> largest_slope(const views::DepthView& view) {
     return (std::max(std::abs(double(middle)), std::abs(size - double(middle))) + kMargin) /
            double(focal);
   };
-  return {reach(view.cx, view.width, view.fx), reach(view.cy, view.height, view.fy)};
+  const std::array<double, 2> out{reach(view.cx, view.width, view.fx),
+                                  reach(view.cy, view.height, view.fy)};
+  if (!view.distorted || !view.lens.rational()) return out;
+  // Of a wide lens rays lie much farther out than their image points.
+  const double shrink = rational_reach(view.lens, 0.0, std::hypot(out[0], out[1])).shrink;
+  return {out[0] / shrink, out[1] / shrink};
 }
 
 /// Half of the box around a cube of samples along a row of the view's rotation.
@@ -44,9 +86,10 @@ void RangeBounds::set_projection(const views::DepthView& view) {
   BrickKernelView& f = view_;
   f.pixels = view.pixels.data();
   f.width = view.width, f.height = view.height;
-  f.projection = view.parallel    ? Projection::kParallel
-                 : view.distorted ? Projection::kDistorted
-                                  : Projection::kPinhole;
+  f.projection = view.parallel          ? Projection::kParallel
+                 : !view.distorted      ? Projection::kPinhole
+                 : view.lens.rational() ? Projection::kRational
+                                        : Projection::kDistorted;
   const bool pinhole = f.projection == Projection::kPinhole;
   const float scale[3] = {pinhole ? view.fx : 1.0f, pinhole ? view.fy : 1.0f, 1.0f};
   for (int row = 0; row < 3; ++row) {
@@ -56,7 +99,7 @@ void RangeBounds::set_projection(const views::DepthView& view) {
   }
   f.focal_x = 1.0f / scale[0], f.focal_y = 1.0f / scale[1];
   f.fx = view.fx, f.fy = view.fy, f.cx = view.cx, f.cy = view.cy;
-  f.lens = view.lens();
+  f.lens = view.lens;
   f.unit = view.unit_m, f.bias = view.bias_m;
 }
 
@@ -180,6 +223,8 @@ RangeBounds::DepthRange RangeBounds::depth_range_around(float x, float y, float 
   const float inverse = f.projection == Projection::kParallel ? 1.0f : 1.0f / std::max(z, 1e-6f);
   float a = x * inverse, b = y * inverse;
   if (f.projection == Projection::kDistorted) distort<TangentialProduct::kShared>(f.lens, a, b);
+  if (f.projection == Projection::kRational)
+    distort_rational<TangentialProduct::kShared>(f.lens, a, b);
   if (f.projection != Projection::kPinhole) a *= f.fx, b *= f.fy;
   const float u = a + (f.cx + (0.5f - level.half_u)), v = b + (f.cy + (0.5f - level.half_v));
   const auto begin = [&](float at, int size) {

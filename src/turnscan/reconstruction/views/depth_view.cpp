@@ -106,7 +106,7 @@ DepthView view_of_depth(const Frame& frame, const SensorInfo& sensor, const RayT
   view.fy = static_cast<float>(camera.fy);
   view.cx = static_cast<float>(camera.cx - box.x0 + 1);
   view.cy = static_cast<float>(camera.cy - box.y0 + 1);
-  for (std::size_t k = 0; k < 5; ++k) view.distortion[k] = static_cast<float>(camera.distortion[k]);
+  view.lens = lens_as<float>(camera.lens());
   view.distorted = camera.distorted();
   view.unit_m = static_cast<float>(sensor.depth_unit_m);
   view.bias_m = static_cast<float>(sensor.depth_bias_m);

@@ -2,7 +2,6 @@
 // One frame as the volumetric method uses it: the window of a depth image in which the object lies,
 // with the depth that each pixel measured and how far it is sure to have seen free space.
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -21,7 +20,7 @@ struct DepthView {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Vec3f translation = Vec3f::Zero();
   float fx = 1.0f, fy = 1.0f, cx = 0.0f, cy = 0.0f;
-  std::array<float, 5> distortion{};  ///< as CameraIntrinsics::distortion
+  BrownConrady<float> lens{};  ///< as CameraIntrinsics::lens()
   bool distorted = false;
   bool parallel = false;
   float unit_m = 1e-4f, bias_m = 0.0f;  ///< depth = raw * unit + bias
@@ -44,7 +43,7 @@ struct DepthView {
   Eigen::Vector2f project(const Vec3f& p_view) const {
     const float z = parallel ? 1.0f : p_view.z();
     float x = p_view.x() / z, y = p_view.y() / z;
-    if (distorted) distort(lens(), x, y);
+    if (distorted) distort_any(lens, x, y);
     return {x * fx + cx, y * fy + cy};
   }
   /// Position in `pixels` of what shows a point of the view's frame; -1 where nothing does.
@@ -54,9 +53,6 @@ struct DepthView {
     const float u = image.x() + 0.5f, v = image.y() + 0.5f;
     if (!(u >= 0.0f && v >= 0.0f && u < float(width) && v < float(height))) return -1;
     return std::ptrdiff_t(int(v)) * width + int(u);
-  }
-  BrownConrady<float> lens() const {
-    return {distortion[0], distortion[1], distortion[2], distortion[3], distortion[4]};
   }
   /// Position of the sensor, or direction towards it, in the table frame.
   Viewpoint viewpoint() const;

@@ -80,6 +80,10 @@ OptionTable describe(ScannerParameters& p) {
       .number("p1", p.p1, Quantity::kNone, {-100.0, 100.0}, "Tangential distortion.")
       .number("p2", p.p2, Quantity::kNone, {-100.0, 100.0}, "Tangential distortion.")
       .number("k3", p.k3, Quantity::kNone, {-100.0, 100.0}, "Radial distortion, sixth power.")
+      .number("k4", p.k4, Quantity::kNone, {-100.0, 100.0},
+              "Of the rational model, which divides by 1 + k4 r^2 + k5 r^4 + k6 r^6.")
+      .number("k5", p.k5, Quantity::kNone, {-100.0, 100.0}, "Of its fourth power.")
+      .number("k6", p.k6, Quantity::kNone, {-100.0, 100.0}, "Of its sixth power.")
       .number("baseline", p.baseline_m, Quantity::kLength, {0.0, 10.0},
               "Distance between emitter and receiver.")
       .number("baseline-direction", p.baseline_direction_rad, Quantity::kAngle,
@@ -130,7 +134,7 @@ Result<ScannerModel> scanner_model(const ScannerParameters& p) {
   set_focal_lengths(p, camera);
   camera.cx = p.cx.value_or(0.5 * (camera.width - 1));
   camera.cy = p.cy.value_or(0.5 * (camera.height - 1));
-  camera.distortion = {p.k1, p.k2, p.p1, p.p2, p.k3};
+  camera.distortion = {p.k1, p.k2, p.p1, p.p2, p.k3, p.k4, p.k5, p.k6};
   // Seen by the scanner y points down, so that 90 deg is -y.
   const Vec3d eye = p.baseline_m * Vec3d(std::cos(p.baseline_direction_rad),
                                          -std::sin(p.baseline_direction_rad), 0.0);

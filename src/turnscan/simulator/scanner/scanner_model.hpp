@@ -62,6 +62,7 @@ struct ScannerParameters {
   std::optional<double> aspect;          ///< width to height of the view; auto: square samples
   std::optional<double> fx, fy, cx, cy;  ///< pixels; cx, cy auto: the middle
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
+  double k4 = 0.0, k5 = 0.0, k6 = 0.0;  ///< of the rational model, see core/lens.hpp
   double baseline_m = 0.0;              ///< from emitter to receiver
   double baseline_direction_rad = 0.0;  ///< from the rays' start to the other eye: see describe()
   double max_incidence_rad = 1.4835298641951802;
