@@ -397,6 +397,7 @@ TEST(NoisePresets, PredictWhatIsPublished) {
   EXPECT_NEAR(sigma_mm("kinect-v1", 1.4, 0.3), 1.2 + 1.9, 1e-6);
   EXPECT_NEAR(sigma_mm("kinect-v2", 0.8, 0.0), 1.292, 1e-3);
   EXPECT_NEAR(sigma_mm("azure-kinect", 1.5, 0.0), 1.5, 1e-6);
+  EXPECT_NEAR(sigma_mm("orbbec-femto", 1.5, 0.0), 1.5, 1e-6);
   const ScannerModel d435 = find_scanner("realsense-d435").value();
   EXPECT_NEAR(sigma_mm("realsense-d435", 0.8, 0.0), 640.0 * 0.08 / (d435.camera.fx * 0.05), 1e-6);
   // A profile scanner of this kind repeats to a few hundredths of a millimetre.
