@@ -44,7 +44,7 @@ LOCALE_CALLS = re.compile(r"\b(stod|stof|stold|atof|strtod|strtof|sscanf|fscanf|
 # Hosts that files may name, as the source of a fact or as an identifier in a file format.
 HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.edu", "doi.org", "arxiv.org",
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
-         "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de",
+         "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de", "learn.microsoft.com",
          "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com"}
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.

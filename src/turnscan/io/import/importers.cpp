@@ -2,6 +2,7 @@
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/matroska/matroska.hpp>
 
 namespace turnscan::foreign {
 
@@ -36,7 +37,14 @@ const std::vector<Importer>& table() {
        {"depth-unit", "intrinsics", "iai-kinect2", "pose-direction", "world-up"}},
       {{ImportFormat::kJsonPng, "json-png", "depth_N.png described by a JSON file"},
        open_json_png,
-       {"depth-unit", "iai-kinect2", "pose-direction", "world-up", "clockwise"}}};
+       {"depth-unit", "iai-kinect2", "pose-direction", "world-up", "clockwise"}},
+      {{ImportFormat::kMatroska, "matroska", "recording .mkv of an Azure Kinect or a Femto"},
+       open_matroska,
+       {"depth-unit", "intrinsics", "clockwise"}},
+      {{ImportFormat::kOpen3dRgbd, "open3d-rgbd",
+        "folder of Open3D's recorders (color/, depth/, intrinsic.json)"},
+       open_open3d_rgbd,
+       {"depth-unit", "intrinsics", "fps", "clockwise"}}};
   return importers;
 }
 
@@ -60,6 +68,8 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   };
   if (!options.angles.empty()) return ImportFormat::kCloudFolder;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
+  if (has("depth") && (has("intrinsic.json") || has("camera_intrinsic.json")))
+    return ImportFormat::kOpen3dRgbd;
   if (any_ends_with(names, ".conf")) return ImportFormat::kStanfordConf;
   const bool frame_pose = std::any_of(names.begin(), names.end(), [](const std::string& name) {
     return name.starts_with("frame-") && name.ends_with(".depth.png");
@@ -84,6 +94,8 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
     format = ImportFormat::kStanfordConf;
   } else if (path.extension() == ".json") {
     format = ImportFormat::kJsonPng;
+  } else if (path.extension() == ".mkv" || matroska::is_matroska_file(path)) {
+    format = ImportFormat::kMatroska;
   }
   if (format != ImportFormat::kAuto) return format;
   return fail_at(path.string(), ErrorCode::kUnsupported,
@@ -105,6 +117,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   note(o.pose_direction != PoseDirection::kAuto, "pose-direction");
   note(!o.world_up.empty(), "world-up");
   note(o.clockwise, "clockwise");
+  note(o.fps.has_value(), "fps");
   return stated;
 }
 
@@ -138,7 +151,8 @@ Result<> ImportOptions::check() const {
 OptionTable describe(ImportOptions& o) {
   OptionTable table;
   table.choice("format", o.format,
-               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png"},
+               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
+                "matroska", "open3d-rgbd"},
                "Layout of the data set; auto recognises it by its files");
   table.text("angles", o.angles,
              "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
@@ -162,6 +176,8 @@ OptionTable describe(ImportOptions& o) {
              "Direction x,y,z that is up in the world of the poses; without it, +y");
   table.flag("clockwise", o.clockwise,
              "Angles and speed count clockwise seen from above (else counter-clockwise)");
+  table.number("fps", o.fps, Quantity::kNone, {1e-3, 1e6},
+               "Frames a second, for folders of images that do not say their times");
   table.text("turntable-axis", o.turntable_axis,
              "Direction x,y,z of the rotation axis, upwards, in the frame of sensor 0");
   table.text("turntable-center", o.turntable_center,

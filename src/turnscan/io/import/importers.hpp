@@ -14,7 +14,16 @@
 
 namespace turnscan {
 
-enum class ImportFormat { kAuto, kStanfordConf, kCloudFolder, kTumRgbd, kFramePose, kJsonPng };
+enum class ImportFormat {
+  kAuto,
+  kStanfordConf,
+  kCloudFolder,
+  kTumRgbd,
+  kFramePose,
+  kJsonPng,
+  kMatroska,
+  kOpen3dRgbd
+};
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
 
@@ -30,6 +39,7 @@ struct ImportOptions {
   PoseDirection pose_direction = PoseDirection::kAuto;
   std::string world_up;          ///< "x,y,z" in the world of the poses; empty: +Y
   bool clockwise = false;        ///< angles and speed count clockwise from above
+  std::optional<double> fps;     ///< frames a second, of layouts without times
   std::string turntable_axis;    ///< "x,y,z", up, frame of sensor 0
   std::string turntable_center;  ///< "x,y,z" with units, frame of sensor 0
   std::optional<double> turntable_radius_m;
@@ -50,8 +60,8 @@ struct ImporterInfo {
 };
 const std::vector<ImporterInfo>& importers();
 
-/// Opens a data set. path is a file (.conf, .json) or a folder. Files are read when frames are
-/// read; read() may be called from several threads. What was assumed stands in header().source,
+/// Opens a data set. path is a file (.conf, .json, .mkv) or a folder. Files are read when frames
+/// are read; read() may be called from several threads. What was assumed stands in header().source,
 /// one line each after the first. Depth images: 65535 of a foreign image becomes kNoReturn.
 /// Fails with kNotFound (no such path or a named file is missing), kUnsupported (the layout is not
 /// recognised), kInvalidOption (an option is wrong or has no meaning for the layout), kMissingData

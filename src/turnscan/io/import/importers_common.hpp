@@ -45,6 +45,8 @@ OpenResult open_stanford_conf(const std::filesystem::path& path, const ImportOpt
 OpenResult open_cloud_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_tum(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_matroska(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_open3d_rgbd(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options);
 
 /// Text files of data sets are refused beyond this.
