@@ -26,6 +26,8 @@ int run(int argc, char** argv) {
   program.add("simulate", "Record an object with virtual scanners", make_simulate_command());
   program.add("demo", "Record a built-in object with a virtual camera, reconstruct and judge it",
               make_demo_command());
+  program.add("plan", "Find where to put sensors, and how many passes to make",
+              make_plan_command());
   program.add("batch", "Reconstruct or simulate many, here or on a cluster", make_batch_command());
   program.add_reference();
   return program.run(argc, argv);

@@ -20,5 +20,6 @@ std::unique_ptr<Command> make_capture_command();
 std::unique_ptr<Command> make_scan_command();
 std::unique_ptr<Command> make_turntable_command();
 std::unique_ptr<Command> make_batch_command();
+std::unique_ptr<Command> make_plan_command();
 
 }  // namespace turnscan::cli

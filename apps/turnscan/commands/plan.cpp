@@ -1,0 +1,70 @@
+#include <filesystem>
+#include <turnscan/simulator/objects/builtin_objects.hpp>
+#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/workflow/plan/plan.hpp>
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+class PlanCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.positionals("MESH...", request_.objects,
+                     fmt::format("What is to be scanned, or stands for it: mesh files or {}",
+                                 "builtin:NAME, as in simulate"));
+    line.required_repeatable(
+        "--scanner", "SCANNER,...", scanners_,
+        fmt::format("Sensors at hand: presets ({}) or files FILE.toml, each of which the rig may "
+                    "have several times. What of its place is fixed follows behind commas: "
+                    "kinect-v2,roll=90deg",
+                    fmt::join(scanner_presets(), ", ")));
+    line.required_option("-o,--out", "FOLDER", request_.folder,
+                         "Folder for the plans, made if need be; an earlier run's plans in it are "
+                         "replaced, and its trials used again");
+    line.option("--unit", "UNIT", request_.unit,
+                "Unit of MESH if its file does not say it: mm, m, ...");
+    line.allow_config();
+    line.group("plan", "Plan", describe(request_.options));
+    for (SceneTable& table : plan_scene_tables(request_.scene))
+      line.group(table.name, table.title, std::move(table.options));
+    line.group("batch", "Engine of the trials", describe(request_.engine));
+  }
+
+  FileRoles files() const override {
+    FileRoles files{request_.objects, {}};
+    const std::filesystem::path folder = request_.folder;
+    files.outputs.push_back((folder / "plan.json").string());
+    for (const std::string& text : scanners_)
+      files.inputs.push_back(text.substr(0, text.find(',')));
+    return files;
+  }
+
+  Result<> run(Session& session) override {
+    TURNSCAN_ASSIGN(request_.scanners, parse_plan_scanners(scanners_));
+    request_.program = own_program();
+    request_.on_status = [&session](const std::string& text) { session.status().set(text); };
+    TURNSCAN_ASSIGN(const PlanOutcome outcome, run_plan(request_, session.context()));
+    session.print("{}", plan_text(request_, outcome));
+    session.print(
+        "\n{} placements, {} turns looked at, {} sets compared, {} simulated scans; {:.1f} s\n",
+        outcome.placements, outcome.turns_looked_at, outcome.sets_compared, outcome.simulations,
+        outcome.seconds);
+    for (const Plan& plan : outcome.plans)
+      for (const std::string& scene : plan.scenes) session.print("Wrote {}\n", scene);
+    session.print("Wrote {}\n", outcome.report);
+    return {};
+  }
+
+ private:
+  std::vector<std::string> scanners_;
+  PlanRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_plan_command() { return std::make_unique<PlanCommand>(); }
+
+}  // namespace turnscan::cli

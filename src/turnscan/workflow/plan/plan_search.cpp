@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/workflow/plan/plan_search.hpp>
+
+namespace turnscan::workflow {
+
+namespace {
+
+constexpr double kErrorScale_m = 1e-3;
+constexpr double kCoveredShare = 0.997, kErrorShare = 0.5;  // of the worth, whatever the error
+constexpr int kRefineRounds = 3;
+constexpr double kSameShare = 5e-4, kSameError = 0.02;
+
+/// Subsets of {1, ..., n - 1} with k members, 0 before each, in lexicographic order.
+std::vector<std::vector<std::uint32_t>> subsets(std::size_t n, std::size_t k) {
+  std::vector<std::vector<std::uint32_t>> out;
+  std::vector<std::uint32_t> set{0};
+  const auto extend = [&](const auto& self, std::uint32_t from) -> void {
+    if (set.size() == k + 1) return out.push_back(set);
+    for (std::uint32_t i = from; i < n; ++i) {
+      set.push_back(i);
+      self(self, i + 1);
+      set.pop_back();
+    }
+  };
+  extend(extend, 1);
+  return out;
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer) {
+  if (max_error_m && error_m > *max_error_m) return 0;
+  const double sure = prefer == Prefer::kCovered ? kCoveredShare : kErrorShare;
+  const double good = 1.0 / (1.0 + error_m / kErrorScale_m);
+  return static_cast<std::uint16_t>(std::lround(kFullWorth * (sure + (1.0 - sure) * good)));
+}
+
+bool beats(const ChosenRig& a, const ChosenRig& b) {
+  const auto costs = [](const ChosenRig& r) {
+    return std::array<double, 2>{double(r.rig.places.size()), double(r.passes)};
+  };
+  const auto ca = costs(a), cb = costs(b);
+  if (ca[0] > cb[0] || ca[1] > cb[1]) return false;
+  const bool covers = a.score.covered >= b.score.covered - kSameShare;
+  const bool errs = a.score.median_error_m <= b.score.median_error_m * (1.0 + kSameError);
+  if (!covers || !errs) return false;
+  return ca != cb || a.score.covered > b.score.covered + kSameShare ||
+         a.score.median_error_m < b.score.median_error_m * (1.0 - kSameError);
+}
+
+std::size_t PlanSearch::most_passes() const {
+  const PlanOptions& o = request_.options;
+  std::size_t most = std::size_t(o.passes);
+  if (o.time_budget_s) {
+    const double further = (*o.time_budget_s - o.turn_time_s) / (o.turn_time_s + o.change_time_s);
+    most = std::min(most, 1 + std::size_t(std::max(0.0, std::floor(further + 1e-9))));
+  }
+  for (const PlanObject& object : field_.objects) most = std::min(most, object.poses.size());
+  return most;
+}
+
+Result<> PlanSearch::look(const RunContext& context) {
+  struct Task {
+    std::size_t object, pose, place;
+  };
+  std::vector<Task> tasks;
+  errors_.resize(field_.objects.size());
+  for (std::size_t m = 0; m < field_.objects.size(); ++m) {
+    const PlanObject& object = field_.objects[m];
+    const std::size_t n = field_.places.size() * object.surface.spots.size();
+    errors_[m].assign(object.poses.size(), std::vector<float>(n, -1.0f));
+    for (std::size_t q = 0; q < object.poses.size(); ++q)
+      for (std::size_t c = 0; c < field_.places.size(); ++c) tasks.push_back({m, q, c});
+  }
+  context.begin_phase("candidates", tasks.size());
+  parallel_for(tasks.size(), 1, [&](std::size_t i) {
+    if (context.cancelled()) return;
+    const auto [m, q, c] = tasks[i];
+    const PlanObject& object = field_.objects[m];
+    const auto sights = sights_from(field_, object, object.poses[q], field_.places[c]);
+    float* row = errors_[m][q].data() + c * sights.size();
+    for (std::size_t s = 0; s < sights.size(); ++s)
+      if (sights[s].seen()) row[s] = float(model_.at(object.surface.spots[s], sights[s]));
+    context.advance();
+  });
+  turns_ += tasks.size();
+  return context.check();
+}
+
+std::vector<planning::ChoiceGroup> PlanSearch::groups(
+    std::size_t passes, Prefer prefer,
+    std::vector<std::vector<std::vector<std::uint32_t>>>& poses) const {
+  std::vector<planning::ChoiceGroup> out;
+  poses.clear();
+  for (std::size_t m = 0; m < field_.objects.size(); ++m) {
+    const PlanObject& object = field_.objects[m];
+    const std::size_t spots = object.surface.spots.size();
+    planning::ChoiceGroup& group = out.emplace_back();
+    // In square millimetres a spot, so that objects count by their area.
+    group.weight = std::uint64_t(
+        std::max(1.0, std::round(1e8 * object.surface.area_m2 / double(spots))));
+    poses.push_back(subsets(object.poses.size(), passes - 1));
+    for (const auto& set : poses.back()) {
+      planning::WorthTable table;
+      table.points = spots;
+      table.worth.assign(field_.places.size() * spots, 0);
+      for (const std::uint32_t q : set)
+        for (std::size_t i = 0; i < table.worth.size(); ++i)
+          if (const float error = errors_[m][q][i]; error >= 0.0f)
+            table.worth[i] = std::max(
+                table.worth[i], worth_of(double(error), request_.options.max_error_m, prefer));
+      group.alternatives.push_back(std::move(table));
+    }
+  }
+  return out;
+}
+
+Result<ChosenRig> PlanSearch::choose_one(std::size_t sensors, std::size_t passes, Prefer prefer,
+                                         const RunContext& context) {
+  std::vector<std::vector<std::vector<std::uint32_t>>> poses;
+  const auto worth = groups(passes, prefer, poses);
+  planning::ChoiceOptions options;
+  options.most = sensors;
+  TURNSCAN_ASSIGN(const planning::Choice choice, planning::choose(worth, options, context));
+  sets_ += choice.evaluations;
+  ChosenRig out;
+  for (const std::uint32_t c : choice.candidates) {
+    PlanPlace& place = out.rig.places.emplace_back(field_.places[c]);
+    // Beside each other, not face to face; a full turn makes it no difference.
+    place.placement.azimuth_rad = kTurn * double(out.rig.places.size() - 1) /
+                                  double(choice.candidates.size() + 1);
+  }
+  for (std::size_t m = 0; m < poses.size(); ++m)
+    out.rig.poses.push_back(poses[m][choice.alternatives[m]]);
+  out.passes = passes;
+  out.error_first = prefer == Prefer::kError;
+  out.score = score(out.rig, prefer);
+  double full = 0.0;
+  for (const planning::ChoiceGroup& group : worth)
+    full += double(group.weight) * double(group.alternatives.front().points) * kFullWorth;
+  // Each covered spot is worth the sure share at least.
+  const double sure = prefer == Prefer::kCovered ? kCoveredShare : kErrorShare;
+  out.most_covered = std::min(1.0, double(choice.bound) / (full * sure));
+  return out;
+}
+
+Result<std::vector<ChosenRig>> PlanSearch::choose_all(const RunContext& context) {
+  const std::size_t passes = most_passes(), sensors = std::size_t(request_.options.sensors);
+  std::vector<ChosenRig> all;
+  context.begin_phase("choose", 2 * passes * sensors);
+  for (std::size_t p = 1; p <= passes; ++p) {
+    for (std::size_t s = 1; s <= sensors; ++s) {
+      for (const Prefer prefer : {Prefer::kCovered, Prefer::kError}) {
+        TURNSCAN_ASSIGN(ChosenRig rig, choose_one(s, p, prefer, context));
+        // Fewer sensors do as much: it is there already.
+        if (rig.rig.places.size() == s) all.push_back(std::move(rig));
+        context.advance();
+      }
+    }
+  }
+  if (all.empty())
+    return fail(ErrorCode::kInvalidOption,
+                "plan: from no place tried is anything seen well enough; widen the ranges of "
+                "distance and elevation, or the error");
+  // What is known to cover at most so much with an error preferred covers no more otherwise.
+  std::vector<ChosenRig> kept;
+  for (const ChosenRig& rig : all)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const ChosenRig& other) { return beats(other, rig); }))
+      kept.push_back(rig);
+  for (ChosenRig& rig : kept)
+    for (const ChosenRig& other : all)
+      if (!other.error_first && other.passes == rig.passes &&
+          other.rig.places.size() == rig.rig.places.size())
+        rig.most_covered = std::min(rig.most_covered, other.most_covered);
+  std::stable_sort(kept.begin(), kept.end(), [](const ChosenRig& a, const ChosenRig& b) {
+    return a.score.covered > b.score.covered;
+  });
+  return kept;
+}
+
+RigScore PlanSearch::score(const Rig& rig, Prefer prefer) {
+  RigScore out;
+  double area = 0.0;
+  std::vector<double> errors;
+  for (std::size_t m = 0; m < field_.objects.size(); ++m) {
+    const PlanObject& object = field_.objects[m];
+    const std::size_t spots = object.surface.spots.size();
+    std::vector<planning::SpotSight> all(spots);
+    std::vector<std::uint16_t> worth(spots, 0);
+    std::vector<std::vector<planning::SpotSight>> views(rig.places.size() * rig.poses[m].size());
+    parallel_for(views.size(), 1, [&](std::size_t i) {
+      const PlanPose& pose = object.poses[rig.poses[m][i % rig.poses[m].size()]];
+      views[i] = sights_from(field_, object, pose, rig.places[i / rig.poses[m].size()]);
+    });
+    turns_ += views.size();
+    for (const auto& view : views) {
+      for (std::size_t s = 0; s < spots; ++s) {
+        if (!view[s].seen()) continue;
+        all[s] += view[s];
+        worth[s] = std::max(worth[s], worth_of(model_.at(object.surface.spots[s], view[s]),
+                                               request_.options.max_error_m, prefer));
+      }
+    }
+    const double each = object.surface.area_m2 / double(spots);
+    area += object.surface.area_m2;
+    for (std::size_t s = 0; s < spots; ++s) {
+      if (worth[s] == 0) continue;
+      out.covered += each;
+      out.value += each * double(worth[s]) / kFullWorth;
+      errors.push_back(model_.at(object.surface.spots[s], all[s]));
+    }
+  }
+  out.covered /= area;
+  out.value /= area;
+  out.median_error_m = median_of(std::move(errors));
+  return out;
+}
+
+Result<ChosenRig> PlanSearch::refined(ChosenRig chosen, const RunContext& context) {
+  const PlanOptions& o = request_.options;
+  const Prefer prefer = chosen.error_first ? Prefer::kError : Prefer::kCovered;
+  double distance_m = 0.5 * field_.distance_step_m, elevation_rad = 0.5 * field_.elevation_step_rad;
+  double aim_m = 0.1 * field_.objects.front().height_m;
+  for (int round = 0; round < kRefineRounds; ++round) {
+    for (std::size_t k = 0; k < chosen.rig.places.size(); ++k) {
+      const ScannerModel& model = field_.scanners[chosen.rig.places[k].scanner].model;
+      TURNSCAN_ASSIGN(const DistanceRange range, distances_of(request_, field_, model));
+      for (int move = 0; move < 6; ++move) {
+        TURNSCAN_TRY(context.check());
+        const double sign = move % 2 == 0 ? 1.0 : -1.0;
+        Rig trial = chosen.rig;
+        ScannerPlacement& at = trial.places[k].placement;
+        if (move < 2)
+          at.distance_m = std::clamp(at.distance_m + sign * distance_m, range.least_m,
+                                     range.greatest_m);
+        else if (move < 4)
+          at.elevation_rad = std::clamp(at.elevation_rad + sign * elevation_rad,
+                                        o.lowest_elevation_rad, o.highest_elevation_rad);
+        else
+          at.aim_height_m = std::max(0.0, *at.aim_height_m + sign * aim_m);
+        const RigScore score = this->score(trial, prefer);
+        if (score.value > chosen.score.value) chosen.rig = trial, chosen.score = score;
+      }
+    }
+    distance_m *= 0.5, elevation_rad *= 0.5, aim_m *= 0.5;
+  }
+  return chosen;
+}
+
+}  // namespace turnscan::workflow
