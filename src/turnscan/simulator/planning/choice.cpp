@@ -40,8 +40,7 @@ std::size_t candidates_of(const std::vector<ChoiceGroup>& groups) {
       throw std::invalid_argument("choose: a group without alternatives");
     for (const WorthTable& table : group.alternatives) {
       if (table.points == 0 || table.worth.size() % table.points != 0 ||
-          table.points != group.alternatives.front().points ||
-          (!first && table.candidates() != n))
+          table.points != group.alternatives.front().points || (!first && table.candidates() != n))
         throw std::invalid_argument("choose: tables of different sizes");
       n = table.candidates();
       first = false;
@@ -78,8 +77,7 @@ Outlook outlook(const std::vector<ChoiceGroup>& groups, const Set& set, const Se
                                             sum_of(best)));
     }
     out.bound += group.weight * most;
-    for (std::size_t i = 0; i < allowed.size(); ++i)
-      most_gain[i] += group.weight * best_here[i];
+    for (std::size_t i = 0; i < allowed.size(); ++i) most_gain[i] += group.weight * best_here[i];
   }
   std::vector<std::uint32_t> places(allowed.size());
   std::iota(places.begin(), places.end(), 0u);

@@ -15,7 +15,9 @@ struct WorthTable {
   std::vector<std::uint16_t> worth;  ///< candidates x points
 
   std::size_t candidates() const { return points == 0 ? 0 : worth.size() / points; }
-  const std::uint16_t* row(std::size_t candidate) const { return worth.data() + candidate * points; }
+  const std::uint16_t* row(std::size_t candidate) const {
+    return worth.data() + candidate * points;
+  }
 };
 
 /// An object that the candidates look at, in one of several ways at a time (the sets of poses in
@@ -26,7 +28,8 @@ struct ChoiceGroup {
 };
 
 struct Choice {
-  std::vector<std::uint32_t> candidates;    ///< ascending; fewer than asked for where more add nothing
+  std::vector<std::uint32_t>
+      candidates;  ///< ascending; fewer than asked for where more add nothing
   std::vector<std::uint32_t> alternatives;  ///< of each group
   std::uint64_t value = 0;
   /// No choice of as many is worth more; equal to value where the choice is proven the best.
@@ -35,21 +38,22 @@ struct Choice {
 };
 
 struct ChoiceOptions {
-  std::size_t most = 1;               ///< candidates that are chosen
-  std::uint64_t most_nodes = 2000;    ///< of the branch and bound, all groups' alternatives together
+  std::size_t most = 1;             ///< candidates that are chosen
+  std::uint64_t most_nodes = 2000;  ///< of the branch and bound, all groups' alternatives together
 };
 
 /// The value of a set S of candidates is sum over groups of weight * max over alternatives of sum
-/// over points of max over S of the worth: for one alternative a facility location function, monotone
-/// and submodular.
+/// over points of max over S of the worth: for one alternative a facility location function,
+/// monotone and submodular.
 ///
-/// Greedy with lazy evaluation (Minoux 1978, Accelerated greedy algorithms for maximizing submodular
-/// set functions) gives at least 1 - 1/e of the best (Nemhauser, Wolsey, Fisher 1978, An analysis of
-/// approximations for maximizing submodular set functions I) for a single alternative; exchanges of
-/// one candidate then improve it; a best-first branch and bound proves it or finds better. Its
-/// bound of what a set can still become is the submodular one of Nemhauser and Wolsey: the value plus
-/// the largest gains that are left. Where it is ended by most_nodes, `bound` is the largest of
-/// those left. Candidates that another is worth as much as everywhere are left out first. Of equals the first in order is taken. Deterministic. Fails with kCancelled; throws
+/// Greedy with lazy evaluation (Minoux 1978, Accelerated greedy algorithms for maximizing
+/// submodular set functions) gives at least 1 - 1/e of the best (Nemhauser, Wolsey, Fisher 1978, An
+/// analysis of approximations for maximizing submodular set functions I) for a single alternative;
+/// exchanges of one candidate then improve it; a best-first branch and bound proves it or finds
+/// better. Its bound of what a set can still become is the submodular one of Nemhauser and Wolsey:
+/// the value plus the largest gains that are left. Where it is ended by most_nodes, `bound` is the
+/// largest of those left. Candidates that another is worth as much as everywhere are left out
+/// first. Of equals the first in order is taken. Deterministic. Fails with kCancelled; throws
 /// std::invalid_argument where tables do not fit together.
 Result<Choice> choose(const std::vector<ChoiceGroup>& groups, const ChoiceOptions& options,
                       const RunContext& context);

@@ -6,12 +6,11 @@ namespace turnscan::planning {
 
 namespace {
 
-/// Between the radii it is known for by its square root's slope (a bend's relief grows with the
-/// square of the radius), beyond them as at the last.
+/// Below the radii that it is known for it falls with the square of the radius, as that of a bend;
+/// beyond them it is as at the last.
 double relief_within(const Spot& spot, double radius_m) {
   const auto& radii = kReliefRadii_m;
-  if (radius_m <= radii[0])
-    return double(spot.relief_m[0]) * std::pow(radius_m / radii[0], 2.0);
+  if (radius_m <= radii[0]) return double(spot.relief_m[0]) * std::pow(radius_m / radii[0], 2.0);
   for (std::size_t i = 1; i < radii.size(); ++i) {
     if (radius_m > radii[i]) continue;
     const double part = (radius_m - radii[i - 1]) / (radii[i] - radii[i - 1]);
@@ -22,16 +21,16 @@ double relief_within(const Spot& spot, double radius_m) {
 
 }  // namespace
 
-std::array<double, 4> error_parts(const Spot& spot, const SpotSight& sight) {
+std::array<double, ErrorModel::kParts> error_parts(const Spot& spot, const SpotSight& sight) {
   const double n = std::max(double(sight.cosines), 1e-3);
   const double sigma = std::sqrt(n / std::max(double(sight.weights), 1e-9));
   const double spacing = std::sqrt(double(sight.steps_m2) / n);
-  return {sigma / std::sqrt(std::max(n, 1.0)), sigma, spacing, relief_within(spot, spacing)};
+  return {sigma / std::sqrt(std::max(n, 1.0)), sigma, spacing, relief_within(spot, spacing),
+          double(spot.relief_m.back())};
 }
 
 double ErrorModel::at(const Spot& spot, const SpotSight& sight) const {
   const auto parts = error_parts(spot, sight);
-  const std::array<double, 4> factors{noise, floor, spacing, relief};
   double squares = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) squares += std::pow(factors[k] * parts[k], 2.0);
   return std::sqrt(squares);

@@ -7,22 +7,24 @@ namespace turnscan::planning {
 
 /// Expected distance |mesh - truth| at a spot that was seen:
 ///
-///   e^2 = (a sigma / sqrt(n))^2 + (b sigma)^2 + (c d)^2 + (f relief(d))^2
+///   e^2 = (0.225 sigma / sqrt(n))^2 + (0.016 sigma)^2 + (0.032 d)^2 + (0.93 r(d))^2 + (0.25 r6)^2
 ///
 /// sigma: of a sample along its ray, the mean of all frames by information; n: frames that see it,
-/// each weighted by the cosine of its incidence; d: distance of samples on the object; relief(d):
-/// how far the surface lies from its mean within d, which a grid of samples cannot show. The form is
-/// that of reconstruction/quality (noise averaged, a floor that frames do not average out, blur); the
-/// factors are fitted to the median errors of simulated scans and their reconstructions
-/// (bench/plan_bench fit; docs/plan.md), and held against others.
+/// each weighted by the cosine of its incidence; d: distance of samples on the object; r(d): how
+/// far the surface lies from its mean within d, which a grid of samples cannot show; r6: within 6
+/// mm, which is large on thin parts, about whose outlines samples err. The form is that of
+/// reconstruction/quality (noise averaged, a floor that frames do not average out, blur). The
+/// factors are our own, fitted to the median errors of 27 simulated scans and their reconstructions
+/// (bench/plan_bench model; docs/plan.md has how far they hold, also for other objects).
 struct ErrorModel {
-  double noise = 0.5, floor = 0.037, spacing = 0.03, relief = 0.3;
+  static constexpr std::size_t kParts = 5;
+  std::array<double, kParts> factors{0.225, 0.016, 0.032, 0.93, 0.25};
 
-  /// Metres. Precondition: sight.seen().
+  /// Metres. Precondition: sight.chance() > 0.
   double at(const Spot& spot, const SpotSight& sight) const;
 };
 
-/// The parts of the formula with factor 1: noise, floor, spacing, relief.
-std::array<double, 4> error_parts(const Spot& spot, const SpotSight& sight);
+/// The parts of the formula without their factors, in its order; metres.
+std::array<double, ErrorModel::kParts> error_parts(const Spot& spot, const SpotSight& sight);
 
 }  // namespace turnscan::planning

@@ -16,10 +16,10 @@ struct SpotPoint {
 
 /// One cell of the coverage map (CoverageCell), drawn in proportion to its area.
 struct Spot {
-  SpotPoint middle;              ///< of its largest patch
+  SpotPoint middle;               ///< of its largest patch
   std::uint32_t first_other = 0;  ///< of its further points, in PlanSurface::others
   std::uint32_t others = 0;
-  float cell_m2 = 0.0f;  ///< of the cell
+  float cell_m2 = 0.0f;          ///< of the cell
   std::uint8_t albedo_step = 0;  ///< of kAlbedoSteps
   /// How far the surface lies from the mean of its neighbourhood, in radii kReliefRadii_m.
   std::array<float, 3> relief_m{};

@@ -123,7 +123,8 @@ class TurnLook {
     // Pixels that a square of the surface takes up at its distance.
     const float per_m2 = float(camera.fx * camera.fy) / (one.z * one.z);
     SpotSight& sight = sights_[at.spot];
-    sight.samples += frames * at.cell_m2 * one.cosine * per_m2;
+    const float none = std::max(0.0f, 1.0f - at.cell_m2 * one.cosine * per_m2);
+    sight.missed *= frames == 1.0f ? none : std::pow(none, frames);
     sight.cosines += frames * one.cosine;
     sight.weights += frames * one.cosine / std::max(one.sigma * one.sigma, 1e-12f);
     sight.steps_m2 += frames * one.cosine / per_m2;
@@ -164,7 +165,7 @@ float SigmaSteps::at(float z_m, float cosine, std::uint8_t albedo_step) const {
 }
 
 SpotSight& SpotSight::operator+=(const SpotSight& o) {
-  samples += o.samples;
+  missed *= o.missed;
   cosines += o.cosines;
   weights += o.weights;
   steps_m2 += o.steps_m2;

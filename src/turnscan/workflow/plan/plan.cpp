@@ -51,15 +51,13 @@ class PlanRun {
   Result<PlanOutcome> run() {
     TURNSCAN_TRY(search_.look(context_));
     TURNSCAN_ASSIGN(rigs_, search_.choose_all(context_));
-    rigs_.resize(std::min(rigs_.size(), std::size_t(request_.options.plans)));
+    take_simplest();
     context_.begin_phase("refine", rigs_.size());
     for (ChosenRig& rig : rigs_) {
       TURNSCAN_ASSIGN(rig, search_.refined(rig, context_));
       context_.advance();
     }
-    std::stable_sort(rigs_.begin(), rigs_.end(), [](const ChosenRig& a, const ChosenRig& b) {
-      return a.score.covered > b.score.covered;
-    });
+    rigs_ = unbeaten(rigs_);
     trials_.resize(rigs_.size());
     TURNSCAN_TRY(try_plans());
     TURNSCAN_TRY(vary_best());
@@ -67,6 +65,16 @@ class PlanRun {
   }
 
  private:
+  /// As many as are asked for: those chosen for their area, and of these the ones with the fewest
+  /// turns, come first.
+  void take_simplest() {
+    std::stable_sort(rigs_.begin(), rigs_.end(), [](const ChosenRig& a, const ChosenRig& b) {
+      if (a.error_first != b.error_first) return b.error_first;
+      return a.rig.places.size() * a.passes < b.rig.places.size() * b.passes;
+    });
+    rigs_.resize(std::min(rigs_.size(), std::size_t(request_.options.plans)));
+  }
+
   /// How many simulated scans a trial of a plan takes.
   std::size_t each() const { return field_.objects.size(); }
   std::size_t left() const {
@@ -80,7 +88,8 @@ class PlanRun {
     for (std::size_t k = 0; k < rigs.size(); ++k) {
       const Plan plan = plan_of(request_, field_, rigs[k]);
       for (std::size_t m = 0; m < each(); ++m)
-        scenes.push_back({fmt::format("{}-{}-{}", round, k + 1, m + 1), scene_of(request_, plan, m)});
+        scenes.push_back({fmt::format("{}-{}-{}", round, k + 1, m + 1), scene_of(request_, plan, m),
+                          &field_.objects[m].given});
     }
     simulations_ += scenes.size();
     TURNSCAN_ASSIGN(const std::vector<PlanTrial> single, runner_.run(scenes, context_));
@@ -128,9 +137,9 @@ class PlanRun {
                       distances_of(request_, field_, field_.scanners[place.scanner].model));
       ScannerPlacement& at = place.placement;
       if (i % 4 < 2)
-        at.elevation_rad =
-            std::clamp(at.elevation_rad + sign * field_.elevation_step_rad,
-                       request_.options.lowest_elevation_rad, request_.options.highest_elevation_rad);
+        at.elevation_rad = std::clamp(at.elevation_rad + sign * field_.elevation_step_rad,
+                                      request_.options.lowest_elevation_rad,
+                                      request_.options.highest_elevation_rad);
       else
         at.distance_m = std::clamp(at.distance_m + sign * field_.distance_step_m, range.least_m,
                                    range.greatest_m);
@@ -167,7 +176,8 @@ class PlanRun {
   Result<> explain(Plan& plan, const ChosenRig& rig, std::size_t rank) const {
     for (std::size_t m = 0; m < each(); ++m) {
       const SceneDescription scene = scene_of(request_, plan, m);
-      TURNSCAN_ASSIGN(const Simulation simulation, prepare_simulation(scene, RunContext()));
+      TURNSCAN_ASSIGN(const Simulation simulation,
+                      prepare_simulation(scene, field_.objects[m].given, RunContext()));
       TURNSCAN_TRY(context_.check());
       TURNSCAN_ASSIGN(const CoverageMap map, coverage_of(simulation, {}, RunContext()));
       TURNSCAN_TRY(context_.check());
@@ -178,9 +188,8 @@ class PlanRun {
       plan.scenes.push_back(base.string() + ".toml");
       plan.pictures.push_back(base.string() + ".png");
       TURNSCAN_TRY(write_file_atomically(plan.scenes.back(), scene_toml(scene)));
-      TURNSCAN_ASSIGN(
-          const ColorImage picture,
-          plan_picture(field_, m, rig.rig, request_.options.max_error_m, RunContext()));
+      TURNSCAN_ASSIGN(const ColorImage picture,
+                      plan_picture(field_, m, rig.rig, request_.options.max_error_m, RunContext()));
       TURNSCAN_TRY(write_color_png(plan.pictures.back(), picture));
     }
     return {};

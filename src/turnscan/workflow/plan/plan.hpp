@@ -19,19 +19,19 @@
 namespace turnscan {
 
 struct PlanOptions {
-  int sensors = 1;                     ///< at most
-  int passes = 1;                      ///< at most
-  std::optional<double> max_error_m;   ///< what is expected farther from the truth does not count
+  int sensors = 1;                    ///< at most
+  int passes = 1;                     ///< at most
+  std::optional<double> max_error_m;  ///< what is expected farther from the truth does not count
   std::optional<double> least_distance_m, greatest_distance_m;  ///< nullopt: from the scanner
   double lowest_elevation_rad = 0.0;
   double highest_elevation_rad = 1.2217304763960306;  ///< 70 deg
-  double turn_time_s = 30.0;           ///< that one turn takes
-  double change_time_s = 30.0;         ///< to lay the object for the next pass
-  std::optional<double> time_budget_s;  ///< of all turns and changes together
-  int distances = 4, elevations = 8;   ///< steps of the candidates
-  int spots = 2500;                    ///< that stand for the surface of an object
-  int plans = 5;                       ///< written, at most
-  int trials = 6;                      ///< simulated scans with reconstruction, at most
+  double turn_time_s = 30.0;                          ///< that one turn takes
+  double change_time_s = 30.0;                        ///< to lay the object for the next pass
+  std::optional<double> time_budget_s;                ///< of all turns and changes together
+  int distances = 4, elevations = 8;                  ///< steps of the candidates
+  int spots = 2500;                                   ///< that stand for the surface of an object
+  int plans = 6;                                      ///< written, at most
+  int trials = 6;  ///< simulated scans with reconstruction, at most
 };
 
 /// Fields sensors, passes, max-error, least-distance, greatest-distance, lowest-elevation,
@@ -59,10 +59,10 @@ struct Plan {
   double most_covered = 0.0;    ///< no rig of the candidates of this size covers more
   double median_error_m = 0.0;  ///< expected, of what is covered
   double time_s = 0.0;
-  bool error_first = false;     ///< chosen for the error rather than the area
+  bool error_first = false;  ///< chosen for the error rather than the area
   std::optional<PlanTrial> trial;
-  std::string unseen;                ///< a sentence: why the rest is not seen
-  std::vector<std::string> scenes;   ///< files, one an object; empty: not written
+  std::string unseen;               ///< a sentence: why the rest is not seen
+  std::vector<std::string> scenes;  ///< files, one an object; empty: not written
   std::vector<std::string> pictures;
 
   std::size_t passes() const;
@@ -70,24 +70,24 @@ struct Plan {
 };
 
 struct PlanRequest {
-  std::vector<std::string> objects;   ///< mesh files or builtin:NAME; at least one
-  std::string unit;                   ///< of files that do not say it
+  std::vector<std::string> objects;    ///< mesh files or builtin:NAME; at least one
+  std::string unit;                    ///< of files that do not say it
   std::vector<ScannerEntry> scanners;  ///< at hand; each may be used several times
   SceneDescription scene = plan_scene();
   PlanOptions options;
-  std::string folder;  ///< for files; empty: none are written, and trials run in this process
-  BatchRunOptions engine;         ///< of trials with a folder
+  std::string folder;      ///< for files; empty: none are written, and trials run in this process
+  BatchRunOptions engine;  ///< of trials with a folder
   std::filesystem::path program;  ///< turnscan, for these
   std::function<void(const std::string&)> on_status{};
 };
 
 struct PlanOutcome {
-  std::vector<Plan> plans;  ///< none is as good as another in all respects; most covered first
-  std::size_t placements = 0;       ///< candidates
-  std::vector<std::size_t> poses;   ///< of each object, the first included
+  std::vector<Plan> plans;     ///< none is as good as another in all respects; most covered first
+  std::size_t placements = 0;  ///< candidates
+  std::vector<std::size_t> poses;  ///< of each object, the first included
   std::uint64_t turns_looked_at = 0;
   std::uint64_t sets_compared = 0;
-  std::size_t simulations = 0;      ///< trials
+  std::size_t simulations = 0;  ///< trials
   double seconds = 0.0;
   std::string report;  ///< file; empty without a folder
 };

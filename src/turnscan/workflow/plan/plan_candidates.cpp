@@ -38,8 +38,8 @@ std::vector<Vec3d> further_downs(const TriangleMesh& first, const Eigen::Matrix3
   };
   for (const RestingPose& rest : resting_poses(first)) add(rest.down);
   if (downs.size() < 3)
-    for (const Vec3d& prop : {Vec3d(0, 1, 0), Vec3d(0, 0, 1), Vec3d(0, 0, -1), Vec3d(1, 0, 0),
-                              Vec3d(-1, 0, 0)})
+    for (const Vec3d& prop :
+         {Vec3d(0, 1, 0), Vec3d(0, 0, 1), Vec3d(0, 0, -1), Vec3d(1, 0, 0), Vec3d(-1, 0, 0)})
       add(prop);
   downs.erase(downs.begin());
   for (Vec3d& down : downs) down = to_file * down;
@@ -51,8 +51,7 @@ Result<Scene> bench_scene(const TriangleMesh& mesh, const PlatterOptions& platte
   std::vector<TriangleMesh> turning{mesh};
   if (platter.visible && platter.thickness_m > 0.0)
     turning.push_back(platter_body(platter.radius_m, platter.thickness_m));
-  return Scene::create(turning,
-                       platter.visible ? std::optional(platter.radius_m) : std::nullopt);
+  return Scene::create(turning, platter.visible ? std::optional(platter.radius_m) : std::nullopt);
 }
 
 double radius_of(const TriangleMesh& mesh, const Pose& T) {
@@ -70,15 +69,14 @@ Result<PlanObject> load_plan_object(const PlanRequest& request, const std::strin
   scene.object = name;
   scene.unit = request.unit;
   scene.next_passes.clear();
-  TURNSCAN_ASSIGN(const std::vector<PlacedObject> first, load_objects(scene, context));
-  if (first.empty())
-    return fail(ErrorCode::kInvalidOption, "plan: {} has no surface; name an object", name);
-  if (request.options.passes > 1)
-    for (const Vec3d& down : further_downs(
-             first.front().mesh, first.front().T_table_object.linear().transpose()))
-      scene.next_passes.push_back(laid(down));
-  TURNSCAN_ASSIGN(const std::vector<PlacedObject> placed, load_objects(scene, context));
   PlanObject out;
+  TURNSCAN_ASSIGN(out.given, read_object(scene, context));
+  TURNSCAN_ASSIGN(const auto first, place_objects(scene, out.given, context));
+  if (request.options.passes > 1)
+    for (const Vec3d& down :
+         further_downs(first.front().mesh, first.front().T_table_object.linear().transpose()))
+      scene.next_passes.push_back(laid(down));
+  TURNSCAN_ASSIGN(const auto placed, place_objects(scene, out.given, context));
   out.mesh = placed.front().mesh;
   planning::SurfaceSampling sampling;
   sampling.spots = std::size_t(request.options.spots);
@@ -153,8 +151,7 @@ Result<> check_plan(const PlanRequest& request) {
   if (request.scanners.empty())
     return fail(ErrorCode::kInvalidOption, "plan: there is no scanner; name those at hand");
   if (!(copy.lowest_elevation_rad <= copy.highest_elevation_rad))
-    return fail(ErrorCode::kInvalidOption,
-                "lowest-elevation = {}: it is above the highest, {}",
+    return fail(ErrorCode::kInvalidOption, "lowest-elevation = {}: it is above the highest, {}",
                 format_quantity(copy.lowest_elevation_rad, Quantity::kAngle),
                 format_quantity(copy.highest_elevation_rad, Quantity::kAngle));
   if (copy.time_budget_s && *copy.time_budget_s < copy.turn_time_s)

@@ -1,5 +1,6 @@
 #pragma once
-// What a plan chooses from: objects with the poses in which they can be laid, and places of sensors.
+// What a plan chooses from: objects with the poses in which they can be laid, and places of
+// sensors.
 
 #include <turnscan/simulator/objects/object_placement.hpp>
 #include <turnscan/simulator/planning/turn_view.hpp>
@@ -10,13 +11,14 @@ namespace turnscan::workflow {
 
 /// An object in one way to lie.
 struct PlanPose {
-  PassEntry entry;  ///< beside the first pass; empty: the first
+  PassEntry entry;                        ///< beside the first pass; empty: the first
   Pose T_table_first = Pose::Identity();  ///< from the table's frame of the first pass
   Scene scene;
 };
 
 struct PlanObject {
-  TriangleMesh mesh;  ///< as it lies in the first pass; table frame
+  TriangleMesh given;  ///< of read_object()
+  TriangleMesh mesh;   ///< as it lies in the first pass; table frame
   planning::PlanSurface surface;
   std::vector<PlanPose> poses;  ///< the first pass first
   double radius_m = 0.0;        ///< about the axis, of the largest pose
@@ -60,8 +62,9 @@ Result<DistanceRange> distances_of(const PlanRequest& request, const PlanField& 
 std::vector<planning::SpotSight> sights_from(const PlanField& field, const PlanObject& object,
                                              const PlanPose& pose, const PlanPlace& place);
 
-/// The entry of a scene's scanner: all that a plan decides. The azimuth of each sensor but the first
-/// is its own, so that they do not stand in each other's way; a full turn makes it no difference.
+/// The entry of a scene's scanner: all that a plan decides. The azimuth of each sensor but the
+/// first is its own, so that they do not stand in each other's way; a full turn makes it no
+/// difference.
 ScannerEntry entry_of(const PlanField& field, const PlanPlace& place);
 
 }  // namespace turnscan::workflow

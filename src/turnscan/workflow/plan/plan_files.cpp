@@ -40,7 +40,7 @@ std::vector<double> spot_errors(const PlanField& field, std::size_t object, cons
     for (const std::uint32_t q : rig.poses[object]) {
       const auto sights = sights_from(field, it, it.poses[q], place);
       for (std::size_t i = 0; i < all.size(); ++i)
-        if (sights[i].seen()) all[i] += sights[i];
+        if (sights[i].chance() > 0.0f) all[i] += sights[i];
     }
   const planning::ErrorModel model;
   std::vector<double> out(all.size(), -1.0);
@@ -103,12 +103,12 @@ std::string unseen_sentence(const CoverageMap& map) {
   for (std::size_t i = 0; i < reasons.size(); ++i)
     out += fmt::format("{} {:.1f} % {}", i == 0 ? ":" : ",", 100.0 * reasons[i].first,
                        reason_words(reasons[i].second));
-  const double never =
-      map.state_m2[std::size_t(CoverageState::kUnreachable)] / map.area_m2;
+  const double never = map.state_m2[std::size_t(CoverageState::kUnreachable)] / map.area_m2;
   if (never >= kWorthSaying)
-    out += fmt::format("; {:.1f} % cannot be seen from these heights however the table turns: it "
-                       "takes another pass, or another height",
-                       100.0 * never);
+    out += fmt::format(
+        "; {:.1f} % cannot be seen from these heights however the table turns: it "
+        "takes another pass, or another height",
+        100.0 * never);
   if (!map.holes.empty() && map.holes.front().area_m2 >= kWorthSaying * map.area_m2) {
     const CoverageHole& hole = map.holes.front();
     out += fmt::format(". The largest piece: {:.1f} cm2 about ({:.0f}, {:.0f}, {:.0f}) mm",

@@ -20,9 +20,10 @@ OptionTable describe(PlanOptions& o) {
   table.number("sensors", o.sensors, {1, 8}, "How many sensors the rig may have.")
       .number("passes", o.passes, {1, 4},
               "In how many ways the object may be laid, one after the other.")
-      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
-              "Surface that is expected farther than this from the truth does not count as covered; "
-              "auto: whatever is seen counts.")
+      .number(
+          "max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
+          "Surface that is expected farther than this from the truth does not count as covered; "
+          "auto: whatever is seen counts.")
       .number("least-distance", o.least_distance_m, Quantity::kLength, {0.01, 20.0},
               "How near a sensor may stand to the point that it looks at; auto: the scanner's near "
               "limit and the object's radius.")
@@ -43,8 +44,9 @@ OptionTable describe(PlanOptions& o) {
       .number("plan-spots", o.spots, {100, 100000},
               "Spots that stand for the surface of an object.")
       .number("plans", o.plans, {1, 50}, "How many plans are written.")
-      .number("trials", o.trials, {0, 1000},
-              "How many simulated scans with reconstruction try and refine the best plans; 0: none.");
+      .number(
+          "trials", o.trials, {0, 1000},
+          "How many simulated scans with reconstruction try and refine the best plans; 0: none.");
   return table;
 }
 

@@ -39,11 +39,13 @@ double median_of(std::vector<double> values) {
 
 }  // namespace
 
-std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer) {
+std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer,
+                       double chance) {
   if (max_error_m && error_m > *max_error_m) return 0;
   const double sure = prefer == Prefer::kCovered ? kCoveredShare : kErrorShare;
   const double good = 1.0 / (1.0 + error_m / kErrorScale_m);
-  return static_cast<std::uint16_t>(std::lround(kFullWorth * (sure + (1.0 - sure) * good)));
+  return static_cast<std::uint16_t>(
+      std::lround(chance * kFullWorth * (sure + (1.0 - sure) * good)));
 }
 
 bool beats(const ChosenRig& a, const ChosenRig& b) {
@@ -57,6 +59,27 @@ bool beats(const ChosenRig& a, const ChosenRig& b) {
   if (!covers || !errs) return false;
   return ca != cb || a.score.covered > b.score.covered + kSameShare ||
          a.score.median_error_m < b.score.median_error_m * (1.0 - kSameError);
+}
+
+std::vector<ChosenRig> unbeaten(const std::vector<ChosenRig>& rigs) {
+  const auto alike = [](const ChosenRig& a, const ChosenRig& b) {
+    return a.rig.places.size() == b.rig.places.size() && a.passes == b.passes &&
+           std::abs(a.score.covered - b.score.covered) <= kSameShare &&
+           std::abs(a.score.median_error_m - b.score.median_error_m) <=
+               kSameError * b.score.median_error_m;
+  };
+  std::vector<ChosenRig> kept;
+  for (const ChosenRig& rig : rigs) {
+    const bool beaten =
+        std::any_of(rigs.begin(), rigs.end(), [&](const auto& other) { return beats(other, rig); });
+    const bool known =
+        std::any_of(kept.begin(), kept.end(), [&](const auto& other) { return alike(other, rig); });
+    if (!beaten && !known) kept.push_back(rig);
+  }
+  std::stable_sort(kept.begin(), kept.end(), [](const ChosenRig& a, const ChosenRig& b) {
+    return a.score.covered > b.score.covered;
+  });
+  return kept;
 }
 
 std::size_t PlanSearch::most_passes() const {
@@ -75,11 +98,11 @@ Result<> PlanSearch::look(const RunContext& context) {
     std::size_t object, pose, place;
   };
   std::vector<Task> tasks;
-  errors_.resize(field_.objects.size());
+  looks_.resize(field_.objects.size());
   for (std::size_t m = 0; m < field_.objects.size(); ++m) {
     const PlanObject& object = field_.objects[m];
     const std::size_t n = field_.places.size() * object.surface.spots.size();
-    errors_[m].assign(object.poses.size(), std::vector<float>(n, -1.0f));
+    looks_[m].assign(object.poses.size(), std::vector<Look>(n));
     for (std::size_t q = 0; q < object.poses.size(); ++q)
       for (std::size_t c = 0; c < field_.places.size(); ++c) tasks.push_back({m, q, c});
   }
@@ -89,9 +112,10 @@ Result<> PlanSearch::look(const RunContext& context) {
     const auto [m, q, c] = tasks[i];
     const PlanObject& object = field_.objects[m];
     const auto sights = sights_from(field_, object, object.poses[q], field_.places[c]);
-    float* row = errors_[m][q].data() + c * sights.size();
+    Look* row = looks_[m][q].data() + c * sights.size();
     for (std::size_t s = 0; s < sights.size(); ++s)
-      if (sights[s].seen()) row[s] = float(model_.at(object.surface.spots[s], sights[s]));
+      if (sights[s].chance() > 0.0f)
+        row[s] = {float(model_.at(object.surface.spots[s], sights[s])), sights[s].chance()};
     context.advance();
   });
   turns_ += tasks.size();
@@ -108,8 +132,8 @@ std::vector<planning::ChoiceGroup> PlanSearch::groups(
     const std::size_t spots = object.surface.spots.size();
     planning::ChoiceGroup& group = out.emplace_back();
     // In square millimetres a spot, so that objects count by their area.
-    group.weight = std::uint64_t(
-        std::max(1.0, std::round(1e8 * object.surface.area_m2 / double(spots))));
+    group.weight =
+        std::uint64_t(std::max(1.0, std::round(1e8 * object.surface.area_m2 / double(spots))));
     poses.push_back(subsets(object.poses.size(), passes - 1));
     for (const auto& set : poses.back()) {
       planning::WorthTable table;
@@ -117,9 +141,10 @@ std::vector<planning::ChoiceGroup> PlanSearch::groups(
       table.worth.assign(field_.places.size() * spots, 0);
       for (const std::uint32_t q : set)
         for (std::size_t i = 0; i < table.worth.size(); ++i)
-          if (const float error = errors_[m][q][i]; error >= 0.0f)
+          if (const Look& look = looks_[m][q][i]; look.chance > 0.0f)
             table.worth[i] = std::max(
-                table.worth[i], worth_of(double(error), request_.options.max_error_m, prefer));
+                table.worth[i], worth_of(double(look.error_m), request_.options.max_error_m, prefer,
+                                         double(look.chance)));
       group.alternatives.push_back(std::move(table));
     }
   }
@@ -138,8 +163,8 @@ Result<ChosenRig> PlanSearch::choose_one(std::size_t sensors, std::size_t passes
   for (const std::uint32_t c : choice.candidates) {
     PlanPlace& place = out.rig.places.emplace_back(field_.places[c]);
     // Beside each other, not face to face; a full turn makes it no difference.
-    place.placement.azimuth_rad = kTurn * double(out.rig.places.size() - 1) /
-                                  double(choice.candidates.size() + 1);
+    place.placement.azimuth_rad =
+        kTurn * double(out.rig.places.size() - 1) / double(choice.candidates.size() + 1);
   }
   for (std::size_t m = 0; m < poses.size(); ++m)
     out.rig.poses.push_back(poses[m][choice.alternatives[m]]);
@@ -173,21 +198,13 @@ Result<std::vector<ChosenRig>> PlanSearch::choose_all(const RunContext& context)
     return fail(ErrorCode::kInvalidOption,
                 "plan: from no place tried is anything seen well enough; widen the ranges of "
                 "distance and elevation, or the error");
-  // What is known to cover at most so much with an error preferred covers no more otherwise.
-  std::vector<ChosenRig> kept;
-  for (const ChosenRig& rig : all)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const ChosenRig& other) { return beats(other, rig); }))
-      kept.push_back(rig);
-  for (ChosenRig& rig : kept)
+  // A bound of the area holds for rigs of the same size whatever they were chosen for.
+  for (ChosenRig& rig : all)
     for (const ChosenRig& other : all)
       if (!other.error_first && other.passes == rig.passes &&
           other.rig.places.size() == rig.rig.places.size())
         rig.most_covered = std::min(rig.most_covered, other.most_covered);
-  std::stable_sort(kept.begin(), kept.end(), [](const ChosenRig& a, const ChosenRig& b) {
-    return a.score.covered > b.score.covered;
-  });
-  return kept;
+  return unbeaten(all);
 }
 
 RigScore PlanSearch::score(const Rig& rig, Prefer prefer) {
@@ -199,6 +216,7 @@ RigScore PlanSearch::score(const Rig& rig, Prefer prefer) {
     const std::size_t spots = object.surface.spots.size();
     std::vector<planning::SpotSight> all(spots);
     std::vector<std::uint16_t> worth(spots, 0);
+    std::vector<double> missed(spots, 1.0);  // by all that see it well enough
     std::vector<std::vector<planning::SpotSight>> views(rig.places.size() * rig.poses[m].size());
     parallel_for(views.size(), 1, [&](std::size_t i) {
       const PlanPose& pose = object.poses[rig.poses[m][i % rig.poses[m].size()]];
@@ -207,19 +225,23 @@ RigScore PlanSearch::score(const Rig& rig, Prefer prefer) {
     turns_ += views.size();
     for (const auto& view : views) {
       for (std::size_t s = 0; s < spots; ++s) {
-        if (!view[s].seen()) continue;
+        const double chance = double(view[s].chance());
+        if (!(chance > 0.0)) continue;
+        const double error = model_.at(object.surface.spots[s], view[s]);
+        const auto here = worth_of(error, request_.options.max_error_m, prefer, chance);
+        if (here == 0) continue;
         all[s] += view[s];
-        worth[s] = std::max(worth[s], worth_of(model_.at(object.surface.spots[s], view[s]),
-                                               request_.options.max_error_m, prefer));
+        missed[s] *= 1.0 - chance;
+        worth[s] = std::max(worth[s], here);
       }
     }
     const double each = object.surface.area_m2 / double(spots);
     area += object.surface.area_m2;
     for (std::size_t s = 0; s < spots; ++s) {
       if (worth[s] == 0) continue;
-      out.covered += each;
+      out.covered += each * (1.0 - missed[s]);
       out.value += each * double(worth[s]) / kFullWorth;
-      errors.push_back(model_.at(object.surface.spots[s], all[s]));
+      if (all[s].seen()) errors.push_back(model_.at(object.surface.spots[s], all[s]));
     }
   }
   out.covered /= area;
@@ -243,8 +265,8 @@ Result<ChosenRig> PlanSearch::refined(ChosenRig chosen, const RunContext& contex
         Rig trial = chosen.rig;
         ScannerPlacement& at = trial.places[k].placement;
         if (move < 2)
-          at.distance_m = std::clamp(at.distance_m + sign * distance_m, range.least_m,
-                                     range.greatest_m);
+          at.distance_m =
+              std::clamp(at.distance_m + sign * distance_m, range.least_m, range.greatest_m);
         else if (move < 4)
           at.elevation_rad = std::clamp(at.elevation_rad + sign * elevation_rad,
                                         o.lowest_elevation_rad, o.highest_elevation_rad);

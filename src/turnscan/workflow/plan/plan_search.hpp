@@ -30,9 +30,11 @@ struct ChosenRig {
   std::size_t passes = 1;
 };
 
-/// Worth of a spot that is seen with this error, of kFullWorth: near that whatever the error, unless
-/// the error is preferred. Falls with the error. 0 beyond the greatest error.
-std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer);
+/// Worth of a spot that is seen with this error, with this chance, of kFullWorth: near that
+/// whatever the error, unless the error is preferred. Falls with the error. 0 beyond the greatest
+/// error.
+std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer,
+                       double chance = 1.0);
 inline constexpr double kFullWorth = 60000.0;
 
 class PlanSearch {
@@ -55,20 +57,27 @@ class PlanSearch {
  private:
   Result<ChosenRig> choose_one(std::size_t sensors, std::size_t passes, Prefer prefer,
                                const RunContext& context);
-  std::vector<planning::ChoiceGroup> groups(std::size_t passes, Prefer prefer,
-                                            std::vector<std::vector<std::vector<std::uint32_t>>>&
-                                                poses) const;
+  std::vector<planning::ChoiceGroup> groups(
+      std::size_t passes, Prefer prefer,
+      std::vector<std::vector<std::vector<std::uint32_t>>>& poses) const;
   std::size_t most_passes() const;
 
   const PlanRequest& request_;
   const PlanField& field_;
   planning::ErrorModel model_;
-  /// [object][pose]: error of each place at each spot, metres; negative: not seen.
-  std::vector<std::vector<std::vector<float>>> errors_;
+  /// Of a spot from a place; chance as SpotSight::chance(), 0: not seen.
+  struct Look {
+    float error_m = 0.0f, chance = 0.0f;
+  };
+  std::vector<std::vector<std::vector<Look>>> looks_;  ///< [object][pose], places x spots
   std::uint64_t turns_ = 0, sets_ = 0;
 };
 
-/// Whether a is at least as good as b in covered area, error, sensors and passes, and better in one.
+/// Those that none beats, of such as are alike the first; most covered first.
+std::vector<ChosenRig> unbeaten(const std::vector<ChosenRig>& rigs);
+
+/// Whether a is at least as good as b in covered area, error, sensors and passes, and better in
+/// one.
 bool beats(const ChosenRig& a, const ChosenRig& b);
 
 }  // namespace turnscan::workflow

@@ -20,25 +20,25 @@ constexpr std::uint64_t kTaskBytes = 600u << 20;
 
 /// Seen in any of the passes; points in the table's frame of the first.
 SeenTest seen_in_any(const Simulation& simulation, const RunContext& context) {
-  return [&simulation, &context](
-             std::span<const Vec3f> points,
-             std::span<const Vec3f> normals) -> Result<std::vector<std::uint8_t>> {
-    std::vector<std::uint8_t> seen(points.size(), 0);
-    const Pose T_first = simulation.placed.front().T_table_object.inverse();
-    for (std::size_t k = 0; k < simulation.scan.count(); ++k) {
-      const VirtualScan& pass = simulation.scan.pass(k);
-      const Pose T = pass.T_table_given() * simulation.placed[k].T_table_object * T_first *
-                     simulation.scan.pass(0).T_table_given().inverse();
-      std::vector<Vec3f> p(points.size()), n(points.size());
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        p[i] = (T * points[i].cast<double>()).cast<float>();
-        n[i] = (T.linear() * normals[i].cast<double>()).cast<float>();
-      }
-      TURNSCAN_ASSIGN(const auto mask, seen_mask(pass.scene(), pass, p, n, context));
-      for (std::size_t i = 0; i < seen.size(); ++i) seen[i] |= mask[i];
-    }
-    return seen;
-  };
+  return
+      [&simulation, &context](std::span<const Vec3f> points,
+                              std::span<const Vec3f> normals) -> Result<std::vector<std::uint8_t>> {
+        std::vector<std::uint8_t> seen(points.size(), 0);
+        const Pose T_first = simulation.placed.front().T_table_object.inverse();
+        for (std::size_t k = 0; k < simulation.scan.count(); ++k) {
+          const VirtualScan& pass = simulation.scan.pass(k);
+          const Pose T = pass.T_table_given() * simulation.placed[k].T_table_object * T_first *
+                         simulation.scan.pass(0).T_table_given().inverse();
+          std::vector<Vec3f> p(points.size()), n(points.size());
+          for (std::size_t i = 0; i < p.size(); ++i) {
+            p[i] = (T * points[i].cast<double>()).cast<float>();
+            n[i] = (T.linear() * normals[i].cast<double>()).cast<float>();
+          }
+          TURNSCAN_ASSIGN(const auto mask, seen_mask(pass.scene(), pass, p, n, context));
+          for (std::size_t i = 0; i < seen.size(); ++i) seen[i] |= mask[i];
+        }
+        return seen;
+      };
 }
 
 Result<double> median_error(const TriangleMesh& mesh, const Simulation& simulation,
@@ -76,7 +76,8 @@ Result<std::vector<PlanTrial>> TrialRunner::run_here(const std::vector<TrialScen
                                                      const RunContext& context) const {
   std::vector<PlanTrial> out;
   for (const TrialScene& one : scenes) {
-    TURNSCAN_ASSIGN(const Simulation simulation, prepare_simulation(one.scene, context));
+    TURNSCAN_ASSIGN(const Simulation simulation,
+                    prepare_simulation(one.scene, *one.object, context));
     TURNSCAN_ASSIGN(PlanTrial trial, judged(
                                          simulation,
                                          [&]() -> Result<TriangleMesh> {
@@ -140,7 +141,8 @@ Result<std::vector<PlanTrial>> TrialRunner::run_batches(const std::vector<TrialS
   TURNSCAN_TRY(run_tasks((folder / "meshes").string(), meshes_, context));
   std::vector<PlanTrial> out;
   for (const TrialScene& one : scenes) {
-    TURNSCAN_ASSIGN(const Simulation simulation, prepare_simulation(one.scene, context));
+    TURNSCAN_ASSIGN(const Simulation simulation,
+                    prepare_simulation(one.scene, *one.object, context));
     const fs::path mesh = result("meshes", one.name, "mesh.ply");
     const auto made = [&]() -> Result<TriangleMesh> {
       if (fs::exists(mesh, error)) return read_mesh(mesh, {}, context);

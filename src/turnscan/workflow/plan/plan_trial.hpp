@@ -11,6 +11,7 @@ namespace turnscan::workflow {
 struct TrialScene {
   std::string name;  ///< of its tasks; unique, and the same in a later run
   SceneDescription scene;
+  const TriangleMesh* object = nullptr;  ///< of read_object()
 };
 
 /// One entry a scene. What fails of one scene stands in its trial. With a folder, the scans and

@@ -35,18 +35,6 @@ SequenceView watched(const VirtualPasses& scan, const FrameWatcher& watcher) {
   return out;
 }
 
-Result<TriangleMesh> load_mesh(const SceneDescription& scene, const RunContext& context) {
-  if (scene.object.starts_with(kBuiltin))
-    return builtin_object(std::string_view(scene.object).substr(kBuiltin.size()), context);
-  ReadMeshOptions options;
-  if (!scene.unit.empty()) {
-    TURNSCAN_ASSIGN(options.metres_per_unit, metres_per(scene.unit));
-  }
-  TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(scene.object, options, context));
-  if (mesh.name.empty()) mesh.name = fs::path(scene.object).stem().string();
-  return mesh;
-}
-
 Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
                                   VirtualScanOptions options) {
   std::vector<VirtualScan> scans;
@@ -67,6 +55,15 @@ Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
     scans.push_back(std::move(scan));
   }
   return VirtualPasses(std::move(scans));
+}
+
+Result<Simulation> ready(const SceneDescription& scene, VirtualScanOptions options,
+                         std::vector<PlacedObject> placed,
+                         std::chrono::steady_clock::time_point begin) {
+  TURNSCAN_ASSIGN(VirtualPasses scan, make_passes(placed, options));
+  return Simulation{scene,           std::move(options),   std::move(placed),
+                    std::move(scan), seconds_since(begin), 0.0,
+                    std::nullopt};
 }
 
 /// Removes a recording that lacks its truth; a folder that was there before stays.
@@ -91,15 +88,25 @@ Result<CoverageMap> cover(const Simulation& simulation, const SimulateRequest& r
 
 }  // namespace
 
-Result<std::vector<PlacedObject>> load_objects(const SceneDescription& scene,
-                                               const RunContext& context) {
+Result<TriangleMesh> read_object(const SceneDescription& scene, const RunContext& context) {
+  if (scene.object.starts_with(kBuiltin))
+    return builtin_object(std::string_view(scene.object).substr(kBuiltin.size()), context);
+  ReadMeshOptions options;
+  if (!scene.unit.empty()) {
+    TURNSCAN_ASSIGN(options.metres_per_unit, metres_per(scene.unit));
+  }
+  TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(scene.object, options, context));
+  if (mesh.name.empty()) mesh.name = fs::path(scene.object).stem().string();
+  return mesh;
+}
+
+Result<std::vector<PlacedObject>> place_objects(const SceneDescription& scene,
+                                                const TriangleMesh& object,
+                                                const RunContext& context) {
   std::vector<PlacedObject> passes;
-  if (scene.object == kEmptyTable) return passes;
-  context.begin_phase("read object", 0);
-  TURNSCAN_ASSIGN(const TriangleMesh mesh, load_mesh(scene, context));
   TURNSCAN_ASSIGN(const std::vector<ObjectPlacement> placements, pass_placements(scene));
   for (const ObjectPlacement& placement : placements) {
-    auto placed = place_object(mesh, placement);
+    auto placed = place_object(object, placement);
     if (!placed) {
       Error error = std::move(placed).error();
       error.path = scene.object;
@@ -111,14 +118,27 @@ Result<std::vector<PlacedObject>> load_objects(const SceneDescription& scene,
   return passes;
 }
 
+Result<std::vector<PlacedObject>> load_objects(const SceneDescription& scene,
+                                               const RunContext& context) {
+  if (scene.object == kEmptyTable) return std::vector<PlacedObject>();
+  context.begin_phase("read object", 0);
+  TURNSCAN_ASSIGN(const TriangleMesh mesh, read_object(scene, context));
+  return place_objects(scene, mesh, context);
+}
+
 Result<Simulation> prepare_simulation(const SceneDescription& scene, const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   TURNSCAN_ASSIGN(VirtualScanOptions options, scan_options(scene));
   TURNSCAN_ASSIGN(std::vector<PlacedObject> placed, load_objects(scene, context));
-  TURNSCAN_ASSIGN(VirtualPasses scan, make_passes(placed, options));
-  return Simulation{scene,           std::move(options),   std::move(placed),
-                    std::move(scan), seconds_since(begin), 0.0,
-                    std::nullopt};
+  return ready(scene, std::move(options), std::move(placed), begin);
+}
+
+Result<Simulation> prepare_simulation(const SceneDescription& scene, const TriangleMesh& object,
+                                      const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  TURNSCAN_ASSIGN(VirtualScanOptions options, scan_options(scene));
+  TURNSCAN_ASSIGN(std::vector<PlacedObject> placed, place_objects(scene, object, context));
+  return ready(scene, std::move(options), std::move(placed), begin);
 }
 
 Result<> record_simulation(const Simulation& simulation, const std::string& folder, bool samples,

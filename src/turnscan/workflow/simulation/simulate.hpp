@@ -20,6 +20,13 @@ namespace turnscan {
 Result<std::vector<PlacedObject>> load_objects(const SceneDescription& scene,
                                                const RunContext& context);
 
+/// The scene's object as its file or its builder has it, and that mesh as load_objects() places it.
+/// Fail as that does.
+Result<TriangleMesh> read_object(const SceneDescription& scene, const RunContext& context);
+Result<std::vector<PlacedObject>> place_objects(const SceneDescription& scene,
+                                                const TriangleMesh& object,
+                                                const RunContext& context);
+
 /// A scene made ready: frames are rendered when they are read.
 struct Simulation {
   SceneDescription scene;
@@ -33,6 +40,10 @@ struct Simulation {
 /// The scanners keep their places in all passes: what the first pass makes them look at. Fails as
 /// scan_options(), load_objects() and VirtualScan::create().
 Result<Simulation> prepare_simulation(const SceneDescription& scene, const RunContext& context);
+
+/// The same for an object that read_object() gave, whatever the scene names.
+Result<Simulation> prepare_simulation(const SceneDescription& scene, const TriangleMesh& object,
+                                      const RunContext& context);
 
 /// Gets every frame as it is recorded, with its position in the scan; called from several threads.
 using FrameWatcher = std::function<void(const Frame& frame, std::size_t position)>;
