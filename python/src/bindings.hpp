@@ -4,6 +4,7 @@
 
 namespace turnscan::python {
 
+void bind_plan(py::module_& module);
 void bind_simulate(py::module_& module);
 void bind_stream(py::module_& module);
 

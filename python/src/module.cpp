@@ -14,6 +14,7 @@ PYBIND11_MODULE(_turnscan, module) {
   bind_meshes(module);
   bind_frames(module);
   bind_reconstruct(module);
+  bind_plan(module);
   bind_simulate(module);
   bind_stream(module);
   module.attr("__version__") = turnscan::version();

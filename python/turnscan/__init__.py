@@ -32,7 +32,7 @@ from .errors import Error, OptionError
 
 __all__ = ["Calibration", "Error", "Frame", "Frames", "Intrinsics", "Mesh", "OptionError",
            "Reconstruction", "Recording", "Sensor", "Sequence", "Simulation", "Stream",
-           "Turntable", "calibrate", "evaluate", "options", "reconstruct", "set_threads",
+           "Turntable", "calibrate", "evaluate", "options", "plan", "reconstruct", "set_threads",
            "simulate"]
 
 _NO_RETURN, _LARGEST = 0, 65534  # 65535 means a return outside the crop
@@ -106,11 +106,22 @@ def simulate(object, *, scanners=(), out=None, progress=None, **options):
                               None if out is None else _os.fspath(out), progress, **options)
 
 
+def plan(objects, *, scanners, out=None, unit="", progress=None, **options):
+    """Where to put which sensors for how many passes: plan.json of `turnscan plan` as a dict.
+
+    objects: a mesh file or "builtin:NAME", or a list of them. out: folder for scenes and pictures;
+    None: none are written. Trials run in this process."""
+    if isinstance(objects, (str, _os.PathLike)):
+        objects = [objects]
+    return _turnscan.plan([_os.fspath(o) for o in objects], list(scanners),
+                          "" if out is None else _os.fspath(out), unit, progress, **options)
+
+
 def evaluate(mesh, reference, *, progress=None, **options):
     """How far a mesh is from a reference: the figures of `turnscan evaluate --json` as a dict."""
     return _turnscan.evaluate(mesh, reference, progress, **options)
 
 
 def options(command):
-    """Names, defaults, ranges and help of the options of "reconstruct", "simulate", "evaluate"."""
+    """Names, defaults, ranges and help of the options of "reconstruct", "simulate", "plan", "evaluate"."""
     return getattr(_turnscan, f"_{command}_options")()

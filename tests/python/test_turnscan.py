@@ -220,7 +220,7 @@ class Meshes(unittest.TestCase):
 class Options(unittest.TestCase):
     def test_come_from_the_tables_of_the_command_line(self):
         reference = (ROOT / "docs" / "reference.md").read_text()
-        for command in ("reconstruct", "simulate", "evaluate"):
+        for command in ("reconstruct", "simulate", "plan", "evaluate"):
             listed = turnscan.options(command)
             self.assertGreater(len(listed), 5)
             section = reference.split(f"## turnscan {command}\n")[1].split("\n## ")[0]

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -114,6 +115,16 @@ class PlanRun {
     const std::vector<ChosenRig> first(rigs_.begin(), rigs_.begin() + std::ptrdiff_t(n));
     TURNSCAN_ASSIGN(const auto trials, tried(first, "plan"));
     for (std::size_t k = 0; k < n; ++k) trials_[k] = trials[k];
+    // What gave no mesh comes last.
+    std::vector<std::size_t> order(rigs_.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t k) {
+      return !trials_[k] || trials_[k]->failure.empty();
+    });
+    const auto rigs = rigs_;
+    const auto old = trials_;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      rigs_[k] = rigs[order[k]], trials_[k] = old[order[k]];
     return {};
   }
 
