@@ -5,6 +5,7 @@
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/iai_kinect2.hpp>
+#include <turnscan/io/text/opencv_yaml.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan::foreign {
@@ -24,42 +25,9 @@ Result<double> depth_shift_mm(std::string_view text) {
   return fail(ErrorCode::kFormat, "there is no line 'depthShift: ...'");
 }
 
-/// Where the line "name: ..." begins; npos: nowhere.
-std::size_t line_of(std::string_view text, std::string_view name) {
-  const std::string key = fmt::format("{}:", name);
-  for (auto at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
-    if (at == 0 || text[at - 1] == '\n') return at;
-  }
-  return text.npos;
-}
-
-/// The numbers between the brackets after "data:" of a matrix.
-Result<std::vector<double>> matrix(std::string_view text, std::string_view name, std::size_t least,
-                                   std::size_t most) {
-  const auto start = line_of(text, name);
-  const auto open = start == text.npos ? text.npos : text.find('[', start);
-  const auto close = open == text.npos ? text.npos : text.find(']', open);
-  if (close == text.npos) return fail(ErrorCode::kFormat, "there is no matrix {}", name);
-  std::string numbers(text.substr(open + 1, close - open - 1));
-  for (char& c : numbers) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
-  if (count < least || count > most)
-    return fail(ErrorCode::kFormat, "the matrix {} has {} numbers, not {}", name, count, least);
-  // OpenCV writes whole numbers with a point and nothing behind it.
-  std::string clean;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    clean += numbers[i];
-    const char next = i + 1 < numbers.size() ? numbers[i + 1] : ' ';
-    if (numbers[i] == '.' && (next < '0' || next > '9')) clean += '0';
-  }
-  return text::parse_numbers(clean, count);
-}
-
 Result<CameraIntrinsics> parse_camera(std::string_view text, int width, int height) {
-  TURNSCAN_ASSIGN(const auto k, matrix(text, "cameraMatrix", 9, 9));
-  TURNSCAN_ASSIGN(const auto d, matrix(text, "distortionCoefficients", 5, 8));
+  TURNSCAN_ASSIGN(const auto k, text::opencv_matrix(text, "cameraMatrix", 9, 9));
+  TURNSCAN_ASSIGN(const auto d, text::opencv_matrix(text, "distortionCoefficients", 5, 8));
   CameraIntrinsics camera;
   camera.width = width, camera.height = height;
   camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
@@ -70,8 +38,8 @@ Result<CameraIntrinsics> parse_camera(std::string_view text, int width, int heig
 
 /// From the depth to the colour camera, as OpenCV's stereo calibration gives it.
 Result<Pose> parse_stereo_pose(std::string_view text) {
-  TURNSCAN_ASSIGN(const auto r, matrix(text, "rotation", 9, 9));
-  TURNSCAN_ASSIGN(const auto t, matrix(text, "translation", 3, 3));
+  TURNSCAN_ASSIGN(const auto r, text::opencv_matrix(text, "rotation", 9, 9));
+  TURNSCAN_ASSIGN(const auto t, text::opencv_matrix(text, "translation", 3, 3));
   Eigen::Matrix3d R;
   R << r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8];
   if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-3) ||

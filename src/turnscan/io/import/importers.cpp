@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/file/random_access_file.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/matroska/matroska.hpp>
+#include <turnscan/io/sens/sens_file.hpp>
 
 namespace turnscan::foreign {
 
@@ -44,7 +46,20 @@ const std::vector<Importer>& table() {
       {{ImportFormat::kOpen3dRgbd, "open3d-rgbd",
         "folder of Open3D's recorders (color/, depth/, intrinsic.json)"},
        open_open3d_rgbd,
-       {"depth-unit", "intrinsics", "fps", "clockwise"}}};
+       {"depth-unit", "intrinsics", "fps", "clockwise"}},
+      {{ImportFormat::kRecord3d, "record3d", "Record3D recording of an iPhone or iPad (.r3d)"},
+       open_record3d,
+       {"min-confidence", "device-poses", "world-up", "clockwise"}},
+      {{ImportFormat::kSens, "sens", "ScanNet or SUN3D recording (.sens)"},
+       open_sens,
+       {"device-poses", "world-up", "clockwise"}},
+      {{ImportFormat::kScannerApp, "3d-scanner-app",
+        "3D Scanner App's export (frame_N.json, depth_N.png, conf_N.png)"},
+       open_scanner_app,
+       {"min-confidence", "device-poses", "world-up", "clockwise"}},
+      {{ImportFormat::kRtabmap, "rtabmap", "RTAB-Map's export (NAME_depth, NAME_rgb, NAME_calib)"},
+       open_rtabmap,
+       {"depth-unit", "device-poses", "world-up", "clockwise"}}};
   return importers;
 }
 
@@ -75,9 +90,25 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
     return name.starts_with("frame-") && name.ends_with(".depth.png");
   });
   if (frame_pose) return ImportFormat::kFramePose;
+  const auto any = [&](const auto& fits) { return std::any_of(names.begin(), names.end(), fits); };
+  if (any(is_scanner_app_frame)) return ImportFormat::kScannerApp;
+  if (any(is_rtabmap_depth_folder)) return ImportFormat::kRtabmap;
   if (any_ends_with(names, ".json") && any_ends_with(names, ".png")) return ImportFormat::kJsonPng;
   if (any_ends_with(names, ".ply") || any_ends_with(names, ".pcd"))
     return ImportFormat::kCloudFolder;
+  return ImportFormat::kAuto;
+}
+
+/// By the first bytes; kAuto: not recognised.
+ImportFormat recognise_file(const fs::path& path) {
+  if (path.extension() == ".mkv" || matroska::is_matroska_file(path))
+    return ImportFormat::kMatroska;
+  const auto file = file::RandomAccessFile::open(path);
+  if (!file) return ImportFormat::kAuto;
+  const auto begin = file->read(0, std::min<std::uint64_t>(file->size(), 16));
+  if (!begin) return ImportFormat::kAuto;
+  if (begin->starts_with("PK\3\4")) return ImportFormat::kRecord3d;
+  if (sens::looks_like_sens(*begin)) return ImportFormat::kSens;
   return ImportFormat::kAuto;
 }
 
@@ -94,8 +125,8 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
     format = ImportFormat::kStanfordConf;
   } else if (path.extension() == ".json") {
     format = ImportFormat::kJsonPng;
-  } else if (path.extension() == ".mkv" || matroska::is_matroska_file(path)) {
-    format = ImportFormat::kMatroska;
+  } else {
+    format = recognise_file(path);
   }
   if (format != ImportFormat::kAuto) return format;
   return fail_at(path.string(), ErrorCode::kUnsupported,
@@ -115,6 +146,8 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   note(!o.sensor_position.empty(), "sensor-position");
   note(!o.sensor_direction.empty(), "sensor-direction");
   note(o.pose_direction != PoseDirection::kAuto, "pose-direction");
+  note(o.device_poses != DevicePoses::kAuto, "device-poses");
+  note(o.min_confidence != Confidence::kAuto, "min-confidence");
   note(!o.world_up.empty(), "world-up");
   note(o.clockwise, "clockwise");
   note(o.fps.has_value(), "fps");
@@ -152,7 +185,7 @@ OptionTable describe(ImportOptions& o) {
   OptionTable table;
   table.choice("format", o.format,
                {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
-                "matroska", "open3d-rgbd"},
+                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap"},
                "Layout of the data set; auto recognises it by its files");
   table.text("angles", o.angles,
              "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
@@ -172,6 +205,11 @@ OptionTable describe(ImportOptions& o) {
              "Direction x,y,z from the surface to a scanner with parallel rays");
   table.choice("pose-direction", o.pose_direction, {"auto", "camera-to-world", "world-to-camera"},
                "What the poses map; auto is camera-to-world");
+  table.choice("device-poses", o.device_poses, {"auto", "use", "ignore"},
+               "Poses that a phone or hand-held sensor tracked itself; auto ignores them while it "
+               "stands still and uses them where it moved");
+  table.choice("min-confidence", o.min_confidence, {"auto", "low", "medium", "high"},
+               "Returns that the device rates below are none; auto is medium");
   table.text("world-up", o.world_up,
              "Direction x,y,z that is up in the world of the poses; without it, +y");
   table.flag("clockwise", o.clockwise,

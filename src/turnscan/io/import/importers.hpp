@@ -22,10 +22,18 @@ enum class ImportFormat {
   kFramePose,
   kJsonPng,
   kMatroska,
-  kOpen3dRgbd
+  kOpen3dRgbd,
+  kRecord3d,
+  kSens,
+  kScannerApp,
+  kRtabmap
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
+/// What becomes of poses that the device tracked itself. kAuto: used where it moved.
+enum class DevicePoses { kAuto, kUse, kIgnore };
+/// Of a return, as the device rates it. kAuto: medium.
+enum class Confidence { kAuto, kLow, kMedium, kHigh };
 
 struct ImportOptions {
   ImportFormat format = ImportFormat::kAuto;
@@ -37,11 +45,13 @@ struct ImportOptions {
   std::string sensor_position;                ///< of scans: "x,y,z" with units
   std::string sensor_direction;               ///< of scans: "x,y,z" from the surface to the sensor
   PoseDirection pose_direction = PoseDirection::kAuto;
-  std::string world_up;          ///< "x,y,z" in the world of the poses; empty: +Y
-  bool clockwise = false;        ///< angles and speed count clockwise from above
-  std::optional<double> fps;     ///< frames a second, of layouts without times
-  std::string turntable_axis;    ///< "x,y,z", up, frame of sensor 0
-  std::string turntable_center;  ///< "x,y,z" with units, frame of sensor 0
+  DevicePoses device_poses = DevicePoses::kAuto;
+  Confidence min_confidence = Confidence::kAuto;  ///< returns below are none
+  std::string world_up;                           ///< "x,y,z" in the world of the poses; empty: +Y
+  bool clockwise = false;                         ///< angles and speed count clockwise from above
+  std::optional<double> fps;                      ///< frames a second, of layouts without times
+  std::string turntable_axis;                     ///< "x,y,z", up, frame of sensor 0
+  std::string turntable_center;                   ///< "x,y,z" with units, frame of sensor 0
   std::optional<double> turntable_radius_m;
   std::optional<double> platter_height_m;  ///< of the platter above the given point of the axis
   std::optional<double> speed_rad_s;

@@ -48,6 +48,15 @@ OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOpti
 OpenResult open_matroska(const std::filesystem::path& path, const ImportOptions& options);
 OpenResult open_open3d_rgbd(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
+
+/// "frame_00012.json", as 3D Scanner App names what it knows of a frame.
+bool is_scanner_app_frame(std::string_view name);
+/// "depth" or "NAME_depth": the folder in which RTAB-Map's export puts depth images.
+bool is_rtabmap_depth_folder(std::string_view name);
 
 /// Text files of data sets are refused beyond this.
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t(16) << 20;

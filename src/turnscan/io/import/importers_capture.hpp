@@ -1,0 +1,89 @@
+#pragma once
+// What recordings of phones and hand-held sensors have in common: poses of the device, confidence
+// beside depth, depth in metres, gaps in the times.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <turnscan/io/import/importers_common.hpp>
+#include <vector>
+
+namespace turnscan::foreign {
+
+/// Decides by options.device_poses what becomes of the poses of the device (T_world_sensor, none
+/// where tracking was lost), and says so in a note. Ignored ones are removed.
+/// On auto they are ignored while the device stands still: 19 of 20 positions lie within 5 mm, and
+/// 19 of 20 rotations within 0.5 degrees, of their median (of coordinates). A sensor on a tripod is
+/// placed by the turntable's motion much better than by its own tracking.
+/// Fails with kMissingData when poses are to be used and there are none, and as placed_pose() does.
+Result<> settle_device_poses(const ImportOptions& options, std::vector<std::optional<Pose>>& poses,
+                             SequenceHeader& header);
+
+/// From what OpenGL and ARKit call a camera's frame (x right, y up, z backward) to ours.
+Pose from_gl_camera(const Pose& T_world_gl);
+
+/// Values of a confidence map below the least one become no return. sizes must be equal.
+void mask_unsure(std::span<const std::uint8_t> confidence, std::uint8_t least, DepthImage& depth);
+
+/// The least value of Apple's confidence maps (0 low, 1 medium, 2 high) that is kept.
+std::uint8_t least_confidence(const ImportOptions& options);
+
+/// Depth of floats in metres in steps of 0.1 mm; what is not finite, not positive or beyond 6.55 m
+/// is no return. bytes: width * height little-endian floats.
+DepthImage depth_of_floats(std::string_view bytes, int width, int height);
+inline constexpr double kFloatDepthUnit = 1e-4;
+
+/// A pinhole camera for an image of another size of the same view. The image coordinates of
+/// `camera` are measured from the corner of the image, as Apple's are.
+CameraIntrinsics from_corner_coordinates(const CameraIntrinsics& camera, int width, int height);
+
+/// Seconds since the first; nothing unless they increase.
+bool times_from_first(std::vector<double>& times_s);
+
+/// The number of frames that are missing before each frame: gaps of more than 1.6 times the median
+/// interval. None where all of them together would be more than the frames.
+std::vector<std::uint32_t> missing_before(std::span<const double> times_s);
+
+/// Numbers the frames through, with frames marked dropped in the gaps of their times. Frame has a
+/// member info and is made empty by default.
+template <class Frame>
+std::vector<Frame> with_dropped(std::vector<Frame> frames, SequenceHeader& header) {
+  std::vector<double> times;
+  for (const Frame& frame : frames) times.push_back(frame.info.time_s);
+  const std::vector<std::uint32_t> missing = missing_before(times);
+  std::vector<Frame> out;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::uint32_t k = 0; k < missing[i]; ++k) {
+      Frame& gap = out.emplace_back();
+      gap.info.status = FrameStatus::kDropped;
+      gap.info.time_s =
+          times[i - 1] + (times[i] - times[i - 1]) * double(k + 1) / double(missing[i] + 1);
+    }
+    out.push_back(std::move(frames[i]));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].info.index = std::uint32_t(i);
+  if (out.size() > frames.size())
+    add_note(header, fmt::format("{} frames are missing by their times; they are marked dropped",
+                                 out.size() - frames.size()));
+  return out;
+}
+
+/// Where some frames have poses, those without are marked dropped, with a note.
+template <class Frame>
+void drop_without_pose(std::vector<Frame>& frames, SequenceHeader& header) {
+  std::size_t placed = 0, lost = 0;
+  for (const Frame& frame : frames) placed += frame.info.T_table_sensor ? 1 : 0;
+  if (placed == 0) return;
+  for (Frame& frame : frames) {
+    if (frame.info.T_table_sensor || frame.info.status == FrameStatus::kDropped) continue;
+    frame.info.status = FrameStatus::kDropped;
+    ++lost;
+  }
+  if (lost != 0)
+    add_note(header, fmt::format("{} frames have no pose or one that is not finite; they are "
+                                 "marked dropped",
+                                 lost));
+}
+
+}  // namespace turnscan::foreign

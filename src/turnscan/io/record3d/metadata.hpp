@@ -1,0 +1,29 @@
+#pragma once
+// What the entry `metadata` of a Record3D recording says (JSON), after its author's answers
+// (github.com/marek-simonik/record3d, issues 27, 33, 36, 83, 93, 108).
+
+#include <optional>
+#include <string_view>
+#include <turnscan/core/camera.hpp>
+#include <turnscan/core/pose.hpp>
+#include <turnscan/core/result.hpp>
+#include <vector>
+
+namespace turnscan::record3d {
+
+struct Metadata {
+  /// Of colour images of camera.width x camera.height; image coordinates are measured from the
+  /// image's top left corner (Apple, ARCamera.intrinsics). The median over the frames where the
+  /// file has a camera for each.
+  CameraIntrinsics camera;
+  double focal_change = 0.0;               ///< share by which the focal length varies
+  int depth_width = 0, depth_height = 0;   ///< 0: not stated
+  double fps = 0.0;                        ///< 0: not stated
+  std::vector<double> times_s;             ///< of each frame, as they stand; may be empty
+  std::vector<std::optional<Pose>> poses;  ///< camera to world, OpenGL's camera; may be empty
+};
+
+/// Fails with kFormat where a field is missing or wrong.
+Result<Metadata> parse_metadata(std::string_view json);
+
+}  // namespace turnscan::record3d
