@@ -4,6 +4,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/recording/summary.hpp>
+#include <turnscan/recording/temporal_filter.hpp>
 
 namespace turnscan {
 
@@ -173,6 +174,8 @@ Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContex
   context.begin_phase("look at frames", header.sensors.size() * kSamples);
   for (std::size_t i = 0; i < header.sensors.size(); ++i)
     TURNSCAN_TRY(sample_sensor(sequence, i, context, summary));
+  TURNSCAN_ASSIGN(std::optional<std::string> smoothed, temporal_filter_note(sequence, context));
+  if (smoothed) summary.notes.push_back(std::move(*smoothed));
   return summary;
 }
 

@@ -6,6 +6,7 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/recording/temporal_filter.hpp>
 
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/calibration/turntable_file.hpp>
@@ -113,6 +114,19 @@ void note_calibrations(const std::vector<NamedSequence>& recordings,
   notes.insert(notes.begin(), first.begin(), first.end());
 }
 
+/// What the devices did to depth.
+Result<> note_filters(const std::vector<NamedSequence>& recordings, const RunContext& context,
+                      std::vector<std::string>& notes) {
+  for (const NamedSequence& recording : recordings) {
+    TURNSCAN_ASSIGN(const std::optional<std::string> note,
+                    temporal_filter_note(*recording.frames, context));
+    if (note)
+      notes.push_back(recordings.size() == 1 ? *note
+                                             : fmt::format("{}: {}", recording.name, *note));
+  }
+  return {};
+}
+
 /// By the recording that shows most sides of its object.
 void judge(const std::vector<PlacedRecording>& placed, ReconstructRun& run) {
   ScanKnowledge known;
@@ -170,6 +184,7 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
                     advise_next_pass(run.reconstruction.objects[0], run.seen_from, context));
   }
   note_calibrations(recordings, placed, run.reconstruction.notes);
+  TURNSCAN_TRY(note_filters(recordings, context, run.reconstruction.notes));
   run.turn = turn_of(*placed[0].calibrated.frames);
   run.choice = std::move(placed[0].calibrated.choice);
   judge(placed, run);
