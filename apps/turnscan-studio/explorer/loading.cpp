@@ -5,8 +5,7 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
-#include <turnscan/recording/recording.hpp>
-#include <turnscan/recording/summary.hpp>
+#include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
 
@@ -44,7 +43,7 @@ QString cloud_report(const PointCloud& cloud) {
 
 /// The first whole frame, so that a recording shows something before it is merged: at its place on
 /// the table, or upright as its camera saw it.
-Result<PointCloud> preview(const Recording& recording, const RunContext& context) {
+Result<PointCloud> preview(const FrameSequence& recording, const RunContext& context) {
   PointCloud out;
   const auto& frames = recording.frames();
   for (std::size_t i = 0; i < frames.size() && out.empty(); ++i) {
@@ -90,17 +89,17 @@ ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString&
   return data;
 }
 
-Result<ModelDataPtr> recording_model(const std::string& folder, const RunContext& context) {
-  TURNSCAN_ASSIGN(Recording opened, Recording::open(folder));
-  auto recording = std::make_shared<const Recording>(std::move(opened));
-  TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(*recording, context));
+Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& context) {
+  TURNSCAN_ASSIGN(Input input, open_input(path));
+  TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(input, context));
   auto data = std::make_shared<ModelData>();
   data->kind = ModelKind::kRecording;
-  data->source = QString::fromStdString(folder);
+  data->source = QString::fromStdString(path);
   data->report = QString::fromStdString(summary_text(summary));
-  TURNSCAN_ASSIGN(data->cloud, preview(*recording, context));
+  TURNSCAN_ASSIGN(data->cloud, preview(*input.frames, context));
   data->drawable = make_drawable(data->cloud);
-  data->recording = std::move(recording);
+  data->recording = std::move(input.frames);
+  data->recording_notes = std::move(input.notes);
   return ModelDataPtr(std::move(data));
 }
 
@@ -116,6 +115,10 @@ Result<NamedModels> load_models(const std::string& path, const RunContext& conte
                     recording_model(base.empty() ? "." : base.string(), context));
     const QString title = QString::fromStdString(fs::absolute(base).filename().string());
     return NamedModels{{title.isEmpty() ? name : title, std::move(data)}};
+  }
+  if (is_foreign(file)) {
+    TURNSCAN_ASSIGN(ModelDataPtr data, recording_model(path, context));
+    return NamedModels{{name, std::move(data)}};
   }
   const QString source = QString::fromStdString(path);
   context.begin_phase("read", 0);

@@ -13,15 +13,17 @@ namespace turnscan::studio {
 
 using NamedModels = std::vector<std::pair<QString, ModelDataPtr>>;
 
-/// A mesh (each object a model), a cloud, or a recording's folder or recording.json, told apart as
-/// `turnscan info` does. Fails as the readers do.
+/// A mesh (each object a model), a cloud, a recording's folder or recording.json, or what `turnscan
+/// import` reads without being told more, told apart as `turnscan info` does. Fails as the readers
+/// do.
 Result<NamedModels> load_models(const std::string& path, const RunContext& context);
 
 ModelDataPtr mesh_model(TriangleMesh mesh, const QString& source, const QString& report = {},
                         std::vector<float> confidence = {});
 ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString& report = {},
                          std::vector<Viewpoint> viewpoints = {});
-Result<ModelDataPtr> recording_model(const std::string& folder, const RunContext& context);
+/// path: see open_input().
+Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& context);
 
 /// Meshes in every format of write_mesh; clouds as PLY. Fails as the writers do.
 Result<> save_model(const ModelData& data, const std::string& path);

@@ -1,7 +1,6 @@
 #include "explorer/models.hpp"
 
 #include <algorithm>
-#include <turnscan/recording/recording.hpp>
 
 #include "widgets/text.hpp"
 #include "widgets/theme.hpp"

@@ -14,10 +14,6 @@
 #include "app/another_side.hpp"
 #include "view/drawable.hpp"
 
-namespace turnscan {
-class Recording;
-}
-
 namespace turnscan::studio {
 
 struct ScanQuality;
@@ -37,11 +33,12 @@ struct ModelData {
   std::vector<float> confidence;      ///< of each vertex of mesh, or empty; saved with it
   PointCloud cloud;                   ///< of a recording: a preview
   std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
-  std::shared_ptr<const Recording> recording;
-  std::shared_ptr<const MissingSurface> missing;  ///< of a mesh; nullptr: not known
-  std::shared_ptr<const ScanQuality> quality;     ///< of a mesh as the scan made it, or nullptr
-  QString source;                                 ///< file, or what was run to make it
-  QString report;                                 ///< several lines for people
+  std::shared_ptr<const FrameSequence> recording;  ///< or what another program recorded
+  std::vector<std::string> recording_notes;        ///< what is missing in it
+  std::shared_ptr<const MissingSurface> missing;   ///< of a mesh; nullptr: not known
+  std::shared_ptr<const ScanQuality> quality;      ///< of a mesh as the scan made it, or nullptr
+  QString source;                                  ///< file, or what was run to make it
+  QString report;                                  ///< several lines for people
   DrawablePtr drawable;
 };
 using ModelDataPtr = std::shared_ptr<const ModelData>;

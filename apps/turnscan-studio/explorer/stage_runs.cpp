@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
-#include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
@@ -170,7 +169,7 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
 
 Result<StageRun> run_recording(const Model& model, const std::string& stage,
                                const ReconstructOptions& options, const RunContext& context) {
-  const Recording& recording = *model.data->recording;
+  const FrameSequence& recording = *model.data->recording;
   StageRun run;
   if (stage == kMeshStage) {
     TURNSCAN_ASSIGN(run, mesh_of_recording(model, options, context));
@@ -181,9 +180,9 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
                                 calibrated.choice.note, context));
   }
   // Frames that are damaged, too: what was left out is told with what was made.
-  if (recording.notes().empty()) return run;
+  if (model.data->recording_notes.empty()) return run;
   QString notes;
-  for (const std::string& note : recording.notes())
+  for (const std::string& note : model.data->recording_notes)
     notes += QObject::tr("\nNote: %1").arg(QString::fromStdString(note));
   for (auto& [name, data] : run.models) {
     auto told = std::make_shared<ModelData>(*data);

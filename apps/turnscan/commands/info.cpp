@@ -9,6 +9,7 @@
 #include <turnscan/recording/repair.hpp>
 #include <turnscan/recording/summary.hpp>
 
+#include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
 #include <turnscan/workflow/text/shown_text.hpp>
@@ -22,12 +23,16 @@ namespace {
 class InfoCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("RECORDING|MESH", path_, "Recording, mesh or point cloud to look at");
+    line.positional("RECORDING|MESH", path_,
+                    "Recording, mesh or point cloud to look at, or what turnscan import reads");
     line.flag(
         "--repair", repair_,
         "Finish a recording whose program was ended: keep every whole frame, mark it complete "
         "and say what was lost");
     line.flag("--json", json_, "Print JSON, SI units in the names");
+    line.repeatable("--import", "NAME=VALUE", import_,
+                    "Option of turnscan import, without its dashes, for files of another program, "
+                    "e.g. depth-unit=1mm; may be given for several");
     line.option("--unit", "UNIT", unit_,
                 "Unit of a mesh or cloud file that does not say it: um, mm, cm, m, in");
   }
@@ -43,6 +48,7 @@ class InfoCommand : public Command {
     if (repair_)
       return fail(ErrorCode::kInvalidOption,
                   "--repair: {} is not a recording; give the folder of one", path_);
+    if (!import_.empty() || is_foreign(path)) return about_recording(path, session);
     if (!unit_.empty()) {
       TURNSCAN_ASSIGN(metres_per_unit_, metres_per(unit_));
     }
@@ -73,8 +79,12 @@ class InfoCommand : public Command {
                   "--repair and --json cannot be used together; repair "
                   "first");
     if (repair_) TURNSCAN_TRY(repair(folder, session));
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
-    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));
+    TURNSCAN_ASSIGN(const ImportOptions options, parse_import_options(import_));
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(folder, options));
+    if (!input.imported && !import_.empty())
+      return fail(ErrorCode::kInvalidOption, "--import: {} is a recording already; leave it out",
+                  path_);
+    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(input, session.context()));
     session.print("{}", json_ ? summary_json(summary) + "\n" : summary_text(summary));
     return {};
   }
@@ -130,6 +140,7 @@ class InfoCommand : public Command {
     return {};
   }
 
+  std::vector<std::string> import_;
   std::string path_, unit_;
   bool json_ = false, repair_ = false;
   std::optional<double> metres_per_unit_;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/recording/recording.hpp>
 
+#include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/output_file.hpp>
@@ -21,8 +21,9 @@ class ReconstructCommand : public Command {
   void declare(CommandLine& line) override {
     line.positionals(
         "RECORDING...", recordings_,
-        "Recording to reconstruct (see turnscan import). Its passes, in which the object "
-        "lies in several ways, become one mesh; several recordings of an object, too");
+        "Recording to reconstruct, or a file or folder of another program (see turnscan import). "
+        "Its passes, in which the object lies in several ways, become one mesh; several recordings "
+        "of an object, too");
     line.required_option("-o,--out", "MESH", files_.mesh,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm. Several "
                          "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file. Passes that "
@@ -40,6 +41,12 @@ class ReconstructCommand : public Command {
         fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
                     "--method volumetric, the others without)",
                     fmt::join(saveable_stages(), ", ")));
+    line.repeatable("--import", "NAME=VALUE", import_,
+                    "Option of turnscan import, without its dashes, for files of another program, "
+                    "e.g. depth-unit=1mm; may be given for several");
+    line.option("--keep-recording", "FOLDER", keep_recording_,
+                "Also write what is read from a file of another program to a recording, as "
+                "turnscan import does; it must not exist or be empty");
     line.option(
         "--turntable", "FILE.json", request_.turntable,
         "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
@@ -77,14 +84,10 @@ class ReconstructCommand : public Command {
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());
-    std::vector<Recording> recordings;
-    for (const std::string& path : recordings_) {
-      TURNSCAN_ASSIGN(Recording recording, Recording::open(path));
-      recordings.push_back(std::move(recording));
-    }
+    TURNSCAN_ASSIGN(const std::vector<Input> inputs, open_inputs(session.context()));
     std::vector<NamedSequence> named;
-    for (std::size_t i = 0; i < recordings.size(); ++i)
-      named.push_back({recordings_[i], &recordings[i]});
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      named.push_back({recordings_[i], inputs[i].frames.get()});
     for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
     TURNSCAN_ASSIGN(const ReconstructRun made,
                     run_reconstruction(named, request_, session.context()));
@@ -92,14 +95,34 @@ class ReconstructCommand : public Command {
                     write_outputs(files_, made, request_.options, session.context()));
     session.print("{}", text_of(made));
     if (made.next_pass) session.print("Next pass: {}\n", next_pass_text(*made.next_pass));
-    for (const Recording& recording : recordings) {
-      for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    for (const Input& input : inputs) {
+      for (const std::string& note : input.notes) session.print("Note: {}\n", note);
     }
     for (const std::string& file : files) session.print("Wrote {}\n", file);
     return check_joined(made.apart);
   }
 
  private:
+  Result<std::vector<Input>> open_inputs(const RunContext& context) const {
+    TURNSCAN_ASSIGN(const ImportOptions options, parse_import_options(import_));
+    std::vector<Input> inputs;
+    bool imported = false;
+    for (const std::string& path : recordings_) {
+      TURNSCAN_ASSIGN(Input input, open_input_asking(path, options));
+      imported |= input.imported;
+      inputs.push_back(std::move(input));
+    }
+    if (!imported && !import_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--import: what is given is a recording already; leave it out");
+    if (keep_recording_.empty()) return inputs;
+    if (inputs.size() > 1)
+      return fail(ErrorCode::kInvalidOption,
+                  "--keep-recording keeps one; make recordings of several with turnscan import");
+    TURNSCAN_ASSIGN(inputs[0], keep_input(recordings_[0], inputs[0], keep_recording_, context));
+    return inputs;
+  }
+
   static std::string text_of(const ReconstructRun& made) {
     const bool any = made.apart.empty() || !made.reconstruction.objects.empty();
     std::string text = any ? reconstruction_text(made.reconstruction) : "";
@@ -114,6 +137,7 @@ class ReconstructCommand : public Command {
     files_.report = reports.json;
     files_.page = reports.page;
     TURNSCAN_TRY(check_outputs(files_));
+    if (!keep_recording_.empty()) TURNSCAN_TRY(check_output_folder(keep_recording_));
     TURNSCAN_TRY(check_textured_mesh_file(files_.mesh, request_.options.texture));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
     for (const std::string& text : pass_poses_) {
@@ -150,7 +174,8 @@ class ReconstructCommand : public Command {
   }
 
   std::vector<std::string> recordings_;
-  std::vector<std::string> save_stages_, pass_poses_, reports_;
+  std::vector<std::string> save_stages_, pass_poses_, reports_, import_;
+  std::string keep_recording_;
   ReconstructFiles files_;
   ReconstructRequest request_;
 };

@@ -37,6 +37,7 @@ struct SequenceSummary {
   std::optional<ValueSpan> angle_rad;
   std::optional<double> turns;  ///< from the angles, else from speed and times
   std::optional<TurntableInfo> turntable;
+  std::optional<std::uint64_t> bytes;  ///< of the files of another program, not yet imported
   std::vector<SensorSummary> sensors;
   std::vector<std::string> notes;    ///< assumptions of the import, defects found on opening
   std::vector<std::string> missing;  ///< what reconstruction will lack; empty: nothing

@@ -34,6 +34,17 @@ std::string position_text(const SequenceSummary& s) {
   return text.empty() ? "nothing" : text;
 }
 
+/// Of a file of another program, which is looked at before it is imported.
+void put_file(const SequenceSummary& s, std::string& out) {
+  if (!s.bytes) return;
+  out += fmt::format("size:        {:.1f} MB\n", double(*s.bytes) * 1e-6);
+  if (!s.time_s || !(s.time_s->max > s.time_s->min) || s.sensors.empty()) return;
+  const double seconds = s.time_s->max - s.time_s->min;
+  const std::size_t shots = (s.frames + s.sensors.size() - 1) / s.sensors.size();
+  out += fmt::format("duration:    {}, {:.1f} frames a second\n",
+                     format_quantity(seconds, Quantity::kTime), double(shots - 1) / seconds);
+}
+
 /// A name from a file must not begin a line that looks like ours.
 std::string one_line(const std::string& name) {
   std::string out;
@@ -126,6 +137,7 @@ std::string summary_text(const SequenceSummary& s) {
   out += fmt::format("frames:      {}, {} dropped, {} {}\n", s.frames, s.dropped, s.passes,
                      s.passes == 1 ? "pass" : "passes");
   out += fmt::format("placed by:   {}\n", position_text(s));
+  put_file(s, out);
   if (s.time_s) out += fmt::format("times:       {}\n", span_text(*s.time_s, Quantity::kTime));
   if (s.angle_rad)
     out += fmt::format("angles:      {}\n", span_text(*s.angle_rad, Quantity::kAngle));
@@ -148,6 +160,7 @@ std::string summary_json(const SequenceSummary& s) {
   out["frames_with_pose"] = s.with_pose;
   out["frames_with_angle"] = s.with_angle;
   out["frames_with_time"] = s.with_time;
+  if (s.bytes) out["bytes"] = *s.bytes;
   if (s.time_s) out["time_s"] = span_json(*s.time_s);
   if (s.angle_rad) out["angle_rad"] = span_json(*s.angle_rad);
   if (s.turns) out["turns"] = *s.turns;

@@ -11,22 +11,92 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecordingFile = "recording.json";
 
+/// Of a file, or of the regular files in a folder and below.
+std::uint64_t bytes_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    const std::uintmax_t size = fs::file_size(path, error);
+    return error ? 0 : size;
+  }
+  std::uint64_t sum = 0;
+  fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error);
+  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    std::error_code gone;
+    if (!it->is_regular_file(gone)) continue;
+    const std::uintmax_t size = it->file_size(gone);
+    if (!gone) sum += size;
+  }
+  return sum;
+}
+
 }  // namespace
 
 Result<Input> open_input(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   const bool named = path.filename() == kRecordingFile;
   TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / kRecordingFile));
-  if (!named && !recording_there) {
-    TURNSCAN_ASSIGN(auto frames, open_foreign(path, options));
-    return Input{std::move(frames), {}};
+  std::error_code error;
+  const bool unknown_folder = options.format == ImportFormat::kAuto && options.angles.empty() &&
+                              fs::is_directory(path, error) && !is_foreign(path);
+  Input out;
+  if (!named && !recording_there && !unknown_folder) {
+    TURNSCAN_ASSIGN(out.frames, open_foreign(path, options));
+    out.imported = true;
+    out.bytes = bytes_of(path);
+    return out;
   }
   const fs::path folder = !named ? path : path.has_parent_path() ? path.parent_path() : ".";
   TURNSCAN_ASSIGN(Recording recording, Recording::open(folder));
-  Input out;
   out.notes = recording.notes();
   out.frames = std::make_unique<Recording>(std::move(recording));
   return out;
+}
+
+Result<ImportOptions> parse_import_options(const std::vector<std::string>& texts) {
+  ImportOptions options;
+  const OptionTable table = describe(options);
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const OptionField* field = table.find(name);
+    const bool lone_flag = equals == std::string::npos && field != nullptr && field->is_flag;
+    if (equals == std::string::npos && !lone_flag)
+      return fail(ErrorCode::kInvalidOption,
+                  "--import {}: write NAME=VALUE, an option of turnscan import without its dashes, "
+                  "e.g. --import depth-unit=1mm",
+                  text);
+    if (auto set = table.set(name, lone_flag ? "true" : text.substr(equals + 1)); !set)
+      return fail(ErrorCode::kInvalidOption, "--import: {}", set.error().message);
+  }
+  TURNSCAN_TRY(options.check());
+  return options;
+}
+
+Result<Input> open_input_asking(const fs::path& path, const ImportOptions& options) {
+  auto input = open_input(path, options);
+  if (input) return input;
+  Error error = input.error();
+  if (error.code == ErrorCode::kMissingData || error.message.find("--") != std::string::npos)
+    error.message +=
+        " (options of turnscan import are given here as --import NAME=VALUE, e.g. --import "
+        "depth-unit=1mm)";
+  return tl::unexpected<Error>(std::move(error));
+}
+
+Result<Input> keep_input(const fs::path& path, const Input& input, const fs::path& folder,
+                         const RunContext& context) {
+  if (!input.imported)
+    return fail_at(path.string(), ErrorCode::kInvalidOption,
+                   "this is a recording already; leave --keep-recording out");
+  TURNSCAN_TRY(write_recording(folder, *input.frames, context));
+  return open_input(folder);
+}
+
+Result<SequenceSummary> summarize(const Input& input, const RunContext& context) {
+  TURNSCAN_ASSIGN(SequenceSummary summary, summarize(*input.frames, context));
+  summary.notes.insert(summary.notes.end(), input.notes.begin(), input.notes.end());
+  if (input.imported) summary.bytes = input.bytes;
+  return summary;
 }
 
 }  // namespace turnscan

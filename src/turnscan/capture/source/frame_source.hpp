@@ -102,6 +102,7 @@ class FrameSource {
 /// Opens the sensor of a URI (source_uri.hpp):
 ///   virtual:OBJECT?sensor=kinect-v2&OPTION=VALUE...   a simulated sensor and turntable
 ///   replay:FOLDER?speed=2                            a recording; speed=max: as fast as it is read
+///   replay:FILE?depth-unit=1mm                         what open_foreign() reads, with its options
 /// Every source takes queue=N, the number of frames that may wait (default 60).
 /// Fails with kInvalidOption (the URI), kNotFound (no such scheme, object, recording or device),
 /// kDeviceBusy, kNoPermission, kLibrary (no such driver), and what reading fails with.

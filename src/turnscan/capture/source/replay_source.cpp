@@ -1,8 +1,10 @@
-// A recording as a source of frames.
+// A recording, or what another program recorded, as a source of frames.
 
 #include <cmath>
 #include <turnscan/capture/source/pacer.hpp>
 #include <turnscan/core/units.hpp>
+#include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/import/importers.hpp>
 
 namespace turnscan::source {
 
@@ -32,17 +34,24 @@ Result<double> rate_of(const std::string& text) {
   return *rate;
 }
 
+/// What is played.
+struct Film {
+  std::unique_ptr<FrameSequence> frames;
+  CaptureSettings settings;
+};
+
 class ReplayGrabber : public Grabber {
  public:
-  ReplayGrabber(Recording recording, const SourceUri& uri, double rate, bool loop)
-      : recording_(std::move(recording)), pacer_(rate), loop_(loop) {
+  ReplayGrabber(Film film, const SourceUri& uri, double rate, bool loop)
+      : film_(std::move(film)), recording_(*film_.frames), pacer_(rate), loop_(loop) {
     info_.uri = format_source_uri(uri);
     info_.driver = uri.scheme;
     info_.header = recording_.header();
-    info_.settings = recording_.capture_settings();
+    info_.settings = film_.settings;
     info_.live = pacer_.live();
     if (!loop) info_.frame_count = recording_.frames().size();
-    const std::string name = recording_.folder().lexically_normal().filename().string();
+    const std::string name =
+        std::filesystem::path(uri.address).lexically_normal().filename().string();
     for (std::size_t k = 0; k < info_.header.sensors.size(); ++k)
       info_.identities.push_back(identity_text(fmt::format("replay-{}-{}", name, k)));
     find_rate();
@@ -124,7 +133,8 @@ class ReplayGrabber : public Grabber {
     if (count > 1) turned_rad_ = (last_rad - first_rad) * double(count) / double(count - 1);
   }
 
-  Recording recording_;
+  Film film_;
+  const FrameSequence& recording_;
   SourceInfo info_;
   Pacer pacer_;
   bool loop_;
@@ -134,6 +144,39 @@ class ReplayGrabber : public Grabber {
   std::size_t next_ = 0;
 };
 
+/// The parameters that are the replay's own, and those of an import. "speed" is the replay's.
+std::pair<SourceUri, SourceUri> split_parameters(const SourceUri& uri, const OptionTable& own,
+                                                 const OptionTable& import) {
+  SourceUri of_replay{uri.scheme, uri.address, {}}, of_import = of_replay;
+  for (const auto& parameter : uri.parameters) {
+    const bool imports =
+        own.find(parameter.first) == nullptr && import.find(parameter.first) != nullptr;
+    (imports ? of_import : of_replay).parameters.push_back(parameter);
+  }
+  return {of_replay, of_import};
+}
+
+Result<Film> open_film(const SourceUri& uri, const ImportOptions& import) {
+  const std::filesystem::path path(uri.address);
+  TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / "recording.json"));
+  Film film;
+  std::error_code error;
+  const bool stated = import.format != ImportFormat::kAuto;
+  if (!recording_there &&
+      (stated || is_foreign(path) || std::filesystem::is_regular_file(path, error))) {
+    TURNSCAN_ASSIGN(film.frames, open_foreign(path, import));
+    return film;
+  }
+  if (!uri.parameters.empty())
+    return fail(ErrorCode::kInvalidOption,
+                "replay: {} is for files of other programs, and {} is a recording; leave it out",
+                uri.parameters.front().first, uri.address);
+  TURNSCAN_ASSIGN(Recording recording, Recording::open(path));
+  film.settings = recording.capture_settings();
+  film.frames = std::make_unique<Recording>(std::move(recording));
+  return film;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Grabber>> open_replay(const SourceUri& uri, const RunContext& context) {
@@ -141,12 +184,16 @@ Result<std::unique_ptr<Grabber>> open_replay(const SourceUri& uri, const RunCont
     return fail(ErrorCode::kInvalidOption,
                 "replay: there is no folder; write replay:FOLDER, e.g. replay:scans/bear");
   ReplayOptions options;
-  TURNSCAN_TRY(set_from_uri(uri, describe(options)));
+  ImportOptions import;
+  const OptionTable own = describe(options), importing = describe(import);
+  const auto [of_replay, of_import] = split_parameters(uri, own, importing);
+  TURNSCAN_TRY(set_from_uri(of_replay, own));
+  TURNSCAN_TRY(set_from_uri(of_import, importing));
   TURNSCAN_ASSIGN(const double rate, rate_of(options.speed));
   TURNSCAN_TRY(context.check());
-  TURNSCAN_ASSIGN(Recording recording, Recording::open(uri.address));
+  TURNSCAN_ASSIGN(Film film, open_film(of_import, import));
   return std::unique_ptr<Grabber>(
-      std::make_unique<ReplayGrabber>(std::move(recording), uri, rate, options.loop));
+      std::make_unique<ReplayGrabber>(std::move(film), uri, rate, options.loop));
 }
 
 }  // namespace turnscan::source

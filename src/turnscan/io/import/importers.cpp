@@ -238,6 +238,8 @@ const std::vector<ImporterInfo>& importers() {
   return infos;
 }
 
+bool is_foreign(const fs::path& path) { return bool(recognise(path, {})); }
+
 Result<std::unique_ptr<FrameSequence>> open_foreign(const fs::path& path,
                                                     const ImportOptions& options) {
   TURNSCAN_TRY(options.check());

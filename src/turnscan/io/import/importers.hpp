@@ -79,6 +79,9 @@ const std::vector<ImporterInfo>& importers();
 Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
                                                     const ImportOptions& options);
 
+/// Whether path is a file or folder of a layout that open_foreign() recognises without options.
+bool is_foreign(const std::filesystem::path& path);
+
 /// One or more data sets as the passes of one object, counted through from 0 on. Where frames have
 /// poses, they hold within their pass. Fails as open_foreign() does, and with kInvalidOption when
 /// their sensors or turntables differ.
