@@ -45,7 +45,8 @@ LOCALE_CALLS = re.compile(r"\b(stod|stof|stold|atof|strtod|strtof|sscanf|fscanf|
 HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.edu", "doi.org", "arxiv.org",
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de", "learn.microsoft.com",
-         "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com"}
+         "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com",
+         "wiki.ros.org", "docs.ros.org", "www.ros.org"}
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.
 MACHINE_PATH = re.compile(r"(?:^|[\s\"'`(=:,])((?:/(?:work|home|root|mnt|farm|tmp|Users)/\w"

@@ -5,6 +5,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/matroska/matroska.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
+#include <turnscan/io/rosbag/bag_file.hpp>
 
 namespace turnscan::foreign {
 
@@ -59,7 +60,11 @@ const std::vector<Importer>& table() {
        {"min-confidence", "device-poses", "world-up", "clockwise"}},
       {{ImportFormat::kRtabmap, "rtabmap", "RTAB-Map's export (NAME_depth, NAME_rgb, NAME_calib)"},
        open_rtabmap,
-       {"depth-unit", "device-poses", "world-up", "clockwise"}}};
+       {"depth-unit", "device-poses", "world-up", "clockwise"}},
+      {{ImportFormat::kRosbag, "rosbag",
+        "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
+       open_rosbag,
+       {"depth-unit", "intrinsics", "topic", "clockwise"}}};
   return importers;
 }
 
@@ -109,6 +114,7 @@ ImportFormat recognise_file(const fs::path& path) {
   if (!begin) return ImportFormat::kAuto;
   if (begin->starts_with("PK\3\4")) return ImportFormat::kRecord3d;
   if (sens::looks_like_sens(*begin)) return ImportFormat::kSens;
+  if (begin->starts_with(rosbag::kMagic)) return ImportFormat::kRosbag;
   return ImportFormat::kAuto;
 }
 
@@ -138,6 +144,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   const auto note = [&](bool is_stated, std::string_view name) {
     if (is_stated) stated.push_back(name);
   };
+  note(!o.topic.empty(), "topic");
   note(!o.angles.empty(), "angles");
   note(o.depth_unit_m.has_value(), "depth-unit");
   note(o.point_unit != LengthUnit::kAuto, "point-unit");
@@ -185,8 +192,9 @@ OptionTable describe(ImportOptions& o) {
   OptionTable table;
   table.choice("format", o.format,
                {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
-                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap"},
+                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag"},
                "Layout of the data set; auto recognises it by its files");
+  table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text("angles", o.angles,
              "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
   table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},

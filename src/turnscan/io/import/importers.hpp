@@ -26,7 +26,8 @@ enum class ImportFormat {
   kRecord3d,
   kSens,
   kScannerApp,
-  kRtabmap
+  kRtabmap,
+  kRosbag
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
@@ -37,6 +38,7 @@ enum class Confidence { kAuto, kLow, kMedium, kHigh };
 
 struct ImportOptions {
   ImportFormat format = ImportFormat::kAuto;
+  std::string topic;                          ///< of a bag's depth images
   std::string angles;                         ///< file of a cloud folder's angles or times
   std::optional<double> depth_unit_m;         ///< per step of the depth images
   LengthUnit point_unit = LengthUnit::kAuto;  ///< of scans
@@ -70,7 +72,7 @@ struct ImporterInfo {
 };
 const std::vector<ImporterInfo>& importers();
 
-/// Opens a data set. path is a file (.conf, .json, .mkv) or a folder. Files are read when frames
+/// Opens a data set. path is a file (.conf, .json, .mkv, .bag, .r3d, .sens) or a folder. Files are read when frames
 /// are read; read() may be called from several threads. What was assumed stands in header().source,
 /// one line each after the first. Depth images: 65535 of a foreign image becomes kNoReturn.
 /// Fails with kNotFound (no such path or a named file is missing), kUnsupported (the layout is not

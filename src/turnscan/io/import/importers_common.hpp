@@ -57,6 +57,7 @@ OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions
 bool is_scanner_app_frame(std::string_view name);
 /// "depth" or "NAME_depth": the folder in which RTAB-Map's export puts depth images.
 bool is_rtabmap_depth_folder(std::string_view name);
+OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options);
 
 /// Text files of data sets are refused beyond this.
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t(16) << 20;

@@ -1,0 +1,26 @@
+// ROS 1 bags: recordings of a RealSense by librealsense, and others with images of depth.
+
+#include <turnscan/io/import/bag_sequence.hpp>
+#include <turnscan/io/import/importers_common.hpp>
+
+namespace turnscan::foreign {
+
+OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options) {
+  TURNSCAN_ASSIGN(rosbag::Bag bag, rosbag::Bag::open(path));
+  if (bag.connections().empty())
+    return fail_at(path.string(), ErrorCode::kFormat,
+                   "there is no message in the bag{}{}; record again",
+                   bag.cut().empty() ? "" : ", which could not be read to its end: ", bag.cut());
+  auto streams = is_realsense(bag) ? realsense_streams(bag, options) : ros_streams(bag, options);
+  if (!streams) return at_path(path, streams.error());
+  SequenceHeader header;
+  header.source = streams->origin;
+  header.sensors.push_back(streams->sensor);
+  for (const std::string& note : streams->notes) add_note(header, note);
+  TURNSCAN_TRY(apply_turntable_options(options, true, header));
+  auto sequence = make_bag_sequence(std::move(bag), std::move(*streams), std::move(header));
+  if (!sequence) return at_path(path, sequence.error());
+  return sequence;
+}
+
+}  // namespace turnscan::foreign

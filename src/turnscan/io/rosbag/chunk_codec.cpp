@@ -1,0 +1,95 @@
+#include <bzlib.h>
+#include <lz4frame.h>
+
+#include <algorithm>
+#include <turnscan/io/rosbag/chunk_codec.hpp>
+
+namespace turnscan::rosbag {
+
+namespace {
+
+constexpr std::size_t kFirstRoom = std::size_t(1) << 20;
+
+/// Room for more, doubled each time, so that a size that is not true costs nothing.
+void widen(std::string& out, std::size_t size) {
+  out.resize(std::min(size, std::max(kFirstRoom, 2 * out.size())));
+}
+
+tl::unexpected<Error> damaged(std::string_view why) {
+  return fail(ErrorCode::kFormat, "the chunk cannot be unpacked: {}; the file is damaged", why);
+}
+
+Result<std::string> unpack_lz4(std::string_view bytes, std::size_t size) {
+  LZ4F_dctx* context = nullptr;
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)))
+    return fail(ErrorCode::kLibrary, "liblz4 gives no context; there may be too little memory");
+  std::string out;
+  std::size_t made = 0, left = 1;
+  std::string_view problem;
+  while (left != 0 && problem.empty()) {
+    if (made == out.size() && made < size) widen(out, size);
+    std::size_t room = out.size() - made, taken = bytes.size();
+    left = LZ4F_decompress(context, out.data() + made, &room, bytes.data(), &taken, nullptr);
+    if (LZ4F_isError(left))
+      problem = LZ4F_getErrorName(left);
+    else if (room == 0 && taken == 0 && left != 0)
+      problem = bytes.empty() ? "its data end too early" : "it is longer than its header says";
+    made += room;
+    bytes.remove_prefix(std::min(taken, bytes.size()));
+  }
+  LZ4F_freeDecompressionContext(context);
+  if (!problem.empty()) return damaged(problem);
+  if (made != size) return damaged("its length is not that of its header");
+  return out;
+}
+
+Result<std::string> unpack_bz2(std::string_view bytes, std::size_t size) {
+  bz_stream stream{};
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK)
+    return fail(ErrorCode::kLibrary, "libbz2 cannot begin; there may be too little memory");
+  stream.next_in = const_cast<char*>(bytes.data());
+  stream.avail_in = static_cast<unsigned>(bytes.size());
+  std::string out;
+  std::size_t made = 0;
+  int state = BZ_OK;
+  while (state == BZ_OK) {
+    if (made == out.size() && made < size) widen(out, size);
+    if (made == out.size()) break;  // as long as its header says
+    const unsigned room = static_cast<unsigned>(out.size() - made);
+    stream.next_out = out.data() + made;
+    stream.avail_out = room;
+    const unsigned before = stream.avail_in;
+    state = BZ2_bzDecompress(&stream);
+    made += room - stream.avail_out;
+    if (state == BZ_OK && stream.avail_out == room && stream.avail_in == before) break;
+  }
+  BZ2_bzDecompressEnd(&stream);
+  if (state != BZ_OK && state != BZ_STREAM_END) return damaged(fmt::format("bzip2 says {}", state));
+  if (made != size) return damaged("its length is not that of its header");
+  return out;
+}
+
+}  // namespace
+
+Result<Packing> packing_of(std::string_view name) {
+  if (name == "none") return Packing::kNone;
+  if (name == "bz2") return Packing::kBz2;
+  if (name == "lz4") return Packing::kLz4;
+  return fail(ErrorCode::kUnsupported, "a chunk is packed by '{}'; none, bz2 and lz4 are read",
+              name.substr(0, 40));
+}
+
+Result<std::string> unpack(Packing packing, std::string_view bytes, std::size_t size) {
+  switch (packing) {
+    case Packing::kBz2:
+      return unpack_bz2(bytes, size);
+    case Packing::kLz4:
+      return unpack_lz4(bytes, size);
+    case Packing::kNone:
+      break;
+  }
+  if (bytes.size() != size) return damaged("its length is not that of its header");
+  return std::string(bytes);
+}
+
+}  // namespace turnscan::rosbag
