@@ -46,7 +46,7 @@ std::vector<Shot> shots_of(const Bag& bag, const std::string& topic) {
   return shots;
 }
 
-double seconds(std::int64_t ns) { return double(ns) * 1e-9; }
+double seconds(std::int64_t ns) { return double(ns) / 1e9; }
 
 /// Whether the headers' times can be used: all there, and none runs back.
 bool stamped(const std::vector<Shot>& shots) {
