@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <tuple>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/import/bag_sequence.hpp>
@@ -28,14 +30,23 @@ struct Shot {
   bool good = false;
 };
 
-/// The messages of a topic with what their headers say; those that cannot be read are not good.
-std::vector<Shot> shots_of(const Bag& bag, const std::string& topic) {
-  const std::vector<MessagePlace> places = bag.messages(topic);
-  std::vector<Shot> shots(places.size());
-  parallel_for(places.size(), 16, [&](std::size_t i) {
-    Shot& shot = shots[i];
-    shot.place = places[i];
-    const auto message = bag.read(places[i], kHeaderBytes);
+/// The messages of two topics with what their headers say; those that cannot be read are not good.
+/// In the order of the file, so that each chunk is unpacked once.
+std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& streams) {
+  std::array<std::vector<Shot>, 2> shots;
+  std::vector<Shot*> in_file;
+  for (const bool color : {false, true}) {
+    const std::string& topic = color ? streams.color_topic : streams.depth_topic;
+    if (topic.empty()) continue;
+    for (const MessagePlace& place : bag.messages(topic)) shots[color].push_back({place});
+    for (Shot& shot : shots[color]) in_file.push_back(&shot);
+  }
+  std::sort(in_file.begin(), in_file.end(), [](const Shot* a, const Shot* b) {
+    return std::tie(a->place.chunk, a->place.offset) < std::tie(b->place.chunk, b->place.offset);
+  });
+  parallel_for(in_file.size(), 16, [&](std::size_t i) {
+    Shot& shot = *in_file[i];
+    const auto message = bag.read(shot.place, kHeaderBytes);
     if (!message) return;
     const auto header = rosbag::parse_header(message->bytes);
     if (!header) return;
@@ -151,7 +162,7 @@ class BagSequence : public FrameSequence {
 };
 
 Result<> BagSequence::list() {
-  std::vector<Shot> shots = shots_of(bag_, streams_.depth_topic);
+  auto [shots, colors] = shots_of(bag_, streams_);
   const std::size_t all = shots.size();
   std::erase_if(shots, [](const Shot& shot) { return !shot.good; });
   if (shots.empty())
@@ -160,8 +171,6 @@ Result<> BagSequence::list() {
   if (shots.size() < all)
     add_note(header_,
              fmt::format("{} of {} frames are damaged and were left out", all - shots.size(), all));
-  std::vector<Shot> colors;
-  if (!streams_.color_topic.empty()) colors = shots_of(bag_, streams_.color_topic);
   std::erase_if(colors, [](const Shot& shot) { return !shot.good; });
   const Timeline times = timeline_of(shots, colors, header_);
   add_frames(shots, times.depth_ns);

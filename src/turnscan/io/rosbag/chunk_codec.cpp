@@ -8,9 +8,9 @@ namespace turnscan::rosbag {
 
 namespace {
 
-constexpr std::size_t kFirstRoom = std::size_t(1) << 20;
+constexpr std::size_t kFirstRoom = std::size_t(16) << 20;
 
-/// Room for more, doubled each time, so that a size that is not true costs nothing.
+/// Room for more, doubled each time, so that a size that is not true costs little.
 void widen(std::string& out, std::size_t size) {
   out.resize(std::min(size, std::max(kFirstRoom, 2 * out.size())));
 }
@@ -26,10 +26,12 @@ Result<std::string> unpack_lz4(std::string_view bytes, std::size_t size) {
   std::string out;
   std::size_t made = 0, left = 1;
   std::string_view problem;
+  LZ4F_decompressOptions_t options{};
+  options.stableDst = size <= kFirstRoom ? 1 : 0;  // it never moves: liblz4 need not copy it
   while (left != 0 && problem.empty()) {
     if (made == out.size() && made < size) widen(out, size);
     std::size_t room = out.size() - made, taken = bytes.size();
-    left = LZ4F_decompress(context, out.data() + made, &room, bytes.data(), &taken, nullptr);
+    left = LZ4F_decompress(context, out.data() + made, &room, bytes.data(), &taken, &options);
     if (LZ4F_isError(left))
       problem = LZ4F_getErrorName(left);
     else if (room == 0 && taken == 0 && left != 0)
