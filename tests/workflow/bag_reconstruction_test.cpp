@@ -60,6 +60,7 @@ TEST(BagReconstruction, IsThatOfTheRecordingItWasMadeOf) {
   const auto bag = open_input(folder / "take.bag");
   ASSERT_TRUE(bag) << bag.error().text();
   EXPECT_TRUE(bag->imported);
+  EXPECT_EQ(bag->notes, (std::vector<std::string>{"recorded by Intel RealSense D435"}));
   const std::string turntable = (folder / "rec/recording.json").string();
   const TriangleMesh wanted = mesh_of(native, turntable, speed);
   const TriangleMesh got = mesh_of(*bag->frames, turntable, speed);

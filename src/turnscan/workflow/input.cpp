@@ -11,6 +11,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecordingFile = "recording.json";
 
+/// The lines after the first, which says where the data come from.
+std::vector<std::string> assumptions_of(const std::string& source) {
+  std::vector<std::string> lines;
+  for (std::size_t end = source.find('\n'); end != std::string::npos;) {
+    const std::size_t begin = end + 1;
+    end = source.find('\n', begin);
+    lines.push_back(source.substr(begin, end - begin));
+  }
+  return lines;
+}
+
 /// Of a file, or of the regular files in a folder and below.
 std::uint64_t bytes_of(const fs::path& path) {
   std::error_code error;
@@ -42,6 +53,7 @@ Result<Input> open_input(const fs::path& path, const ImportOptions& options) {
   if (!named && !recording_there && !unknown_folder) {
     TURNSCAN_ASSIGN(out.frames, open_foreign(path, options));
     out.imported = true;
+    out.notes = assumptions_of(out.frames->header().source);
     out.bytes = bytes_of(path);
     return out;
   }
@@ -94,8 +106,10 @@ Result<Input> keep_input(const fs::path& path, const Input& input, const fs::pat
 
 Result<SequenceSummary> summarize(const Input& input, const RunContext& context) {
   TURNSCAN_ASSIGN(SequenceSummary summary, summarize(*input.frames, context));
-  summary.notes.insert(summary.notes.end(), input.notes.begin(), input.notes.end());
-  if (input.imported) summary.bytes = input.bytes;
+  if (input.imported)
+    summary.bytes = input.bytes;  // what was assumed stands in the summary already
+  else
+    summary.notes.insert(summary.notes.end(), input.notes.begin(), input.notes.end());
   return summary;
 }
 

@@ -15,8 +15,9 @@ namespace turnscan {
 
 struct Input {
   std::unique_ptr<FrameSequence> frames;  ///< files are read when frames are read
-  std::vector<std::string>
-      notes;                ///< what is missing or out of order in a recording, a sentence each
+  /// What is missing or out of order in a recording, or was assumed of a data set of another
+  /// program, a sentence each.
+  std::vector<std::string> notes;
   bool imported = false;    ///< of another program
   std::uint64_t bytes = 0;  ///< of the files of another program
 };
