@@ -175,15 +175,18 @@ TEST(Plan, SaysInOneLineWhatIsWrong) {
 }
 
 TEST(Plan, LeavesAFolderAloneThatIsNotItsOwn) {
-  const TempFolder folder;
-  std::filesystem::create_directories(folder / "kept");
-  std::ofstream(folder / "kept" / "letter.txt") << "mine";
-  PlanRequest request = small_request();
-  request.folder = (folder / "kept").string();
-  const auto outcome = run_plan(request, {});
-  ASSERT_FALSE(outcome);
-  EXPECT_EQ(outcome.error().code, ErrorCode::kAlreadyExists);
-  EXPECT_EQ(content_of(folder / "kept" / "letter.txt"), "mine");
+  // The last ones look like files of a plan, and are none.
+  for (const char* name : {"letter.txt", "plan-b.ply", "plan-1.ply", "plan-notes.toml"}) {
+    const TempFolder folder;
+    std::filesystem::create_directories(folder / "kept");
+    std::ofstream(folder / "kept" / name) << "mine";
+    PlanRequest request = small_request();
+    request.folder = (folder / "kept").string();
+    const auto outcome = run_plan(request, {});
+    ASSERT_FALSE(outcome) << name;
+    EXPECT_EQ(outcome.error().code, ErrorCode::kAlreadyExists);
+    EXPECT_EQ(content_of(folder / "kept" / name), "mine");
+  }
 }
 
 TEST(PlanScanners, AreDividedAtNamesWithoutValues) {

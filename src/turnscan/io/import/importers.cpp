@@ -4,8 +4,8 @@
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/matroska/matroska.hpp>
-#include <turnscan/io/sens/sens_file.hpp>
 #include <turnscan/io/rosbag/bag_file.hpp>
+#include <turnscan/io/sens/sens_file.hpp>
 
 namespace turnscan::foreign {
 
@@ -190,10 +190,11 @@ Result<> ImportOptions::check() const {
 
 OptionTable describe(ImportOptions& o) {
   OptionTable table;
-  table.choice("format", o.format,
-               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
-                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag"},
-               "Layout of the data set; auto recognises it by its files");
+  table.choice(
+      "format", o.format,
+      {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png", "matroska",
+       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag"},
+      "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text("angles", o.angles,
              "Table of a folder of scans, with the columns file,angle_deg or file,time_s");

@@ -72,12 +72,12 @@ struct ImporterInfo {
 };
 const std::vector<ImporterInfo>& importers();
 
-/// Opens a data set. path is a file (.conf, .json, .mkv, .bag, .r3d, .sens) or a folder. Files are read when frames
-/// are read; read() may be called from several threads. What was assumed stands in header().source,
-/// one line each after the first. Depth images: 65535 of a foreign image becomes kNoReturn.
-/// Fails with kNotFound (no such path or a named file is missing), kUnsupported (the layout is not
-/// recognised), kInvalidOption (an option is wrong or has no meaning for the layout), kMissingData
-/// (a unit, intrinsics or the like must be given) and kFormat.
+/// Opens a data set. path is a file (.conf, .json, .mkv, .bag, .r3d, .sens) or a folder. Files are
+/// read when frames are read; read() may be called from several threads. What was assumed stands in
+/// header().source, one line each after the first. Depth images: 65535 of a foreign image becomes
+/// kNoReturn. Fails with kNotFound (no such path or a named file is missing), kUnsupported (the
+/// layout is not recognised), kInvalidOption (an option is wrong or has no meaning for the layout),
+/// kMissingData (a unit, intrinsics or the like must be given) and kFormat.
 Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
                                                     const ImportOptions& options);
 

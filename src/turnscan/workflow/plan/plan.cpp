@@ -221,7 +221,7 @@ void remove_earlier(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name == "plan.json" || name.starts_with("plan-")) fs::remove(entry.path(), ignored);
+    if (is_plan_file(name)) fs::remove(entry.path(), ignored);
   }
 }
 

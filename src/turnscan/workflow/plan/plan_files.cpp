@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <regex>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
@@ -70,11 +71,12 @@ std::string reason_words(Miss reason) {
   }
 }
 
-bool belongs_to_plan(const std::string& name) {
-  return name == "plan.json" || name == "trials" || name.starts_with("plan-");
-}
-
 }  // namespace
+
+bool is_plan_file(const std::string& name) {
+  static const std::regex written(R"(plan-[0-9]+(-[0-9]+-[A-Za-z0-9_-]*)?\.(toml|png))");
+  return name == "plan.json" || std::regex_match(name, written);
+}
 
 Result<> check_plan_folder(const std::string& folder) {
   std::error_code error;
@@ -82,7 +84,8 @@ Result<> check_plan_folder(const std::string& folder) {
   if (!fs::is_directory(folder, error))
     return fail_at(folder, ErrorCode::kAlreadyExists, "there is a file of this name; give another");
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (!belongs_to_plan(entry.path().filename().string()))
+    if (const std::string name = entry.path().filename().string();
+        name != "trials" && !is_plan_file(name))
       return fail_at(folder, ErrorCode::kAlreadyExists,
                      "the folder has other content ({}); give an empty or a new one",
                      entry.path().filename().string());

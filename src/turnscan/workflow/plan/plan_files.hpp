@@ -20,7 +20,10 @@ Result<ColorImage> plan_picture(const PlanField& field, std::size_t object, cons
                                 const std::optional<double>& max_error_m,
                                 const RunContext& context);
 
-/// The name of a plan's file: plan-K, or with several objects plan-K-NAME; NAME from the object.
+/// Whether a plan writes files of this name into its folder, beside the folder of its trials.
+bool is_plan_file(const std::string& name);
+
+/// The name of a plan's file: plan-K, or with several objects plan-K-N-NAME; NAME from the object.
 std::string plan_file_name(const PlanRequest& request, std::size_t rank, std::size_t object);
 
 }  // namespace turnscan::workflow

@@ -1,7 +1,7 @@
 // ROS 1 bags: recordings of a RealSense by librealsense, and others with images of depth.
 
-#include <turnscan/io/import/bag_sequence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/import_ros/bag_sequence.hpp>
 
 namespace turnscan::foreign {
 

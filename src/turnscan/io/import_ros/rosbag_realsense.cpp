@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/import/importers_common.hpp>
-#include <turnscan/io/import/ros_camera.hpp>
-#include <turnscan/io/import/ros_images.hpp>
-#include <turnscan/io/import/rosbag_streams.hpp>
+#include <turnscan/io/import_ros/ros_camera.hpp>
+#include <turnscan/io/import_ros/ros_images.hpp>
+#include <turnscan/io/import_ros/rosbag_streams.hpp>
 
 namespace turnscan::foreign {
 

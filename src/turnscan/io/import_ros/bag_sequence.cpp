@@ -6,9 +6,9 @@
 #include <tuple>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/version.hpp>
-#include <turnscan/io/import/bag_sequence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
-#include <turnscan/io/import/ros_images.hpp>
+#include <turnscan/io/import_ros/bag_sequence.hpp>
+#include <turnscan/io/import_ros/ros_images.hpp>
 
 namespace turnscan::foreign {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <turnscan/io/file/load_value.hpp>
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/io/import/ros_images.hpp>
+#include <turnscan/io/import_ros/ros_images.hpp>
 
 namespace turnscan::foreign {
 

@@ -1,7 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <turnscan/io/import/ros_camera.hpp>
+#include <turnscan/io/import_ros/ros_camera.hpp>
 
 namespace turnscan::foreign {
 

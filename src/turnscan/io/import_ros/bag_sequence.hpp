@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <turnscan/core/frame.hpp>
-#include <turnscan/io/import/rosbag_streams.hpp>
+#include <turnscan/io/import_ros/rosbag_streams.hpp>
 #include <vector>
 
 namespace turnscan::foreign {
