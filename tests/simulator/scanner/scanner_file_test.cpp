@@ -21,10 +21,10 @@ std::string refusal(const TempFolder& folder, const std::string& text) {
 
 TEST(ScannerFile, ReadsEveryPreset) {
   const std::vector<std::string> names = scanner_presets();
-  EXPECT_EQ(names, (std::vector<std::string>{"azure-kinect", "gocator", "ideal", "iphone-lidar",
-                                             "iphone-truedepth", "kinect-v1", "kinect-v2",
-                                             "orbbec-femto", "realsense-d405", "realsense-d435",
-                                             "realsense-d455"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"azure-kinect", "gocator", "ideal", "iphone-lidar",
+                                      "iphone-truedepth", "kinect-v1", "kinect-v2", "orbbec-femto",
+                                      "realsense-d405", "realsense-d435", "realsense-d455"}));
   for (const std::string& name : names) {
     const auto model = find_scanner(name);
     ASSERT_TRUE(model) << model.error().text();
