@@ -103,15 +103,16 @@ void JobRunner::watch(RunContext& context) {
 
 void JobRunner::end(const std::shared_ptr<Job>& job, Result<Finish> result) {
   --open_jobs_;
-  if (job->owner) {
-    if (result && *result) (*result)();
-    if (!result && result.error().code != ErrorCode::kCancelled && job->on_error)
-      job->on_error(QString::fromStdString(result.error().text()));
-  }
+  // Before the error itself, which may go to the same line.
   if (!result && result.error().code == ErrorCode::kCancelled) {
     Q_EMIT cancelled(job->title);
   } else if (!result) {
     Q_EMIT failed(job->title);
+  }
+  if (job->owner) {
+    if (result && *result) (*result)();
+    if (!result && result.error().code != ErrorCode::kCancelled && job->on_error)
+      job->on_error(QString::fromStdString(result.error().text()));
   }
   Q_EMIT finished(job->title, result.has_value());
 }

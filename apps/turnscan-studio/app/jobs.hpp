@@ -40,9 +40,9 @@ class JobRunner : public QObject {
   void progress(const QString& phase, double fraction, double seconds_left);
   /// The title of the job, and whether its result was used.
   void finished(const QString& title, bool good);
-  /// Before finished(), of a job that was cancelled.
+  /// Before OnError and finished(), of a job that was cancelled.
   void cancelled(const QString& title);
-  /// Before finished(), of one that failed.
+  /// The same, of one that failed.
   void failed(const QString& title);
 
  private:

@@ -33,7 +33,7 @@ void SidePanel::show_missing(const std::shared_ptr<const MissingSurface>& missin
                            : tr("Select a mesh that was made from a recording: what no view saw of "
                                 "it, and how to lay it for the next pass, stands here."));
   draw_->setEnabled(missing && missing->drawable);
-  scan_->setEnabled(missing != nullptr);
+  scan_->setEnabled(missing && !missing->side.recording.isEmpty());
 }
 
 bool SidePanel::drawn() const { return draw_->isChecked(); }

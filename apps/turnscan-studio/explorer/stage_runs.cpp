@@ -1,5 +1,7 @@
 #include "explorer/stage_runs.hpp"
 
+#include <QDir>
+#include <QFileInfo>
 #include <optional>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
 #include <turnscan/turntable/rotation.hpp>
@@ -76,7 +78,9 @@ DrawablePtr unseen_drawable(const ObjectResult& object) {
 /// Of the largest object of a run on a recording.
 std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, const Model& model) {
   auto out = std::make_shared<MissingSurface>();
-  out->side.recording = model.data->source;
+  // A pass can be added to a recording, not to a file of another program.
+  const bool is_recording = QFileInfo(QDir(model.data->source).filePath("recording.json")).exists();
+  if (is_recording) out->side.recording = model.data->source;
   if (!run.next_pass) {
     out->side.advice = QObject::tr("Hardly anything of it was not seen.");
     return out;

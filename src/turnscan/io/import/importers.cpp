@@ -105,14 +105,22 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
 }
 
 /// By the first bytes; kAuto: not recognised.
+/// Of many files that are zip archives (3MF, documents) by the name of its first entry.
+bool begins_as_record3d(std::string_view begin) {
+  constexpr std::size_t kNameAt = 30;  // in a local header
+  if (!begin.starts_with("PK\3\4") || begin.size() <= kNameAt) return false;
+  const std::string_view name = begin.substr(kNameAt);
+  return name.starts_with("metadata") || name.starts_with("rgbd/");
+}
+
 ImportFormat recognise_file(const fs::path& path) {
   if (path.extension() == ".mkv" || matroska::is_matroska_file(path))
     return ImportFormat::kMatroska;
   const auto file = file::RandomAccessFile::open(path);
   if (!file) return ImportFormat::kAuto;
-  const auto begin = file->read(0, std::min<std::uint64_t>(file->size(), 16));
+  const auto begin = file->read(0, std::min<std::uint64_t>(file->size(), 64));
   if (!begin) return ImportFormat::kAuto;
-  if (begin->starts_with("PK\3\4")) return ImportFormat::kRecord3d;
+  if (path.extension() == ".r3d" || begins_as_record3d(*begin)) return ImportFormat::kRecord3d;
   if (sens::looks_like_sens(*begin)) return ImportFormat::kSens;
   if (begin->starts_with(rosbag::kMagic)) return ImportFormat::kRosbag;
   return ImportFormat::kAuto;
