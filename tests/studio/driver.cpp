@@ -23,7 +23,11 @@
 
 namespace turnscan::studio {
 
-FirstStart::FirstStart() { QSettings().clear(); }
+FirstStart::FirstStart() {
+  QSettings().clear();
+  // What is kept of a device by an earlier test, or by a command line that it ran.
+  QDir(qEnvironmentVariable("XDG_STATE_HOME") + "/turnscan/calibrations").removeRecursively();
+}
 
 void show_window(MainWindow& window, const QSize& size) {
   window.resize(size);

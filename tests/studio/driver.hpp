@@ -14,8 +14,8 @@ namespace turnscan::studio {
 
 class MainWindow;
 
-/// Settings as at the first start, whatever the test before has left. To be a base of the fixture,
-/// before the window.
+/// Settings and calibrations as at the first start, whatever the test before has left. To be a base
+/// of the fixture, before the window.
 struct FirstStart {
   FirstStart();
 };

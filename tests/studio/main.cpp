@@ -5,6 +5,25 @@
 #include <QTemporaryDir>
 
 #include "app/program.hpp"
+#include "widgets/message_log.hpp"
+
+namespace {
+
+/// What the window said before a check failed.
+class Said : public testing::EmptyTestEventListener {
+  void OnTestStart(const testing::TestInfo&) override { first_ = QDateTime::currentDateTime(); }
+  void OnTestPartResult(const testing::TestPartResult& part) override {
+    if (!part.failed()) return;
+    for (const auto& entry : turnscan::studio::messages().entries())
+      if (entry.time >= first_)
+        std::fprintf(stderr, "said%s at %s: %s\n", entry.error ? " as an error" : "",
+                     qUtf8Printable(entry.time.toString("HH:mm:ss.zzz")),
+                     qUtf8Printable(entry.text));
+  }
+  QDateTime first_;
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
@@ -17,5 +36,6 @@ int main(int argc, char** argv) {
   turnscan::studio::prepare_application();
   QApplication app(argc, argv);
   turnscan::studio::name_application();
+  testing::UnitTest::GetInstance()->listeners().Append(new Said);
   return RUN_ALL_TESTS();
 }

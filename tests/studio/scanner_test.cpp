@@ -145,6 +145,36 @@ TEST_F(Scanner, ATableThatHasMovedIsToldAndTheMotionTakesOver) {
   EXPECT_TRUE(wait_for([&] { return !banner->isVisible(); }));
 }
 
+TEST_F(Scanner, WhatIsKeptOfARigThatHasMovedSinceIsNotUsed) {
+  const QString uri = "virtual:doll?sensor=kinect-v2&realtime=1&frames=6000";
+  ASSERT_EQ(run_command_line({"calibrate", "--device", uri, "--detect"}), 0);
+  mode().set_device(uri);
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return mode().rig_check().has_value(); }));
+  EXPECT_NE(mode().calibration(), nullptr);
+  ASSERT_TRUE(click(button_with(mode(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Play"); }));
+  mode().set_device(uri + "&table-x=10mm");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return mode().calibration() != nullptr; }));
+  EXPECT_TRUE(wait_for([&] { return mode().calibration() == nullptr; }));
+  run_for(500);
+  EXPECT_EQ(mode().calibration(), nullptr);
+  EXPECT_FALSE(named(mode(), "rig_moved")->isVisible());
+  const auto labels = mode().findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+    return label->text().startsWith("The calibration of the last recording is not used");
+  }));
+  // A device that says itself where its table is needs nothing that is kept.
+  ASSERT_TRUE(click(button_with(mode(), "Stop")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Play"); }));
+  mode().set_device("virtual:skull?sensor=kinect-v2&calibration=true&realtime=1&frames=6000");
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record"); }));
+  run_for(300);
+  EXPECT_EQ(mode().calibration(), nullptr);
+}
+
 TEST_F(Scanner, RecordsUntilTheTurnIsDoneAndReconstructsAsTheCommandLineDoes) {
   mode().set_device(
       "virtual:letter-a?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=200");

@@ -10,8 +10,9 @@ namespace turnscan::studio {
 
 namespace {
 
+/// From an earlier recording, unless the device itself says where its table is.
 std::shared_ptr<const Calibration> kept_of(const SourceInfo& info) {
-  if (info.identities.empty()) return nullptr;
+  if (info.header.turntable || info.identities.empty()) return nullptr;
   auto kept = kept_calibration(info.identities.front());
   if (!kept || !*kept) return nullptr;
   return std::make_shared<const Calibration>(std::move(**kept));

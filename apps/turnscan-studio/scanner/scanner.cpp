@@ -144,6 +144,7 @@ QWidget* ScannerMode::make_banner() {
 
 void ScannerMode::show_rig(const std::optional<RigCheck>& rig) {
   rig_ = calibration_ ? rig : std::nullopt;
+  if (rig_ && rig_->moved && is_kept_ && !recording_) drop_kept_calibration();
   const bool moved = rig_ && rig_->moved;
   if (moved && !banner_->isVisible()) banner_text_->show_text(QString::fromStdString(rig_->text));
   banner_->setVisible(moved && !recording_);
@@ -210,6 +211,7 @@ void ScannerMode::toggle_play() {
     return;
   }
   take_device(chosen_uri());
+  kept_is_outdated_ = false;
   set_still(false);
   framed_ = false;
   play_->setText(tr("Stop"));
@@ -253,7 +255,7 @@ void ScannerMode::show_state(const LiveState& state) {
   show_seen(state);
   show_rig(state.open ? state.rig : std::nullopt);
   if (!state.open) return;
-  if (state.kept && !calibration_) show_calibration(state.kept, true);
+  if (state.kept && !calibration_ && !kept_is_outdated_) show_calibration(state.kept, true);
   average_->setEnabled(!averaging_);
   filter_->setEnabled(state.table_known);
   if (play_->isEnabled())

@@ -88,6 +88,7 @@ class ScannerMode : public Mode {
   void fit_picks();
   void show_calibration(std::shared_ptr<const Calibration> calibration, bool kept = false);
   void draw_calibration();
+  void drop_kept_calibration();
   void toggle_record();
   void set_still(bool still);
 
@@ -97,7 +98,9 @@ class ScannerMode : public Mode {
   std::shared_ptr<const AveragedScan> scan_;
   std::shared_ptr<const Calibration> calibration_;
   QString played_uri_;
-  bool for_next_device_ = false;  ///< the calibration was loaded before a device played
+  bool for_next_device_ = false;   ///< the calibration was loaded before a device played
+  bool is_kept_ = false;           ///< the calibration is that of an earlier recording
+  bool kept_is_outdated_ = false;  ///< what is kept of the device that plays does not fit
   std::vector<Vec3d> picks_;
 
   JobRunner* quick_;

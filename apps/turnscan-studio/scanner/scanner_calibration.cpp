@@ -224,6 +224,7 @@ void ScannerMode::fit_picks() {
 
 void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibration, bool kept) {
   calibration_ = std::move(calibration);
+  is_kept_ = kept;
   feed_->set_calibration(calibration_);
   save_->setEnabled(true);
   filter_->setEnabled(true);
@@ -259,6 +260,25 @@ void ScannerMode::forget_calibration() {
   calibration_error_->show_text({});
   calibration_text_->setText(first_steps());
   calibration_text_->setToolTip({});
+}
+
+/// Nobody asked for it: it goes without a question, as `scan` does it.
+void ScannerMode::drop_kept_calibration() {
+  view().remove(ring_item_);
+  ring_item_ = 0;
+  calibration_.reset();
+  feed_->set_calibration(nullptr);
+  is_kept_ = false;
+  kept_is_outdated_ = true;
+  filter_->setChecked(false);
+  filter_->setEnabled(false);
+  save_->setEnabled(false);
+  const QString why = tr("The calibration of the last recording is not used: %1")
+                          .arg(QString::fromStdString(rig_->text));
+  calibration_text_->setText(why);
+  calibration_text_->setToolTip({});
+  rig_.reset();
+  Q_EMIT status(why);
 }
 
 void ScannerMode::draw_calibration() {
