@@ -7,6 +7,7 @@ import random
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import zipfile
 
@@ -368,11 +369,36 @@ class Term(harness.TestCase):
         print(f"{args[0]}: {self.MOMENTS} moments, longest lag {max(lags):.2f} s of processor", flush=True)
         self.assertLess(max(lags), self.MOST_S * os.cpu_count())
 
+    def input_folder(self):
+        """Beside self.dir, which every run finds empty."""
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="turnscan-e2e-inputs-"))
+        self.addCleanup(harness.remove, folder)
+        return folder
+
     def test_reconstruct_finely(self):
         self.every_moment("reconstruct", shared_recording(), "-o", "m.ply", "--voxel-size", "0.8mm")
 
     def test_simulate(self):
         self.every_moment("simulate", "builtin:doll", "--frames", "8", "-o", "r")
+
+    def test_calibrate(self):
+        # Many pixels in few frames: what looks at all pixels of one image at once has to stop, too.
+        inputs = self.input_folder()
+        (inputs / "fine.toml").write_text(
+            'name = "fine"\nkind = "matrix"\nsensing = "ideal"\nnear = "10mm"\nfar = "6.5m"\ncolumns = 1536\n'
+            'rows = 1152\nfy = 1800\ndepth-unit = "0.1mm"\n')
+        recording = inputs / "fine"
+        self.ok("simulate", "builtin:letter-a", "--scanner", inputs / "fine.toml", "--distance", "0.6m",
+                "--frames", "6", "--noise", "gaussian:0.3mm", "-o", recording, "--quiet")
+        self.every_moment("calibrate", recording, "--detect", "--json", "c.json")
+
+    def test_find_the_motion(self):
+        self.every_moment("calibrate", shared_recording(), "--from-motion", "--json", "c.json")
+
+    def test_evaluate(self):
+        mesh = self.input_folder() / "m.ply"
+        self.ok("reconstruct", shared_recording(), "-o", mesh, "--quiet")
+        self.every_moment("evaluate", mesh, "--reference", mesh, "--error-map", "e.ply")
 
     def test_render(self):
         self.every_moment("demo", "--object", "cylinder", "--frames", "12", "--picture-size", "256", "--out", "d")

@@ -38,26 +38,29 @@ class PlatterDetector {
       : camera_(scan.intrinsics), rays_(camera_), pixels_(pixels_of(scan)), options_(options) {}
 
   Result<DetectedPlatter> run(const RunContext& context) {
-    const auto planes = find_planes(pixels_, rays_, kMostPlanes, kLeastPixels);
+    const auto planes = find_planes(pixels_, rays_, kMostPlanes, kLeastPixels, context);
     context.begin_phase("look for the platter", planes.size());
     for (std::size_t i = 0; i < planes.size(); ++i) {
       TURNSCAN_TRY(context.check());
-      examine(planes[i], i);
+      examine(planes[i], i, context);
       context.advance();
     }
-    refine_best();
+    refine_best(context);
+    TURNSCAN_TRY(context.check());
     return choose(planes.size());
   }
 
  private:
   /// Adds the plane's platter to the candidates, if it has a round rim. The rim says which pixels
   /// are the platter's, and these give the plane that the rim lies in.
-  void examine(const FoundPlane& found, std::uint64_t seed) {
+  void examine(const FoundPlane& found, std::uint64_t seed, const RunContext& context) {
     Plane plane = found.plane;
     for (int round = 0; round < 3; ++round) {
       const PlaneView view = view_of({pixels_, camera_, rays_}, plane, found.tolerance_m,
                                      middle_of(pixels_, found.pixels));
+      if (context.cancelled()) return;
       const auto circle = circle_of(view, round > 0, seed);
+      if (context.cancelled()) return;
       if (!circle && round == 0) return;
       if (!circle) break;
       const auto own = inside(view, *circle);
@@ -75,14 +78,14 @@ class PlatterDetector {
   }
 
   /// Only what may be the platter: it costs time.
-  void refine_best() {
+  void refine_best(const RunContext& context) {
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& l, const auto& r) { return worth(l) > worth(r); });
     if (candidates_.size() > kMostRefined) candidates_.resize(kMostRefined);
     std::vector<PlatterCandidate> refined;
     for (const PlatterCandidate& c : candidates_) {
       if (worth(c) < kLeastWorth * worth(candidates_.front())) break;
-      auto better = refine_platter({pixels_, camera_, rays_}, c, options_.radius_m);
+      auto better = refine_platter({pixels_, camera_, rays_}, c, options_.radius_m, context);
       if (better) refined.push_back(std::move(*better));
     }
     if (refined.empty() && !candidates_.empty())

@@ -107,12 +107,12 @@ std::vector<std::int32_t> near_plane(const ScanPixels& scan, const std::vector<s
 /// From a rough hypothesis to the least-squares plane of what lies near it, in steps that shrink.
 std::optional<FoundPlane> refine(const ScanPixels& scan, const RayTable& rays,
                                  const std::vector<std::uint8_t>& free, Plane plane,
-                                 double tolerance) {
+                                 double tolerance, const RunContext& context) {
   FoundPlane out;
   for (const double wide : {2.0, 1.5, 1.0, 1.0}) {
     out.pixels = near_plane(scan, free, plane, wide * tolerance);
     const auto fit = fit_plane(scan, rays, out.pixels);
-    if (!fit) return std::nullopt;
+    if (!fit || context.cancelled()) return std::nullopt;
     plane = fit->plane;
   }
   out.plane = plane;
@@ -192,14 +192,14 @@ std::optional<PlaneEstimate> fit_plane(const ScanPixels& scan, const RayTable& r
 }
 
 std::vector<FoundPlane> find_planes(const ScanPixels& scan, const RayTable& rays, int most,
-                                    std::size_t least_pixels) {
+                                    std::size_t least_pixels, const RunContext& context) {
   std::vector<FoundPlane> out;
   std::vector<std::uint8_t> free = scan.still;
   const double tolerance = std::clamp(4.0 * scan.noise_m, 0.0025, 0.012);
-  for (int round = 0; round < most; ++round) {
+  for (int round = 0; round < most && !context.cancelled(); ++round) {
     const auto plane = best_hypothesis(scan, free, tolerance, std::uint64_t(round));
     if (!plane) break;
-    auto found = refine(scan, rays, free, *plane, tolerance);
+    auto found = refine(scan, rays, free, *plane, tolerance, context);
     if (!found || found->pixels.size() < least_pixels) break;
     for (const std::int32_t i : found->pixels) free[std::size_t(i)] = 0;
     out.push_back(std::move(*found));

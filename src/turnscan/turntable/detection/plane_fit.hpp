@@ -41,9 +41,9 @@ struct FoundPlane {
 /// The planes with the most pixels, largest first, each of pixels that no earlier one has: three
 /// points of one neighbourhood make a hypothesis (Fischler and Bolles 1981), refined by least
 /// squares in inverse depth, which is where the noise is. Up to `most` planes of at least
-/// `least_pixels`.
+/// `least_pixels`. Ends early, with what it has, once the context is cancelled.
 std::vector<FoundPlane> find_planes(const ScanPixels& scan, const RayTable& rays, int most,
-                                    std::size_t least_pixels);
+                                    std::size_t least_pixels, const RunContext& context);
 
 struct PlaneEstimate {
   Plane plane;

@@ -32,10 +32,11 @@ bool amid_plane(const PlaneView& view, int x, int y, int reach) {
 }
 
 /// The pixels of the platter's surface that no edge can have changed.
-std::vector<std::int32_t> undisturbed(const PlaneView& view, const RimModel& model, int blur_px) {
+std::vector<std::int32_t> undisturbed(const PlaneView& view, const RimModel& model, int blur_px,
+                                      const RunContext& context) {
   const RimView rays(view.camera, view.plane, view.frame);
   std::vector<std::int32_t> out;
-  for (int y = 0; y < view.scan.height; ++y) {
+  for (int y = 0; y < view.scan.height && !context.cancelled(); ++y) {
     for (int x = 0; x < view.scan.width; ++x) {
       const int i = y * view.scan.width + x;
       if (!view.in[std::size_t(i)]) continue;
@@ -67,11 +68,13 @@ struct Refinement {
 
 /// Plane, then the rim in it.
 std::optional<Refinement> refine_once(const ScanImage& image, const Refinement& from,
-                                      double tolerance_m, std::optional<double> radius_m) {
+                                      double tolerance_m, std::optional<double> radius_m,
+                                      const RunContext& context) {
   RimModel model = from.rim.model;
   model.center.setZero();
   const PlaneView view = view_of(image, from.plane.plane, tolerance_m, from.center);
-  const auto own = undisturbed(view, model, from.noise.blur_px);
+  const auto own = undisturbed(view, model, from.noise.blur_px, context);
+  if (context.cancelled()) return std::nullopt;
   const auto plane = fit_plane(image.pixels, image.rays, own);
   if (!plane || own.size() < kLeastSurface) return std::nullopt;
   Refinement out;
@@ -80,7 +83,7 @@ std::optional<Refinement> refine_once(const ScanImage& image, const Refinement& 
   out.noise = correlation_of(image.pixels, image.rays, plane->plane, own);
   out.center = from.center * (plane->plane.offset / plane->plane.normal.dot(from.center));
   const PlaneView better = view_of(image, plane->plane, tolerance_m, out.center);
-  const auto rim = estimate_rim(better, model, out.noise, radius_m);
+  const auto rim = estimate_rim(better, model, out.noise, radius_m, context);
   if (!rim) return std::nullopt;
   out.rim = *rim;
   out.center = better.frame.to_space(rim->model.center);
@@ -120,15 +123,16 @@ PlaneView view_of(const ScanImage& image, const Plane& plane, double tolerance_m
 
 std::optional<PlatterCandidate> refine_platter(const ScanImage& image,
                                                const PlatterCandidate& rough,
-                                               std::optional<double> radius_m) {
+                                               std::optional<double> radius_m,
+                                               const RunContext& context) {
   Refinement start;
   start.plane.plane = {rough.platter.axis, rough.platter.axis.dot(rough.platter.center_m)};
   start.rim.model.radius_m = rough.platter.radius_m;
   start.center = rough.platter.center_m;
   // The noise is known after the first time.
-  const auto first = refine_once(image, start, rough.tolerance_m, radius_m);
+  const auto first = refine_once(image, start, rough.tolerance_m, radius_m, context);
   if (!first) return std::nullopt;
-  const auto last = refine_once(image, *first, rough.tolerance_m, radius_m);
+  const auto last = refine_once(image, *first, rough.tolerance_m, radius_m, context);
   if (!last) return std::nullopt;
   PlatterCandidate out = rough;
   DetectedPlatter& p = out.platter;

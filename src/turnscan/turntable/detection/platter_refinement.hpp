@@ -25,9 +25,11 @@ PlaneView view_of(const ScanImage& image, const Plane& plane, double tolerance_m
                   const Vec3d& origin);
 
 /// Plane from the pixels that no edge can have changed, rim by maximum likelihood. nullopt where
-/// there is too little of them. radius_m: the platter's, if known.
+/// there is too little of them, or once the context is cancelled. radius_m: the platter's, if
+/// known.
 std::optional<PlatterCandidate> refine_platter(const ScanImage& image,
                                                const PlatterCandidate& rough,
-                                               std::optional<double> radius_m);
+                                               std::optional<double> radius_m,
+                                               const RunContext& context);
 
 }  // namespace turnscan::detection

@@ -183,7 +183,7 @@ void count_witnesses(const RimData& data, RimEstimate& out) {
 
 std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& start,
                                         const NoiseCorrelation& noise,
-                                        std::optional<double> radius_m) {
+                                        std::optional<double> radius_m, const RunContext& context) {
   const RimView rays(view.camera, view.plane, view.frame);
   RimData data{rays, {}, noise, 0.0, radius_m};
   RimState state;
@@ -193,9 +193,9 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
     // At first a wall of any height is to find its foot among the pixels.
     RimModel about = state.model;
     if (round == 0) about.thickness_m = kThicknesses_m.back();
-    data.pixels =
-        label_rim(view, rays, about, noise, round == 0 ? kFirstReach_px : kReach_px, slack);
-    if (data.pixels.size() < kLeastRimPixels) return std::nullopt;
+    data.pixels = label_rim(view, rays, about, noise, round == 0 ? kFirstReach_px : kReach_px,
+                            slack, context);
+    if (data.pixels.size() < kLeastRimPixels || context.cancelled()) return std::nullopt;
     data.empty_share = empty_share(data.pixels);
     const RimData few = thinned(data);
     state = round == 0 ? best_thickness(few, state.model) : best_spread(few, state);
@@ -203,6 +203,7 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
     if (moved > 0.3 * start.radius_m || !(state.model.radius_m > 0.5 * start.radius_m))
       return std::nullopt;
   }
+  if (context.cancelled()) return std::nullopt;
   RimAscent ascent(data, state);
   ascent.climb(15);
   const RimEquations& system = ascent.system();

@@ -16,9 +16,10 @@ struct RimEstimate {
   double log_likelihood = 0.0;
 };
 
-/// nullopt when it runs away from the start, or too little of the rim is there.
+/// nullopt when it runs away from the start, when too little of the rim is there, or once the
+/// context is cancelled.
 std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& start,
                                         const NoiseCorrelation& noise,
-                                        std::optional<double> radius_m);
+                                        std::optional<double> radius_m, const RunContext& context);
 
 }  // namespace turnscan::detection

@@ -25,10 +25,11 @@ class RimLabelling {
         middle_(view.camera.project(view.frame.to_space(model.center))),
         seen_(view.scan.point.size(), Seen::kUnknown) {}
 
-  std::vector<RimPixel> run(double reach_px) {
+  std::vector<RimPixel> run(double reach_px, const RunContext& context) {
     std::vector<std::size_t> band;
     const PixelBox box = rays_.box(model_, int(reach_px) + 5);
     for (int y = box.top; y < box.bottom; ++y) {
+      if (context.cancelled()) return {};
       for (int x = box.left; x < box.right; ++x) {
         const auto d = rays_.outline(model_, x, y);
         if (!d || d->px < -reach_px - 3.0) continue;
@@ -149,8 +150,9 @@ class RimLabelling {
 }  // namespace
 
 std::vector<RimPixel> label_rim(const PlaneView& view, const RimView& rays, const RimModel& model,
-                                const NoiseCorrelation& noise, double reach_px, double slack_m) {
-  return RimLabelling(view, rays, model, noise, slack_m).run(reach_px);
+                                const NoiseCorrelation& noise, double reach_px, double slack_m,
+                                const RunContext& context) {
+  return RimLabelling(view, rays, model, noise, slack_m).run(reach_px, context);
 }
 
 }  // namespace turnscan::detection

@@ -22,8 +22,10 @@ struct RimPixel {
 /// Of the pixels within `reach_px` of the model's outline, and those within it near the edge
 /// between surface and wall. Pixels that something before the platter hides, and those beside
 /// them, are left out, and so are empty ones where the platter would be nearer than anything that
-/// the sensor measures. slack_m: by how much the wall may lie elsewhere.
+/// the sensor measures. slack_m: by how much the wall may lie elsewhere. None once the context is
+/// cancelled.
 std::vector<RimPixel> label_rim(const PlaneView& view, const RimView& rays, const RimModel& model,
-                                const NoiseCorrelation& noise, double reach_px, double slack_m);
+                                const NoiseCorrelation& noise, double reach_px, double slack_m,
+                                const RunContext& context);
 
 }  // namespace turnscan::detection
