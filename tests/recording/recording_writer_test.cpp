@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/recording/recording.hpp>
 
 #include "tests/io/scarcity.hpp"
@@ -180,6 +181,25 @@ TEST(RecordingWriter, ColourMayBeJpeg) {
   const auto back = recording->read(0);
   ASSERT_TRUE(back) << back.error().text();
   EXPECT_NEAR(back->color.at(4, 3).r, 200, 4);
+}
+
+TEST(RecordingWriter, ColourThatItsSourcePackedAsJpegStaysByteForByte) {
+  const TempFolder temp;
+  auto writer = RecordingWriter::create(temp / "r", small_header());
+  Frame frame = depth_frame(0);
+  const std::string jpeg = encode_color_jpeg(ColorImage(8, 6, Rgb{200, 100, 50}), 55).value();
+  ASSERT_TRUE(decode_frame_color(jpeg, frame));
+  ASSERT_TRUE(writer->append(frame));
+  ASSERT_TRUE(writer->finish());
+  const auto recording = Recording::open(temp / "r");
+  ASSERT_TRUE(recording) << recording.error().text();
+  const auto back = recording->read(0);
+  ASSERT_TRUE(back) << back.error().text();
+  EXPECT_EQ(back->color_jpeg, jpeg);
+  EXPECT_EQ(back->color.at(4, 3), frame.color.at(4, 3));
+  // A copy of the recording loses nothing either.
+  ASSERT_TRUE(write_recording(temp / "copy", *recording, RunContext()));
+  EXPECT_EQ(read_file(temp / "copy" / "color" / "000000.jpg").value(), jpeg);
 }
 
 TEST(RecordingWriter, FullDiskLeavesWholeLinesAndAReadableRecording) {

@@ -79,6 +79,9 @@ struct Frame {
   int grid_height = 0;
   std::vector<std::int32_t> grid;  ///< cell -> position in points, -1 where empty; row by row
   ColorImage color;                ///< may be empty
+  /// The colour image as its source packed it, where that is a JPEG file that decodes to color;
+  /// else empty. A recording takes it as it is: packing it again would cost time and lose some.
+  std::string color_jpeg;
 };
 
 /// The one view that both kinds of frames offer. Sensor frame, metres.

@@ -196,7 +196,7 @@ Result<Frame> Recording::read(std::size_t position) const {
   }
   if (color_files_[position].empty()) return frame;
   const fs::path color_path = folder_ / color_files_[position];
-  TURNSCAN_ASSIGN(frame.color, read_color(color_path));
+  TURNSCAN_TRY(read_frame_color(color_path, frame));
   if (auto good = check_color_size(frame, sensor); !good)
     return in_file(color_path, std::move(good).error());
   return frame;

@@ -54,6 +54,7 @@ class Recording : public FrameSequence {
   bool complete_ = true;
 };
 
+/// Of colour that its source has not packed as JPEG (Frame::color_jpeg), which stays as it is.
 enum class ColorFileFormat { kPng, kJpeg };
 
 /// Writes a recording frame by frame, so that a kill or a full disk at any moment leaves

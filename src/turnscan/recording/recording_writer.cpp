@@ -205,8 +205,13 @@ Result<std::string> RecordingWriter::State::write_color(const Frame& frame,
                                                         const std::string& number) const {
   if (frame.color.empty()) return std::string();
   TURNSCAN_TRY(make_subfolder("color"));
-  const bool png = color == ColorFileFormat::kPng;
+  const bool packed = !frame.color_jpeg.empty();
+  const bool png = !packed && color == ColorFileFormat::kPng;
   const std::string name = "color/" + number + (png ? ".png" : ".jpg");
+  if (packed) {
+    TURNSCAN_TRY(write_file_atomically(folder / name, frame.color_jpeg, Durability::kNamed));
+    return name;
+  }
   TURNSCAN_TRY(png ? write_color_png(folder / name, frame.color, Durability::kNamed)
                    : write_color_jpeg(folder / name, frame.color, 92, Durability::kNamed));
   return name;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <turnscan/core/random.hpp>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/jpeg_codec.hpp>
 
 #include "tests/io/scarcity.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -276,6 +277,30 @@ TEST(ColorJpeg, TruncatedFileIsDamagedWhereverItEnds) {
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_FALSE(decode_color(bytes.substr(0, length))) << length;
   EXPECT_EQ(decode_color(bytes.substr(0, bytes.size() / 2)).error().code, ErrorCode::kFormat);
+}
+
+TEST(ColorJpeg, AFrameKeepsTheFileThatItsColourCameFrom) {
+  const std::string jpeg = encode_color_jpeg(some_color(16, 16)).value();
+  Frame frame;
+  ASSERT_TRUE(decode_frame_color(jpeg, frame));
+  EXPECT_EQ(frame.color_jpeg, jpeg);
+  EXPECT_FALSE(decode_frame_color(jpeg.substr(0, 100), frame));
+  EXPECT_EQ(frame.color_jpeg, jpeg);
+  ASSERT_TRUE(decode_frame_color(encode_color_png(some_color(8, 8)).value(), frame));
+  EXPECT_TRUE(frame.color_jpeg.empty());
+  EXPECT_EQ(frame.color.width, 8);
+}
+
+TEST(ColorJpeg, AStreamWithoutTablesOrWithMoreBehindItsEndIsNoFile) {
+  std::string jpeg = encode_color_jpeg(some_color(16, 16)).value();
+  EXPECT_TRUE(image::is_jpeg_file(jpeg));
+  EXPECT_FALSE(image::is_jpeg_file(jpeg + std::string(3, '\0')));
+  for (std::size_t length = 0; length < jpeg.size(); ++length)
+    EXPECT_FALSE(image::is_jpeg_file(std::string_view(jpeg).substr(0, length))) << length;
+  // Without its Huffman tables, as some cameras send it.
+  for (auto at = jpeg.find("\xff\xc4"); at != std::string::npos; at = jpeg.find("\xff\xc4"))
+    jpeg.erase(at, 2 + std::size_t(std::uint8_t(jpeg[at + 3])));
+  EXPECT_FALSE(image::is_jpeg_file(jpeg));
 }
 
 TEST(ColorJpeg, HugeClaimIsRefused) {

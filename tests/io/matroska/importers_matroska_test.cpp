@@ -198,6 +198,7 @@ TEST(MatroskaImport, TakesTheColourImageNearestInTimeInEveryPacking) {
       ASSERT_TRUE(frame) << frame.error().text();
       ASSERT_EQ(frame->color.width, 1280);
       EXPECT_LT(mean_difference(frame->color, gradient(1280, 720, int(i) + 1)), 2.0) << codec;
+      EXPECT_EQ(frame->color_jpeg, codec == "MJPG" ? take.color[i + 1].bytes : std::string());
     }
   }
 }

@@ -75,7 +75,8 @@ OptionTable describe(RecorderOptions& o) {
       .number("min-free", o.min_free_bytes, Quantity::kNone, {0.0, 1e15},
               "Stop before the disk has less free bytes than this")
       .choice("color-files", o.color, {"png", "jpeg"},
-              "How colour images are written; PNG loses nothing");
+              "How colour images are written; PNG loses nothing. JPEG images of the source stay as "
+              "they are");
   return table;
 }
 

@@ -85,6 +85,17 @@ Result<ColorImage> read_color(const std::filesystem::path& path) {
   return file::decode_file(path, decode_color);
 }
 
+Result<> decode_frame_color(std::string_view bytes, Frame& frame) {
+  TURNSCAN_ASSIGN(frame.color, decode_color(bytes));
+  frame.color_jpeg = image::is_jpeg_file(bytes) ? std::string(bytes) : std::string();
+  return {};
+}
+
+Result<> read_frame_color(const std::filesystem::path& path, Frame& frame) {
+  return file::decode_file(
+      path, [&frame](std::string_view bytes) { return decode_frame_color(bytes, frame); });
+}
+
 Result<std::string> encode_color_png(const ColorImage& image) {
   require_pixels(image);
   return image::encode_png(bytes_of(image), image.width, image.height, image::PngPixels::kRgb8);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <turnscan/core/frame.hpp>
 #include <turnscan/core/image.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -32,6 +33,11 @@ Result<std::string> encode_depth_png(const DepthImage& image);
 /// RGB), told apart by content. Anything else fails with kUnsupported.
 Result<ColorImage> read_color(const std::filesystem::path& path);
 Result<ColorImage> decode_color(std::string_view bytes);
+
+/// The same, into a frame's color and color_jpeg. Of a JPEG stream that is no file of its own (a
+/// camera's without its tables or its end) color alone. On failure the frame is as it was.
+Result<> read_frame_color(const std::filesystem::path& path, Frame& frame);
+Result<> decode_frame_color(std::string_view bytes, Frame& frame);
 
 /// Throw std::invalid_argument as write_depth_png does; quality is 1 to 100.
 Result<> write_color_png(const std::filesystem::path& path, const ColorImage& image,

@@ -154,6 +154,20 @@ Result<ColorImage> decode(Decoder& decoder, std::string_view bytes) {
 
 bool looks_like_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
+bool is_jpeg_file(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (!looks_like_jpeg(bytes) || !bytes.ends_with("\xff\xd9"sv)) return false;
+  // The segments before the first scan, each with its length.
+  bool tables = false;
+  for (std::size_t at = 2; at + 4 <= bytes.size() && bytes[at] == '\xff';) {
+    const auto byte = [&](std::size_t i) { return std::size_t(std::uint8_t(bytes[at + i])); };
+    if (byte(1) == 0xda) return tables;
+    tables = tables || byte(1) == 0xc4;
+    at += 2 + (byte(2) << 8 | byte(3));
+  }
+  return false;
+}
+
 Result<ColorImage> decode_jpeg(std::string_view bytes) {
   Decoder decoder{};
   auto image = decode(decoder, bytes);

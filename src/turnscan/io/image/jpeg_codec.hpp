@@ -9,6 +9,9 @@
 namespace turnscan::image {
 
 bool looks_like_jpeg(std::string_view bytes);
+/// Whether a JPEG image has its Huffman tables and its end, which streams of cameras leave out at
+/// times (ITU-T T.81, B.2): with them every program reads it.
+bool is_jpeg_file(std::string_view bytes);
 Result<ColorImage> decode_jpeg(std::string_view bytes);
 Result<std::string> encode_jpeg(const ColorImage& image, int quality);
 

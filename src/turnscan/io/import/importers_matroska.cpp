@@ -136,7 +136,7 @@ class MatroskaSequence : public FrameSequence {
 
  private:
   Result<DepthImage> read_depth(const Block& block) const;
-  Result<ColorImage> read_color_image(const Block& block) const;
+  Result<> read_color_image(const Block& block, Frame& frame) const;
 
   MatroskaFile file_;
   SequenceHeader header_;
@@ -172,20 +172,22 @@ Result<DepthImage> MatroskaSequence::read_depth(const Block& block) const {
   return image;
 }
 
-Result<ColorImage> MatroskaSequence::read_color_image(const Block& block) const {
+Result<> MatroskaSequence::read_color_image(const Block& block, Frame& frame) const {
   TURNSCAN_ASSIGN(const std::string bytes, file_.read(block));
   const CameraIntrinsics& camera = *header_.sensors.front().color_intrinsics;
   if (frames_.color == Packing::kJpeg) {
-    TURNSCAN_ASSIGN(ColorImage image, decode_color(bytes));
+    TURNSCAN_TRY(decode_frame_color(bytes, frame));
+    const ColorImage& image = frame.color;
     if (image.width != camera.width || image.height != camera.height)
       return fail(ErrorCode::kFormat, "the image has {} x {} pixels, but its track {} x {}",
                   image.width, image.height, camera.width, camera.height);
-    return image;
+    return {};
   }
   const image::RawColor layout = frames_.color == Packing::kNv12   ? image::RawColor::kNv12
                                  : frames_.color == Packing::kYuy2 ? image::RawColor::kYuy2
                                                                    : image::RawColor::kBgra;
-  return image::decode_raw_color(bytes, camera.width, camera.height, layout);
+  TURNSCAN_ASSIGN(frame.color, image::decode_raw_color(bytes, camera.width, camera.height, layout));
+  return {};
 }
 
 Result<Frame> MatroskaSequence::read(std::size_t position) const {
@@ -204,9 +206,8 @@ Result<Frame> MatroskaSequence::read(std::size_t position) const {
   if (!depth) return place(blocks.depth, std::move(depth).error());
   frame.depth = std::move(*depth);
   if (!blocks.has_color) return frame;
-  auto color = read_color_image(blocks.color);
-  if (!color) return place(blocks.color, std::move(color).error());
-  frame.color = std::move(*color);
+  if (auto color = read_color_image(blocks.color, frame); !color)
+    return place(blocks.color, std::move(color).error());
   return frame;
 }
 

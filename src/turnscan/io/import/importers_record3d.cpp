@@ -104,7 +104,7 @@ class Record3dSequence : public FrameSequence {
                   frame.depth);
     }
     if (!parts.color) return frame;
-    TURNSCAN_ASSIGN(frame.color, read_jpeg(*parts.color, sensor));
+    TURNSCAN_TRY(read_jpeg(*parts.color, sensor, frame));
     return frame;
   }
 
@@ -113,15 +113,16 @@ class Record3dSequence : public FrameSequence {
     std::optional<zip::Entry> depth, color, confidence;
   };
 
-  Result<ColorImage> read_jpeg(const zip::Entry& entry, const SensorInfo& sensor) const {
+  Result<> read_jpeg(const zip::Entry& entry, const SensorInfo& sensor, Frame& frame) const {
     TURNSCAN_ASSIGN(const std::string bytes, zip::read_entry(file_, entry, kMostJpegBytes));
-    auto image = decode_color(bytes);
-    if (!image) return at_path(file_.path(), std::move(image).error());
+    if (auto good = decode_frame_color(bytes, frame); !good)
+      return at_path(file_.path(), std::move(good).error());
+    const ColorImage& image = frame.color;
     const CameraIntrinsics& camera = sensor.color_intrinsics.value_or(sensor.intrinsics);
-    if (image->width == camera.width && image->height == camera.height) return image;
+    if (image.width == camera.width && image.height == camera.height) return {};
     return fail_at(file_.path().string(), ErrorCode::kFormat,
                    "the colour image at byte {} has {} x {} pixels, but its camera has {} x {}",
-                   entry.header_at, image->width, image->height, camera.width, camera.height);
+                   entry.header_at, image.width, image.height, camera.width, camera.height);
   }
 
   SequenceHeader header_;

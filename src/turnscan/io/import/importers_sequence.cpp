@@ -71,7 +71,7 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
   TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data));
   TURNSCAN_TRY(check_size(frame.depth, sensor.intrinsics, files.data));
   if (files.color.empty()) return frame;
-  TURNSCAN_ASSIGN(frame.color, read_color(files.color));
+  TURNSCAN_TRY(read_frame_color(files.color, frame));
   TURNSCAN_TRY(
       check_size(frame.color, sensor.color_intrinsics.value_or(sensor.intrinsics), files.color));
   return frame;

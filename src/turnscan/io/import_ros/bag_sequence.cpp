@@ -151,7 +151,7 @@ class BagSequence : public FrameSequence {
   void match_colors(const std::vector<Shot>& shots, const Timeline& times);
   Result<> look_at_first();
   Result<DepthImage> depth_of(const MessagePlace& place) const;
-  Result<ColorImage> color_of(const MessagePlace& place) const;
+  Result<> read_color(const MessagePlace& place, Frame& frame) const;
 
   Bag bag_;
   BagStreams streams_;
@@ -263,14 +263,15 @@ Result<DepthImage> BagSequence::depth_of(const MessagePlace& place) const {
   return ros_depth(image, unit_m);
 }
 
-Result<ColorImage> BagSequence::color_of(const MessagePlace& place) const {
+Result<> BagSequence::read_color(const MessagePlace& place, Frame& frame) const {
   TURNSCAN_ASSIGN(const auto message, bag_.read(place));
   if (streams_.color_compressed) {
     TURNSCAN_ASSIGN(const auto image, rosbag::parse_compressed_image(message.bytes));
-    return ros_color(image);
+    return take_ros_color(image, frame);
   }
   TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(message.bytes));
-  return ros_color(image);
+  TURNSCAN_ASSIGN(frame.color, ros_color(image));
+  return {};
 }
 
 template <class Image>
@@ -300,9 +301,7 @@ Result<Frame> BagSequence::read(std::size_t position) const {
   if (auto good = check_size(frame.depth, sensor.intrinsics, streams_.depth_topic); !good)
     return here(good.error());
   if (places.color == kNone) return frame;
-  auto color = color_of(colors_[places.color]);
-  if (!color) return here(color.error());
-  frame.color = std::move(*color);
+  if (auto color = read_color(colors_[places.color], frame); !color) return here(color.error());
   if (auto good = check_size(frame.color, sensor.color_intrinsics.value_or(sensor.intrinsics),
                              streams_.color_topic);
       !good)

@@ -188,8 +188,8 @@ Result<ColorImage> ros_color(const ImageMessage& image) {
   return out;
 }
 
-Result<ColorImage> ros_color(const CompressedImageMessage& image) {
-  return decode_color(image.data);
+Result<> take_ros_color(const CompressedImageMessage& image, Frame& frame) {
+  return decode_frame_color(image.data, frame);
 }
 
 }  // namespace turnscan::foreign

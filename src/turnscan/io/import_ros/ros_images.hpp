@@ -25,7 +25,7 @@ std::string_view compressed_depth_encoding(std::string_view format);
 Result<DepthImage> ros_depth(const rosbag::CompressedImageMessage& image, double unit_m);
 
 Result<ColorImage> ros_color(const rosbag::ImageMessage& image);
-/// JPEG or PNG.
-Result<ColorImage> ros_color(const rosbag::CompressedImageMessage& image);
+/// JPEG or PNG, into the frame's colour.
+Result<> take_ros_color(const rosbag::CompressedImageMessage& image, Frame& frame);
 
 }  // namespace turnscan::foreign
