@@ -44,6 +44,20 @@ TEST(DepthView, AMixtureBehindARimIsNoMeasurement) {
   EXPECT_NE(view.pixels[std::size_t(11 * 3 + 5)] >> 17, 0u);
 }
 
+TEST(DepthView, InAGapOfOnePixelNothingIsMeasured) {
+  RawWindow raw(9, 5);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 9; ++x) raw.at(x, y) = x < 4 ? 8500 : x == 4 ? 8900 : 8600;
+  }
+  DepthView view;
+  pack_window(raw, 0.01, view);
+  for (int x = 0; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), x == 4 ? 0u : raw.at(x, 2)) << x;
+  // The bottom of a wider one is.
+  for (int y = 0; y < 5; ++y) raw.at(3, y) = raw.at(5, y) = 8900;
+  pack_window(raw, 0.01, view);
+  for (int x = 0; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), raw.at(x, 2)) << x;
+}
+
 TEST(DepthView, ASteepSlopeIsMeasured) {
   RawWindow raw(9, 5);
   for (int y = 0; y < 5; ++y) {

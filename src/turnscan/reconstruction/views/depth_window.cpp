@@ -22,21 +22,25 @@ bool beside_edge(const RawWindow& raw, int x, int y, int step) {
 }
 
 /// Whether the pixel hangs in the air behind a rim, between what it shows on one side and what lies
-/// behind on another: a mixture of both, and a measurement of neither. A steep slope is none: there
-/// the step to the nearer side is as high as the one before it.
+/// behind on another: a mixture of both, and a measurement of neither. So is one between two rims,
+/// in a gap that is one pixel wide. A steep slope is none: there the step to the nearer side is as
+/// high as the one before it.
 bool flying(const RawWindow& raw, int x, int y, int step) {
   const int own = raw.at(x, y);
-  bool behind = false, before = false;
+  bool before = false;
+  std::array<bool, 4> behind{};
   const auto depth = [&](int u, int v) {
     const bool within = u >= 0 && v >= 0 && u < raw.width && v < raw.height;
     return within && measured(raw.at(u, v)) ? int(raw.at(u, v)) : int(kFar);
   };
-  for (const auto& [dx, dy] : kSides) {
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const auto [dx, dy] = kSides[side];
     const int near = depth(x + dx, y + dy), climb = own - near;
     before |= near - own > step;
-    behind |= climb > step && 2 * (near - depth(x + 2 * dx, y + 2 * dy)) < climb;
+    behind[side] = climb > step && 2 * (near - depth(x + 2 * dx, y + 2 * dy)) < climb;
   }
-  return behind && before;
+  const bool in_gap = (behind[0] && behind[1]) || (behind[2] && behind[3]);
+  return in_gap || (before && (behind[0] || behind[1] || behind[2] || behind[3]));
 }
 
 /// A pixel this near to another may look past what that one sees: its own share of the edge, and a
