@@ -44,18 +44,28 @@ TEST(DepthView, AMixtureBehindARimIsNoMeasurement) {
   EXPECT_NE(view.pixels[std::size_t(11 * 3 + 5)] >> 17, 0u);
 }
 
-TEST(DepthView, InAGapOfOnePixelNothingIsMeasured) {
-  RawWindow raw(9, 5);
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 9; ++x) raw.at(x, y) = x < 4 ? 8500 : x == 4 ? 8900 : 8600;
+TEST(DepthView, InAGapOfOneOrTwoPixelsNothingIsMeasured) {
+  for (int wide = 1; wide <= 3; ++wide) {
+    for (const bool upright : {true, false}) {
+      RawWindow raw(9, 9);
+      const auto in_gap = [&](int x, int y) {
+        const int along = upright ? x : y;
+        return along >= 4 && along < 4 + wide;
+      };
+      for (int y = 0; y < 9; ++y) {
+        for (int x = 0; x < 9; ++x)
+          raw.at(x, y) = in_gap(x, y) ? 8900 : (upright ? x : y) < 4 ? 8500 : 8600;
+      }
+      DepthView view;
+      pack_window(raw, 0.01, view);
+      // The bottom of a wider one is, away from the image's border, beyond which all may lie.
+      for (int y = 1; y < 8; ++y) {
+        for (int x = 1; x < 8; ++x)
+          EXPECT_EQ(depth_at(view, x, y), in_gap(x, y) && wide < 3 ? 0u : raw.at(x, y))
+              << x << " " << y << " of " << wide;
+      }
+    }
   }
-  DepthView view;
-  pack_window(raw, 0.01, view);
-  for (int x = 0; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), x == 4 ? 0u : raw.at(x, 2)) << x;
-  // The bottom of a wider one is.
-  for (int y = 0; y < 5; ++y) raw.at(3, y) = raw.at(5, y) = 8900;
-  pack_window(raw, 0.01, view);
-  for (int x = 0; x < 9; ++x) EXPECT_EQ(depth_at(view, x, 2), raw.at(x, 2)) << x;
 }
 
 TEST(DepthView, ASteepSlopeIsMeasured) {

@@ -21,26 +21,37 @@ bool beside_edge(const RawWindow& raw, int x, int y, int step) {
   });
 }
 
+/// Gaps between two rims of up to this many pixels show what lies behind them nowhere unmixed.
+constexpr int kNarrowGap = 2;
+
 /// Whether the pixel hangs in the air behind a rim, between what it shows on one side and what lies
 /// behind on another: a mixture of both, and a measurement of neither. So is one between two rims,
-/// in a gap that is one pixel wide. A steep slope is none: there the step to the nearer side is as
-/// high as the one before it.
+/// in a narrow gap. A steep slope is none: there the step to the nearer side is as high as the one
+/// before it.
 bool flying(const RawWindow& raw, int x, int y, int step) {
   const int own = raw.at(x, y);
-  bool before = false;
-  std::array<bool, 4> behind{};
   const auto depth = [&](int u, int v) {
     const bool within = u >= 0 && v >= 0 && u < raw.width && v < raw.height;
     return within && measured(raw.at(u, v)) ? int(raw.at(u, v)) : int(kFar);
   };
+  // Whether a rim lies `pixels` away, with nothing that is nearer in between.
+  const auto rim = [&](int dx, int dy, int pixels) {
+    const int near = depth(x + pixels * dx, y + pixels * dy), climb = own - near;
+    return climb > step && 2 * (near - depth(x + (pixels + 1) * dx, y + (pixels + 1) * dy)) < climb;
+  };
+  bool before = false;
+  std::array<int, 4> distance{};  // of the rim on each side; 0: none near enough
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     const auto [dx, dy] = kSides[side];
-    const int near = depth(x + dx, y + dy), climb = own - near;
-    before |= near - own > step;
-    behind[side] = climb > step && 2 * (near - depth(x + 2 * dx, y + 2 * dy)) < climb;
+    before |= depth(x + dx, y + dy) - own > step;
+    for (int pixels = kNarrowGap; pixels > 0; --pixels)
+      if (rim(dx, dy, pixels)) distance[side] = pixels;
   }
-  const bool in_gap = (behind[0] && behind[1]) || (behind[2] && behind[3]);
-  return in_gap || (before && (behind[0] || behind[1] || behind[2] || behind[3]));
+  const auto gap = [&](int one, int other) {
+    return one > 0 && other > 0 && one + other - 1 <= kNarrowGap;
+  };
+  const bool beside_rim = std::count(distance.begin(), distance.end(), 1) > 0;
+  return (before && beside_rim) || gap(distance[0], distance[1]) || gap(distance[2], distance[3]);
 }
 
 /// A pixel this near to another may look past what that one sees: its own share of the edge, and a
