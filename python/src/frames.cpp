@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/workflow/input.hpp>
 
 #include "arrays.hpp"
 #include "call.hpp"
+#include "option_arguments.hpp"
 
 namespace turnscan::python {
 
@@ -36,11 +38,29 @@ Vec3d vector_of(const std::array<double, 3>& values) { return {values[0], values
 std::array<double, 3> array_of(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct RecordingObject : SequenceObject {
-  explicit RecordingObject(Recording opened) : recording(std::move(opened)) {}
-  const FrameSequence& sequence() const override { return recording; }
-  std::string title() const override { return recording.folder().string(); }
-  Recording recording;
+  RecordingObject(std::string named, Input opened)
+      : path(std::move(named)), input(std::move(opened)) {}
+  const FrameSequence& sequence() const override { return *input.frames; }
+  std::string title() const override { return path; }
+  /// Files of other programs have no mark; where one was cut off, a note says so.
+  bool complete() const {
+    const auto* recording = dynamic_cast<const Recording*>(input.frames.get());
+    return recording == nullptr || recording->complete();
+  }
+  std::string path;
+  Input input;
 };
+
+std::shared_ptr<RecordingObject> open_recording(const std::string& path, const py::kwargs& given) {
+  ImportOptions options;
+  set_options(describe(options), given);
+  Input input = call(py::none(), [&](const RunContext&) { return open_input(path, options); });
+  if (!input.imported && !given.empty())
+    raise({ErrorCode::kInvalidOption,
+           "options of an import are for files of other programs, and this is a recording already",
+           path});
+  return std::make_shared<RecordingObject>(path, std::move(input));
+}
 
 /// Frames that a program hands over one after the other.
 class ListedFrames : public FrameSequence {
@@ -210,6 +230,10 @@ void set_images(Frame& frame, const py::object& depth, const py::object& color) 
 }
 
 void bind_frames(py::module_& module) {
+  module.def("_import_options", [] {
+    ImportOptions options;
+    return described(describe(options));
+  });
   bind_camera(module);
   bind_frame(module);
   py::class_<SequenceObject, std::shared_ptr<SequenceObject>>(module, "Sequence")
@@ -221,15 +245,10 @@ void bind_frames(py::module_& module) {
         return self.sequence().header().turntable;
       });
   py::class_<RecordingObject, SequenceObject, std::shared_ptr<RecordingObject>>(module, "Recording")
-      .def(py::init([](const std::string& path) {
-             return std::make_shared<RecordingObject>(
-                 call(py::none(), [&](const RunContext&) { return Recording::open(path); }));
-           }),
-           py::arg("path"))
+      .def(py::init(&open_recording), py::arg("path"))
       .def_property_readonly("path", &RecordingObject::title)
-      .def_property_readonly("notes", [](const RecordingObject& r) { return r.recording.notes(); })
-      .def_property_readonly("complete",
-                             [](const RecordingObject& r) { return r.recording.complete(); });
+      .def_property_readonly("notes", [](const RecordingObject& r) { return r.input.notes; })
+      .def_property_readonly("complete", &RecordingObject::complete);
   py::class_<FramesObject, SequenceObject, std::shared_ptr<FramesObject>>(module, "_Frames")
       .def(py::init([](std::vector<SensorInfo> sensors, std::optional<TurntableInfo> turntable) {
              auto made = std::make_shared<FramesObject>();

@@ -123,5 +123,5 @@ def evaluate(mesh, reference, *, progress=None, **options):
 
 
 def options(command):
-    """Names, defaults, ranges and help of the options of "reconstruct", "simulate", "plan", "evaluate"."""
+    """Names, defaults, ranges and help of the options of "reconstruct", "simulate", "plan", "evaluate", "import"."""
     return getattr(_turnscan, f"_{command}_options")()

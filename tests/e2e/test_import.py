@@ -3,6 +3,7 @@ with Python's zipfile, zlib and struct: the import has the same depths, cameras 
 reconstruct gives the mesh of the native recording."""
 
 import json
+import re
 import struct
 import zipfile
 import zlib
@@ -68,6 +69,19 @@ class Captures(harness.TestCase):
         self.options = ["--turntable-axis", ",".join(map(str, self.table["axis"])),
                         "--turntable-center", ",".join(f"{v}m" for v in self.table["center_m"]),
                         "--speed", f"{self.table['speed_rad_s']}rad/s"]
+
+    def test_calibrate_and_report_take_it_straight(self):
+        self.put_native()
+        imports = [f"--import={name[2:]}={value}"
+                   for name, value in zip(self.options[::2], self.options[1::2])]
+        self.ok("calibrate", "virtual", "--detect", "--json", "virtual.json", "--quiet")
+        self.ok("calibrate", "native", "--detect", "--json", "native.json", "--quiet", *imports)
+        axes = [re.search(r'"axis": *\[[^]]*\]', (self.dir / name).read_text()).group()
+                for name in ("virtual.json", "native.json")]
+        self.assertEqual(axes[0], axes[1])
+        self.refused(2, "calibrate", "virtual", *imports, says=["is a recording already"])
+        self.ok("report", "native", "-o", "page.html", *imports)
+        self.assertIn("<html", (self.dir / "page.html").read_text())
 
     def put_native(self):
         """As json-png, which takes the images as they are."""

@@ -4,6 +4,7 @@ PYTHONPATH names the folder of the package (CTest sets it), TURNSCAN_BIN the pro
 """
 
 import gc
+import json
 import math
 import os
 import pathlib
@@ -44,6 +45,25 @@ class InAFolder(unittest.TestCase):
 
 
 class Recordings(InAFolder):
+    def test_a_folder_of_another_program_is_opened_with_the_options_of_its_import(self):
+        folder = self.dir / "views"
+        folder.mkdir()
+        for i, png in enumerate(sorted((pathlib.Path(self.recording) / "depth").iterdir())):
+            (folder / f"depth_{i}.png").write_bytes(png.read_bytes())
+        camera = turnscan.Recording(self.recording).sensors[0].intrinsics
+        (folder / "views.json").write_text(json.dumps({
+            "intrinsics": {name: getattr(camera, name)
+                           for name in ("width", "height", "fx", "fy", "cx", "cy")},
+            "times_s": [i / 30 for i in range(24)]}))
+        with self.assertRaises(turnscan.Error):
+            turnscan.Recording(str(folder))
+        views = turnscan.Recording(str(folder), depth_unit="0.1mm")
+        self.assertEqual((len(views), views.complete, views.sensors[0].depth_unit), (24, True, 1e-4))
+        self.assertTrue((views[5].depth == turnscan.Recording(self.recording)[5].depth).all())
+        self.assertIn("depth_unit", [option["name"] for option in turnscan.options("import")])
+        with self.assertRaises(turnscan.Error):
+            turnscan.Recording(self.recording, depth_unit="1mm")
+
     def test_frames_are_views_of_what_was_recorded(self):
         recording = turnscan.Recording(self.recording)
         self.assertEqual(len(recording), 24)

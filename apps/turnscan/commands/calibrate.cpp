@@ -1,10 +1,10 @@
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/capture/session/taken_frames.hpp>
 #include <turnscan/recording/calibration_file.hpp>
-#include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/checks/check.hpp>
 
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
+#include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/calibration_text.hpp>
 #include "cli/command_line.hpp"
@@ -32,8 +32,11 @@ OptionTable describe(DeviceOptions& o) {
 class CalibrateCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.optional_positional("RECORDING", recording_,
-                             "Recording of the turntable (see turnscan import)");
+    line.optional_positional(
+        "RECORDING", recording_,
+        "Recording of the turntable, or a file or folder of another program (see "
+        "turnscan import)");
+    line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option(
         "--device", "URI", device_,
         "Take frames from a sensor instead (see turnscan devices); its calibration is kept, "
@@ -95,6 +98,9 @@ class CalibrateCommand : public Command {
     if (!recording_.empty() && !device_.empty())
       return fail(ErrorCode::kInvalidOption,
                   "RECORDING and --device are both given; give one of them");
+    if (!device_.empty() && !import_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--import is for files of other programs; leave it out with --device");
     request_.way = !request_.points.empty() ? CalibrationWay::kPoints
                    : from_motion_           ? CalibrationWay::kMotion
                    : detect_                ? CalibrationWay::kPlatter
@@ -102,10 +108,10 @@ class CalibrateCommand : public Command {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     if (!device_.empty()) return run_device(session);
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(recording_));
-    if (check_) return check(recording, session);
-    TURNSCAN_TRY(calibrate_and_tell(recording, session));
-    for (const std::string& note : recording.notes()) session.print("Note: {}\n", note);
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(recording_, import_));
+    if (check_) return check(*input.frames, session);
+    TURNSCAN_TRY(calibrate_and_tell(*input.frames, session));
+    for (const std::string& note : input.notes) session.print("Note: {}\n", note);
     return {};
   }
 
@@ -157,7 +163,7 @@ class CalibrateCommand : public Command {
   }
 
   /// Fails when something is wrong, after saying what.
-  Result<> check(const Recording& recording, Session& session) const {
+  Result<> check(const FrameSequence& recording, Session& session) const {
     TURNSCAN_ASSIGN(
         const auto findings,
         check_recording(recording, {request_.motion, request_.detect}, session.context()));
@@ -173,6 +179,7 @@ class CalibrateCommand : public Command {
   }
 
   std::string recording_, device_, json_, save_;
+  std::vector<std::string> import_;
   DeviceOptions device_options_;
   bool detect_ = false, from_motion_ = false, check_ = false;
   CalibrateRequest request_;

@@ -30,9 +30,7 @@ class InfoCommand : public Command {
         "Finish a recording whose program was ended: keep every whole frame, mark it complete "
         "and say what was lost");
     line.flag("--json", json_, "Print JSON, SI units in the names");
-    line.repeatable("--import", "NAME=VALUE", import_,
-                    "Option of turnscan import, without its dashes, for files of another program, "
-                    "e.g. depth-unit=1mm; may be given for several");
+    line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option("--unit", "UNIT", unit_,
                 "Unit of a mesh or cloud file that does not say it: um, mm, cm, m, in");
   }
@@ -79,11 +77,7 @@ class InfoCommand : public Command {
                   "--repair and --json cannot be used together; repair "
                   "first");
     if (repair_) TURNSCAN_TRY(repair(folder, session));
-    TURNSCAN_ASSIGN(const ImportOptions options, parse_import_options(import_));
-    TURNSCAN_ASSIGN(const Input input, open_input_asking(folder, options));
-    if (!input.imported && !import_.empty())
-      return fail(ErrorCode::kInvalidOption, "--import: {} is a recording already; leave it out",
-                  path_);
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(folder, import_));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(input, session.context()));
     session.print("{}", json_ ? summary_json(summary) + "\n" : summary_text(summary));
     return {};

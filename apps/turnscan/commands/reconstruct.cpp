@@ -41,9 +41,7 @@ class ReconstructCommand : public Command {
         fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
                     "--method volumetric, the others without)",
                     fmt::join(saveable_stages(), ", ")));
-    line.repeatable("--import", "NAME=VALUE", import_,
-                    "Option of turnscan import, without its dashes, for files of another program, "
-                    "e.g. depth-unit=1mm; may be given for several");
+    line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option("--keep-recording", "FOLDER", keep_recording_,
                 "Also write what is read from a file of another program to a recording, as "
                 "turnscan import does; it must not exist or be empty");

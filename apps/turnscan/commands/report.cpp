@@ -3,8 +3,8 @@
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
-#include <turnscan/recording/recording.hpp>
 
+#include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include "cli/command_line.hpp"
@@ -19,9 +19,11 @@ namespace fs = std::filesystem;
 class ReportCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positional("MESH|RECORDING", path_,
-                    "Mesh to show, or recording, which is reconstructed as turnscan reconstruct "
-                    "does without options");
+    line.positional(
+        "MESH|RECORDING", path_,
+        "Mesh to show, or recording (or file or folder of another program, see turnscan "
+        "import), which is reconstructed as turnscan reconstruct does without options");
+    line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.required_option("-o,--out", "FILE.html", out_, "Page to write");
     line.option("--made-by", "FILE.json", report_,
                 "What reconstruct or scan wrote about the mesh with --report: verdict, parameters "
@@ -41,7 +43,7 @@ class ReportCommand : public Command {
       return fail_at(out_, ErrorCode::kInvalidOption, "the name must end in .html; rename it");
     TURNSCAN_TRY(check_report_files(names));
     TURNSCAN_TRY(file::check_exists(path_, "file or folder"));
-    TURNSCAN_ASSIGN(PageInput input, read_input(session.context()));
+    TURNSCAN_ASSIGN(PageInput input, read_input(session));
     if (!title_.empty()) input.title = title_;
     if (!reference_.empty()) {
       TURNSCAN_ASSIGN(const TriangleMesh reference, read_mesh(reference_, {}, session.context()));
@@ -57,20 +59,23 @@ class ReportCommand : public Command {
   }
 
  private:
-  Result<PageInput> read_input(const RunContext& context) const {
+  Result<PageInput> read_input(Session& session) const {
     const fs::path path(path_);
     std::error_code error;
-    const bool recording = fs::is_directory(path, error) || path.filename() == "recording.json";
+    const bool recording = !import_.empty() || fs::is_directory(path, error) ||
+                           path.filename() == "recording.json" || is_foreign(path);
     if (recording && !report_.empty())
       return fail(ErrorCode::kInvalidOption,
                   "--made-by: it is about a mesh, and {} is a recording; leave it out", path_);
-    return recording ? of_recording(context) : of_mesh(context);
+    return recording ? of_recording(session) : of_mesh(session.context());
   }
 
-  Result<PageInput> of_recording(const RunContext& context) const {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(path_));
+  Result<PageInput> of_recording(Session& session) const {
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(path_, import_));
     const ReconstructRequest request;
-    TURNSCAN_ASSIGN(const ReconstructRun run, run_reconstruction(recording, request, context));
+    TURNSCAN_ASSIGN(const ReconstructRun run,
+                    run_reconstruction(*input.frames, request, session.context()));
+    for (const std::string& note : input.notes) session.print("Note: {}\n", note);
     const fs::path folder = fs::path(path_).filename() == "recording.json"
                                 ? fs::absolute(path_).parent_path()
                                 : fs::absolute(path_).lexically_normal();
@@ -93,6 +98,7 @@ class ReportCommand : public Command {
     return input;
   }
 
+  std::vector<std::string> import_;
   std::string path_, out_, report_, reference_, title_;
   EvaluateOptions evaluate_;
 };

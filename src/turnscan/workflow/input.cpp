@@ -95,6 +95,16 @@ Result<Input> open_input_asking(const fs::path& path, const ImportOptions& optio
   return tl::unexpected<Error>(std::move(error));
 }
 
+Result<Input> open_input_asking(const fs::path& path,
+                                const std::vector<std::string>& import_options) {
+  TURNSCAN_ASSIGN(const ImportOptions options, parse_import_options(import_options));
+  TURNSCAN_ASSIGN(Input input, open_input_asking(path, options));
+  if (!input.imported && !import_options.empty())
+    return fail(ErrorCode::kInvalidOption, "--import: {} is a recording already; leave it out",
+                path.string());
+  return input;
+}
+
 Result<Input> keep_input(const fs::path& path, const Input& input, const fs::path& folder,
                          const RunContext& context) {
   if (!input.imported)

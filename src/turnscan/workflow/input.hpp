@@ -36,6 +36,15 @@ Result<ImportOptions> parse_import_options(const std::vector<std::string>& texts
 /// is given as `--import NAME=VALUE`.
 Result<Input> open_input_asking(const std::filesystem::path& path, const ImportOptions& options);
 
+inline constexpr const char* kImportOptionsHelp =
+    "Option of turnscan import, without its dashes, for files of another program, e.g. "
+    "depth-unit=1mm; may be given for several";
+
+/// As open_input_asking(), with options as parse_import_options() reads them. Fails as these do,
+/// and with kInvalidOption where there are options and path is a recording.
+Result<Input> open_input_asking(const std::filesystem::path& path,
+                                const std::vector<std::string>& import_options);
+
 /// Writes what was imported to a recording's folder, and goes on with that. Fails with
 /// kInvalidOption for a recording, as write_recording() and as open_input().
 Result<Input> keep_input(const std::filesystem::path& path, const Input& input,

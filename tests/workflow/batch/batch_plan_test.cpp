@@ -48,6 +48,21 @@ TEST_F(PlanOf, AFolderHasATaskForEachRecordingBelowIt) {
   EXPECT_EQ(names_of(*results), Names{"x"}) << "a batch itself gives its results";
 }
 
+TEST_F(PlanOf, FilesOfOtherProgramsAreTasksWithTheOptionsOfTheirImport) {
+  add_recording("shelf/a");
+  testing::write_file(folder / "shelf" / "take.bag", "#ROSBAG V2.0\n");
+  testing::write_file(folder / "shelf" / "table.json", "{}");
+  const auto plan = plan_batch({{folder.path().string()}, {}, {"import=depth-unit=1mm"}, {}});
+  ASSERT_TRUE(plan) << plan.error().text();
+  EXPECT_EQ(names_of(*plan), (Names{"shelf_a", "shelf_take"})) << "JSON may be of any program";
+  EXPECT_EQ(plan->at(1).options, (BatchOptions{{"import", "depth-unit=1mm"}}));
+  const auto alone = plan_batch({{path("shelf/take.bag")}, {}, {}, {}});
+  ASSERT_TRUE(alone) << alone.error().text();
+  EXPECT_EQ(names_of(*alone), Names{"take"});
+  EXPECT_NE(error_of({{path("shelf/take.bag")}, {}, {"import=thinner=1"}, {}}).find("thinner"),
+            std::string::npos);
+}
+
 TEST_F(PlanOf, ASweepIsEveryCombination) {
   add_recording("a");
   const auto plan = plan_batch({{path("a")},

@@ -9,6 +9,7 @@
 #include <turnscan/reconstruction/options.hpp>
 #include <turnscan/simulator/coverage/coverage_map.hpp>
 #include <turnscan/simulator/scene_file.hpp>
+#include <turnscan/workflow/input.hpp>
 
 namespace turnscan {
 
@@ -23,7 +24,7 @@ struct PlainOptions {
 
 const PlainOptions& plain_options(const std::string& command) {
   static const PlainOptions reconstruct{
-      {"calibration", "pass-pose"}, {"turntable", "config"}, {"allow-open"}};
+      {"calibration", "pass-pose", "import"}, {"turntable", "config"}, {"allow-open"}};
   static const PlainOptions simulate{{"scanner", "next-pass", "unit"}, {"scene"}, {"samples"}};
   return command == "simulate" ? simulate : reconstruct;
 }
@@ -54,6 +55,10 @@ Result<> check_option(const OptionTable& table, const PlainOptions& plain, const
                       const std::string& value) {
   if (plain.flags.contains(name)) {
     TURNSCAN_TRY(flag_value(name, value));
+    return {};
+  }
+  if (name == "import" && plain.texts.contains(name)) {
+    TURNSCAN_TRY(parse_import_options({value}));
     return {};
   }
   if (plain.texts.contains(name) || plain.files.contains(name)) return {};

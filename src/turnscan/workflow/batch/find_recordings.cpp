@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <turnscan/io/import/importers.hpp>
 
 namespace turnscan::batch {
 
@@ -17,16 +18,26 @@ bool holds(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
+/// A file that says by itself what it is: any program's JSON or .conf may lie among recordings.
+bool is_file_of_a_sensor(const fs::directory_entry& entry) {
+  std::error_code error;
+  if (!entry.is_regular_file(error)) return false;
+  const fs::path ending = entry.path().extension();
+  return ending != ".json" && ending != ".conf" && is_foreign(entry.path());
+}
+
 void find_below(const fs::path& folder, const std::string& prefix, int depth,
                 std::vector<FoundRecording>& found) {
   std::vector<fs::path> inner;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.is_directory(error)) inner.push_back(entry.path());
+    if (entry.is_directory(error) || is_file_of_a_sensor(entry)) inner.push_back(entry.path());
   std::sort(inner.begin(), inner.end());
   for (const fs::path& path : inner) {
     const std::string name = prefix + path.filename().string();
-    if (holds(path, "recording.json")) {
+    if (!fs::is_directory(path, error)) {
+      found.push_back({prefix + path.stem().string(), path.string()});
+    } else if (holds(path, "recording.json")) {
       found.push_back({name, path.string()});
     } else if (depth < kDeepest && !holds(path, "batch.json")) {
       find_below(path, name + "_", depth + 1, found);
@@ -50,6 +61,8 @@ void find_results(const fs::path& batch, std::vector<FoundRecording>& found) {
 
 Result<std::vector<FoundRecording>> find_recordings(const std::string& folder) {
   std::error_code error;
+  if (fs::is_regular_file(folder, error) && is_foreign(folder))
+    return std::vector<FoundRecording>{{fs::path(folder).stem().string(), folder}};
   if (!fs::is_directory(folder, error))
     return fail_at(folder, ErrorCode::kNotFound,
                    "there is no such folder; name a recording, a folder of recordings or a table");
@@ -62,6 +75,8 @@ Result<std::vector<FoundRecording>> find_recordings(const std::string& folder) {
     find_results(path, found);
   } else {
     find_below(path, "", 1, found);
+    if (found.empty() && is_foreign(path))
+      found.push_back({path.filename().string(), path.string()});
   }
   if (!found.empty()) return found;
   return fail_at(

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <turnscan/core/units.hpp>
 #include <turnscan/reconstruction/options.hpp>
-#include <turnscan/recording/recording.hpp>
 #include <turnscan/simulator/scene_file.hpp>
+#include <turnscan/workflow/input.hpp>
 
 namespace turnscan::batch {
 
@@ -54,13 +54,17 @@ void measure_task(BatchTask& task) {
     return;
   }
   double pixels = 0.0, largest = 0.0;
+  std::vector<std::string> imports;
+  for (const auto& [name, value] : task.options)
+    if (name == "import") imports.push_back(value);
   for (const std::string& path : task.inputs) {
-    const auto recording = Recording::open(path);
-    if (!recording) continue;
-    task.frames += recording->frames().size();
-    for (const SensorInfo& sensor : recording->header().sensors)
+    const auto input = open_input_asking(path, imports);
+    if (!input) continue;
+    const FrameSequence& recording = *input->frames;
+    task.frames += recording.frames().size();
+    for (const SensorInfo& sensor : recording.header().sensors)
       largest = std::max(largest, double(sensor.intrinsics.width) * sensor.intrinsics.height);
-    pixels += largest * static_cast<double>(recording->frames().size());
+    pixels += largest * static_cast<double>(recording.frames().size());
   }
   const double voxel = voxel_of(task);
   task.peak_bytes =
