@@ -570,5 +570,25 @@ TEST(ColourCamera, DriftsFromFrameToFrameAndIsGivenInTheWrongPlaceOnlyIfAsked) {
   EXPECT_NEAR(error.translation().norm(), 0.005, 1e-4);
 }
 
+TEST(ColourCamera, ItsNoiseIsAsWideAsAskedForAndColoursAreThoseOfTheMeshWithout) {
+  VirtualScanOptions o = noiseless();
+  o.motion.frames = 1;
+  o.record.color = true;
+  o.color_camera.width = 320;
+  const Frame clean = scan_of({textured_wall()}, o).read(0).value();
+  o.color_camera.noise = 4.0;
+  const Frame noisy = scan_of({textured_wall()}, o).read(0).value();
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < clean.color.pixels.size(); ++i) {
+    const Rgb a = clean.color.pixels[i], b = noisy.color.pixels[i];
+    if (a != Rgb{200, 20, 20} && a != Rgb{20, 20, 200}) continue;
+    for (const int d : {b.r - a.r, b.g - a.g, b.b - a.b})
+      n += 1.0, sum += d, squares += double(d) * d;
+  }
+  ASSERT_GT(n, 3000.0);
+  EXPECT_NEAR(sum / n, 0.0, 0.2);
+  EXPECT_NEAR(std::sqrt(squares / n), 4.0, 0.2);
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -53,6 +53,7 @@ void take_vertices(const TriangleMesh& from, const std::vector<std::uint32_t>& n
 }
 
 int wrapped(int i, int n) {
+  if (i >= 0 && i < n) return i;  // nearly always, and a division takes longer than all else here
   i %= n;
   return i < 0 ? i + n : i;
 }

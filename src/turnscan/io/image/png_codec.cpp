@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/png_color.hpp>
 #include <turnscan/io/image/png_depth.hpp>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace turnscan::image {
 namespace {
 
 // libpng reports errors by longjmp. Between setjmp and the jump only plain data may live: all C++
-// objects belong to the callers of decode_rows and encode_rgb_rows.
+// objects belong to the caller of decode_rows.
 
 struct Source {
   const unsigned char* data;
@@ -46,22 +47,6 @@ void read_bytes(png_structp png, png_bytep target, std::size_t size) {
   source->data += size;
   source->left -= size;
 }
-
-bool append(std::string& target, const unsigned char* data, std::size_t size) {
-  try {
-    target.append(reinterpret_cast<const char*>(data), size);
-    return true;
-  } catch (const std::bad_alloc&) {
-    return false;
-  }
-}
-
-void write_bytes(png_structp png, png_bytep data, std::size_t size) {
-  if (!append(*static_cast<std::string*>(png_get_io_ptr(png)), data, size))
-    png_error(png, "out of memory");
-}
-
-void flush_bytes(png_structp) {}
 
 void ask_for(png_structp png, PngPixels kind) {
   if (kind == PngPixels::kDepth16) {
@@ -106,30 +91,6 @@ bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_byte
   source->allowed = source->left;
   png_read_end(png, nullptr);
   png_destroy_read_struct(&png, &info, nullptr);
-  return true;
-}
-
-bool encode_rgb_rows(const unsigned char* pixels, int width, int height, std::string* target,
-                     Failure* failure) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, failure, on_error, on_warning);
-  if (png == nullptr) return false;
-  png_infop info = png_create_info_struct(png);
-  if (info == nullptr || setjmp(png_jmpbuf(png))) {
-    png_destroy_write_struct(&png, &info);
-    return false;
-  }
-  png_set_write_fn(png, target, write_bytes, flush_bytes);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(png, 3);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
-  png_write_info(png, info);
-  for (int row = 0; row < height; ++row)
-    png_write_row(png,
-                  pixels + static_cast<std::size_t>(row) * static_cast<std::size_t>(width) * 3);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
   return true;
 }
 
@@ -188,14 +149,9 @@ Result<> decode_png(std::string_view bytes, const PngInfo& info, PngPixels kind,
 }
 
 Result<std::string> encode_png(const unsigned char* pixels, int width, int height, PngPixels kind) {
-  if (kind == PngPixels::kDepth16)
-    return encode_plain_depth(pixels, static_cast<std::uint32_t>(width),
-                              static_cast<std::uint32_t>(height));
-  std::string bytes;
-  Failure failure{};
-  if (!encode_rgb_rows(pixels, width, height, &bytes, &failure))
-    return fail(ErrorCode::kLibrary, "cannot encode the image as PNG: {}", failure.text.data());
-  return bytes;
+  const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
+  return kind == PngPixels::kDepth16 ? encode_plain_depth(pixels, columns, rows)
+                                     : encode_rgb(pixels, columns, rows);
 }
 
 }  // namespace turnscan::image

@@ -176,11 +176,13 @@ void put_chunk(std::string& out, std::string_view type, std::string_view content
   put_big_endian(out, libdeflate_crc32(0, out.data() + start, out.size() - start));
 }
 
-std::string header_of(std::uint32_t width, std::uint32_t height) {
+std::string header_of(std::uint32_t width, std::uint32_t height, PlainPng kind) {
   std::string header;
   put_big_endian(header, width);
   put_big_endian(header, height);
-  return header.append("\x10\0\0\0\0", 5);  // 16 bit, grey, deflate, filters by row, one pass
+  header += kind == PlainPng::kGrey16 ? '\x10' : '\x08';
+  header += kind == PlainPng::kGrey16 ? '\0' : '\x02';
+  return header.append("\0\0\0", 3);  // deflate, filters by row, one pass
 }
 
 /// Each row less the one above it: as small as Paeth's filter (within 4 % on noisy depth), and
@@ -229,14 +231,19 @@ std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
                                std::uint32_t height) {
   Scratch& scratch = scratch_of_this_thread();
   filter_up(pixels, width, height, scratch);
-  const std::size_t raw = scratch.filtered.size();
-  scratch.packed.resize(libdeflate_zlib_compress_bound(scratch.compressor.get(), raw));
+  return pack_png(scratch.filtered, width, height, PlainPng::kGrey16);
+}
+
+std::string pack_png(std::span<const unsigned char> filtered, std::uint32_t width,
+                     std::uint32_t height, PlainPng kind) {
+  Scratch& scratch = scratch_of_this_thread();
+  scratch.packed.resize(libdeflate_zlib_compress_bound(scratch.compressor.get(), filtered.size()));
   const std::size_t size =
-      libdeflate_zlib_compress(scratch.compressor.get(), scratch.filtered.data(), raw,
+      libdeflate_zlib_compress(scratch.compressor.get(), filtered.data(), filtered.size(),
                                scratch.packed.data(), scratch.packed.size());
   std::string out(kPngSignature);
   out.reserve(size + 64);
-  put_chunk(out, "IHDR", header_of(width, height));
+  put_chunk(out, "IHDR", header_of(width, height, kind));
   put_chunk(out, "IDAT", {reinterpret_cast<const char*>(scratch.packed.data()), size});
   put_chunk(out, "IEND", {});
   return out;

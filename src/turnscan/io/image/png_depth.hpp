@@ -2,6 +2,7 @@
 // 16-bit grey PNG images as depth recordings hold them, packed by libdeflate: two to five times as
 // fast as libpng with zlib, read and written.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <turnscan/io/image/png_codec.hpp>
@@ -17,5 +18,11 @@ bool decode_plain_depth(std::string_view bytes, const PngInfo& info, unsigned ch
 /// @param pixels width * height values (std::uint16_t in the machine's byte order).
 std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
                                std::uint32_t height);
+
+/// A PNG file of rows that are filtered already, each after the number of its filter. A chunk holds
+/// less than 2^31 bytes; the limits of image sizes see to it.
+enum class PlainPng { kGrey16, kRgb8 };
+std::string pack_png(std::span<const unsigned char> filtered, std::uint32_t width,
+                     std::uint32_t height, PlainPng kind);
 
 }  // namespace turnscan::image

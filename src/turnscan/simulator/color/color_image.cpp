@@ -4,6 +4,7 @@
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/color/color_image.hpp>
+#include <turnscan/simulator/color/color_response.hpp>
 
 namespace turnscan::sampling {
 
@@ -13,22 +14,6 @@ constexpr int kSide = 2;  // samples a pixel, each way
 constexpr float kMirrorExponent = 40.0f;
 const Vec3f kPlatterSrgb(140.0f, 142.0f, 146.0f), kPlainSrgb(190.0f, 190.0f, 190.0f);
 const Vec3f kNothingThere(28.0f, 30.0f, 34.0f);
-
-/// IEC 61966-2-1.
-float to_linear(float srgb) {
-  const float s = srgb / 255.0f;
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
-float to_srgb(float linear) {
-  if (!(linear > 0.0f)) return 0.0f;
-  return 255.0f *
-         (linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f);
-}
-
-Vec3f linear_color(const Vec3f& srgb) {
-  return {to_linear(srgb.x()), to_linear(srgb.y()), to_linear(srgb.z())};
-}
 
 /// Between -1 and 1.
 double wander(std::uint64_t key) { return 2.0 * uniform01(mix64(key)) - 1.0; }
@@ -75,33 +60,89 @@ Result<ColorCamera> ColorCamera::create(const ColorCameraOptions& options,
   return ColorCamera(options, std::move(tracer), std::move(meshes));
 }
 
-Vec3f ColorCamera::lit(std::span<const Body> bodies, const Samples& samples, std::size_t i,
-                       const SampleHit& hit, const Vec3f& eye_world) const {
-  const std::uint32_t object = samples.object(i), body = samples.body(i);
-  const Vec3f albedo =
-      linear_color(object == kPlatter ? kPlatterSrgb
-                                      : surface_color(meshes_[body][object], samples.triangle[i],
-                                                      float(hit.u), float(hit.v)));
-  if (options_.lamp == 0.0 && options_.gloss == 0.0) return albedo;
-  const Pose& T = bodies[body].T_world_body;
-  const Vec3f p = (T * hit.p_body).cast<float>();
-  Vec3f n = (T.linear() * hit.normal_body).cast<float>();
-  if (hit.back) n = -n;
-  float facing = std::max(0.0f, n.dot(to_lamp_));
-  for (const Body& other : bodies) {
-    if (facing == 0.0f) break;
-    const Pose back = other.T_world_body.inverse();
-    Ray ray;
-    ray.origin = (back * (p + 1e-4f * n).cast<double>()).cast<float>();
-    ray.direction = (back.linear() * to_lamp_.cast<double>()).cast<float>();
-    if (other.scene->occluded(ray)) facing = 0.0f;
+/// A body as the camera sees it.
+struct ColorCamera::SeenBody {
+  Eigen::Matrix3d rotation;  ///< body <- camera
+  Vec3d eye;                 ///< body's frame
+  Pose T_body_world;
+  Eigen::Matrix3f world_rotation;  ///< world <- body
+  Vec3f world_translation;
+};
+
+/// A sample on a surface that the lamp may shine on, world.
+struct ColorCamera::LampSample {
+  int column;  ///< of its pixel
+  Vec3f albedo, position, normal;
+  float facing;
+  bool glossy;
+};
+
+/// As SampleTracer::hit_of(), but without what colours do not need.
+ColorCamera::LampSample ColorCamera::sample_of(std::span<const Body> bodies,
+                                               std::span<const SeenBody> seen,
+                                               const SampleGrid& grid, std::size_t i,
+                                               const Vec3d& direction) const {
+  const std::uint32_t object = grid.object(i), body = grid.body(i);
+  const SeenBody& view = seen[body];
+  const Vec3d from_eye = double(grid.z[i]) * (view.rotation * direction);
+  const bool lamp = options_.lamp != 0.0 || options_.gloss != 0.0;
+  LampSample out;
+  Vec3d normal = Vec3d::UnitY();
+  if (object == kPlatter) {
+    out.albedo = SrgbCurve::instance().linear(kPlatterSrgb);
+  } else {
+    const auto corners = bodies[body].scene->corners(object, grid.triangle[i]);
+    const Vec3d a = corners[0].cast<double>();
+    const Vec3d ab = corners[1].cast<double>() - a, ac = corners[2].cast<double>() - a;
+    const Vec3d n = ab.cross(ac), ap = view.eye + from_eye - a;
+    const double over = 1.0 / std::max(n.squaredNorm(), 1e-300);
+    out.albedo = SrgbCurve::instance().linear(
+        surface_color(meshes_[body][object], grid.triangle[i],
+                      std::clamp(float(ap.cross(ac).dot(n) * over), 0.0f, 1.0f),
+                      std::clamp(float(ab.cross(ap).dot(n) * over), 0.0f, 1.0f)));
+    if (lamp) normal = n.normalized();
   }
+  if (!lamp) return out;
+  if (normal.dot(from_eye) > 0.0) normal = -normal;
+  out.position = view.world_rotation * (view.eye + from_eye).cast<float>() + view.world_translation;
+  out.normal = view.world_rotation * normal.cast<float>();
+  out.facing = std::max(0.0f, out.normal.dot(to_lamp_));
+  out.glossy = object != kPlatter;
+  return out;
+}
+
+void ColorCamera::cast_shadows(std::span<const Body> bodies, std::span<const SeenBody> seen,
+                               std::vector<LampSample>& samples) const {
+  std::vector<Ray> rays;
+  std::vector<std::uint32_t> of;
+  std::vector<std::uint8_t> blocked;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Eigen::Matrix3f rotation = seen[b].T_body_world.linear().cast<float>();
+    const Vec3f translation = seen[b].T_body_world.translation().cast<float>();
+    Ray ray;
+    ray.direction = rotation * to_lamp_;
+    rays.clear(), of.clear();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const LampSample& s = samples[i];
+      if (s.facing == 0.0f) continue;
+      ray.origin = rotation * (s.position + 1e-4f * s.normal) + translation;
+      rays.push_back(ray);
+      of.push_back(std::uint32_t(i));
+    }
+    blocked.resize(rays.size());
+    bodies[b].scene->occluded(rays, blocked, RayOrder::kCoherent);
+    for (std::size_t k = 0; k < of.size(); ++k)
+      if (blocked[k] != 0) samples[of[k]].facing = 0.0f;
+  }
+}
+
+Vec3f ColorCamera::lit(const LampSample& s, const Vec3f& eye_world) const {
   const auto lamp = float(options_.lamp);
-  Vec3f light = (1.0f - lamp + lamp * facing) * albedo;
-  if (options_.gloss > 0.0 && facing > 0.0f && object != kPlatter) {
-    const Vec3f half = (to_lamp_ + (eye_world - p).normalized()).normalized();
+  Vec3f light = (1.0f - lamp + lamp * s.facing) * s.albedo;
+  if (options_.gloss > 0.0 && s.facing > 0.0f && s.glossy) {
+    const Vec3f half = (to_lamp_ + (eye_world - s.position).normalized()).normalized();
     light += Vec3f::Constant(float(options_.gloss) *
-                             std::pow(std::max(0.0f, n.dot(half)), kMirrorExponent));
+                             std::pow(std::max(0.0f, s.normal.dot(half)), kMirrorExponent));
   }
   return light;
 }
@@ -111,25 +152,42 @@ Image<Vec3f> ColorCamera::light(std::span<const Body> bodies, const Pose& T_worl
   const Vec3f eye = T_world_color.translation().cast<float>();
   SampleGrid grid;
   tracer_.trace(bodies, T_world_color, grid);
-  const Vec3f nothing = linear_color(kNothingThere);
-  Image<Vec3f> out(grid.width / kSide, grid.height / kSide, Vec3f::Zero());
+  std::vector<SeenBody> seen;
+  for (const Body& body : bodies) {
+    const Pose T_body_world = body.T_world_body.inverse(), T = T_body_world * T_world_color;
+    seen.push_back({T.linear(), T.translation(), T_body_world,
+                    body.T_world_body.linear().cast<float>(),
+                    body.T_world_body.translation().cast<float>()});
+  }
+  const CameraIntrinsics& camera = tracer_.model().camera;  // without distortion
+  const Vec3f nothing = SrgbCurve::instance().linear(kNothingThere);
+  Image<Vec3f> out(grid.width / kSide, grid.height / kSide, nothing);
+  const bool lamp = options_.lamp != 0.0 || options_.gloss != 0.0;
   constexpr float kShare = 1.0f / float(kSide * kSide);
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
+  std::vector<LampSample> samples;
+  for (int y = grid.rect.top / kSide; y * kSide < grid.rect.bottom; ++y) {
+    samples.clear();
+    for (int x = grid.rect.left / kSide; x * kSide < grid.rect.right; ++x) {
       Vec3f& sum = out.at(x, y);
       for (int s = 0; s < kSide * kSide; ++s) {
         const int column = x * kSide + s % kSide, row = y * kSide + s / kSide;
-        const bool hits = grid.contains(column, row) && grid.hit(grid.index(column, row));
-        if (!hits) {
-          sum += kShare * nothing;
+        if (!grid.contains(column, row)) continue;
+        const std::size_t i = grid.index(column, row);
+        if (!grid.hit(i)) continue;
+        const LampSample sample =
+            sample_of(bodies, seen, grid, i,
+                      {(column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1.0});
+        sum -= kShare * nothing;
+        if (!lamp) {
+          sum += kShare * sample.albedo;
           continue;
         }
-        const std::size_t i = grid.index(column, row);
-        const SampleHit hit =
-            tracer_.hit_of(bodies, T_world_color, grid, i, tracer_.direction(column, row));
-        sum += kShare * lit(bodies, grid, i, hit, eye);
+        samples.push_back(sample);
+        samples.back().column = x;
       }
     }
+    cast_shadows(bodies, seen, samples);
+    for (const LampSample& sample : samples) out.at(sample.column, y) += kShare * lit(sample, eye);
   }
   return out;
 }
@@ -142,21 +200,23 @@ ColorImage ColorCamera::exposed(const Image<Vec3f>& light, std::uint64_t key) co
   ColorImage out(light.width, light.height);
   const float cx = 0.5f * float(light.width - 1), cy = 0.5f * float(light.height - 1);
   const float corner = cx * cx + cy * cy;
+  const SrgbCurve& curve = SrgbCurve::instance();
+  const NoiseTable& normal = NoiseTable::instance();
+  const auto noise = float(options_.noise);
   for (int y = 0; y < light.height; ++y) {
+    const std::uint64_t row_key = hash_key(key, 7, std::uint64_t(y));
     for (int x = 0; x < light.width; ++x) {
       const float dx = float(x) - cx, dy = float(y) - cy;
       const float falloff =
           1.0f - float(options_.vignetting) * (dx * dx + dy * dy) / std::max(corner, 1.0f);
       const Vec3f& from = light.at(x, y);
+      std::uint64_t bits = noise > 0.0f ? mix64(row_key ^ std::uint64_t(x)) : 0;
       std::array<std::uint8_t, 3> bytes{};
       for (int c = 0; c < 3; ++c) {
-        double value = double(to_srgb(falloff * gain[c] * from[c]));
-        if (options_.noise > 0.0) {
-          const std::uint64_t pixel =
-              std::uint64_t(y) * std::uint64_t(light.width) + std::uint64_t(x);
-          value += options_.noise * standard_normal(hash_key(key, 7, pixel, std::uint64_t(c)));
-        }
-        bytes[std::size_t(c)] = std::uint8_t(std::clamp(value + 0.5, 0.0, 255.0));
+        float value = curve.srgb(falloff * gain[c] * from[c]);
+        if (noise > 0.0f) value += noise * normal(bits);
+        bits >>= NoiseTable::kBits;
+        bytes[std::size_t(c)] = std::uint8_t(std::clamp(value + 0.5f, 0.0f, 255.0f));
       }
       out.at(x, y) = {bytes[0], bytes[1], bytes[2]};
     }

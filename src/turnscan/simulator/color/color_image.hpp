@@ -32,8 +32,13 @@ class ColorCamera {
  private:
   ColorCamera(const ColorCameraOptions& options, SampleTracer tracer,
               std::vector<std::span<const TriangleMesh>> meshes);
-  Vec3f lit(std::span<const Body> bodies, const Samples& samples, std::size_t i,
-            const SampleHit& hit, const Vec3f& eye_world) const;
+  struct SeenBody;
+  struct LampSample;
+  LampSample sample_of(std::span<const Body> bodies, std::span<const SeenBody> seen,
+                       const SampleGrid& grid, std::size_t i, const Vec3d& direction) const;
+  void cast_shadows(std::span<const Body> bodies, std::span<const SeenBody> seen,
+                    std::vector<LampSample>& samples) const;
+  Vec3f lit(const LampSample& sample, const Vec3f& eye_world) const;
 
   ColorCameraOptions options_;
   SampleTracer tracer_;
