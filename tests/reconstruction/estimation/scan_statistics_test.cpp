@@ -25,6 +25,22 @@ TEST(FrameStatistics, FindTheNoiseAndSpacingOfADepthImage) {
   EXPECT_LT(s.spacing_m, 0.0045);
 }
 
+TEST(FrameStatistics, ASteepSurfaceDoesNotSpreadTheSpacingOfTheRays) {
+  FramePoints points;
+  points.width = 100;
+  points.height = 50;
+  for (int v = 0; v < points.height; ++v) {
+    for (int u = 0; u < points.width; ++u) {
+      points.cloud.points.emplace_back(0.002f * float(u), 0.002f * float(v),
+                                       0.7f + 0.006f * float(u));
+      points.cell.push_back(v * points.width + u);
+    }
+  }
+  const FrameStatistics s = frame_statistics(points);
+  EXPECT_NEAR(s.spacing_m, std::hypot(0.002, 0.006), 1e-5);
+  EXPECT_NEAR(s.even_spacing_m, 1.25 * 0.002, 1e-5);
+}
+
 /// Bars eight pixels wide in front of a wall, each at a depth of its own; the pixel between bar and
 /// wall mixes both.
 FramePoints bars_before_a_wall(double noise_m) {

@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -108,6 +109,10 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
           extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }
 
+/// So much farther than across the rays may neighbours lie along the surface before the frame says
+/// more about the surface's slope than about its points.
+constexpr double kMostBySlope = 1.25;
+
 /// A second difference this many times the noise is a step from one surface to another.
 constexpr double kJump = 3.5;
 constexpr int kNoiseRounds = 6;
@@ -156,15 +161,26 @@ class GridBends {
 
   /// Median distance of neighbours.
   double spacing() const {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < bend_.size(); ++i) {
-      if (follows(i))
-        steps.push_back((points_.cloud.points[i] - points_.cloud.points[i - 1]).norm());
-    }
-    return median(steps);
+    return median_step([](const Vec3f& step) { return double(step.norm()); });
+  }
+
+  /// The same across the rays, where neither noise nor the surface's slope count.
+  double spacing_across() const {
+    const Vec3f along =
+        points_.viewpoint.parallel ? Vec3f(points_.viewpoint.value.cast<float>()) : Vec3f::UnitZ();
+    return median_step(
+        [&](const Vec3f& step) { return double((step - step.dot(along) * along).norm()); });
   }
 
  private:
+  double median_step(const std::function<double(const Vec3f&)>& length) const {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < bend_.size(); ++i) {
+      if (follows(i))
+        steps.push_back(length(points_.cloud.points[i] - points_.cloud.points[i - 1]));
+    }
+    return median(steps);
+  }
   bool follows(std::size_t i) const { return points_.cell[i] == points_.cell[i - 1] + 1; }
   bool within(std::size_t i, double jump_m) const { return inner_[i] && bend_[i] <= jump_m; }
   static double noise_of(std::vector<double>& bends) {
@@ -188,7 +204,10 @@ FrameStatistics frame_statistics(const FramePoints& points) {
   out.noise_m = bends.raw_noise();
   for (int round = 0; round < kNoiseRounds; ++round)
     out.noise_m = bends.noise_within(kJump * std::sqrt(1.5) * out.noise_m).value_or(out.noise_m);
-  out.spacing_m = out.even_spacing_m = bends.spacing();
+  out.spacing_m = bends.spacing();
+  // A frame that looks along a flat part would ask for voxels too coarse for all the others.
+  out.even_spacing_m = std::min(out.spacing_m, std::hypot(kMostBySlope * bends.spacing_across(),
+                                                          std::numbers::sqrt2 * out.noise_m));
   return out;
 }
 
