@@ -1,6 +1,7 @@
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/summary.hpp>
+#include <turnscan/workflow/input.hpp>
 
 #include <turnscan/workflow/output_file.hpp>
 #include "cli/command_line.hpp"
@@ -34,8 +35,8 @@ class ImportCommand : public Command {
                     open_foreign_passes({sources_.begin(), sources_.end()}, options_));
     TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_));
-    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(recording, session.context()));
+    TURNSCAN_ASSIGN(const Input made, open_input(out_));
+    TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(made, session.context()));
     session.print("{}Wrote {}\n", summary_text(summary), out_);
     return {};
   }

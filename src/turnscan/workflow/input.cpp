@@ -2,6 +2,7 @@
 
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/workflow/device_notes.hpp>
 
 namespace turnscan {
 
@@ -116,6 +117,8 @@ Result<Input> keep_input(const fs::path& path, const Input& input, const fs::pat
 
 Result<SequenceSummary> summarize(const Input& input, const RunContext& context) {
   TURNSCAN_ASSIGN(SequenceSummary summary, summarize(*input.frames, context));
+  TURNSCAN_ASSIGN(const auto filled, filled_depth_notes(*input.frames, context));
+  summary.notes.insert(summary.notes.end(), filled.begin(), filled.end());
   if (input.imported)
     summary.bytes = input.bytes;  // what was assumed stands in the summary already
   else

@@ -6,10 +6,10 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/recording/temporal_filter.hpp>
 
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/calibration/turntable_file.hpp>
+#include <turnscan/workflow/device_notes.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_json.hpp>
 #include <turnscan/workflow/next_pass/next_pass_picture.hpp>
@@ -118,11 +118,9 @@ void note_calibrations(const std::vector<NamedSequence>& recordings,
 Result<> note_filters(const std::vector<NamedSequence>& recordings, const RunContext& context,
                       std::vector<std::string>& notes) {
   for (const NamedSequence& recording : recordings) {
-    TURNSCAN_ASSIGN(const std::optional<std::string> note,
-                    temporal_filter_note(*recording.frames, context));
-    if (note)
-      notes.push_back(recordings.size() == 1 ? *note
-                                             : fmt::format("{}: {}", recording.name, *note));
+    TURNSCAN_ASSIGN(const auto said, device_notes(*recording.frames, context));
+    for (const std::string& note : said)
+      notes.push_back(recordings.size() == 1 ? note : fmt::format("{}: {}", recording.name, note));
   }
   return {};
 }

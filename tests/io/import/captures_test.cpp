@@ -1,5 +1,6 @@
 // Record3D and .sens. The files in data/ were written by Python's zipfile, zlib and struct after
-// the published descriptions; depth and confidence were packed by the reference encoder of LZFSE.
+// the published descriptions; depth and confidence were packed by the reference encoder of LZFSE,
+// in lz4.r3d by liblz4 (frame 0 in the blocks of Apple's library, frame 1 as a frame).
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,6 +57,18 @@ TEST(Record3d, ReadsDepthColourTimesAndCameras) {
   EXPECT_EQ(frame.color.width, 48);
   EXPECT_NEAR(frame.color.at(20, 20).r, 200, 3);
   EXPECT_THAT(sequence->header().source, HasSubstr("focal length changed by 5.0 %"));
+  EXPECT_THAT(sequence->header().source, HasSubstr("gaps are filled"));
+}
+
+TEST(Record3d, DepthAndConfidenceMayBePackedByLz4) {
+  const auto sequence = open(data("lz4.r3d"), with(DevicePoses::kAuto, Confidence::kHigh));
+  ASSERT_EQ(sequence->frames().size(), 2u);
+  for (int n = 0; n < 2; ++n) {
+    const DepthImage depth = frame_of(*sequence, std::size_t(n)).depth;
+    ASSERT_EQ(depth.width, 24);
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 24; ++x) ASSERT_EQ(depth.at(x, y), r3d_depth(x, y, n)) << n;
+  }
 }
 
 TEST(Record3d, WhatIsNoDepthOrUnsureIsNoReturn) {

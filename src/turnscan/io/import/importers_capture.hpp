@@ -34,6 +34,11 @@ std::uint8_t least_confidence(const ImportOptions& options);
 DepthImage depth_of_floats(std::string_view bytes, int width, int height);
 inline constexpr double kFloatDepthUnit = 1e-4;
 
+/// Said of every recording of Apple's LiDAR (the author of Record3D, its issue 43).
+inline constexpr const char* kLidarNote =
+    "the device computes the depth of its LiDAR from a few hundred measured points and the colour "
+    "image: small shapes are soft, and gaps are filled";
+
 /// A pinhole camera for an image of another size of the same view. The image coordinates of
 /// `camera` are measured from the corner of the image, as Apple's are.
 CameraIntrinsics from_corner_coordinates(const CameraIntrinsics& camera, int width, int height);

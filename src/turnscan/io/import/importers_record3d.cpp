@@ -2,7 +2,7 @@
 // rgbd/N.depth and rgbd/N.conf, as its author describes them
 // (github.com/marek-simonik/record3d, issues 7, 30, 39, 93, 108): depth as LZFSE of 32-bit floats
 // in metres, confidence as LZFSE of bytes 0 to 2 (Apple: low, medium, high), both registered to
-// colour.
+// colour. LZ4, the other packing of Apple's library, is taken in its place.
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +10,7 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
+#include <turnscan/io/lz4/lz4.hpp>
 #include <turnscan/io/lzfse/lzfse.hpp>
 #include <turnscan/io/record3d/metadata.hpp>
 #include <turnscan/io/zip/zip_file.hpp>
@@ -59,15 +60,23 @@ std::map<std::uint32_t, R3dFrame> frames_in(const zip::Directory& directory) {
   return frames;
 }
 
+/// Bytes packed by LZFSE or LZ4, or as they are; a stored image may begin like either, so that what
+/// has the right size already is left alone.
+Result<std::string> unpacked_bytes(const fs::path& path, std::string bytes, std::size_t most,
+                                   std::size_t right_size) {
+  if (bytes.size() == right_size) return bytes;
+  const bool lz4 = lz4::looks_like_lz4(bytes);
+  if (!lz4 && !lzfse::looks_like_lzfse(bytes)) return bytes;
+  auto decoded = lz4 ? lz4::decode(bytes, most) : lzfse::decode(bytes, most);
+  if (!decoded) return at_path(path, std::move(decoded).error());
+  return decoded;
+}
+
 Result<std::string> unpacked(const file::RandomAccessFile& file, const zip::Entry& entry,
                              std::size_t size) {
-  // What LZFSE cannot pack it stores, with a few bytes a block more.
-  TURNSCAN_ASSIGN(std::string bytes, zip::read_entry(file, entry, size + size / 16 + 4096));
-  if (lzfse::looks_like_lzfse(bytes) && bytes.size() != size) {
-    auto decoded = lzfse::decode(bytes, size);
-    if (!decoded) return at_path(file.path(), std::move(decoded).error());
-    bytes = std::move(*decoded);
-  }
+  // What cannot be packed is stored, with a few bytes a block more.
+  TURNSCAN_ASSIGN(std::string packed, zip::read_entry(file, entry, size + size / 16 + 4096));
+  TURNSCAN_ASSIGN(std::string bytes, unpacked_bytes(file.path(), std::move(packed), size, size));
   if (bytes.size() == size) return bytes;
   return fail_at(file.path().string(), ErrorCode::kFormat,
                  "the image at byte {} unpacks to {} bytes, but its size asks for {}",
@@ -149,13 +158,11 @@ Result<> size_by_content(const R3dFile& data, record3d::Metadata& metadata) {
                                   [](const R3dFrame& f) { return f.depth.has_value(); });
   const std::uint64_t most =
       std::uint64_t(metadata.camera.width) * std::uint64_t(metadata.camera.height) * 4;
-  TURNSCAN_ASSIGN(std::string bytes,
+  TURNSCAN_ASSIGN(std::string packed,
                   zip::read_entry(data.file, *first->depth, most + most / 16 + 4096));
-  if (lzfse::looks_like_lzfse(bytes)) {
-    auto decoded = lzfse::decode(bytes, std::size_t(std::max<std::uint64_t>(most, 480 * 640 * 4)));
-    if (!decoded) return at_path(data.file.path(), std::move(decoded).error());
-    bytes = std::move(*decoded);
-  }
+  TURNSCAN_ASSIGN(const std::string bytes,
+                  unpacked_bytes(data.file.path(), std::move(packed),
+                                 std::size_t(std::max<std::uint64_t>(most, 480 * 640 * 4)), 0));
   const bool upright = metadata.camera.height >= metadata.camera.width;
   const Sides color = sides_of(metadata.camera.width, metadata.camera.height);
   for (const auto& [shorter, longer] : {kLidar, kTrueDepth, color}) {
@@ -202,6 +209,7 @@ Result<> describe_sensor(const R3dFile& data, const record3d::Metadata& metadata
   add_note(header, fmt::format("depth of {} x {} pixels: taken for the {}", metadata.depth_width,
                                metadata.depth_height,
                                sensor.model == "iphone-lidar" ? "LiDAR" : "TrueDepth camera"));
+  if (sensor.model == "iphone-lidar") add_note(header, kLidarNote);
   TURNSCAN_TRY(sensor.intrinsics.check());
   header.sensors.push_back(std::move(sensor));
   return {};

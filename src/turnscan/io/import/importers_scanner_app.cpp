@@ -140,6 +140,7 @@ Result<SensorInfo> describe_app_sensor(const std::vector<AppFrame>& frames,
   TURNSCAN_ASSIGN(const DepthImage depth, read_depth_png(frames.front().depth));
   SensorInfo sensor;
   sensor.model = "iphone-lidar";
+  add_note(header, kLidarNote);
   sensor.depth_unit_m = 1e-3;
   sensor.intrinsics = from_corner_coordinates(camera, depth.width, depth.height);
   if (colored != frames.end())

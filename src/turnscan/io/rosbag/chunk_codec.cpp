@@ -1,7 +1,7 @@
 #include <bzlib.h>
-#include <lz4frame.h>
 
 #include <algorithm>
+#include <turnscan/io/lz4/lz4.hpp>
 #include <turnscan/io/rosbag/chunk_codec.hpp>
 
 namespace turnscan::rosbag {
@@ -20,28 +20,10 @@ tl::unexpected<Error> damaged(std::string_view why) {
 }
 
 Result<std::string> unpack_lz4(std::string_view bytes, std::size_t size) {
-  LZ4F_dctx* context = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)))
-    return fail(ErrorCode::kLibrary, "liblz4 gives no context; there may be too little memory");
-  std::string out;
-  std::size_t made = 0, left = 1;
-  std::string_view problem;
-  LZ4F_decompressOptions_t options{};
-  options.stableDst = size <= kFirstRoom ? 1 : 0;  // it never moves: liblz4 need not copy it
-  while (left != 0 && problem.empty()) {
-    if (made == out.size() && made < size) widen(out, size);
-    std::size_t room = out.size() - made, taken = bytes.size();
-    left = LZ4F_decompress(context, out.data() + made, &room, bytes.data(), &taken, &options);
-    if (LZ4F_isError(left))
-      problem = LZ4F_getErrorName(left);
-    else if (room == 0 && taken == 0 && left != 0)
-      problem = bytes.empty() ? "its data end too early" : "it is longer than its header says";
-    made += room;
-    bytes.remove_prefix(std::min(taken, bytes.size()));
-  }
-  LZ4F_freeDecompressionContext(context);
-  if (!problem.empty()) return damaged(problem);
-  if (made != size) return damaged("its length is not that of its header");
+  auto out = lz4::decode(bytes, size);
+  if (!out && out.error().code == ErrorCode::kLibrary) return out;
+  if (!out) return damaged(out.error().message);
+  if (out->size() != size) return damaged("its length is not that of its header");
   return out;
 }
 

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/recording/filled_depth.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::size_t kMostFrames = 12;
+constexpr std::uint64_t kFewestRims = 200;
+constexpr float kLeastStrip_px = 6.0f;
+constexpr float kRim_px = 0.7f;       // a step of disparity between neighbours that is a rim
+constexpr float kFarthest = 1.5f;     // widths of the strip within which the far surface begins
+constexpr float kStripMargin = 0.2f;  // of the strip, left out at both its ends
+
+struct Strips {
+  std::uint64_t rims = 0, pixels = 0, filled = 0;
+
+  Strips& operator+=(const Strips& o) {
+    rims += o.rims, pixels += o.pixels, filled += o.filled;
+    return *this;
+  }
+};
+using BothSides = std::array<Strips, 2>;
+
+/// Disparities of a row, 0 where there is no return or one outside the crop. Reversed: the other
+/// side of what is near.
+class Row {
+ public:
+  Row(const DepthImage& depth, int row, float scale, float bias_steps, bool reversed) {
+    disparity_.reserve(std::size_t(depth.width));
+    for (int x = 0; x < depth.width; ++x) {
+      const std::uint16_t raw = depth.at(reversed ? depth.width - 1 - x : x, row);
+      const float steps = float(raw) + bias_steps;
+      const bool there = raw != kNoReturn && raw != kOutsideCrop && steps > 0.0f;
+      disparity_.push_back(there ? scale / steps : 0.0f);
+    }
+  }
+
+  /// The strips to the left of rims.
+  Strips strips() const {
+    Strips out;
+    for (int x = 1; x < int(disparity_.size()); ++x) {
+      const float near = disparity_[std::size_t(x)];
+      if (near == 0.0f || near - disparity_[std::size_t(x - 1)] < kRim_px) continue;
+      if (const float width = strip_at(x); width > 0.0f) add(x, width, out);
+    }
+    return out;
+  }
+
+ private:
+  /// Width of the strip beside the rim at x; 0 without a far surface close by.
+  float strip_at(int x) const {
+    const float near = disparity_[std::size_t(x)];
+    const int reach = std::min(x, int(kFarthest * near) + 2);
+    for (int k = 1; k <= reach; ++k) {
+      const float far = disparity_[std::size_t(x - k)];
+      if (far == 0.0f) continue;
+      const float width = near - far;
+      if (width >= kLeastStrip_px && float(k) <= kFarthest * width + 2.0f) return width;
+    }
+    return 0.0f;
+  }
+
+  void add(int x, float width, Strips& out) const {
+    const int first = std::max(0, x - int((1.0f - kStripMargin) * width));
+    const int last = x - 1 - int(kStripMargin * width);
+    ++out.rims;
+    for (int p = first; p <= last; ++p) {
+      ++out.pixels;
+      out.filled += disparity_[std::size_t(p)] > 0.0f ? 1 : 0;
+    }
+  }
+
+  std::vector<float> disparity_;
+};
+
+BothSides strips_of(const DepthImage& depth, const SensorInfo& sensor, double baseline_m) {
+  const auto scale = float(sensor.intrinsics.fx * baseline_m / sensor.depth_unit_m);
+  const auto bias = float(sensor.depth_bias_m / sensor.depth_unit_m);
+  BothSides out;
+  for (int y = 0; y < depth.height; y += 2)
+    for (const bool reversed : {false, true})
+      out[reversed ? 1 : 0] += Row(depth, y, scale, bias, reversed).strips();
+  return out;
+}
+
+/// Spread over the sequence.
+std::vector<std::size_t> chosen(const FrameSequence& sequence, std::uint32_t sensor) {
+  std::vector<std::size_t> all, out;
+  for (std::size_t i = 0; i < sequence.frames().size(); ++i)
+    if (const FrameInfo& info = sequence.frames()[i];
+        info.sensor == sensor && info.status == FrameStatus::kOk)
+      all.push_back(i);
+  const std::size_t n = std::min(kMostFrames, all.size());
+  for (std::size_t i = 0; i < n; ++i) out.push_back(all[i * all.size() / n]);
+  return out;
+}
+
+}  // namespace
+
+Result<std::optional<double>> filled_share(const FrameSequence& sequence, std::uint32_t sensor,
+                                           double baseline_m, const RunContext& context) {
+  const SensorInfo& info = sequence.header().sensors.at(sensor);
+  if (info.kind != SensorKind::kDepthCamera || !(baseline_m > 0.0)) return std::optional<double>();
+  const std::vector<std::size_t> positions = chosen(sequence, sensor);
+  std::vector<BothSides> each(positions.size());
+  parallel_for(positions.size(), 1, [&](std::size_t i) {
+    if (context.cancelled()) return;
+    if (const auto frame = sequence.read(positions[i]))
+      each[i] = strips_of(frame->depth, info, baseline_m);
+  });
+  TURNSCAN_TRY(context.check());
+  BothSides all;
+  for (const BothSides& one : each)
+    for (std::size_t side = 0; side < all.size(); ++side) all[side] += one[side];
+  double least = 1.0;
+  for (const Strips& side : all) {
+    if (side.rims < kFewestRims || side.pixels == 0) return std::optional<double>();
+    least = std::min(least, double(side.filled) / double(side.pixels));
+  }
+  return std::optional(least);
+}
+
+}  // namespace turnscan
