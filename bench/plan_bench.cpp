@@ -4,12 +4,17 @@
 //     random rigs: predicted coverage beside that of the coverage command, predicted median error
 //     beside that of the reconstruction (with `meshes`), and the parts of the error model. Seeds
 //     from 1000 on take objects to which that was not fitted.
-//   plan_bench choice MESHES [N] [OBJECTS]
-//     one, two and three turns of each sensor: the planner's choice beside the best of N random
-//     rigs, both judged by the coverage command; the number of evaluations of each.
+//   plan_bench choice MESHES [N] [OBJECTS] [FIRST]
+//     one, two and three turns of each sensor: the planner's choice, simulated and reconstructed,
+//     beside the best of N random rigs. Those are drawn from a pool of turns (a place, and the
+//     object in one pose), each simulated once with the coverage command's map; what a rig covers
+//     is the union of its turns' cells, and the best rig is judged by the command as a whole, too.
+//     Random places are 40 over the whole range and 12 more about the two best of them, as densely
+//     as 400 would lie there; the object lies in all its poses for 5 of them. Plans of one turn
+//     are reconstructed, too. FIRST: position of the first pair of object and sensor.
 //
 // MESHES: a folder of meshes beside the built-in objects. Takes minutes: a scan is simulated and
-// reconstructed for each line of the first, N of the second are looked at.
+// reconstructed for each line.
 
 #include <fmt/format.h>
 
@@ -183,56 +188,247 @@ double command_covered(const PlanRequest& request, const PlanField& field, const
   return simulation ? coverage_of(*simulation, {}, {})->covered() : 0.0;
 }
 
-int run_choice(const std::string& meshes, int n, std::size_t most_objects) {
+/// Cells of the coverage map that one turn covers: a place, and the object in one pose.
+struct TurnCover {
+  std::vector<std::uint8_t> cells;
+  bool there() const { return !cells.empty(); }
+};
+
+/// Turns, each simulated once. A rig covers a cell where one of its turns does.
+class CoverPool {
+ public:
+  CoverPool(const PlanRequest& request, const PlanField& field)
+      : request_(request), field_(field), poses_(field.objects[0].poses.size()) {}
+
+  std::size_t add(const PlanPlace& place, bool all_poses) {
+    places_.push_back(place);
+    turns_.emplace_back(poses_);
+    for (std::size_t q = 0; q < (all_poses ? poses_ : 1); ++q) simulate(places_.size() - 1, q);
+    if (all_poses) laid_.push_back(places_.size() - 1);
+    return places_.size() - 1;
+  }
+  const PlanPlace& place(std::size_t i) const { return places_[i]; }
+  std::size_t places() const { return places_.size(); }
+  std::size_t simulated() const { return simulated_; }
+  /// Places from which the object was simulated in all poses.
+  const std::vector<std::size_t>& laid() const { return laid_; }
+
+  double covered(const std::vector<std::size_t>& places,
+                 const std::vector<std::uint32_t>& poses) const {
+    double area = 0.0;
+    for (std::size_t c = 0; c < area_m2_.size(); ++c) {
+      const bool seen = std::any_of(places.begin(), places.end(), [&](std::size_t i) {
+        return std::any_of(poses.begin(), poses.end(), [&](std::uint32_t q) {
+          return turns_[i][q].there() && turns_[i][q].cells[c] != 0;
+        });
+      });
+      if (seen) area += area_m2_[c];
+    }
+    return area / total_m2_;
+  }
+
+ private:
+  /// The coverage command's map of this turn alone, on the cells of the first pass.
+  void simulate(std::size_t place, std::size_t pose) {
+    Rig rig{{places_[place]}, {{0}}};
+    if (pose > 0) rig.poses[0].push_back(std::uint32_t(pose));
+    const SceneDescription scene = scene_of(request_, plan_from(field_, rig), 0);
+    const auto made = prepare_simulation(scene, field_.objects[0].given, {});
+    if (!made) std::abort();
+    const std::size_t pass = pose > 0 ? 1 : 0;
+    const auto T_table_object = [&](std::size_t k) {
+      return made->scan.pass(k).T_table_given() * made->placed[k].T_table_object;
+    };
+    std::vector<CoveragePass> further;
+    if (pass > 0)
+      further.push_back(
+          {&made->scan.pass(1).scene(), T_table_object(0) * T_table_object(1).inverse()});
+    std::vector<CoveragePose> poses;
+    for (std::size_t i = 0; i < made->scan.frames().size(); ++i)
+      if (const auto [k, there] = made->scan.place_of(i); k == pass)
+        poses.push_back({0, made->scan.pass(k).T_table_sensor(there),
+                         made->scan.pass(k).T_table_world(there), std::uint32_t(k)});
+    CoverageMapOptions options;
+    options.noise = true;  // as the coverage command does with the noise of a plan
+    const std::vector<ScannerModel> scanners{field_.scanners[places_[place].scanner].model};
+    const VirtualScan& first = made->scan.pass(0);
+    const auto map = coverage_map(first.scene(), first.objects(), scanners, poses, options, {},
+                                  first.room(), further);
+    if (!map) std::abort();
+    std::vector<std::uint8_t>& cells = turns_[place][pose].cells;
+    area_m2_.clear();
+    for (const CoverageCell& cell : map->cells) {
+      area_m2_.push_back(cell.area_m2);
+      cells.push_back(cell.state == CoverageState::kCovered || cell.state == CoverageState::kThin);
+    }
+    total_m2_ = map->area_m2;
+    ++simulated_;
+  }
+
+  const PlanRequest& request_;
+  const PlanField& field_;
+  std::size_t poses_, simulated_ = 0;
+  std::vector<PlanPlace> places_;
+  std::vector<std::vector<TurnCover>> turns_;  ///< [place][pose]
+  std::vector<std::size_t> laid_;
+  std::vector<double> area_m2_;
+  double total_m2_ = 0.0;
+};
+
+constexpr std::size_t kPoolPlaces = 40, kLaidPlaces = 3, kNearPlaces = 12;
+
+/// Places anywhere; then, about the two of these that cover most, as densely as 400 would lie
+/// there; the best one and others with the object in all its poses.
+CoverPool make_pool(const PlanRequest& request, const PlanField& field) {
+  CoverPool pool(request, field);
+  for (std::size_t i = 0; i < kPoolPlaces; ++i)
+    pool.add(random_place(request, field, hash_key(21, i)), i < kLaidPlaces);
+  std::vector<std::size_t> order(pool.places());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return pool.covered({a}, {0}) > pool.covered({b}, {0});
+  });
+  const DistanceRange range = *distances_of(request, field, field.scanners[0].model);
+  const PlanOptions& o = request.options;
+  for (std::size_t i = 0; i < kNearPlaces; ++i) {
+    PlanPlace place = pool.place(order[i % 2]);
+    const auto moved = [&](std::uint64_t what, double at, double least, double greatest) {
+      const double reach = 0.06 * (greatest - least);
+      return std::clamp(at + draw(hash_key(22, i), what, -reach, reach), least, greatest);
+    };
+    auto& at = place.placement;
+    at.distance_m = moved(1, at.distance_m, range.least_m, range.greatest_m);
+    at.elevation_rad = moved(2, at.elevation_rad, o.lowest_elevation_rad, o.highest_elevation_rad);
+    pool.add(place, i < 2);
+  }
+  return pool;
+}
+
+/// Positions in the pool, and poses, of random_rig()'s kind.
+struct PooledRig {
+  std::vector<std::size_t> places;
+  std::vector<std::uint32_t> poses{0};
+  double covered = 0.0;
+};
+
+PooledRig random_pooled(const CoverPool& pool, std::size_t poses, std::size_t turns,
+                        std::uint64_t seed) {
+  PooledRig rig;
+  const bool sensors = turns == 1 || uniform01(hash_key(seed, 7)) < 0.5;
+  if (sensors)
+    for (std::size_t k = 0; k < turns; ++k)
+      rig.places.push_back(hash_key(seed, 8, k) % pool.places());
+  else
+    rig.places.push_back(pool.laid()[hash_key(seed, 8) % pool.laid().size()]);
+  for (std::size_t k = 1; k < (sensors ? 1 : turns) && k < poses; ++k)
+    if (const auto q = std::uint32_t(1 + hash_key(seed, 9, k) % (poses - 1));
+        std::find(rig.poses.begin(), rig.poses.end(), q) == rig.poses.end())
+      rig.poses.push_back(q);
+  rig.covered = pool.covered(rig.places, rig.poses);
+  return rig;
+}
+
+Rig rig_of(const CoverPool& pool, const PooledRig& pooled) {
+  Rig rig;
+  for (const std::size_t i : pooled.places) {
+    rig.places.push_back(pool.place(i));
+    rig.places.back().placement.azimuth_rad = 1.5 * double(rig.places.size() - 1);
+  }
+  rig.poses.push_back(pooled.poses);
+  return rig;
+}
+
+/// The most covered of n random rigs of the pool.
+PooledRig best_random(const CoverPool& pool, std::size_t poses, std::size_t turns, int n) {
+  PooledRig best;
+  for (int i = 0; i < n; ++i) {
+    PooledRig rig = random_pooled(pool, poses, turns, hash_key(11, turns, std::uint64_t(i)));
+    if (rig.covered > best.covered) best = std::move(rig);
+  }
+  return best;
+}
+
+struct ChoiceCounts {
+  int all = 0, kept = 0, area_near = 0, errors = 0, errors_near = 0;
+};
+
+/// A line of the table: the planner's choice of so many turns beside the best random rig.
+Result<> compare_turns(const PlanRequest& request, const PlanField& field, PlanSearch& search,
+                       const std::vector<ChosenRig>& rigs, const CoverPool& pool, std::size_t turns,
+                       int n, ChoiceCounts& counts) {
+  const ChosenRig* best = nullptr;
+  for (const ChosenRig& rig : rigs)
+    if (!rig.error_first && rig.rig.places.size() * rig.passes <= turns &&
+        (best == nullptr || rig.score.covered > best->score.covered))
+      best = &rig;
+  if (best == nullptr) return {};
+  TURNSCAN_ASSIGN(const ChosenRig mine, search.refined(*best, {}));
+  PlanTrial trial;
+  trial.median_error_m = std::nan("");
+  if (turns == 1) {
+    TrialRunner runner(request);
+    const SceneDescription scene = scene_of(request, plan_from(field, mine.rig), 0);
+    TURNSCAN_ASSIGN(const auto trials, runner.run({{"trial", scene, &field.objects[0].given}}, {}));
+    trial = trials.front();
+  } else {
+    trial.covered = command_covered(request, field, mine.rig);
+  }
+  const PooledRig random = best_random(pool, field.objects[0].poses.size(), turns, n);
+  const double judged = command_covered(request, field, rig_of(pool, random));
+  const bool made = std::isfinite(trial.median_error_m);
+  ++counts.all;
+  counts.kept += trial.covered >= std::max(judged, random.covered) - 0.005 ? 1 : 0;
+  counts.area_near += std::abs(mine.score.covered - trial.covered) <= 0.01 ? 1 : 0;
+  counts.errors += made ? 1 : 0;
+  counts.errors_near +=
+      made && std::abs(mine.score.median_error_m / trial.median_error_m - 1.0) <= 0.2 ? 1 : 0;
+  fmt::print("{} | {}x{} {:.2f} {:.2f} | {:.3f} {:.3f} | {:.2f} {:.2f} {}x{} | {} {} {}\n", turns,
+             mine.rig.places.size(), mine.rig.poses[0].size(), 100.0 * trial.covered,
+             100.0 * mine.score.covered, 1e3 * mine.score.median_error_m,
+             1e3 * trial.median_error_m, 100.0 * random.covered, 100.0 * judged,
+             random.places.size(), random.poses.size(), search.turns(), pool.simulated(),
+             trial.failure);
+  std::fflush(stdout);
+  return {};
+}
+
+Result<> choice_of(const BenchObject& object, const char* scanner, int n, ChoiceCounts& counts) {
+  PlanRequest request = request_for(object, scanner);
+  request.options.passes = request.options.sensors = 3;
+  TURNSCAN_ASSIGN(const PlanField field, make_plan_field(request, {}));
+  auto begin = std::chrono::steady_clock::now();
+  PlanSearch search(request, field);
+  TURNSCAN_TRY(search.look({}));
+  TURNSCAN_ASSIGN(const auto rigs, search.choose_all({}));
+  const double plan_s = seconds_since(begin);
+  begin = std::chrono::steady_clock::now();
+  const CoverPool pool = make_pool(request, field);
+  fmt::print("{} {}: looked and chosen in {:.0f} s, {} turns simulated in {:.0f} s\n",
+             object.name.substr(object.name.find_last_of("/:") + 1), scanner, plan_s,
+             pool.simulated(), seconds_since(begin));
+  for (std::size_t turns = 1; turns <= 3; ++turns)
+    TURNSCAN_TRY(compare_turns(request, field, search, rigs, pool, turns, n, counts));
+  return {};
+}
+
+int run_choice(const std::string& meshes, int n, std::size_t most_objects, std::size_t first) {
   auto objects = bench_objects(meshes);
   objects.resize(std::min(objects.size(), most_objects));
   fmt::print(
-      "object scanner turns | plan: covered, turns looked at, s | best of {} random: covered, s\n",
+      "turns | plan: sensors x passes, covered, predicted | error mm: predicted, made | best of {} "
+      "random: covered by the union, by the command, sensors x passes | turns looked at, pool\n",
       n);
-  int kept = 0, all = 0;
-  for (const BenchObject& object : objects) {
-    for (const char* scanner : {"kinect-v2", "realsense-d435"}) {
-      PlanRequest request = request_for(object, scanner);
-      request.options.passes = request.options.sensors = 3;
-      auto begin = std::chrono::steady_clock::now();
-      const auto field = make_plan_field(request, {});
-      if (!field) {
-        fmt::print("{} {}\n", object.name, field.error().text());
-        continue;
-      }
-      PlanSearch search(request, *field);
-      if (!search.look({})) return 1;
-      const auto rigs = search.choose_all({});
-      if (!rigs) return 1;
-      const double look_s = seconds_since(begin);
-      for (std::size_t turns = 1; turns <= 3; ++turns) {
-        begin = std::chrono::steady_clock::now();
-        const ChosenRig* best = nullptr;
-        for (const ChosenRig& rig : *rigs)
-          if (!rig.error_first && rig.rig.places.size() * rig.passes <= turns &&
-              (best == nullptr || rig.score.covered > best->score.covered))
-            best = &rig;
-        if (best == nullptr) continue;
-        const auto refined = search.refined(*best, {});
-        if (!refined) return 1;
-        const double plan_s = look_s + seconds_since(begin);
-        const double mine = command_covered(request, *field, refined->rig);
-        begin = std::chrono::steady_clock::now();
-        double random = 0.0;
-        for (int i = 0; i < n; ++i)
-          random =
-              std::max(random, command_covered(request, *field,
-                                               random_rig(request, *field, turns,
-                                                          hash_key(11, turns, std::uint64_t(i)))));
-        ++all, kept += mine >= random - 0.005 ? 1 : 0;
-        fmt::print("{} {} {} | {:.2f} {} {:.1f} | {:.2f} {:.1f}\n",
-                   object.name.substr(object.name.find_last_of("/:") + 1), scanner, turns,
-                   100.0 * mine, search.turns(), plan_s, 100.0 * random, seconds_since(begin));
-        std::fflush(stdout);
-      }
-    }
+  ChoiceCounts counts;
+  constexpr std::array kScanners{"kinect-v2", "realsense-d435"};
+  for (std::size_t i = first; i < objects.size() * kScanners.size(); ++i) {
+    const BenchObject& object = objects[i / kScanners.size()];
+    if (const auto done = choice_of(object, kScanners[i % kScanners.size()], n, counts); !done)
+      fmt::print("{} {}\n", object.name, done.error().text());
   }
-  fmt::print("{} of {} at least the best random one minus 0.5 %\n", kept, all);
+  fmt::print(
+      "{} of {} at least the best random one minus 0.5 %; {} areas within 1 %; {} of {} errors "
+      "within 20 %\n",
+      counts.kept, counts.all, counts.area_near, counts.errors_near, counts.errors);
   return 0;
 }
 
@@ -248,5 +444,5 @@ int main(int argc, char** argv) {
   };
   if (std::strcmp(argv[1], "model") == 0)
     return run_model(argv[2], std::uint64_t(number(3, 1)), number(4, 12), argc > 5);
-  return run_choice(argv[2], number(3, 2000), std::size_t(number(4, 6)));
+  return run_choice(argv[2], number(3, 2000), std::size_t(number(4, 6)), std::size_t(number(5, 0)));
 }
