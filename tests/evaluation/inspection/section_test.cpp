@@ -126,5 +126,32 @@ TEST(Section, IsDrawnInMillimetres) {
   EXPECT_TRUE(dxf->ends_with("0\nEOF\n"));
 }
 
+TEST(SectionCap, HasTheAreaOfTheSectionAndFacesAgainstTheNormal) {
+  const TriangleMesh ring = torus(0.05, 0.02, 40, 24);
+  std::size_t made_caps = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Section made = section_of(ring, random_direction(i), 0.03 * random_value(9, i));
+    const auto cap = section_cap(made);
+    ASSERT_TRUE(cap) << cap.error().text();
+    double area = 0.0;
+    for (const auto& [a, b, c] : cap->triangles) {
+      const Vec3d u = (cap->vertices[b] - cap->vertices[a]).cast<double>();
+      const Vec3d v = (cap->vertices[c] - cap->vertices[a]).cast<double>();
+      const double part = -0.5 * made.normal.dot(u.cross(v));
+      EXPECT_GT(part, -1e-10) << i;
+      area += part;
+    }
+    EXPECT_NEAR(area, made.area_m2, 1e-8) << i;
+    made_caps += cap->empty() ? 0 : 1;
+  }
+  EXPECT_GT(made_caps, 20u);
+}
+
+TEST(SectionCap, OfNothingIsEmpty) {
+  const auto cap = section_cap(section_of(cube(), Vec3d::UnitX(), 5.0));
+  ASSERT_TRUE(cap);
+  EXPECT_TRUE(cap->empty());
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <turnscan/geometry/mesh/planar_outlines.hpp>
 #include <unordered_map>
 
 namespace turnscan {
@@ -141,6 +142,32 @@ Result<Section> cross_section(const TriangleMesh& mesh, const HalfSpace& plane) 
         out.area_m2 += 0.5 * (right.dot(a - o) * up.dot(b - o) - right.dot(b - o) * up.dot(a - o));
     }
   }
+  return out;
+}
+
+Result<TriangleMesh> section_cap(const Section& section) {
+  const auto [right, up] = drawing_axes(section.normal);
+  TriangleMesh out;
+  std::vector<Eigen::Vector2d> flat;
+  std::vector<mesh::Outline> outlines;
+  for (const Contour& contour : section.contours) {
+    if (!contour.closed) continue;
+    mesh::Outline& outline = outlines.emplace_back();
+    for (const Vec3d& p : contour.points) {
+      outline.push_back(std::uint32_t(flat.size()));
+      flat.emplace_back(right.dot(p), up.dot(p));
+      out.vertices.push_back(p.cast<float>());
+    }
+  }
+  if (outlines.empty()) return TriangleMesh();
+  const auto triangles = mesh::triangulate_outlines(flat, outlines);
+  if (!triangles) {
+    return fail(ErrorCode::kLibrary,
+                "section: outlines touch or cross each other, so that the cut cannot be closed; "
+                "move the plane a little");
+  }
+  out.triangles.assign(triangles->begin(), triangles->end());
+  out.normals.assign(out.vertices.size(), (-section.normal).cast<float>());
   return out;
 }
 

@@ -32,6 +32,11 @@ struct Section {
 /// validate_mesh(), kInvalidOption when the normal is not of unit length.
 Result<Section> cross_section(const TriangleMesh& mesh, const HalfSpace& plane);
 
+/// Triangles over what the closed contours enclose, facing against the normal: they close the part
+/// of the mesh with normal . p >= offset_m. Nothing enclosed: an empty mesh. Fails with kLibrary
+/// where contours touch or cross each other.
+Result<TriangleMesh> section_cap(const Section& section);
+
 /// Axes right and up of the drawings: with the normal they are right-handed, and up is +y as far as
 /// the plane allows, else -z.
 std::pair<Vec3d, Vec3d> drawing_axes(const Vec3d& normal);

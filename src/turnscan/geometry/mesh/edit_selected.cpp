@@ -1,0 +1,108 @@
+#include <turnscan/geometry/mesh/edit_selected.hpp>
+
+#include <turnscan/core/disjoint_sets.hpp>
+#include <turnscan/geometry/mesh/edge_table.hpp>
+#include <turnscan/geometry/mesh/low_pass.hpp>
+#include <turnscan/geometry/mesh/mesh_edit.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/mesh/simplify.hpp>
+
+namespace turnscan {
+
+namespace {
+
+Result<> check_input(const TriangleMesh& mesh, const Selection& selection) {
+  TURNSCAN_TRY(validate_mesh(mesh, "edit"));
+  if (selection.empty() || selection.size() == mesh.triangles.size()) return {};
+  return fail(ErrorCode::kInvalidOption,
+              "edit: {} flags do not fit the mesh's {} triangles; select them anew",
+              selection.size(), mesh.triangles.size());
+}
+
+TriangleMesh untextured(TriangleMesh mesh) {
+  mesh.texture = nullptr;
+  return mesh;
+}
+
+}  // namespace
+
+Result<TriangleMesh> without_selected(const TriangleMesh& mesh, const Selection& selection) {
+  TURNSCAN_TRY(check_input(mesh, selection));
+  TriangleMesh out = untextured(mesh);
+  mesh::drop_triangles(out, selection.empty() ? Selection(mesh.triangles.size(), 1) : selection);
+  mesh::compact_vertices(out);
+  return out;
+}
+
+Result<HolesFilled> fill_selected_holes(const TriangleMesh& mesh, const Selection& selection,
+                                        const RunContext& context) {
+  TURNSCAN_TRY(check_input(mesh, selection));
+  TURNSCAN_ASSIGN(FilledMesh made, fill_holes(untextured(mesh), {}, context));
+  if (selection.empty()) return HolesFilled{std::move(made.mesh), made.holes};
+  // A patch is what hangs together by edges; it stays when one of its edges is a selected
+  // triangle's. fill_holes() keeps the triangles that there were, in front.
+  const auto count = std::uint32_t(made.mesh.triangles.size());
+  DisjointSets patches(count);
+  std::vector<std::array<std::uint32_t, 2>> rims;  // of the patch, and of the mesh around it
+  const mesh::EdgeTable edges(made.mesh.triangles, made.mesh.vertices.size());
+  for (std::size_t e = 0; e < edges.edge_count(); ++e) {
+    const auto half_edges = edges.half_edges(e);
+    if (half_edges.size() != 2) continue;
+    const std::uint32_t t = half_edges[0] / 3, u = half_edges[1] / 3;
+    const bool t_new = made.filled[t] != 0, u_new = made.filled[u] != 0;
+    if (t_new && u_new) patches.join(t, u);
+    if (t_new != u_new) rims.push_back(t_new ? std::array{t, u} : std::array{u, t});
+  }
+  std::vector<std::uint8_t> wanted(count, 0);
+  for (const auto& [patch, around] : rims)
+    if (around < selection.size() && selection[around] != 0) wanted[patches.root(patch)] = 1;
+  HolesFilled out;
+  Selection drop(count, 0);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (made.filled[t] == 0) continue;
+    const bool stays = wanted[patches.root(t)] != 0;
+    drop[t] = stays ? 0 : 1;
+    out.holes += stays && patches.root(t) == t ? 1 : 0;
+  }
+  out.mesh = std::move(made.mesh);
+  mesh::drop_triangles(out.mesh, drop);
+  mesh::compact_vertices(out.mesh);
+  return out;
+}
+
+Result<TriangleMesh> smooth_selected(const TriangleMesh& mesh, const Selection& selection,
+                                     double wavelength_m, const RunContext& context) {
+  TURNSCAN_TRY(check_input(mesh, selection));
+  if (!(wavelength_m > 0.0)) {
+    return fail(ErrorCode::kInvalidOption,
+                "smooth: a wavelength of {} mm is not allowed; give one above 0",
+                1e3 * wavelength_m);
+  }
+  if (selection.empty()) return low_pass(untextured(mesh), wavelength_m, context);
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
+  for (std::uint32_t t = 0; t < selection.size(); ++t) {
+    if (selection[t] == 0) continue;
+    triangles.push_back(t);
+    for (const std::uint32_t v : mesh.triangles[t]) used[v] = 1;
+  }
+  TURNSCAN_ASSIGN(const TriangleMesh part,
+                  low_pass(mesh::extract(mesh, triangles), wavelength_m, context));
+  TriangleMesh out = untextured(mesh);
+  // The part has its vertices in the order of the mesh.
+  for (std::size_t v = 0, next = 0; v < used.size(); ++v)
+    if (used[v] != 0) out.vertices[v] = part.vertices[next++];
+  if (!out.normals.empty()) out.normals = vertex_normals(out);
+  return out;
+}
+
+Result<TriangleMesh> reduce_selected(const TriangleMesh& mesh, const Selection& selection,
+                                     std::size_t triangles) {
+  TURNSCAN_TRY(check_input(mesh, selection));
+  SimplifyGoal goal;
+  goal.triangles = triangles;
+  if (!selection.empty()) goal.keep = inverted(selection);
+  return simplify(untextured(mesh), goal);
+}
+
+}  // namespace turnscan
