@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <turnscan/core/image.hpp>
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
@@ -67,6 +68,20 @@ struct TextureReport {
   std::vector<Camera> cameras;
   double disagreement_px = 0.0;  ///< median shift between an image and the best one
   bool albedo = false;           ///< shading was taken out
+
+  /// A view that was used: its frame, by position in the sequence.
+  struct View {
+    std::size_t frame = 0;
+    std::uint32_t sensor = 0;
+    Vec3f eye = Vec3f::Zero();  ///< where its camera was; frame of the mesh
+  };
+  static constexpr std::uint16_t kNoView = 0xffff;
+  std::vector<View> used;  ///< `views` of them
+  /// Which of these gave the picture most of its colour, per square of square_px texels, where the
+  /// square lies in the picture. kNoView: no view showed it (it was filled), or no surface is
+  /// there.
+  Image<std::uint16_t> view_of_square;
+  int square_px = 0;
 };
 
 struct ObjectResult {

@@ -111,6 +111,39 @@ TEST(TextureMesh, IsTheSameForOneThreadAndSeveral) {
   EXPECT_EQ(one.mesh.texture->corners, several.mesh.texture->corners);
 }
 
+TEST(TextureMesh, SaysWhichViewEachPlaceCameFrom) {
+  const Textured made = texture_of({});
+  const TextureReport& report = made.report;
+  ASSERT_EQ(report.used.size(), report.views);
+  const auto& squares = report.view_of_square;
+  ASSERT_EQ(squares.width * report.square_px, report.size_px);
+  std::size_t named = 0, steep = 0, unseen = 0;
+  for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
+    const auto& v = made.mesh.triangles[t];
+    const auto& corners = made.mesh.texture->corners[t];
+    const Eigen::Vector2f middle = (corners[0] + corners[1] + corners[2]) / 3.0f;
+    const std::uint16_t view =
+        squares.at(int(middle.x() * float(squares.width)), int(middle.y() * float(squares.height)));
+    const Vec3f &a = made.mesh.vertices[v[0]], &b = made.mesh.vertices[v[1]],
+                &c = made.mesh.vertices[v[2]];
+    if (view == TextureReport::kNoView) {
+      ++unseen;
+      EXPECT_LT((a + b + c).y(), 0.0f);  // only what looks down is seen by nobody
+      continue;
+    }
+    ASSERT_LT(view, report.used.size());
+    ++named;
+    const Vec3f normal = (b - a).cross(c - a).normalized();
+    const Vec3f sight = (report.used[view].eye - (a + b + c) / 3.0f).normalized();
+    EXPECT_GT(normal.dot(sight), 0.0f);  // it looks at the front
+    steep += normal.dot(sight) < 0.5f ? 1 : 0;
+  }
+  EXPECT_GT(unseen, 0u);
+  EXPECT_GT(named, made.mesh.triangles.size() / 2);
+  // The main view is one that looks well: with 24 around, seldom from more than 60 degrees aside.
+  EXPECT_LT(double(steep) / double(named), 0.2);
+}
+
 TEST(TextureMesh, TakesTheSizeThatWasAskedFor) {
   TextureOptions options;
   options.size_px = 300;  // down to whole blocks

@@ -117,29 +117,39 @@ class Blender {
     return out;
   }
 
-  void blend(std::size_t b, std::uint8_t left_out, Rgb* colors, std::uint8_t* known) const {
+  /// Returns the view that weighs most.
+  std::uint16_t blend(std::size_t b, std::uint8_t left_out, Rgb* colors,
+                      std::uint8_t* known) const {
+    std::array<float, kSlots> total{};
     for (int i = 0; i < kBlockTexels; ++i) {
       if (blocks_.triangle(b, i) == kNoTriangle) continue;
       std::array<Vec3f, kSlots> color;
       std::array<float, kSlots> weight;
+      std::array<std::size_t, kSlots> slot;
       std::size_t n = 0;
       for (std::size_t k = 0; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0 || (left_out >> k & 1u) != 0) continue;
         take(b, k, s, color[n], weight[n]);
-        ++n;
+        slot[n++] = k;
       }
       // A texel that only those show which were left out takes what there is.
       for (std::size_t k = 0; n == 0 && k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0) continue;
         take(b, k, s, color[0], weight[0]);
+        slot[0] = k;
         n = 1;
       }
       if (n == 0) continue;
       colors[i] = rounded(robust_mean(color, weight, n));
       known[i] = 1;
+      float sum = 0.0f;
+      for (std::size_t j = 0; j < n; ++j) sum += weight[j];
+      for (std::size_t j = 0; j < n; ++j) total[slot[j]] += weight[j] / sum;
     }
+    const auto most = std::max_element(total.begin(), total.end());
+    return *most > 0.0f ? chosen_.view[b][std::size_t(most - total.begin())] : kNoView;
   }
 
  private:
@@ -160,9 +170,9 @@ class Blender {
 
   /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
   /// the surface from view to view: where several views have one, they do not agree with each
-  /// other.
+  /// other. Weights become what they were in the mean.
   static Vec3f robust_mean(const std::array<Vec3f, kSlots>& color,
-                           const std::array<float, kSlots>& weight, std::size_t n) {
+                           std::array<float, kSlots>& weight, std::size_t n) {
     if (n == 1) return color[0];
     constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
     const auto nearness = [&](std::size_t j, std::size_t k) {
@@ -182,9 +192,9 @@ class Blender {
     Vec3f sum = Vec3f::Zero();
     float weights = 0.0f;
     for (std::size_t k = 0; k < n; ++k) {
-      const float w = weight[k] * nearness(k, usual);
-      sum += w * color[k];
-      weights += w;
+      weight[k] *= nearness(k, usual);
+      sum += weight[k] * color[k];
+      weights += weight[k];
     }
     return sum / weights;
   }
@@ -264,6 +274,7 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
   Blended out;
   out.colors.resize(blocks.count() * kBlockTexels);
   out.known.assign(out.colors.size(), 0);
+  out.main_view.assign(blocks.count(), kNoView);
   const double texels_per_px = texels_per_m / std::max(chosen.pixels_per_m, 1e-9);
   struct Part {
     std::vector<float> px;
@@ -273,7 +284,8 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
     Part part;
     for (std::size_t b = begin; b < end && !context.cancelled(); ++b) {
       const std::uint8_t left_out = blender.misplaced(b, texels_per_px, part.px);
-      blender.blend(b, left_out, &out.colors[b * kBlockTexels], &out.known[b * kBlockTexels]);
+      out.main_view[b] =
+          blender.blend(b, left_out, &out.colors[b * kBlockTexels], &out.known[b * kBlockTexels]);
       std::size_t views = 0, kept = 0;
       for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k) {
         ++views;

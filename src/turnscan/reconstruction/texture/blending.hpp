@@ -14,8 +14,10 @@ struct Correction {
 struct Blended {
   std::vector<Rgb> colors;          ///< per block and texel
   std::vector<std::uint8_t> known;  ///< whether a view shows it
-  double one_view_share = 0.0;      ///< of the blocks with several views: one was taken
-  double disagreement_px = 0.0;     ///< median shift of a view against the best one
+  /// Per block: the view that weighs most in its colours; kNoView (texel_samples.hpp): none does.
+  std::vector<std::uint16_t> main_view;
+  double one_view_share = 0.0;   ///< of the blocks with several views: one was taken
+  double disagreement_px = 0.0;  ///< median shift of a view against the best one
 };
 
 /// Views whose pattern lies more than a pixel from that of the best one are left out of a block and

@@ -95,6 +95,19 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
   return {};
 }
 
+void note_views(const std::vector<ColorView>& views, const TexelBlocks& blocks,
+                const Blended& blended, TextureReport& report) {
+  static_assert(kNoView == TextureReport::kNoView);
+  for (const ColorView& view : views)
+    report.used.push_back({view.position, view.sensor, view.eye()});
+  const int side = blocks.size_px() / kBlock_px;
+  report.square_px = kBlock_px;
+  report.view_of_square = Image<std::uint16_t>(side, side, kNoView);
+  for (std::size_t b = 0; b < blocks.count(); ++b)
+    report.view_of_square.at(blocks.left(b) / kBlock_px, blocks.top(b) / kBlock_px) =
+        blended.main_view[b];
+}
+
 }  // namespace
 
 Result<> check_colors(const FrameSequence& sequence) {
@@ -157,6 +170,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   report.one_view_share = blended.one_view_share;
   report.disagreement_px = blended.disagreement_px;
   report.gains = correction.gains;
+  note_views(views, blocks, blended, report);
   return report;
 }
 
