@@ -100,6 +100,8 @@ TEST(FormatQuantity, UsesTheUnitsOfPeople) {
   EXPECT_EQ(format_quantity(0.25, Quantity::kTime), "0.25s");
   EXPECT_EQ(format_quantity(kPi, Quantity::kAngularSpeed), "180deg/s");
   EXPECT_EQ(format_quantity(2.5, Quantity::kNone), "2.5");
+  EXPECT_EQ(format_quantity(256e6, Quantity::kNone), "256000000");
+  EXPECT_EQ(format_quantity(1e15, Quantity::kNone), "1e+15");
 }
 
 TEST(MetresPer, KnowsLengthsAndNothingElse) {

@@ -109,7 +109,9 @@ std::string format_quantity(double value_si, Quantity quantity) {
     case Quantity::kNone:
       break;
   }
-  return fmt::format("{:.6g}", value_si);
+  // People count in digits; from a million on the shortest form would have an exponent.
+  const bool whole = std::abs(value_si) < 1e12 && value_si == std::floor(value_si);
+  return whole ? fmt::format("{:.0f}", value_si) : fmt::format("{:.6g}", value_si);
 }
 
 Result<double> metres_per(std::string_view unit) {
