@@ -22,6 +22,7 @@ import numpy as np
 import turnscan
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "python" / "examples"
 BIN = os.environ.get("TURNSCAN_BIN", "turnscan")
 FAST = {"voxel_size": "6mm", "method": "volumetric"}
 
@@ -246,6 +247,89 @@ class Options(unittest.TestCase):
             section = reference.split(f"## turnscan {command}\n")[1].split("\n## ")[0]
             for option in listed:
                 self.assertIn("--" + option["name"].replace("_", "-"), section)
+
+
+class Examples(unittest.TestCase):
+    """python/examples, as they stand there."""
+
+    def test_the_sweep_on_dask_runs(self):
+        try:
+            import distributed  # noqa: F401
+        except ImportError:
+            self.skipTest("python3-distributed is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            result = subprocess.run([sys.executable, EXAMPLES / "sweep_on_dask.py", folder],
+                                    cwd=folder, text=True, capture_output=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        scores = re.findall(r"voxel size (\d) mm: F at 1 mm ([\d.]+)", result.stdout)
+        self.assertEqual([size for size, _ in scores], ["3", "5", "8"])
+        self.assertGreater(float(scores[0][1]), float(scores[2][1]), "smaller voxels are better")
+
+    def test_the_notebook_is_whole_small_and_runs(self):
+        path = EXAMPLES / "thesis.ipynb"
+        notebook = json.loads(path.read_text())
+        self.assertEqual((notebook["nbformat"], notebook["metadata"]["kernelspec"]["name"]),
+                         (4, "python3"))
+        self.assertLess(path.stat().st_size, 100_000)
+        cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+        self.assertEqual([cell["execution_count"] for cell in cells],
+                         list(range(1, len(cells) + 1)), "run from above to below")
+        for cell in cells:
+            self.assertTrue(cell["outputs"])
+            self.assertNotIn("error", [output["output_type"] for output in cell["outputs"]])
+        # Coarsely, so that it takes seconds.
+        code = "\n".join("".join(cell["source"]) for cell in cells)
+        self.assertIn("FRAMES = 60", code)
+        code = code.replace("FRAMES = 60", "FRAMES = 8").replace("samples=20000", "samples=2000") \
+            .replace("(12, 24)", "(8,)").replace("(0, 20, 60)", "(20,)") \
+            .replace("(0.002, 0.006, 0.02)", "(0.006,)").replace('"frames": 36', '"frames": 8')
+        result = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True,
+                                timeout=300)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("volumetric", result.stdout)
+
+
+class Wheel(unittest.TestCase):
+    """pip makes a wheel of what was built, which works in an environment of its own."""
+
+    def test_is_made_installed_and_used_without_a_network(self):
+        build = os.environ.get("TURNSCAN_BUILD")
+        if not build:
+            self.skipTest("TURNSCAN_BUILD names no build folder")
+        pip = [sys.executable, "-m", "pip", "--no-input", "--disable-pip-version-check"]
+        if subprocess.run([*pip, "--version"], capture_output=True).returncode != 0:
+            self.skipTest("python3-pip is not installed")
+        alone = {name: value for name, value in os.environ.items()
+                 if not name.startswith(("PYTHON", "TURNSCAN"))}
+        with tempfile.TemporaryDirectory(prefix="turnscan-wheel-test-") as folder:
+            folder = pathlib.Path(folder)
+
+            def run(*command):
+                result = subprocess.run(command, cwd=folder, env=alone, text=True,
+                                        capture_output=True, timeout=300)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+                return result.stdout
+
+            run(*pip, "wheel", "--no-index", "--no-deps", "--no-build-isolation", "--wheel-dir",
+                folder, "--config-settings", f"build-dir={build}", ROOT)
+            wheels = list(folder.glob("turnscan-*.whl"))
+            self.assertEqual(len(wheels), 1)
+            run(sys.executable, "-m", "venv", "--without-pip", "--system-site-packages", "own")
+            python = folder / "own" / "bin" / "python"
+            run(*pip, "--python", python, "install", "--no-index", "--no-deps", wheels[0])
+            # A preset and a helper program, which are in it, too.
+            said = run(python, "-c", """if True:
+                import pathlib, turnscan
+                print(turnscan.__file__)
+                scan = turnscan.simulate("builtin:cylinder", scanners=["realsense-d435"], frames=8)
+                made = turnscan.reconstruct(scan, voxel_size="8mm", method="concave-hull",
+                                            allow_open=True)
+                made.save("mesh.ply")
+                print(len(turnscan.Mesh.load("mesh.ply").triangles) > 100)
+                """)
+            where, meshed = said.splitlines()[-2:]
+            self.assertIn(str(folder / "own"), where)
+            self.assertEqual(meshed, "True")
 
 
 class Documentation(unittest.TestCase):

@@ -9,7 +9,7 @@
 namespace turnscan {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 60;
+constexpr int kColumns = 160, kRows = 60;
 constexpr double kFocal = 200.0, kBaseline = 0.05, kNear_m = 0.4,
                  kFar_m = 1.0;  // a strip of 15 pixels
 
@@ -22,11 +22,11 @@ class Boards : public FrameSequence {
   explicit Boards(Fill fill, bool wall = true) : fill_(fill), wall_(wall) {
     header_.sensors.resize(1);
     CameraIntrinsics& camera = header_.sensors[0].intrinsics;
-    camera.width = kWidth;
-    camera.height = kHeight;
+    camera.width = kColumns;
+    camera.height = kRows;
     camera.fx = camera.fy = kFocal;
-    camera.cx = kWidth / 2.0;
-    camera.cy = kHeight / 2.0;
+    camera.cx = kColumns / 2.0;
+    camera.cy = kRows / 2.0;
     infos_.resize(20);
     for (std::size_t i = 0; i < infos_.size(); ++i) infos_[i].index = std::uint32_t(i);
   }
@@ -37,11 +37,11 @@ class Boards : public FrameSequence {
   Result<Frame> read(std::size_t position) const override {
     Frame frame;
     frame.info = infos_[position];
-    frame.depth = DepthImage(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    frame.depth = DepthImage(kColumns, kRows);
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
         const double z = depth(x, 50 + int(position));
-        const double noise = 2.0 * standard_normal(hash_key(3, position, y * kWidth + x));
+        const double noise = 2.0 * standard_normal(hash_key(3, position, y * kColumns + x));
         if (z > 0.0) frame.depth.at(x, y) = std::uint16_t(1e4 * z + noise);
       }
     return frame;

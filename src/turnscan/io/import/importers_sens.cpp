@@ -60,22 +60,24 @@ class SensSequence : public FrameSequence {
     frame.depth.height = int(sens_.depth_height);
     std::replace(frame.depth.pixels.begin(), frame.depth.pixels.end(), kOutsideCrop, kNoReturn);
     if (place.color_bytes == 0 || !header_.sensors.front().color_intrinsics) return frame;
-    TURNSCAN_ASSIGN(frame.color, color_of(place));
+    TURNSCAN_TRY(read_color(place, frame));
     return frame;
   }
 
  private:
-  Result<ColorImage> color_of(const sens::FramePlace& place) const {
+  Result<> read_color(const sens::FramePlace& place, Frame& frame) const {
     TURNSCAN_ASSIGN(const std::string bytes, file_.read(place.data_at, place.color_bytes));
-    if (sens_.color_packing == sens::ColorPacking::kRaw) return raw_color(bytes, place.data_at);
-    auto image = decode_color(bytes);
-    if (!image) return at_path(file_.path(), std::move(image).error());
-    if (image->width == int(sens_.color_width) && image->height == int(sens_.color_height))
-      return image;
+    if (sens_.color_packing == sens::ColorPacking::kRaw) {
+      TURNSCAN_ASSIGN(frame.color, raw_color(bytes, place.data_at));
+      return {};
+    }
+    if (auto good = decode_frame_color(bytes, frame); !good)
+      return at_path(file_.path(), std::move(good).error());
+    const ColorImage& image = frame.color;
+    if (image.width == int(sens_.color_width) && image.height == int(sens_.color_height)) return {};
     return fail_at(file_.path().string(), ErrorCode::kFormat,
                    "the colour image at byte {} has {} x {} pixels, but the header says {} x {}",
-                   place.data_at, image->width, image->height, sens_.color_width,
-                   sens_.color_height);
+                   place.data_at, image.width, image.height, sens_.color_width, sens_.color_height);
   }
 
   Result<ColorImage> raw_color(const std::string& bytes, std::uint64_t at) const {
