@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "call.hpp"
 #include "option_arguments.hpp"
+#include "packed_depth.hpp"
 
 namespace turnscan::python {
 
@@ -68,20 +69,28 @@ class ListedFrames : public FrameSequence {
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return infos_; }
   Result<Frame> read(std::size_t position) const override {
-    Frame frame = frames_.at(position);
+    const Kept& kept = frames_.at(position);
+    Frame frame = kept.rest;
     frame.info = infos_.at(position);
+    frame.depth = kept.depth.unpacked();
     return frame;
   }
   void add(Frame frame) {
     frame.info.index = static_cast<std::uint32_t>(frames_.size());
     infos_.push_back(frame.info);
-    frames_.push_back(std::move(frame));
+    PackedDepth depth(frame.depth);
+    frame.depth = DepthImage();
+    frames_.push_back({std::move(frame), std::move(depth)});
   }
   SequenceHeader header_;
 
  private:
+  struct Kept {
+    Frame rest;  ///< without its depth
+    PackedDepth depth;
+  };
   std::vector<FrameInfo> infos_;
-  std::vector<Frame> frames_;
+  std::vector<Kept> frames_;
 };
 
 struct FramesObject : SequenceObject {

@@ -12,9 +12,9 @@ import numpy as _np
 
 def _name_folders():
     """The library looks beside the running program, which is Python: tell it where presets and
-    helper programs are, in the build tree and in an installation below any prefix."""
+    helper programs are: in a wheel, in the build tree, in an installation below any prefix."""
     package = _os.path.dirname(_os.path.abspath(__file__))
-    for up in ("../..", "../../../.."):
+    for up in (".", "../..", "../../../.."):
         prefix = _os.path.normpath(_os.path.join(package, up))
         if _os.path.isdir(_os.path.join(prefix, "share", "turnscan")):
             _os.environ.setdefault("TURNSCAN_DATA", _os.path.join(prefix, "share", "turnscan"))

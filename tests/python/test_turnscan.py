@@ -139,6 +139,29 @@ class Reconstructing(InAFolder):
         with self.assertRaises(turnscan.Error):
             frames.add(np.zeros(5, np.uint16))
 
+    def test_frames_keep_every_pixel_and_little_memory(self):
+        camera = turnscan.Intrinsics(67, 41, 60, 60, 33, 20)
+        frames = turnscan.Frames([turnscan.Sensor(camera)])
+        random = np.random.default_rng(1)
+        images = [np.zeros((41, 67), np.uint16), np.full((41, 67), 65535, np.uint16)]
+        for share in (0.001, 0.02, 0.1, 0.5, 0.98):
+            images.append(np.where(random.random((41, 67)) < share,
+                                   random.integers(1, 65536, (41, 67)), 0).astype(np.uint16))
+        for row, column in ((0, 0), (40, 66), (20, 0)):
+            images.append(np.zeros((41, 67), np.uint16))
+            images[-1][row, column] = 7
+        for image in images:
+            frames.add(image)
+        for i, image in enumerate(images):
+            self.assertTrue((frames[i].depth == image).all(), i)
+
+        large = turnscan.Frames(turnscan.Recording(self.recording).sensors)
+        raw = turnscan.Recording(self.recording)[0].depth
+        before = memory_mb()
+        for _ in range(200):
+            large.add(raw)
+        self.assertLess(memory_mb() - before, 40, "200 images of 0.4 MB, most of it no return")
+
     def test_a_stream_takes_frames_as_any_device_delivers_them(self):
         recording = turnscan.Recording(self.recording)
         sensor = recording.sensors[0]
