@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
+#include <turnscan/turntable/motion_input/still_surface.hpp>
 
 namespace turnscan::motion {
 
@@ -17,6 +18,8 @@ constexpr std::size_t kLeastMovingPixels = 100;
 /// Standard deviations between the tenths at both ends of a pixel's depths: 2.6 of normal noise.
 constexpr double kMovingSigmas = 4.0;
 constexpr double kLeastMove_m = 0.003;
+/// A pixel shows two things where nothing lies between them, in ranges of what stands still.
+constexpr double kClearGap = 3.0;
 
 /// The depths of every pixel, frame after frame; 0: none.
 class DepthStack {
@@ -87,13 +90,59 @@ float third_difference(const std::vector<float>& z, std::size_t i, std::size_t w
   if (!(a > 0.0f && b > 0.0f && c > 0.0f && d > 0.0f))
     return std::numeric_limits<float>::quiet_NaN();
   constexpr float kToSecond = 0.5477226f;  // sqrt(6 / 20)
-  return kToSecond * std::abs(a - 3.0f * b + 3.0f * c - d);
+  return kToSecond * (a - 3.0f * b + 3.0f * c - d);
 }
 
 /// Standard deviation of a depth from sizes of second differences. On edges and bends these are
 /// larger; most are on neither.
 double noise_from(std::vector<float> differences) {
   return 1.4826 * double(median(differences)) / std::sqrt(6.0);
+}
+
+/// Rows above and below from which a place is judged: so far away they share no noise with it.
+constexpr std::size_t kRowsBeside = 3;
+/// Of the places, those that lie on the smoothest surface.
+constexpr double kSmoothest = 0.35;
+
+/// A place in an image: third differences there over every pixel and every second one, and how bent
+/// the surface is beside it.
+struct NoisePlace {
+  float near, far, bent;
+};
+
+std::optional<NoisePlace> noise_place(const std::vector<float>& z, std::size_t i,
+                                      std::size_t width) {
+  const std::size_t rows = kRowsBeside * width;
+  if (i < rows || i + rows >= z.size()) return std::nullopt;
+  const NoisePlace out{
+      third_difference(z, i, width, 1), third_difference(z, i, width, 2),
+      third_difference(z, i - rows, width, 2) + third_difference(z, i + rows, width, 2)};
+  if (!std::isfinite(out.near + out.far + out.bent)) return std::nullopt;
+  return NoisePlace{std::abs(out.near), std::abs(out.far), std::abs(out.bent)};
+}
+
+/// From every few frames and pixels; mask: per pixel, 0 leaves it out; empty: all. Features of an
+/// object look like noise between pixels, so that the smoothest places are used: those whose
+/// neighbours, which have noise of their own, are.
+SpatialNoise noise_of(const DepthStack& stack, std::size_t every_frame, std::size_t every_pixel,
+                      const std::vector<std::uint8_t>& mask) {
+  std::vector<NoisePlace> places;
+  const auto width = std::size_t(stack.width());
+  for (std::size_t k = 0; k < stack.frames(); k += every_frame) {
+    const auto& image = stack.image(k);
+    for (std::size_t i = 0; i < image.size(); i += every_pixel) {
+      if (!mask.empty() && mask[i] == 0) continue;
+      if (const auto place = noise_place(image, i, width)) places.push_back(*place);
+    }
+  }
+  if (places.empty()) return {};
+  const auto smooth = std::size_t(kSmoothest * double(places.size()));
+  std::nth_element(places.begin(), places.begin() + std::ptrdiff_t(smooth), places.end(),
+                   [](const NoisePlace& a, const NoisePlace& b) { return a.bent < b.bent; });
+  places.resize(std::max<std::size_t>(smooth, 1));
+  std::vector<float> near, far;
+  for (const NoisePlace& place : places) near.push_back(place.near), far.push_back(place.far);
+  return {noise_from(std::move(far)), noise_from(std::move(near))};
 }
 
 class BackgroundSearch {
@@ -109,9 +158,9 @@ class BackgroundSearch {
       return fail(ErrorCode::kTooFewPoints,
                   "motion: nothing turns in the recording, or nothing that can be seen to turn");
     Background out{w_, h_, std::vector<float>(moving_.size(), 0.0f), noise_m_};
-    if (const double within = noise_where_moving(); within > 0.0) out.noise_m = within;
-    for (std::size_t i = 0; i < moving_.size(); ++i)
-      if (moving_[i] != 0) out.nearer_than[i] = limit_[i];
+    if (const double within = noise_of(stack_, 4, 3, moving_).sigma_m; within > 0.0)
+      out.noise_m = within;
+    set_limits(out.nearer_than);
     return out;
   }
 
@@ -127,18 +176,6 @@ class BackgroundSearch {
     }
     const double noise = differences.size() < 4 ? noise_m_ : noise_from(differences);
     return std::max(kMovingSigmas * std::max(noise, noise_m_), kLeastMove_m);
-  }
-
-  double noise_where_moving() const {
-    std::vector<float> differences;
-    for (std::size_t k = 0; k < stack_.frames(); k += 4) {
-      for (std::size_t i = 0; i < moving_.size(); i += 3) {
-        if (moving_[i] == 0) continue;
-        const float size = second_difference(stack_.image(k), i, std::size_t(w_));
-        if (std::isfinite(size)) differences.push_back(size);
-      }
-    }
-    return noise_from(std::move(differences));
   }
 
   void find_moving() {
@@ -157,11 +194,34 @@ class BackgroundSearch {
     const double range = double(depths[valid - 1 - tenth] - depths[tenth]);
     const double still = still_range(i);
     const bool comes_and_goes = 10 * valid < 9 * frames && 10 * valid > frames;
-    if (range <= still && !comes_and_goes) return;
+    if (range <= still && !comes_and_goes) {
+      if (2 * valid >= frames) still_.seen[i] = depths[valid / 2];
+      return;
+    }
     moving_[i] = 1;
-    // The farthest depth is what stands still if it is seen again; else the object hides it always.
-    const bool seen_again = valid >= 4 && double(depths[valid - 1] - depths[valid - 3]) < still;
-    if (seen_again) limit_[i] = float(double(depths[valid - 2]) - still);
+    // The farthest depth may be what stands still if it is seen again; else the object hides it.
+    if (valid < 4 || double(depths[valid - 1] - depths[valid - 3]) >= still) return;
+    const float far = depths[valid - 2];
+    still_.candidate[i] = far, still_.tolerance[i] = float(still);
+    const auto nearer = std::lower_bound(depths.begin(), depths.end(), far - float(still));
+    apart_[i] = nearer != depths.begin() && double(far - *(nearer - 1)) > kClearGap * still ? 1 : 0;
+  }
+
+  /// Where the object hides a pixel always its own farthest depth is seen again, too. It would be
+  /// cut off, of what lies there the part with the noise that makes it nearer would be kept, and
+  /// the axis lean.
+  void set_limits(std::vector<float>& nearer_than) {
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+      if (moving_[i] == 0) still_.candidate[i] = 0.0f;
+    const auto continued = continued_from_seen(still_);
+    const bool room = std::count(continued.begin(), continued.end(), 1) > 0;
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      if (moving_[i] == 0) continue;
+      const float far = still_.candidate[i], still = still_.tolerance[i];
+      nearer_than[i] = continued[i] != 0        ? far - still
+                       : room && apart_[i] != 0 ? far - 0.5f * float(kClearGap) * still
+                                                : std::numeric_limits<float>::infinity();
+    }
   }
 
   /// Patches of what moves, without lines one or two pixels wide; then as wide again.
@@ -226,8 +286,10 @@ class BackgroundSearch {
   double noise_m_;
   std::vector<std::uint8_t> moving_ =
       std::vector<std::uint8_t>(std::size_t(w_) * std::size_t(h_), 0);
-  std::vector<float> limit_ =
-      std::vector<float>(std::size_t(w_) * std::size_t(h_), std::numeric_limits<float>::infinity());
+  std::vector<std::uint8_t> apart_ = moving_;  ///< nothing is seen shortly before the candidate
+  StillDepths still_{w_, h_, std::vector<float>(moving_.size(), 0.0f),
+                     std::vector<float>(moving_.size(), 0.0f),
+                     std::vector<float>(moving_.size(), 0.0f)};
 };
 
 }  // namespace
@@ -236,17 +298,7 @@ Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
                                    const std::vector<std::size_t>& positions,
                                    const RunContext& context) {
   TURNSCAN_ASSIGN(const DepthStack stack, DepthStack::read(sequence, positions, context));
-  std::array<std::vector<float>, 2> differences;
-  for (std::size_t k = 0; k < stack.frames(); ++k) {
-    const auto& image = stack.image(k);
-    for (std::size_t i = 0; i < image.size(); i += 3) {
-      for (const std::size_t step : {1U, 2U}) {
-        const float size = third_difference(image, i, std::size_t(stack.width()), step);
-        if (std::isfinite(size)) differences[step - 1].push_back(size);
-      }
-    }
-  }
-  return SpatialNoise{noise_from(std::move(differences[1])), noise_from(std::move(differences[0]))};
+  return noise_of(stack, 1, 3, {});
 }
 
 Result<Background> find_background(const FrameSequence& sequence,
