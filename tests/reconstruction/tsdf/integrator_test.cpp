@@ -88,26 +88,44 @@ views::DepthView left_half(views::DepthView view) {
   return view;
 }
 
-TEST(Integrator, WhatThreeViewsSawIsKnownHoweverManySawOtherPlaces) {
-  const auto known_on_the_right = [](std::size_t others) {
-    std::vector<views::DepthView> views(others, left_half(wall(0, 1.0)));
-    views.resize(others + 3, wall(0, 1.0));
-    Integrator integrator(volume_scale());
-    EXPECT_TRUE(integrator.integrate(views, {}));
-    const Volume volume = *integrator.extract_volume(kBox);
-    std::size_t count = 0;
-    for (const std::size_t b : volume.allocated_bricks()) {
-      for (std::size_t s = 0; s < kBrickSamples; ++s) {
-        const GridCoords at = volume.bricks.coords(b);
-        const double x = volume.position(at[0] * kBrickSide + int(s & 7), 0, 0).x();
-        count += x > 0.02 && volume.weight[volume.first_sample(b) + s] > 0.0f ? 1 : 0;
-      }
+/// Of the samples of bricks right of the middle.
+struct KnownSamples {
+  std::size_t free = 0, at_surface = 0;
+};
+
+/// Of a wall whose right half only some of the views saw.
+KnownSamples known_on_the_right(std::size_t saw_it, std::size_t others) {
+  std::vector<views::DepthView> views(others, left_half(wall(0, 1.0)));
+  views.resize(others + saw_it, wall(0, 1.0));
+  Integrator integrator(volume_scale());
+  EXPECT_TRUE(integrator.integrate(views, {}));
+  const Volume volume = *integrator.extract_volume(kBox);
+  KnownSamples out;
+  for (const std::size_t b : volume.allocated_bricks()) {
+    for (std::size_t s = 0; s < kBrickSamples; ++s) {
+      const std::size_t sample = volume.first_sample(b) + s;
+      const GridCoords at = volume.bricks.coords(b);
+      const double x = volume.position(at[0] * kBrickSide + int(s & 7), 0, 0).x();
+      if (x <= 0.02 || volume.weight[sample] <= 0.0f) continue;
+      ++(volume.value[sample] > 0.99f * float(volume.truncation_m) ? out.free : out.at_surface);
     }
-    return count;
-  };
-  const std::size_t alone = known_on_the_right(0);
-  EXPECT_GT(alone, 1000u);
-  EXPECT_EQ(known_on_the_right(400), alone);
+  }
+  return out;
+}
+
+TEST(Integrator, WhatThreeViewsSawIsKnownHoweverManySawOtherPlaces) {
+  const KnownSamples alone = known_on_the_right(3, 0), among_others = known_on_the_right(3, 400);
+  EXPECT_GT(alone.free, 300u);
+  EXPECT_GT(alone.at_surface, 1000u);
+  EXPECT_EQ(among_others.free, alone.free);
+  EXPECT_EQ(among_others.at_surface, alone.at_surface);
+}
+
+TEST(Integrator, WhatTwoOfAThousandViewsMeasuredIsNoSurface) {
+  const KnownSamples alone = known_on_the_right(2, 0), among_others = known_on_the_right(2, 998);
+  EXPECT_GT(alone.at_surface, 1000u);
+  EXPECT_EQ(among_others.at_surface, 0u);
+  EXPECT_EQ(among_others.free, alone.free);  // but what they saw past is free
 }
 
 TEST(Integrator, IsCoarseWhereFewBricksAreAllowed) {

@@ -223,6 +223,7 @@ Result<> Integrator::integrate(std::span<const views::DepthView> batch, const Ea
     batch_[v].set_view(batch[v], scale_);
     batch_[v].compute();
   });
+  views_ += float(batch.size());
   std::vector<BrickMask> made(groups_.size(), 0);
   std::atomic<std::size_t> bytes{bytes_};
   const auto integrate_group = [&](std::size_t n) {

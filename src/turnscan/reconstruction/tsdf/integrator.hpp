@@ -26,6 +26,13 @@ struct EarlierViews {
   float weight = 1.0f;
 };
 
+/// With less of the one, the other, or shares of both that add up to less than 1, a sample counts
+/// as not seen.
+struct LeastWeights {
+  float surface = 0.0f;  ///< of measured distances
+  float free = 0.0f;     ///< of views that saw past
+};
+
 /// Sums over views in bricks of 8^3 samples at fixed places of the table frame; the platter, y = 0,
 /// lies halfway between the lowest layer of bricks 0 and the next. A brick has sums as soon as a
 /// view measured a surface within the truncation of one of its samples; of the others only how many
@@ -69,10 +76,10 @@ class Integrator {
     float free = 0.0f;
   };
   BrickEvidence evidence(const GridCoords& brick) const;
-  float least_weight() const;
+  LeastWeights least_weights() const;
   Volume coarse_volume(int factor, const GridCoords& low, const GridCoords& high) const;
   void fill_coarse_brick(Volume& volume, std::size_t b, const GridCoords& first, int factor,
-                         float least) const;
+                         const LeastWeights& least) const;
 
   Vec3d sample_position(const GridCoords& brick) const;
   std::array<float, 3> first_sample(const GridCoords& brick) const;
@@ -99,6 +106,7 @@ class Integrator {
   std::vector<BrickGroup> groups_;
   std::vector<RangeBounds> batch_;  ///< the views that are being integrated
   std::size_t bytes_ = 0;
+  float views_ = 0.0f;  ///< that were integrated
 };
 
 }  // namespace turnscan::tsdf

@@ -16,6 +16,10 @@ constexpr float kLeastShare = 0.02f;  // of the typical weight, likewise
 /// But so much is enough, however many views saw other places: what few of many frames saw deep in
 /// a hollow is no less sure than it would be with those few alone.
 constexpr float kEnoughWeight = 1.0f;
+/// Of surface, a share of all views is needed, too: mixed pixels put some where there is none, and
+/// of many frames enough agree by chance. Free space is not put anywhere: that of a pixel ends at
+/// the nearest depth around it.
+constexpr float kEnoughShareOfViews = 1.0f / 375.0f;
 
 /// Where a brick's sample, the first coordinate fastest, lies in its sums.
 std::size_t place_in_parts(std::size_t sample) {
@@ -47,14 +51,15 @@ struct BrickDistances {
 
   /// From sums; all_free: views that saw past the whole brick. Returns whether all samples are free
   /// for sure.
-  bool set(const BrickSums& sums, float all_free, float truncation, float least) {
+  bool set(const BrickSums& sums, float all_free, float truncation, const LeastWeights& least) {
+    const float free_counts = least.surface / least.free;
     bool free_throughout = true;
     for (std::size_t sample = 0; sample < kBrickSamples; ++sample) {
       const std::size_t at = place_in_parts(sample), i = at % kPartSamples;
       const PartSums& part = sums.part[at / kPartSamples];
       const float free = kFreeWeight * (part.free[i] + all_free);
       const float w = part.weight[i] + free;
-      const bool known = w >= least;
+      const bool known = part.weight[i] + free * free_counts >= least.surface;
       value[sample] = known ? (part.distance[i] + free * truncation) / w : truncation;
       weight[sample] = known ? w : 0.0f;
       free_throughout &= known && value[sample] > 0.7f * truncation;
@@ -104,16 +109,17 @@ Integrator::BrickEvidence Integrator::evidence(const GridCoords& brick) const {
   return {g.sums[in_group].get(), g.free[in_group]};
 }
 
-/// With less, a sample counts as not seen.
-float Integrator::least_weight() const {
+LeastWeights Integrator::least_weights() const {
   std::vector<const BrickSums*> all;
   for (const BrickGroup& group : groups_) {
     for (const auto& sums : group.sums) {
       if (sums) all.push_back(sums.get());
     }
   }
-  return std::clamp(kLeastShare * typical_weight(all, float(scale_.cell_m)), kLeastWeight,
-                    kEnoughWeight);
+  const float share =
+      std::max(kLeastShare * typical_weight(all, float(scale_.cell_m)), kLeastWeight);
+  return {std::min(share, std::max(kEnoughWeight, kEnoughShareOfViews * views_)),
+          std::min(share, kEnoughWeight)};
 }
 
 Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& context) const {
@@ -130,14 +136,14 @@ Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& cont
   volume.origin_m = sample_position(first);
   volume.set_bricks(size);
   const auto truncation = float(scale_.truncation_m);
-  const float least = least_weight();
+  const LeastWeights least = least_weights();
   BrickDistances brick;
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
     if (b % 1024 == 0) TURNSCAN_TRY(context.check());
     const GridCoords at = volume.bricks.coords(b);
     const BrickEvidence own = evidence({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
     if (own.sums == nullptr) {
-      volume.uniform[b] = kFreeWeight * own.free >= least ? 1.0f : 0.0f;
+      volume.uniform[b] = kFreeWeight * own.free >= least.free ? 1.0f : 0.0f;
     } else if (brick.set(*own.sums, own.free, truncation, least)) {
       volume.uniform[b] = 1.0f;
     } else if (std::any_of(brick.weight.begin(), brick.weight.end(),
@@ -187,7 +193,7 @@ Volume Integrator::coarse_volume(int factor, const GridCoords& low, const GridCo
   volume.origin_m =
       sample_position({first[0] * factor, first[1] * factor, first[2] * factor}).array() + middle;
   volume.set_bricks(size);
-  const float least = least_weight();
+  const LeastWeights least = least_weights();
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
     GridCoords at = volume.bricks.coords(b);
     for (std::size_t a = 0; a < 3; ++a) at[a] = (at[a] + first[a]) * factor;
@@ -198,7 +204,7 @@ Volume Integrator::coarse_volume(int factor, const GridCoords& low, const GridCo
 
 /// Fills a brick of a coarse volume from the factor^3 bricks that begin at `first`.
 void Integrator::fill_coarse_brick(Volume& volume, std::size_t b, const GridCoords& first,
-                                   int factor, float least) const {
+                                   int factor, const LeastWeights& least) const {
   const auto truncation = float(scale_.truncation_m);
   CoarseSums sums;
   BrickDistances fine;
@@ -210,14 +216,14 @@ void Integrator::fill_coarse_brick(Volume& volume, std::size_t b, const GridCoor
     free = std::min(free, own.free);
     if (own.sums != nullptr)
       fine.set(*own.sums, own.free, truncation, least);
-    else if (kFreeWeight * own.free >= least)
+    else if (kFreeWeight * own.free >= least.free)
       fine.set_free(truncation);
     else
       continue;
     sums.add(fine, offset, factor);
   }
   if (sums.value.empty()) return;
-  if (kFreeWeight * free >= least &&
+  if (kFreeWeight * free >= least.free &&
       std::all_of(sums.value.begin(), sums.value.end(), [](float v) { return v > 0.0f; })) {
     volume.uniform[b] = 1.0f;
     return;
