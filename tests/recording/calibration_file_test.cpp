@@ -54,8 +54,17 @@ Calibration some_calibration(std::uint64_t seed) {
     }
     c.others.push_back(place);
   }
+  if (seed % 2 == 1) c.made_at = "2026-11-24T08:30:00Z";
   c.depth = DepthCorrection{-0.02 * random(11), 1.01, 1e-4, std::nan(""), "gauge"};
   return c;
+}
+
+TEST(CalibrationFile, RefusesADateThatIsNone) {
+  std::string text = calibration_json(some_calibration(1));
+  text.replace(text.find("2026-11-24T08"), 13, "2026-11-31T08");
+  const auto read = parse_calibration(text);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::kFormat);
 }
 
 TEST(CalibrationFile, ReadAndWrittenAgainIsTheSameText) {
@@ -69,6 +78,7 @@ TEST(CalibrationFile, ReadAndWrittenAgainIsTheSameText) {
     const auto again = parse_calibration(second);
     EXPECT_EQ(again->table.axis, read->table.axis);
     EXPECT_EQ(again->angles_rad, read->angles_rad);
+    EXPECT_EQ(again->made_at, some_calibration(seed).made_at);
     EXPECT_EQ(again->table.speed_rad_s, read->table.speed_rad_s);
   }
 }

@@ -111,6 +111,7 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
     TURNSCAN_ASSIGN(motor, open_motor(request.motor_port, request.motor, settings, context));
   }
   settle_speed(motor.has_value(), options, header_);
+  if (const auto known = calibration()) note_calibration_date(known->made_at, settings);
   begin_seen(options);
   CaptureHooks hooks;
   hooks.motor = motor ? &*motor : nullptr;

@@ -1,6 +1,7 @@
 // The calibration of the 3D Scanner: averaged scan, detected platter, picked points, files.
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -8,6 +9,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <turnscan/capture/session/device_calibration.hpp>
+#include <turnscan/core/utc_time.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/turntable/detection/picked_points.hpp>
 #include <turnscan/workflow/text/calibration_text.hpp>
@@ -155,14 +157,16 @@ void ScannerMode::calibrate() {
   calibration_error_->show_text(detect_form_->first_error());
   if (!scan_ || !detect_form_->valid()) return;
   pick_->setChecked(false);
+  const bool live = !device_->currentText().startsWith("replay:");
   jobs().start(
       tr("Calibrate"), this,
-      [this, scan = scan_,
+      [this, scan = scan_, made_at = live ? utc_text(utc_now_s()) : std::string(),
        options = options_->detect](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(const DetectedPlatter platter, detect_platter(*scan, options, context));
+        Calibration detected = calibration_of(platter, *scan);
+        detected.made_at = made_at;
         // What is shown is what a file gives back.
-        TURNSCAN_ASSIGN(Calibration found,
-                        parse_calibration(calibration_json(calibration_of(platter, *scan))));
+        TURNSCAN_ASSIGN(Calibration found, parse_calibration(calibration_json(detected)));
         auto shared = std::make_shared<const Calibration>(std::move(found));
         const DrawablePtr residuals = averaged_picture(*scan, &shared->table);
         return Finish([this, shared, residuals] {

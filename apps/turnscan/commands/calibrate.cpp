@@ -123,6 +123,7 @@ class CalibrateCommand : public Command {
     const auto count = static_cast<std::size_t>(device_options_.frames.value_or(
         detect_ || !request_.points.empty() ? request_.average.frames : kFramesForMotion));
     TURNSCAN_ASSIGN(const auto frames, take_frames(*source, count, session.context()));
+    request_.made_at = date_of_calibration(source->info());
     TURNSCAN_ASSIGN(const Calibration calibration, calibrate_and_tell(*frames, session));
     TURNSCAN_TRY(keep_calibration(identity, calibration));
     TURNSCAN_ASSIGN(const auto file, kept_calibration_file(identity));

@@ -49,6 +49,7 @@ struct SensorPlace {
 /// texts `..._found` say for people how the figure was found; empty: it is not known.
 struct Calibration {
   CalibrationMethod method = CalibrationMethod::kDetected;
+  std::string made_at;  ///< when its frames were taken, as utc_text(); empty: not known
   TurntableInfo table;
   double axis_sigma_rad = std::numeric_limits<double>::quiet_NaN();
   double center_sigma_m = std::numeric_limits<double>::quiet_NaN();  ///< across the axis

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/utc_time.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/recording/calibration_file.hpp>
@@ -246,6 +247,14 @@ Result<> parse_reasons(const text::JsonObject& root, Calibration& c) {
   return {};
 }
 
+Result<std::string> parse_date(const text::JsonObject& root) {
+  TURNSCAN_ASSIGN(std::string date, root.text_or("made_at", ""));
+  if (!date.empty() && !utc_seconds(date))
+    return fail(ErrorCode::kFormat, "made_at '{}' is no date in UTC like 2026-11-24T08:30:00Z",
+                date);
+  return date;
+}
+
 Result<Calibration> parse_whole(const text::JsonObject& root) {
   TURNSCAN_ASSIGN(const int schema, root.integer("schema_version", 1, 1 << 30));
   if (schema > kCalibrationSchema)
@@ -255,6 +264,7 @@ Result<Calibration> parse_whole(const text::JsonObject& root) {
                 schema, kCalibrationSchema);
   Calibration c;
   TURNSCAN_ASSIGN(c.method, parse_method(root));
+  TURNSCAN_ASSIGN(c.made_at, parse_date(root));
   TURNSCAN_ASSIGN(c.table, parse_table(root));
   TURNSCAN_TRY(parse_figures(root, c));
   TURNSCAN_TRY(parse_reasons(root, c));
@@ -277,6 +287,7 @@ std::string calibration_json(const Calibration& c) {
   out["format"] = kCalibrationFormat;
   out["schema_version"] = kCalibrationSchema;
   out["method"] = std::string(name_of(c.method));
+  put_text(out, "made_at", c.made_at);
   out["axis"] = text::json_of(c.table.axis);
   out["center_m"] = text::json_of(c.table.center_m);
   if (c.table.radius_m) out["radius_m"] = *c.table.radius_m;

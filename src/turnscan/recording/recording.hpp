@@ -20,6 +20,11 @@ inline constexpr int kRecordingSchema = 1;
 /// What a capture program wants to keep about its settings (exposure, gain, ...): free text.
 using CaptureSettings = std::map<std::string, std::string>;
 
+/// Among them, where they are known, as utc_text(): when the first frame came, and when the
+/// calibration of the turntable was made that was used.
+inline constexpr const char* kStartedAt = "started_at";
+inline constexpr const char* kTableCalibratedAt = "turntable_calibrated_at";
+
 /// A recording opened for reading. It reads what is whole: a recording whose writer was killed
 /// opens up to its last whole frame, and notes() says what is missing.
 class Recording : public FrameSequence {

@@ -15,6 +15,7 @@
 #include <turnscan/workflow/next_pass/next_pass_picture.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/verdict/residuals_json.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 namespace turnscan {
@@ -74,12 +75,13 @@ Result<> check_join(const std::vector<PassOfMany>& passes, const ReconstructRequ
 Result<> reconstruct_joined(const std::vector<NamedSequence>& recordings,
                             const std::vector<PlacedRecording>& placed,
                             const ReconstructRequest& request, const StageSink& sink,
-                            const RunContext& context, ReconstructRun& run) {
+                            const RunContext& context, std::vector<PassOfMany>& passes,
+                            ReconstructRun& run) {
   std::vector<RecordingFrames> frames;
   for (std::size_t i = 0; i < recordings.size(); ++i)
     frames.push_back({recordings[i].name, placed[i].calibrated.frames.get(),
                       placed[i].calibrated.options.merge.speed_rad_s});
-  TURNSCAN_ASSIGN(const auto passes, list_passes(frames, request.pass_poses));
+  TURNSCAN_ASSIGN(passes, list_passes(frames, request.pass_poses));
   TURNSCAN_TRY(check_join(passes, request));
   TURNSCAN_ASSIGN(JoinedRun joined,
                   join_and_reconstruct(passes, placed[0].calibrated.options, sink, context));
@@ -125,8 +127,44 @@ Result<> note_filters(const std::vector<NamedSequence>& recordings, const RunCon
   return {};
 }
 
+/// The frames that went into an object, of the passes that were joined, or of all of a recording.
+std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRecording>& placed,
+                                  const std::vector<PassOfMany>& passes,
+                                  const Reconstruction& made) {
+  std::vector<MeshFrames> out;
+  for (const FusedPass& fused : made.passes) {
+    const auto pass = std::find_if(passes.begin(), passes.end(),
+                                   [&](const PassOfMany& p) { return p.name == fused.name; });
+    if (pass == passes.end() || (fused.object >= 0 && std::size_t(fused.object) != object))
+      continue;
+    out.push_back({pass->frames.frames, pass->frames.pass, pass->frames.speed_rad_s,
+                   fused.T_object_table, pass->number});
+  }
+  if (!made.passes.empty()) return out;
+  const CalibratedFrames& calibrated = placed[0].calibrated;
+  const MergeOptions& merge = calibrated.options.merge;
+  std::optional<std::uint32_t> pass;
+  if (merge.pass) pass = std::uint32_t(*merge.pass);
+  return {{calibrated.frames.get(), pass, merge.speed_rad_s, Pose::Identity(), pass.value_or(0)}};
+}
+
+/// What the frames of each object could see of it, and how they fit it.
+Result<> compare_frames(const std::vector<PlacedRecording>& placed,
+                        const std::vector<PassOfMany>& passes, const RunContext& context,
+                        ReconstructRun& run, ScanKnowledge& known) {
+  const Reconstruction& made = run.reconstruction;
+  for (std::size_t i = 0; i < made.objects.size(); ++i) {
+    const auto frames = frames_of(i, placed, passes, made);
+    TURNSCAN_TRY(compare_object(made.objects[i], frames, made.sensor_noise_m, context, known));
+  }
+  run.frame_residuals = known.residuals;
+  return {};
+}
+
 /// By the recording that shows most sides of its object.
-void judge(const std::vector<PlacedRecording>& placed, ReconstructRun& run) {
+Result<> judge(const std::vector<NamedSequence>& recordings,
+               const std::vector<PlacedRecording>& placed, const std::vector<PassOfMany>& passes,
+               const ReconstructRequest& request, const RunContext& context, ReconstructRun& run) {
   ScanKnowledge known;
   known.choice = &run.choice;
   for (const PlacedRecording& recording : placed) {
@@ -134,8 +172,18 @@ void judge(const std::vector<PlacedRecording>& placed, ReconstructRun& run) {
     const auto turn = turn_seen(*calibrated.frames, calibrated.options.merge.speed_rad_s);
     if (turn && (!known.turn || turn->share > known.turn->share)) known.turn = turn;
   }
-  judge_objects(run.reconstruction, known);
+  known.dates = workflow::dates_of(*recordings[0].frames, request.turntable);
+  known.table_recorded = placed[0].on_table->header().turntable && !run.choice.calibration &&
+                         !workflow::has_poses(*placed[0].on_table);
+  if (known.table_recorded) {
+    TURNSCAN_ASSIGN(known.platter,
+                    workflow::platter_against_calibration(*placed[0].on_table, context));
+  }
   for (PassApart& pass : run.apart) judge_objects(pass.reconstruction, known);
+  TURNSCAN_TRY(compare_frames(placed, passes, context, run, known));
+  known.next_pass = run.next_pass;
+  judge_objects(run.reconstruction, known);
+  return {};
 }
 
 Result<> check_meshes(const ReconstructRun& run) {
@@ -165,8 +213,9 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
     if (request.stages.count(stage) > 0) run.stages[stage] = cloud;
     return {};
   };
+  std::vector<PassOfMany> passes;
   if (joins_passes(recordings, request)) {
-    TURNSCAN_TRY(reconstruct_joined(recordings, placed, request, sink, context, run));
+    TURNSCAN_TRY(reconstruct_joined(recordings, placed, request, sink, context, passes, run));
   } else {
     const CalibratedFrames& calibrated = placed[0].calibrated;
     TURNSCAN_ASSIGN(run.reconstruction,
@@ -185,7 +234,7 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
   TURNSCAN_TRY(note_filters(recordings, context, run.reconstruction.notes));
   run.turn = turn_of(*placed[0].calibrated.frames);
   run.choice = std::move(placed[0].calibrated.choice);
-  judge(placed, run);
+  if (request.judge) TURNSCAN_TRY(judge(recordings, placed, passes, request, context, run));
   if (!request.allow_open) TURNSCAN_TRY(check_meshes(run));
   TURNSCAN_TRY(context.check());
   return run;
@@ -241,9 +290,7 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
     written.push_back(files.advice_picture);
   }
   if (!files.report.empty()) {
-    auto report = nlohmann::ordered_json::parse(report_json(run.reconstruction, options));
-    report["next_pass"] = run.next_pass ? workflow::next_pass_json(*run.next_pass) : nullptr;
-    TURNSCAN_TRY(write_file_atomically(files.report, report.dump(2) + "\n"));
+    TURNSCAN_TRY(write_file_atomically(files.report, run_report(run, options)));
     written.push_back(files.report);
   }
   if (!files.page.empty()) {
@@ -251,6 +298,13 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
     written.push_back(files.page);
   }
   return written;
+}
+
+std::string run_report(const ReconstructRun& run, const ReconstructOptions& options) {
+  auto report = nlohmann::ordered_json::parse(report_json(run.reconstruction, options));
+  workflow::put_frame_residuals(run.frame_residuals, report);
+  report["next_pass"] = run.next_pass ? workflow::next_pass_json(*run.next_pass) : nullptr;
+  return report.dump(2) + "\n";
 }
 
 PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,
@@ -262,7 +316,7 @@ PageInput page_input(const ReconstructRun& run, const ReconstructOptions& option
     for (PageObject& object : page_objects(pass.reconstruction))
       input.objects.push_back(std::move(object));
   }
-  input.report = report_json(run.reconstruction, options);
+  input.report = run_report(run, options);
   input.turn = run.turn;
   return input;
 }

@@ -16,6 +16,7 @@
 #include <turnscan/workflow/next_pass/next_pass.hpp>
 #include <turnscan/workflow/page/page.hpp>
 #include <turnscan/workflow/passes/join_run.hpp>
+#include <turnscan/workflow/verdict/frame_residuals.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -28,6 +29,7 @@ struct ReconstructRequest {
   bool allow_open = false;           ///< a mesh that is not watertight is no failure
   /// Where passes lie that are fused with the first, by their number; the surfaces show the others.
   std::vector<PassPose> pass_poses;
+  bool judge = true;  ///< with verdicts, and what only they need; else without
 };
 
 struct ReconstructRun {
@@ -38,6 +40,8 @@ struct ReconstructRun {
   std::vector<TurnPoint> turn;               ///< of the first recording, as it was calibrated
   PassViews seen_from;                       ///< of the last pass in the largest object's mesh
   std::optional<NextPassAdvice> next_pass;   ///< for the largest object; see advise_next_pass()
+  /// Per object how its frames fit it; empty where it was not judged.
+  std::vector<std::vector<FrameResidual>> frame_residuals;
 };
 
 /// One of the recordings of an object.
@@ -102,6 +106,10 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructRun& run,
                                                const ReconstructOptions& options,
                                                const RunContext& context = {});
+
+/// What is known of a run, as --report writes it: report_json() with the advice for the next pass
+/// and how the frames fit.
+std::string run_report(const ReconstructRun& run, const ReconstructOptions& options);
 
 /// What make_page() shows of a run: all meshes, those of passes apart last.
 PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,

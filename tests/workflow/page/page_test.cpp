@@ -128,11 +128,24 @@ TEST(Page, OfAReportHasItsVerdictParametersAndNotes) {
   const std::string html = page_of(input);
   EXPECT_THAT(html, Holds("<span class=\"badge amber\">amber</span>"));
   EXPECT_THAT(html, Holds("Seen from 300 degrees"));
-  EXPECT_THAT(html, Holds("<td class=\"number\">300 deg</td>"));
+  EXPECT_THAT(html, Holds("class=\"number\">300 deg</td>"));
   EXPECT_THAT(html, Holds("from the noise"));
   EXPECT_THAT(html, Holds("The platter was found"));
   EXPECT_THAT(html, Holds("Reconstructed by turnscan 0.0.9"));
   EXPECT_THAT(page_of(ball_input()), Not(Holds("Verdict"))) << "nothing is said of what is not";
+}
+
+TEST(Page, PlotsHowTheFramesAgree) {
+  PageInput input = ball_input();
+  EXPECT_THAT(page_of(input), Not(Holds("How well the frames agree")));
+  input.report = R"({"objects": [{"frame_residuals": {"frame": [3, 4, 9], "off_mm": [0.1, 4.5, 0.1],
+    "spread_mm": [0.3, 0.4, 0.3]}}]})";
+  const std::string html = page_of(input);
+  EXPECT_THAT(html, Holds("How well the frames agree"));
+  EXPECT_THAT(html, Holds("<td>4</td><td>4.5</td><td>0.4</td>"));
+  input.report = R"({"objects": [{"frame_residuals": {"frame": [3, 4], "off_mm": [0.1],
+    "spread_mm": "no"}}]})";
+  EXPECT_THAT(page_of(input), Not(Holds("How well the frames agree"))) << "columns do not fit";
 }
 
 TEST(Page, NeedsNothingFromOutside) {

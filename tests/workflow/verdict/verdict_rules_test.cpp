@@ -93,15 +93,126 @@ TEST(JudgeObjects, CallsUncorrectedDisturbancesAndOpenMeshesBad) {
   Reconstruction run;
   run.objects.emplace_back().mesh.vertices.resize(3, Vec3f::Zero());
   CalibrationChoice choice;
-  judge_objects(run, {std::nullopt, &choice});
+  ScanKnowledge known;
+  known.choice = &choice;
+  judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "mesh")->level, Level::kBad);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance"), nullptr);
   choice.disturbances.emplace_back().text = "the object moved";
-  judge_objects(run, {std::nullopt, &choice});
+  judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance")->level, Level::kBad);
   choice.poses.resize(1);
-  judge_objects(run, {std::nullopt, &choice});
+  judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance")->level, Level::kGood);
+}
+
+/// A square sheet; half of it hidden.
+Reconstruction sheet() {
+  Reconstruction run;
+  ObjectResult& object = run.objects.emplace_back();
+  object.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  object.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  object.evidence.assign(2, Evidence::kMeasured);
+  object.quality.assign(4, VertexQuality{1e-4f, 20, 3});
+  return run;
+}
+
+TEST(JudgeObjects, GoByWhatFramesCouldSee) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  known.seen = {{{0, 1, 2, 3}, {1, 1, 1, 1}}};
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "invented")->level, Level::kGood);
+  known.seen[0].seen = {1, 1, 1, 0};  // a sixth of the area
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "invented")->level, Level::kFair);
+  known.seen[0].seen = {1, 1, 0, 0};
+  run.objects[0].quality[3].expected_error_m = 0.1f;  // which no frame could see
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "invented")->level, Level::kBad);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "error")->level, Level::kGood);
+}
+
+FrameResidual residual(std::uint32_t frame, double off_m) {
+  FrameResidual out;
+  out.frame = frame;
+  out.time_s = 0.1 * frame;
+  out.shift_m.x() = off_m;
+  out.spread_m = 0.0005;
+  return out;
+}
+
+TEST(JudgeObjects, SayWhichFramesDisagree) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  known.residuals.resize(1);
+  for (std::uint32_t i = 0; i < 40; ++i)
+    known.residuals[0].push_back(residual(i, i == 20 || i == 21 || i == 30 ? 0.004 : 0.0001));
+  judge_objects(run, known);
+  const VerdictSentence* apart = sentence(*run.objects[0].verdict, "apart");
+  ASSERT_NE(apart, nullptr);
+  EXPECT_EQ(apart->level, Level::kFair);
+  EXPECT_EQ(apart->text,
+            "3 of 40 frames lie elsewhere than the rest: frames 20 to 21 at 2.0 to 2.1 s (4.0 mm), "
+            "frame 30 at 3.0 s (4.0 mm)");
+  known.residuals[0].resize(20);
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "apart"), nullptr);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kGood);
+}
+
+TEST(JudgeObjects, SayHowMuchASecondPassWouldShow) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  NextPose pose;
+  pose.tip_rad = 0.25 * kTurn;
+  pose.towards_rad = 0.75 * kTurn;
+  pose.shows_m2 = 0.31;
+  known.next_pass.emplace();
+  known.next_pass->poses = {pose};
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text,
+            "a second pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
+            "--passes 2)");
+}
+
+TEST(JudgeObjects, AdviseToTurnSlowerWhereFewFramesSawItAndToStandNearerElse) {
+  Reconstruction run = sheet();
+  for (VertexQuality& q : run.objects[0].quality) q.expected_error_m = 0.001f;
+  judge_objects(run, {});
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("slower", 0), 0u);
+  for (VertexQuality& q : run.objects[0].quality) q.frames = 200;
+  judge_objects(run, {});
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("nearer", 0), 0u);
+}
+
+TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
+  Reconstruction run = sheet();
+  CalibrationChoice choice;
+  ScanKnowledge known;
+  known.choice = &choice;
+  known.table_recorded = true;
+  known.dates = {"2026-11-01T08:00:00Z", "2026-08-01T08:00:00Z"};
+  judge_objects(run, known);
+  const auto said = [&] { return *sentence(*run.objects[0].verdict, "calibration"); };
+  EXPECT_EQ(said().text,
+            "no platter was seen in it to check the calibration by; the calibration: made 3 months "
+            "before this recording (2026-08-01)");
+  EXPECT_EQ(said().level, Level::kGood);
+  known.platter.emplace();
+  known.platter->moved = true;
+  known.platter->height_m = -0.001, known.platter->shift_m = 0.006, known.platter->tilt_rad = 0.01;
+  judge_objects(run, known);
+  EXPECT_EQ(said().level, Level::kFair);
+  EXPECT_EQ(
+      said().text.rfind("the platter in it lies 1.0 mm lower, 6.0 mm aside and tilted by 0.57 "
+                        "deg against the calibration",
+                        0),
+      0u)
+      << said().text;
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, std::hypot(0.003, 0.005 * std::sqrt(0.5)),
+              1e-4)
+      << "half of it may be the platter's";
 }
 
 TEST(VerdictText, SaysTheColourAndASentenceALine) {

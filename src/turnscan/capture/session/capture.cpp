@@ -9,6 +9,7 @@
 #include <turnscan/capture/session/turn_counter.hpp>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/stopwatch.hpp>
+#include <turnscan/core/utc_time.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
@@ -109,6 +110,10 @@ class Session {
     if (options_.speed_rad_s) return options_.speed_rad_s;
     return header_.turntable ? header_.turntable->speed_rad_s : std::nullopt;
   }
+  /// Of the settings of a further pass.
+  std::string prefix_of_pass() const {
+    return options_.add_pass ? fmt::format("pass_{}_", pass_) : "";
+  }
   double wanted_rad() const {
     return options_.limits.turns.value_or(1.0) * kTurn + options_.limits.overlap_rad;
   }
@@ -158,6 +163,9 @@ class Session {
 
   Result<> create_recorder() {
     const double bytes = expected_bytes(header_, source_.info(), options_);
+    // What is replayed began when it was recorded.
+    if (source_.info().driver != "replay")
+      settings_[prefix_of_pass() + kStartedAt] = utc_text(utc_now_s());
     auto recorder = options_.add_pass
                         ? Recorder::extend(folder_, options_.recorder, bytes)
                         : Recorder::create(folder_, header_, settings_, options_.recorder, bytes);
@@ -343,7 +351,7 @@ class Session {
       result_.ended = result_.error->code == ErrorCode::kCancelled ? "when it was stopped"
                                                                    : result_.error->message;
     CaptureSettings settings = settings_;
-    const std::string of_pass = options_.add_pass ? fmt::format("pass_{}_", pass_) : "";
+    const std::string of_pass = prefix_of_pass();
     settings[of_pass + "ended"] = result_.ended;
     if (!turns_.found().empty()) settings[of_pass + "turns_counted_by"] = turns_.found();
     recorder_->describe(header_, settings);

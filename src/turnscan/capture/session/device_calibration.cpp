@@ -3,8 +3,10 @@
 #include <cstdlib>
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/utc_time.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/recording/calibration_file.hpp>
+#include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
@@ -105,6 +107,12 @@ Result<> keep_calibration(const std::string& identity, const Calibration& calibr
   kept.angles_found.clear();
   kept.start_s.reset();
   return write_calibration(file, kept);
+}
+
+std::string date_of_calibration(const SourceInfo& device) {
+  if (device.driver != "replay") return utc_text(utc_now_s());
+  const auto started = device.settings.find(kStartedAt);
+  return started != device.settings.end() && utc_seconds(started->second) ? started->second : "";
 }
 
 Result<RigCheck> check_rig(const AveragedScan& scan, const Calibration& calibration,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <turnscan/capture/source/frame_source.hpp>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
@@ -21,6 +22,10 @@ Result<std::optional<Calibration>> kept_calibration(const std::string& identity)
 /// Keeps where the table is; angles of frames and when it began to turn are left out, they were of
 /// one recording. Makes the folder. Fails as write_calibration.
 Result<> keep_calibration(const std::string& identity, const Calibration& calibration);
+
+/// Calibration::made_at of a calibration made now of a device: this machine's date, or that of the
+/// recording that is replayed.
+std::string date_of_calibration(const SourceInfo& device);
 
 /// How the table stands against its calibration.
 struct RigCheck {

@@ -3,6 +3,7 @@
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/turntable/detection/picked_points.hpp>
 
+#include <turnscan/workflow/calibration/calibration_age.hpp>
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/calibration/pick_file.hpp>
 #include <turnscan/workflow/calibration/sensor_correction.hpp>
@@ -100,6 +101,8 @@ Result<Calibration> run_calibration(const FrameSequence& sequence, const Calibra
   TURNSCAN_ASSIGN(const auto corrected, workflow::corrected_sequence(sequence, correction));
   TURNSCAN_ASSIGN(Calibration found, calibrate(corrected, request, context));
   workflow::keep_corrections(correction, found);
+  found.made_at =
+      request.made_at.empty() ? workflow::dates_of(sequence).started_at : request.made_at;
   // What is shown is what the file gives back.
   TURNSCAN_ASSIGN(Calibration calibration, parse_calibration(calibration_json(found)));
   TURNSCAN_TRY(context.check());

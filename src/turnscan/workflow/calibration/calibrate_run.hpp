@@ -32,6 +32,7 @@ struct CalibrateRequest {
   DetectOptions detect;
   BallOptions ball;
   FromMotionOptions motion;
+  std::string made_at;  ///< when the frames were taken; empty: as the recording says
 };
 
 /// The calibration as its file gives it back (see write_calibration()). Fails with kInvalidOption

@@ -32,11 +32,8 @@ std::string area_text(double area_m2) {
   return fmt::format("{:.0f} cm2", area_m2 * kSquareCentimetres);
 }
 
-/// "turn it upside down", "lay it on its left side"
-std::string deed_text(const NextPose& pose, const SideWords& words) {
-  if (pose.tip_rad >= kOver_rad) return "turn it upside down";
-  if (pose.tip_rad <= kLean_rad) return fmt::format("lean it {}", words.way);
-  return fmt::format("lay it on its {}", words.side);
+const SideWords& words_of(const NextPose& pose) {
+  return kSides[std::size_t(std::lround(8.0 * pose.towards_rad / kTurn)) % kSides.size()];
 }
 
 }  // namespace
@@ -56,13 +53,19 @@ std::string unseen_text(const UnseenSurface& unseen) {
                      fmt::join(parts, ", "));
 }
 
+std::string deed_text(const NextPose& pose) {
+  const SideWords& words = words_of(pose);
+  if (pose.tip_rad >= kOver_rad) return "turn it upside down";
+  if (pose.tip_rad <= kLean_rad) return fmt::format("lean it {}", words.way);
+  return fmt::format("lay it on its {}", words.side);
+}
+
 std::string pose_text(const NextPose& pose, const std::string& pass) {
-  const auto eighth = std::size_t(std::lround(8.0 * pose.towards_rad / kTurn)) % kSides.size();
-  const SideWords& words = kSides[eighth];
+  const SideWords& words = words_of(pose);
   return fmt::format(
       "To see about {} of that, {}: seen from the sensor, as it lay at the "
       "beginning of {}, tip it by {:.0f} degrees {}{}.",
-      area_text(pose.shows_m2), deed_text(pose, words), pass.empty() ? "the scan" : pass,
+      area_text(pose.shows_m2), deed_text(pose), pass.empty() ? "the scan" : pass,
       pose.tip_rad * kDegreesPerRadian, words.way,
       pose.stands ? "" : " and prop it up, because it does not stand so by itself");
 }

@@ -146,9 +146,27 @@ Plot speed_plot(const std::vector<TurnPoint>& turn) {
   return plot;
 }
 
+/// Frames in their order; those of several recordings or passes are counted anew.
+Plot frames_plot(const FrameColumns& frames, const std::string& of_object) {
+  Plot plot;
+  plot.title = "How well the frames agree" + of_object;
+  plot.description =
+      "How far each frame lies off what all of them show, by shift and turn, and how far its "
+      "measurements are spread about that.";
+  plot.y_label = "Distance in mm";
+  const auto& x = frames.frame;
+  const bool ascending = std::adjacent_find(x.begin(), x.end(),
+                                            [](double a, double b) { return !(a < b); }) == x.end();
+  plot.x_label = ascending ? "Frame" : "Number of the frame, pass after pass";
+  for (std::size_t i = 0; i < x.size(); ++i) plot.x.push_back(ascending ? x[i] : double(i + 1));
+  plot.series = {{"lies off", frames.off_mm}, {"spread", frames.spread_mm}};
+  return plot;
+}
+
 }  // namespace
 
-std::vector<Plot> plots_of(const PageInput& input, const std::vector<Field>& fields) {
+std::vector<Plot> plots_of(const PageInput& input, const std::vector<Field>& fields,
+                           const ReportFacts& facts) {
   std::vector<Plot> plots;
   for (const Field& field : fields) {
     if (!field.classes.empty()) continue;
@@ -160,6 +178,11 @@ std::vector<Plot> plots_of(const PageInput& input, const std::vector<Field>& fie
     plots.push_back(over_direction(samples, field));
   }
   if (input.turn.size() > 2) plots.push_back(speed_plot(input.turn));
+  for (std::size_t i = 0; i < facts.objects.size(); ++i)
+    if (facts.objects[i].frames)
+      plots.push_back(frames_plot(*facts.objects[i].frames, facts.objects.size() > 1
+                                                                ? fmt::format(", object {}", i + 1)
+                                                                : ""));
   return plots;
 }
 

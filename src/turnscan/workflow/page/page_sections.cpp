@@ -72,14 +72,16 @@ std::string verdict_html(const std::string& name, const Verdict& verdict) {
   std::string html = fmt::format("<h3>{} <span class=\"badge {}\">{}</span></h3>\n", escaped(name),
                                  verdict.colour, verdict.colour);
   if (verdict.sentences.empty()) return html;
+  // A narrow screen shows the rows as blocks, which by themselves are no rows to a screen reader.
   html +=
-      "<div class=\"table\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">What</th>"
-      "<th scope=\"col\">Rating</th><th scope=\"col\">Why</th>"
+      "<div class=\"table verdict\" tabindex=\"0\"><table role=\"table\"><thead><tr role=\"row\">"
+      "<th scope=\"col\">What</th><th scope=\"col\">Rating</th><th scope=\"col\">Why</th>"
       "<th scope=\"col\">Figure</th></tr></thead><tbody>\n";
   for (const VerdictSentence& s : verdict.sentences)
     html += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td><span class=\"level {}\">{}</span></td><td>{}</td>"
-        "<td class=\"number\">{}</td></tr>\n",
+        "<tr role=\"row\"><th scope=\"row\" role=\"rowheader\">{}</th>"
+        "<td role=\"cell\"><span class=\"level {}\">{}</span></td><td role=\"cell\">{}</td>"
+        "<td role=\"cell\" class=\"number\">{}</td></tr>\n",
         escaped(s.topic), s.level, s.level, escaped(s.text), escaped(value_text(s)));
   return html + "</tbody></table></div>\n";
 }
@@ -199,9 +201,9 @@ std::string comparison_section(const PageInput& input) {
   return section("comparison", "Compared with the reference", html);
 }
 
-std::string plots_section(const PageInput& input) {
+std::string plots_section(const PageInput& input, const ReportFacts& facts) {
   std::string html;
-  const std::vector<Plot> plots = plots_of(input, fields_of(input.objects));
+  const std::vector<Plot> plots = plots_of(input, fields_of(input.objects), facts);
   for (std::size_t i = 0; i < plots.size(); ++i)
     html += svg_figure(plots[i], fmt::format("plot{}", i + 1));
   if (html.empty()) return "";

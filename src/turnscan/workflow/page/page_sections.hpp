@@ -18,7 +18,7 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
 std::string dimensions_section(const PageInput& input);
 /// Empty without a comparison.
 std::string comparison_section(const PageInput& input);
-std::string plots_section(const PageInput& input);
+std::string plots_section(const PageInput& input, const ReportFacts& facts);
 /// Figures of the scan, parameters with their reasons, notes. Empty where the report has none.
 std::string making_section(const ReportFacts& facts);
 

@@ -51,10 +51,30 @@ std::optional<Verdict> verdict_of(const Json& json) {
   return verdict;
 }
 
+/// What is no number is NaN.
+std::vector<double> numbers_at(const Json& json, const char* key) {
+  std::vector<double> numbers;
+  if (!at(json, key).is_array()) return numbers;
+  for (const Json& value : at(json, key))
+    numbers.push_back(value.is_number() ? value.get<double>()
+                                        : std::numeric_limits<double>::quiet_NaN());
+  return numbers;
+}
+
+std::optional<FrameColumns> frames_of(const Json& json) {
+  FrameColumns out{numbers_at(json, "frame"), numbers_at(json, "off_mm"),
+                   numbers_at(json, "spread_mm")};
+  const std::size_t count = out.frame.size();
+  if (count == 0 || out.off_mm.size() != count || out.spread_mm.size() != count)
+    return std::nullopt;
+  return out;
+}
+
 ReportedObject object_of(const Json& json) {
   ReportedObject object;
   object.verdict = verdict_of(at(json, "verdict"));
   object.notes = texts_at(json, "notes");
+  object.frames = frames_of(at(json, "frame_residuals"));
   for (const char* key : {"expected_error_m", "seen_by", "invented"}) {
     const Json& values = at(json, key);
     if (!values.is_array()) continue;

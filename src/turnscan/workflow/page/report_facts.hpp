@@ -18,11 +18,17 @@ struct Verdict {
   std::vector<VerdictSentence> sentences;
 };
 
+/// How frames fit the mesh, one value a frame in each column.
+struct FrameColumns {
+  std::vector<double> frame, off_mm, spread_mm;
+};
+
 struct ReportedObject {
   std::optional<Verdict> verdict;
   std::vector<std::string> notes;
   /// expected_error_m, seen_by, invented: one number a vertex.
   std::map<std::string, std::vector<double>> per_vertex;
+  std::optional<FrameColumns> frames;
 };
 
 struct Parameter {

@@ -78,15 +78,17 @@ Result<std::vector<PlanTrial>> TrialRunner::run_here(const std::vector<TrialScen
   for (const TrialScene& one : scenes) {
     TURNSCAN_ASSIGN(const Simulation simulation,
                     prepare_simulation(one.scene, *one.object, context));
-    TURNSCAN_ASSIGN(PlanTrial trial, judged(
-                                         simulation,
-                                         [&]() -> Result<TriangleMesh> {
-                                           TURNSCAN_ASSIGN(
-                                               ReconstructRun run,
-                                               run_reconstruction(simulation.scan, {}, context));
-                                           return run.reconstruction.objects.front().mesh;
-                                         },
-                                         context));
+    TURNSCAN_ASSIGN(PlanTrial trial,
+                    judged(
+                        simulation,
+                        [&]() -> Result<TriangleMesh> {
+                          ReconstructRequest request;
+                          request.judge = false;
+                          TURNSCAN_ASSIGN(ReconstructRun run,
+                                          run_reconstruction(simulation.scan, request, context));
+                          return run.reconstruction.objects.front().mesh;
+                        },
+                        context));
     out.push_back(std::move(trial));
   }
   return out;

@@ -7,7 +7,8 @@ namespace turnscan {
 
 namespace {
 
-Result<> take_turntable(const std::string& file, SequenceHeader& header) {
+Result<> take_turntable(const std::string& file, SequenceHeader& header,
+                        CaptureSettings& settings) {
   TURNSCAN_ASSIGN(const Calibration calibration, read_calibration(file));
   if (calibration.others.size() + 1 != header.sensors.size())
     return fail(ErrorCode::kInvalidOption,
@@ -18,6 +19,7 @@ Result<> take_turntable(const std::string& file, SequenceHeader& header) {
                 header.sensors.size() == 1 ? std::string("is one")
                                            : fmt::format("are {}", header.sensors.size()));
   header.turntable = calibration.table;
+  note_calibration_date(calibration.made_at, settings);
   if (auto fits = correct_sensors(calibration, header.sensors); !fits)
     return fail_at(file, fits.error().code, "{}", fits.error().message);
   header.sensors[0].T_table_sensor.reset();
@@ -27,6 +29,13 @@ Result<> take_turntable(const std::string& file, SequenceHeader& header) {
 }
 
 }  // namespace
+
+void note_calibration_date(const std::string& made_at, CaptureSettings& settings) {
+  if (made_at.empty())
+    settings.erase(kTableCalibratedAt);
+  else
+    settings[kTableCalibratedAt] = made_at;
+}
 
 CaptureSettings settings_of(const SourceInfo& source) {
   CaptureSettings settings = source.settings;
@@ -53,7 +62,7 @@ Result<std::unique_ptr<FrameSource>> CaptureSetup::open(const RunContext& contex
   header = source->info().header;
   header.source = source->info().uri;
   settings = settings_of(source->info());
-  if (!turntable_file.empty()) TURNSCAN_TRY(take_turntable(turntable_file, header));
+  if (!turntable_file.empty()) TURNSCAN_TRY(take_turntable(turntable_file, header, settings));
   settle_speed(!motor_port.empty(), options, header);
   return source;
 }

@@ -16,6 +16,9 @@ inline constexpr double kMotorSpeed_rad_s = 0.17453293;
 /// What the source says of its settings, and which devices it consists of.
 CaptureSettings settings_of(const SourceInfo& source);
 
+/// That the turntable is the one of a calibration that was made then; empty: not known when.
+void note_calibration_date(const std::string& made_at, CaptureSettings& settings);
+
 /// Connects the motor at a serial port and notes its board in the settings. Fails as Motor::open().
 Result<Motor> open_motor(const std::string& port, const MotorOptions& options,
                          CaptureSettings& settings, const RunContext& context);

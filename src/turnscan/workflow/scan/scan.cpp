@@ -216,6 +216,7 @@ class ScanRun {
     if (!choice_.calibration || info.identities.empty()) return;
     Calibration found = *choice_.calibration;
     found.others.clear();  // they were there this time
+    found.made_at = date_of_calibration(info);
     if (auto kept = keep_calibration(info.identities.front(), found); !kept)
       out_.notes.push_back("the calibration could not be kept: " + kept.error().text());
   }
@@ -226,12 +227,25 @@ class ScanRun {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
     TURNSCAN_ASSIGN(const auto placed, with_choice(recording, choice_));
     const auto speed = choice_.calibration ? std::nullopt : request_.reconstruct.merge.speed_rad_s;
-    judge_objects(out_.reconstruction, {turn_seen(*placed, speed), &choice_});
-    auto views = pass_views(*placed, std::nullopt, speed);
-    if (!views) return {};
-    seen_from_ = std::move(*views);
-    TURNSCAN_ASSIGN(out_.next_pass,
-                    advise_next_pass(out_.reconstruction.objects[0], seen_from_, context_));
+    if (auto views = pass_views(*placed, std::nullopt, speed)) {
+      seen_from_ = std::move(*views);
+      TURNSCAN_ASSIGN(out_.next_pass,
+                      advise_next_pass(out_.reconstruction.objects[0], seen_from_, context_));
+    }
+    ScanKnowledge known;
+    known.turn = turn_seen(*placed, speed);
+    known.choice = &choice_;
+    known.dates = workflow::dates_of(recording);
+    known.table_recorded = recording.header().turntable && !choice_.calibration;
+    if (known.table_recorded) {
+      TURNSCAN_ASSIGN(known.platter, workflow::platter_against_calibration(recording, context_));
+    }
+    for (const ObjectResult& object : out_.reconstruction.objects)
+      TURNSCAN_TRY(compare_object(object, {{placed.get(), std::nullopt, speed}},
+                                  out_.reconstruction.sensor_noise_m, context_, known));
+    out_.frame_residuals = known.residuals;
+    known.next_pass = out_.next_pass;
+    judge_objects(out_.reconstruction, known);
     return {};
   }
 
@@ -336,6 +350,7 @@ class ScanRun {
     out_.files.clear();
     if (!run.reconstruction.objects.empty()) {
       out_.reconstruction = std::move(run.reconstruction);
+      out_.frame_residuals = std::move(run.frame_residuals);
       out_.next_pass = std::move(run.next_pass);
       seen_from_ = std::move(run.seen_from);
       TURNSCAN_ASSIGN(out_.files, write_objects(request_.mesh, out_.reconstruction));

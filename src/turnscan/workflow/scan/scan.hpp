@@ -11,6 +11,7 @@
 #include <turnscan/workflow/next_pass/next_pass.hpp>
 #include <turnscan/workflow/passes/join_run.hpp>
 #include <turnscan/workflow/scan/capture_setup.hpp>
+#include <turnscan/workflow/verdict/frame_residuals.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -57,6 +58,7 @@ struct ScanOutcome {
   std::string recording;
   std::vector<CaptureResult> captured;  ///< of each pass
   Reconstruction reconstruction;
+  std::vector<std::vector<FrameResidual>> frame_residuals;  ///< as ReconstructRun has it
   std::vector<PassApart> apart;                 ///< passes that do not fit, each with a mesh beside
   std::optional<NextPassAdvice> next_pass;      ///< what is still missing
   std::vector<std::string> notes;               ///< sentences for people

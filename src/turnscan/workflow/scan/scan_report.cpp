@@ -9,6 +9,7 @@
 #include <turnscan/workflow/scan/capture_json.hpp>
 #include <turnscan/workflow/text/capture_text.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
+#include <turnscan/workflow/verdict/residuals_json.hpp>
 
 namespace turnscan {
 
@@ -48,6 +49,7 @@ std::string workflow::scan_report(const ScanRequest& request, const ScanOutcome&
   out["passes_apart"] = std::move(apart);
   out["reconstruction"] = nlohmann::ordered_json::parse(
       report_json(outcome.reconstruction, request.reconstruct), nullptr, false);
+  put_frame_residuals(outcome.frame_residuals, out["reconstruction"]);
   out["next_pass"] = outcome.next_pass ? next_pass_json(*outcome.next_pass) : nullptr;
   return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -46,11 +46,12 @@ Result<bool> TableFinder::find(FrameSource& source, const RunContext& context) {
   }
   TURNSCAN_ASSIGN(const bool kept, take_kept(source, *scan, context));
   if (kept) return true;
-  TURNSCAN_TRY(detect(*scan, context));
+  TURNSCAN_TRY(detect(source, *scan, context));
   return false;
 }
 
-Result<> TableFinder::detect(const AveragedScan& scan, const RunContext& context) {
+Result<> TableFinder::detect(const FrameSource& source, const AveragedScan& scan,
+                             const RunContext& context) {
   const auto platter = detect_platter(scan, DetectOptions(), context);
   if (!platter && !nothing_seen(platter.error())) return tl::unexpected<Error>(platter.error());
   if (!platter) {
@@ -58,14 +59,15 @@ Result<> TableFinder::detect(const AveragedScan& scan, const RunContext& context
                      "), so the turntable comes from the object's motion alone");
     return {};
   }
-  set_table(calibration_of(*platter, scan).table);
+  set_table(calibration_of(*platter, scan).table, date_of_calibration(source.info()));
   notes_.push_back(fmt::format("the turntable was found by its platter, {:.0f} mm in radius",
                                setup_.header.turntable->radius_m.value_or(0.0) * 1e3));
   return {};
 }
 
 /// The speed of another day says nothing about today's.
-void TableFinder::set_table(const TurntableInfo& table) {
+void TableFinder::set_table(const TurntableInfo& table, const std::string& made_at) {
+  note_calibration_date(made_at, setup_.settings);
   setup_.header.turntable = table;
   setup_.header.turntable->speed_rad_s = setup_.options.speed_rad_s;
 }
@@ -106,7 +108,7 @@ Result<bool> TableFinder::take_kept(const FrameSource& source, const AveragedSca
   TURNSCAN_ASSIGN(const RigCheck check, check_rig(scan, **kept, context));
   notes_.push_back(check.text);
   if (check.moved) return false;
-  set_table((*kept)->table);
+  set_table((*kept)->table, (*kept)->made_at);
   TURNSCAN_TRY(correct_sensors(**kept, setup_.header.sensors));
   notes_.push_back("the turntable's place is the one that was kept of this device");
   return true;

@@ -30,8 +30,8 @@ class TableFinder {
                         const std::string& who, const RunContext& context) const;
   Result<bool> take_kept(const FrameSource& source, const AveragedScan& scan,
                          const RunContext& context);
-  Result<> detect(const AveragedScan& scan, const RunContext& context);
-  void set_table(const TurntableInfo& table);
+  Result<> detect(const FrameSource& source, const AveragedScan& scan, const RunContext& context);
+  void set_table(const TurntableInfo& table, const std::string& made_at);
 
   CaptureSetup& setup_;
   std::vector<std::string>& notes_;

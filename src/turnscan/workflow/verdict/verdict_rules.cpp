@@ -6,7 +6,9 @@
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/finishing/hole_patches.hpp>
 #include <turnscan/reconstruction/quality/thin_walls.hpp>
+#include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/verdict/error_shares.hpp>
+#include <turnscan/workflow/verdict/scan_sentences.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 namespace turnscan {
@@ -15,18 +17,17 @@ namespace {
 
 constexpr double kTolerance_m = 0.001;
 constexpr double kGoodShare = 0.97, kFairShare = 0.85;  // of what was seen, within the tolerance
-/// Of the surface. What too few frames saw counts as invented, too: 4 % on average, by which these
-/// lie above what is wanted of what no frame saw (0.10 and 0.25).
-constexpr double kGoodInvented = 0.14, kFairInvented = 0.29;
-constexpr double kWholeTurn = 0.95, kHalfTurn = 0.5;
+/// Of the surface, that hardly a frame could see. Where that is not known what was not measured
+/// counts, which is 4 % more on average.
+constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04;
+constexpr double kWholeTurn = 0.95;
 constexpr double kFewFrames = 6.0;
+/// Frames that see a place; more do not help as much as a nearer sensor.
+constexpr int kManyFrames = 40;
 constexpr double kNozzle_m = 0.0008;
-constexpr double kFewDropped = 0.02, kManyDropped = 0.2;
+constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
+constexpr double kPoseMatters_m = 0.0005;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
-
-Level level_of(double value, double good, double fair) {
-  return value >= good ? Level::kGood : value >= fair ? Level::kFair : Level::kBad;
-}
 
 /// How far the poses of the frames may be off, as a shift of what they saw.
 struct PoseError {
@@ -34,8 +35,9 @@ struct PoseError {
   double tilt_rad = 0.0;  ///< of the axis
 };
 
-PoseError pose_error(const CalibrationChoice* choice) {
+PoseError pose_error(const ScanKnowledge& known) {
   PoseError out;
+  const CalibrationChoice* choice = known.choice;
   if (choice == nullptr) return out;
   if (choice->calibration) {
     const Calibration& found = *choice->calibration;
@@ -45,6 +47,9 @@ PoseError pose_error(const CalibrationChoice* choice) {
     // What is found beside the recorded axis may be either's error.
     out.shift_m = std::max(offset->shift_sigma_m, 0.5 * offset->shift_m);
     out.tilt_rad = std::max(offset->tilt_sigma_rad, 0.5 * offset->tilt_rad);
+  } else if (known.platter && known.platter->moved) {
+    out.shift_m = 0.5 * known.platter->shift_m;
+    out.tilt_rad = 0.5 * known.platter->tilt_rad;
   }
   if (const auto& closure = choice->checks.closure)
     out.shift_m = std::max(out.shift_m,
@@ -76,8 +81,13 @@ int weighted_quantile(std::vector<std::pair<int, double>> values, double share) 
 
 class Judge {
  public:
-  Judge(ObjectResult& object, const Reconstruction& run, const ScanKnowledge& known)
+  /// known: of the object at that position.
+  Judge(ObjectResult& object, std::size_t position, const Reconstruction& run,
+        const ScanKnowledge& known)
       : object_(object),
+        residuals_(position < known.residuals.size() ? &known.residuals[position] : nullptr),
+        seen_(position < known.seen.size() ? &known.seen[position] : nullptr),
+        next_pass_(position == 0 && known.next_pass ? &*known.next_pass : nullptr),
         run_(run),
         known_(known),
         normals_(vertex_normals(object.mesh)),
@@ -86,13 +96,14 @@ class Judge {
 
   Verdict run() {
     add_pose_errors();
-    say_turn();
+    workflow::say_turn(known_, out_.sentences);
     say_seen();
     say_error();
     say_invented();
-    say_agreement();
-    say_disturbances();
-    say_frames();
+    workflow::say_calibration(known_, out_.sentences);
+    if (residuals_ != nullptr) workflow::say_agreement(*residuals_, out_.sentences);
+    workflow::say_disturbances(known_, out_.sentences);
+    workflow::say_dropped(run_, out_.sentences);
     say_thin();
     say_mesh();
     say_help();
@@ -109,7 +120,7 @@ class Judge {
   /// middle.
   void add_pose_errors() {
     if (object_.quality.empty()) return;
-    const PoseError error = pose_error(known_.choice);
+    const PoseError error = pose_error(known_);
     const Vec3d middle = bounds(object_.mesh.vertices).center();
     for (std::size_t v = 0; v < object_.quality.size(); ++v) {
       const Vec3d n = normals_[v].cast<double>();
@@ -120,21 +131,6 @@ class Judge {
                                  std::pow(error.shift_m * across, 2) +
                                  std::pow(error.tilt_rad * lever, 2)));
     }
-  }
-
-  void say_turn() {
-    if (!known_.turn) return;
-    const TurnSeen& turn = *known_.turn;
-    const double missing = 360.0 * (1.0 - turn.share);
-    const Level level = level_of(turn.share, kWholeTurn, kHalfTurn);
-    say("turn", level,
-        level == Level::kGood
-            ? fmt::format("the frames look from all sides, over {:.2f} turns", turn.turns)
-            : fmt::format(
-                  "the frames look from {:.0f} of 360 degrees; of the other {:.0f} there is "
-                  "no view",
-                  360.0 - missing, missing),
-        turn.share * 360.0, "deg");
   }
 
   void say_seen() {
@@ -161,18 +157,38 @@ class Judge {
     }
     const ErrorShares errors = error_shares();
     const double share = errors.within(kTolerance_m), median_m = errors.error_of(0.5);
-    say("error", level_of(share, kGoodShare, kFairShare),
+    say("error", workflow::level_of(share, kGoodShare, kFairShare),
         fmt::format("what was measured is expected {:.2f} mm from the truth (median; 95 % within "
                     "{:.2f} mm), {:.1f} % of it within 1 mm",
                     median_m * 1e3, errors.error_of(0.95) * 1e3, 100.0 * share),
         median_m * 1e3, "mm");
   }
 
+  /// Of what frames could see; where that is not known, of what they measured.
   ErrorShares error_shares() const {
     ErrorShares out;
+    if (seen_ != nullptr) {
+      for (std::size_t i = 0; i < seen_->vertices.size(); ++i) {
+        const std::uint32_t v = seen_->vertices[i];
+        if (seen_->seen[i] != 0) out.add(object_.quality[v].expected_error_m, areas_[v]);
+      }
+      return out;
+    }
     for (std::size_t v = 0; v < areas_.size(); ++v)
       if (measured_[v]) out.add(object_.quality[v].expected_error_m, areas_[v]);
     return out;
+  }
+
+  /// Share of the vertices' area that hardly a frame could see.
+  std::optional<double> hidden_share() const {
+    if (seen_ == nullptr || seen_->vertices.empty()) return std::nullopt;
+    double hidden = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < seen_->vertices.size(); ++i) {
+      const double area = areas_[seen_->vertices[i]];
+      all += area;
+      if (seen_->seen[i] == 0) hidden += area;
+    }
+    return all > 0.0 ? hidden / all : 0.0;
   }
 
   static std::string place_of(const TriangleMesh& mesh, const finishing::HolePatch& hole) {
@@ -204,73 +220,29 @@ class Judge {
       if (hidden[t] == Evidence::kBase) base_m2 += triangle_area(object_.mesh, t);
       hidden[t] = Evidence::kMeasured;
     }
-    const double area_m2 = surface_area(object_.mesh);
-    invented_ = area_m2 > 0.0 ? object_.invented_area_m2 / area_m2 : 0.0;
+    const double area_m2 = std::max(surface_area(object_.mesh), 1e-12);
+    const double invented = object_.invented_area_m2 / area_m2, base = base_m2 / area_m2;
+    const auto unseen = hidden_share();
+    hidden_ = unseen ? std::max(0.0, *unseen - base) : std::max(0.0, invented - kNotMeasuredMore);
     auto holes = finishing::find_hole_patches(object_.mesh, hidden);
     std::sort(holes.begin(), holes.end(),
               [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; });
     std::string largest;
     for (std::size_t i = 0; i < std::min(holes.size(), kNamedHoles); ++i)
       if (holes[i].area_m2 > 1e-4)
-        largest += fmt::format("{}{}", largest.empty() ? "; the largest: " : ", ",
+        largest += fmt::format("{}{}", largest.empty() ? "; the largest holes: " : ", ",
                                place_of(object_.mesh, holes[i]));
-    say("invented", level_of(1.0 - invented_, 1.0 - kGoodInvented, 1.0 - kFairInvented),
-        fmt::format("{:.1f} cm2 ({:.0f} %) of the surface no frame saw{}{}",
-                    object_.invented_area_m2 * 1e4, 100.0 * invented_,
-                    base_m2 > 0.0 ? fmt::format(", and {:.1f} cm2 ({:.0f} %) of base stood on the "
-                                                "platter",
-                                                base_m2 * 1e4, 100.0 * base_m2 / area_m2)
-                                  : "",
-                    largest),
-        100.0 * invented_, "%");
-  }
-
-  void say_agreement() {
-    const CalibrationChoice* choice = known_.choice;
-    if (choice == nullptr) return;
-    if (choice->calibration) {
-      const Calibration& found = *choice->calibration;
-      const bool open = !found.undetermined.empty();
-      say("calibration", open ? Level::kFair : Level::kGood,
-          fmt::format(
-              "the turntable was found from motion, its axis to {:.2f} deg and {:.2f} mm{}",
-              found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3,
-              open ? fmt::format("; not determined: {}", fmt::join(found.undetermined, ", ")) : ""),
-          found.center_sigma_m * 1e3, "mm");
-    } else if (const auto& offset = choice->checks.axis_offset) {
-      say("calibration", offset->bad() ? Level::kBad : Level::kGood,
-          fmt::format("the frames turn about an axis {:.2f} mm and {:.2f} deg from the recorded "
-                      "one (known to {:.2f} mm and {:.2f} deg)",
-                      offset->shift_m * 1e3, offset->tilt_rad * kDegreesPerRadian,
-                      offset->shift_sigma_m * 1e3, offset->tilt_sigma_rad * kDegreesPerRadian),
-          offset->shift_m * 1e3, "mm");
-    }
-    if (const auto& closure = choice->checks.closure; closure && !choice->calibration)
-      say("closure", closure->bad() ? Level::kBad : Level::kGood,
-          fmt::format("one turn later the object lies {:.2f} mm from where it was, noise alone "
-                      "makes {:.2f} mm",
-                      closure->shift_m * 1e3, closure->noise_m * 1e3),
-          closure->shift_m * 1e3, "mm");
-  }
-
-  void say_disturbances() {
-    if (known_.choice == nullptr) return;
-    const CalibrationChoice& choice = *known_.choice;
-    const bool corrected = !choice.poses.empty() || !choice.left_out.empty();
-    for (const Disturbance& disturbance : choice.disturbances)
-      say("disturbance", corrected ? Level::kGood : Level::kBad,
-          fmt::format(
-              "{}; {}", disturbance.text,
-              corrected ? "its frames were put right or left out" : "nothing was done about it"),
-          disturbance.size_m * 1e3, "mm");
-  }
-
-  void say_frames() {
-    const std::size_t all = run_.frames + run_.dropped_frames;
-    if (run_.dropped_frames == 0 || all == 0) return;
-    const double share = double(run_.dropped_frames) / double(all);
-    say("frames", level_of(-share, -kFewDropped, -kManyDropped),
-        fmt::format("{} of {} frames were dropped", run_.dropped_frames, all), 100.0 * share, "%");
+    std::string text =
+        fmt::format("{:.1f} cm2 ({:.0f} %) of the surface was not measured but closed",
+                    object_.invented_area_m2 * 1e4, 100.0 * invented);
+    if (base > 0.0)
+      text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base stood on the platter", base_m2 * 1e4,
+                          100.0 * base);
+    if (unseen)
+      text += fmt::format("; {:.1f} cm2 ({:.0f} %) besides the base hardly a frame could see",
+                          hidden_ * area_m2 * 1e4, 100.0 * hidden_);
+    say("invented", workflow::level_of(1.0 - hidden_, 1.0 - kGoodHidden, 1.0 - kFairHidden),
+        text + largest, 100.0 * invented, "%");
   }
 
   /// Share of the surface, from some of the vertices.
@@ -316,35 +288,63 @@ class Judge {
                      : fmt::format("it is not watertight ({})", object_.check.text()));
   }
 
+  /// What another pass would show; nullptr where there is no advice worth the work.
+  const NextPose* best_pose() const {
+    if (next_pass_ == nullptr || next_pass_->poses.empty()) return nullptr;
+    const NextPose& best = next_pass_->poses.front();
+    return best.shows_m2 > kShownWorth * surface_area(object_.mesh) ? &best : nullptr;
+  }
+
   void say_help() {
     if (known_.turn && known_.turn->share < kWholeTurn)
       say("help", Level::kGood, "a whole turn would show the other sides");
-    else if (invented_ > 0.5 * kGoodInvented)
+    else if (const NextPose* pose = best_pose())
+      say("help", Level::kGood,
+          fmt::format("a second pass would show {:.0f} cm2 more: {} (turnscan scan --passes 2)",
+                      pose->shows_m2 * 1e4, deed_text(*pose)),
+          pose->shows_m2 * 1e4, "cm2");
+    else if (hidden_ > 0.5 * kGoodHidden)
       say("help", Level::kGood,
           "a second pass, the object laid another way, would show what none saw (turnscan scan "
           "--passes 2)");
-    const auto error = std::find_if(out_.sentences.begin(), out_.sentences.end(),
-                                    [](const VerdictSentence& s) { return s.topic == "error"; });
-    if (error == out_.sentences.end() || error->level == Level::kGood || object_.quality.empty())
+    say_what_helps_accuracy();
+  }
+
+  void say_what_helps_accuracy() {
+    const auto topic = [&](const char* name) {
+      return std::find_if(out_.sentences.begin(), out_.sentences.end(),
+                          [&](const VerdictSentence& s) { return s.topic == name; });
+    };
+    const auto error = topic("error"), seen = topic("seen");
+    if (object_.quality.empty() || error == out_.sentences.end() || error->level == Level::kGood)
       return;
-    const PoseError pose = pose_error(known_.choice);
-    if (pose.shift_m > 0.0005)
+    const PoseError pose = pose_error(known_);
+    if (pose.shift_m > kPoseMatters_m)
       say("help", Level::kGood,
           "a better calibration would help most: let the sensor see the platter, and the table "
-          "turn "
-          "once or more");
+          "turn once or more");
+    else if (seen != out_.sentences.end() && seen->value < kManyFrames)
+      say("help", Level::kGood,
+          fmt::format("slower: let the table turn at a quarter of the speed, or take four times as "
+                      "many frames a second: then {:.0f} frames see what {:.0f} saw, and noise "
+                      "averages to half",
+                      4.0 * seen->value, seen->value));
     else
       say("help", Level::kGood,
-          "a sensor nearer to the object, or more frames, would show it better");
+          "nearer: with the sensor at half the distance pixels lie half as far apart, and noise is "
+          "smaller");
   }
 
   ObjectResult& object_;
+  const std::vector<FrameResidual>* residuals_;
+  const SeenVertices* seen_;
+  const NextPassAdvice* next_pass_;
   const Reconstruction& run_;
   const ScanKnowledge& known_;
   std::vector<Vec3f> normals_;
   std::vector<double> areas_;
   std::vector<std::uint8_t> measured_;
-  double invented_ = 0.0;  ///< share of the surface
+  double hidden_ = 0.0;  ///< share of the surface that hardly a frame could see
   Verdict out_;
 };
 
@@ -358,9 +358,19 @@ std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
   return out;
 }
 
+Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames>& frames,
+                        double noise_m, const RunContext& context, ScanKnowledge& known) {
+  TURNSCAN_ASSIGN(auto residuals, frame_residuals(object, frames, noise_m, context));
+  TURNSCAN_ASSIGN(auto seen, seen_vertices(object.mesh, frames, context));
+  known.residuals.push_back(std::move(residuals));
+  known.seen.push_back(std::move(seen));
+  return {};
+}
+
 void judge_objects(Reconstruction& reconstruction, const ScanKnowledge& known) {
-  for (ObjectResult& object : reconstruction.objects)
-    object.verdict = Judge(object, reconstruction, known).run();
+  for (std::size_t i = 0; i < reconstruction.objects.size(); ++i)
+    reconstruction.objects[i].verdict =
+        Judge(reconstruction.objects[i], i, reconstruction, known).run();
 }
 
 }  // namespace turnscan

@@ -1,0 +1,144 @@
+#include <turnscan/workflow/verdict/scan_sentences.hpp>
+
+#include <turnscan/core/angles.hpp>
+#include <turnscan/workflow/verdict/frame_agreement.hpp>
+
+namespace turnscan::workflow {
+
+namespace {
+
+constexpr double kWholeTurn = 0.95, kHalfTurn = 0.5;
+constexpr double kFewDropped = 0.02, kManyDropped = 0.2;
+/// Frames that disagree by more, beyond what their noise explains, blur the mesh.
+constexpr double kAgreed_m = 0.001;
+constexpr double kFewApart = 0.02;
+
+void say_found(const Calibration& found, Sentences& out) {
+  const bool open = !found.undetermined.empty();
+  out.push_back(
+      {"calibration", open ? Level::kFair : Level::kGood,
+       fmt::format(
+           "the turntable was found from the motion in this recording, its axis to {:.2f} "
+           "deg and {:.2f} mm{}",
+           found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3,
+           open ? fmt::format("; not determined: {}", fmt::join(found.undetermined, ", ")) : ""),
+       found.center_sigma_m * 1e3, "mm"});
+}
+
+std::string platter_text(const RigCheck& check) {
+  return fmt::format(
+      "the platter in it lies {:.1f} mm {}, {:.1f} mm aside and tilted by {:.2f} deg against the "
+      "calibration",
+      1e3 * std::abs(check.height_m), check.height_m < 0.0 ? "lower" : "higher",
+      1e3 * check.shift_m, check.tilt_rad * kDegreesPerRadian);
+}
+
+/// The calibration that was there before.
+void say_recorded(const ScanKnowledge& known, Sentences& out) {
+  const auto& offset = known.choice->checks.axis_offset;
+  std::vector<std::string> parts;
+  if (offset)
+    parts.push_back(
+        fmt::format("the frames turn about an axis {:.2f} mm and {:.2f} deg from the recorded one "
+                    "(known to {:.2f} mm and {:.2f} deg)",
+                    offset->shift_m * 1e3, offset->tilt_rad * kDegreesPerRadian,
+                    offset->shift_sigma_m * 1e3, offset->tilt_sigma_rad * kDegreesPerRadian));
+  parts.push_back(known.platter ? platter_text(*known.platter)
+                                : "no platter was seen in it to check the calibration by");
+  parts.push_back("the calibration: " + age_text(known.dates));
+  // The motion of the object is the better witness where there is one.
+  const bool moved = !offset && known.platter && known.platter->moved;
+  const Level level = offset && offset->bad() ? Level::kBad : moved ? Level::kFair : Level::kGood;
+  out.push_back({"calibration", level, fmt::format("{}", fmt::join(parts, "; ")),
+                 offset ? offset->shift_m * 1e3 : std::nan(""), offset ? "mm" : ""});
+}
+
+std::string compared_text(const FrameAgreement& a) {
+  std::string text;
+  const auto add = [&](const char* who, const std::optional<double>& apart_m) {
+    if (apart_m) text += fmt::format("; {} differ by {:.2f} mm", who, *apart_m * 1e3);
+  };
+  add("neighbouring frames", a.neighbours_m);
+  add("frames a turn apart", a.turn_apart_m);
+  add("sensors", a.sensors_m);
+  add("passes", a.passes_m);
+  return text;
+}
+
+}  // namespace
+
+Level level_of(double value, double good, double fair) {
+  return value >= good ? Level::kGood : value >= fair ? Level::kFair : Level::kBad;
+}
+
+void say_turn(const ScanKnowledge& known, Sentences& out) {
+  if (!known.turn) return;
+  const TurnSeen& turn = *known.turn;
+  const double missing = 360.0 * (1.0 - turn.share);
+  const Level level = level_of(turn.share, kWholeTurn, kHalfTurn);
+  out.push_back(
+      {"turn", level,
+       level == Level::kGood
+           ? fmt::format("the frames look from all sides, over {:.2f} turns", turn.turns)
+           : fmt::format("the frames look from {:.0f} of 360 degrees; of the other {:.0f} there is "
+                         "no view",
+                         360.0 - missing, missing),
+       turn.share * 360.0, "deg"});
+}
+
+void say_calibration(const ScanKnowledge& known, Sentences& out) {
+  if (known.choice == nullptr) return;
+  const CalibrationChoice& choice = *known.choice;
+  if (choice.calibration)
+    say_found(*choice.calibration, out);
+  else if (known.table_recorded || choice.checks.axis_offset)
+    say_recorded(known, out);
+  if (const auto& closure = choice.checks.closure; closure && !choice.calibration)
+    out.push_back({"closure", closure->bad() ? Level::kBad : Level::kGood,
+                   fmt::format("one turn later the object lies {:.2f} mm from where it was, noise "
+                               "alone makes {:.2f} mm",
+                               closure->shift_m * 1e3, closure->noise_m * 1e3),
+                   closure->shift_m * 1e3, "mm"});
+}
+
+void say_disturbances(const ScanKnowledge& known, Sentences& out) {
+  if (known.choice == nullptr) return;
+  const CalibrationChoice& choice = *known.choice;
+  const bool corrected = !choice.poses.empty() || !choice.left_out.empty();
+  for (const Disturbance& disturbance : choice.disturbances)
+    out.push_back({"disturbance", corrected ? Level::kGood : Level::kBad,
+                   fmt::format("{}; {}", disturbance.text,
+                               corrected ? "its frames were put right or left out"
+                                         : "nothing was done about it"),
+                   disturbance.size_m * 1e3, "mm"});
+}
+
+void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) {
+  if (residuals.empty()) return;
+  const FrameAgreement a = frame_agreement(residuals);
+  const bool agree = a.most_m < std::max(kAgreed_m, a.spread_m);
+  out.push_back({"agreement", agree ? Level::kGood : Level::kFair,
+                 fmt::format("half of the frames lie within {:.2f} mm of what all of them show, 95 "
+                             "% within {:.2f} mm{}",
+                             a.usual_m * 1e3, a.most_m * 1e3, compared_text(a)),
+                 a.usual_m * 1e3, "mm"});
+  if (a.apart.empty()) return;
+  std::size_t count = 0;
+  for (const FramesApart& apart : a.apart) count += apart.last - apart.first + 1;
+  const double share = double(count) / double(a.frames);
+  out.push_back({"apart", share > kFewApart ? Level::kFair : Level::kGood,
+                 fmt::format("{} of {} frames lie elsewhere than the rest: {}", count, a.frames,
+                             frames_apart_text(a, residuals)),
+                 double(count), "frames"});
+}
+
+void say_dropped(const Reconstruction& run, Sentences& out) {
+  const std::size_t all = run.frames + run.dropped_frames;
+  if (run.dropped_frames == 0 || all == 0) return;
+  const double share = double(run.dropped_frames) / double(all);
+  out.push_back({"frames", level_of(-share, -kFewDropped, -kManyDropped),
+                 fmt::format("{} of {} frames were dropped", run.dropped_frames, all),
+                 100.0 * share, "%"});
+}
+
+}  // namespace turnscan::workflow

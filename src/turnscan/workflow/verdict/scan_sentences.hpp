@@ -1,0 +1,31 @@
+#pragma once
+// What a verdict says of the scan as a whole: its turn, its calibration, how its frames agree.
+
+#include <turnscan/reconstruction/result.hpp>
+#include <turnscan/workflow/verdict/frame_residuals.hpp>
+#include <turnscan/workflow/verdict/verdict_rules.hpp>
+#include <vector>
+
+namespace turnscan::workflow {
+
+using Sentences = std::vector<VerdictSentence>;
+
+/// good: at least `good`; fair: at least `fair`.
+Level level_of(double value, double good, double fair);
+
+void say_turn(const ScanKnowledge& known, Sentences& out);
+
+/// Where the table is, how old that knowledge is, whether the platter in this recording agrees, and
+/// whether the object lies a turn later where it lay.
+void say_calibration(const ScanKnowledge& known, Sentences& out);
+
+/// What was found to have disturbed the recording.
+void say_disturbances(const ScanKnowledge& known, Sentences& out);
+
+/// How far frames lie off the mesh, next to each other, a turn apart, by sensor and pass; and which
+/// lie elsewhere than the rest. Empty: it is not known.
+void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out);
+
+void say_dropped(const Reconstruction& run, Sentences& out);
+
+}  // namespace turnscan::workflow

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/simulator/coverage/coverage.hpp>
+#include <turnscan/turntable/rotation.hpp>
+#include <turnscan/workflow/verdict/seen_surface.hpp>
+
+namespace turnscan {
+
+namespace {
+
+constexpr std::size_t kMostVertices = 20000, kMostViews = 256;
+
+Result<std::vector<CoverageView>> views_of_sources(const std::vector<MeshFrames>& sources) {
+  std::vector<CoverageView> out;
+  for (const MeshFrames& source : sources) {
+    const SequenceHeader& header = source.frames->header();
+    const auto& infos = source.frames->frames();
+    TURNSCAN_ASSIGN(const FramePoses poses, frame_poses(header, infos, source.speed_rad_s));
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      if (infos[i].status != FrameStatus::kOk || (source.pass && infos[i].pass != *source.pass))
+        continue;
+      const SensorInfo& sensor = header.sensors.at(infos[i].sensor);
+      CoverageView view;
+      view.T_table_sensor = source.T_mesh_table * poses.T_table_sensor[i];
+      view.viewpoint = sensor.viewpoint;
+      if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
+      out.push_back(std::move(view));
+    }
+  }
+  return out;
+}
+
+/// Every so many of them, so that few enough remain.
+std::vector<CoverageView> spread(const std::vector<CoverageView>& views) {
+  if (views.size() <= kMostViews) return views;
+  std::vector<CoverageView> out;
+  for (std::size_t i = 0; i < kMostViews; ++i) out.push_back(views[i * views.size() / kMostViews]);
+  return out;
+}
+
+}  // namespace
+
+Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<MeshFrames>& sources,
+                                   const RunContext& context) {
+  SeenVertices out;
+  if (mesh.triangles.empty()) return out;
+  TURNSCAN_ASSIGN(const std::vector<CoverageView> all, views_of_sources(sources));
+  const std::vector<CoverageView> views = spread(all);
+  const double share = double(views.size()) / double(std::max<std::size_t>(1, all.size()));
+  CoverageOptions options;
+  options.enough =
+      std::uint32_t(std::max(1L, std::lround(share * double(views_needed(all.size())))));
+  const auto all_normals = vertex_normals(mesh);
+  std::vector<Vec3f> points, normals;
+  const std::size_t stride = std::max<std::size_t>(1, mesh.vertices.size() / kMostVertices);
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
+    out.vertices.push_back(std::uint32_t(v));
+    points.push_back(mesh.vertices[v]);
+    normals.push_back(all_normals[v]);
+  }
+  TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&mesh, 1)));
+  TURNSCAN_ASSIGN(const auto counts, count_views(scene, views, points, normals, options, context));
+  for (const std::uint32_t count : counts)
+    out.seen.push_back(std::uint8_t(count >= options.enough));
+  return out;
+}
+
+}  // namespace turnscan

@@ -1,0 +1,105 @@
+"""The verdict on a scan: what is said of bad scans, and in the same words wherever it is said."""
+
+import html
+import json
+import re
+
+import harness
+
+HEIGHT = ("--height", "150mm")
+KINECT = ("--frames", "40", "--fps", "4", "--noise", "gaussian:0.5mm")
+
+
+class Verdict(harness.TestCase):
+    def scan(self, name, *args, object=("builtin:letter-a", *HEIGHT), reconstruct=()):
+        """Simulates and reconstructs; what is printed, and the first object's verdict as JSON."""
+        self.ok("simulate", *object, *KINECT, *args, "--out", name)
+        told = self.ok("reconstruct", name, "-o", f"{name}.ply", "--report", f"{name}.json",
+                       "--report", f"{name}.html", *reconstruct).stdout
+        report = json.loads((self.dir / f"{name}.json").read_text())
+        self.assert_same_words(name, told, report["objects"])
+        return told, report["objects"][0]["verdict"]
+
+    def assert_same_words(self, name, told, objects):
+        """On the command line, in the JSON and on the page (the studio's test compares its card)."""
+        page = html.unescape((self.dir / f"{name}.html").read_text())
+        for one in objects:
+            verdict = one["verdict"]
+            self.assertIn(f"Verdict: {verdict['colour'].upper()}\n", told)
+            self.assertIn(f'<span class="badge {verdict["colour"]}">', page)
+            for s in verdict["sentences"]:
+                self.assertRegex(told, rf"  {s['topic']} +{s['level']} +{re.escape(s['text'])}\n")
+                self.assertIn(f">{s['text']}</td>", page)
+
+    def text(self, verdict, topic):
+        return " | ".join(s["text"] for s in verdict["sentences"] if s["topic"] == topic)
+
+    def level(self, verdict, topic):
+        return {s["level"] for s in verdict["sentences"] if s["topic"] == topic}
+
+    def test_a_whole_turn_can_be_printed_and_says_how_its_frames_agree(self):
+        told, verdict = self.scan("whole", "--turns", "1.1")
+        self.assertNotEqual(verdict["colour"], "red")
+        self.assertIn("can be printed", self.text(verdict, "mesh"))
+        agreement = self.text(verdict, "agreement")
+        for what in ("half of the frames", "neighbouring frames differ", "frames a turn apart"):
+            self.assertIn(what, agreement)
+        self.assertIn("when it was made is not known", self.text(verdict, "calibration"))
+        self.assertIn("the platter in it lies", self.text(verdict, "calibration"))
+        self.assertRegex(self.text(verdict, "invented"),
+                         r"cm2 \(\d+ %\) of the surface was not measured.*of base stood on the "
+                         r"platter.*the largest holes: [\d.]+ cm2 (underneath|on )")
+        self.assertRegex(self.text(verdict, "help"), r"a second pass would show \d+ cm2 more: ")
+        page = (self.dir / "whole.html").read_text()
+        self.assertIn("How well the frames agree", page)
+        columns = json.loads((self.dir / "whole.json").read_text())["objects"][0]["frame_residuals"]
+        self.assertEqual(columns["frame"], list(range(40)))
+        self.assertEqual(len(columns["off_mm"]), 40)
+        self.assertLess(max(columns["off_mm"]), 0.6)
+
+    def test_a_letter_of_70_degrees_and_a_scan_that_broke_off_are_red(self):
+        for name, turns, degrees in (("seventy", 70 / 360, 108), ("broken", 0.4, 184)):
+            told, verdict = self.scan(name, "--turns", str(turns))
+            self.assertEqual(verdict["colour"], "red", told)
+            self.assertNotIn("can be printed", told)
+            self.assertIn(f"the frames look from {degrees} of 360 degrees",
+                          self.text(verdict, "turn"))
+            self.assertIn("a whole turn would show", self.text(verdict, "help"))
+
+    def test_a_stale_calibration_is_red_where_it_is_kept_and_has_an_age(self):
+        self.ok("simulate", "builtin:letter-a", *HEIGHT, *KINECT, "--table-x", "6mm", "--table-tilt", "1deg",
+                "--calibration", "nominal", "--out", "stale")
+        description = self.dir / "stale" / "recording.json"
+        recording = json.loads(description.read_text())
+        self.assertNotIn("capture", recording, "a virtual recording has no date")
+        recording["capture"] = {"started_at": "2026-11-01T08:00:00Z",
+                                "turntable_calibrated_at": "2026-08-01T08:00:00Z"}
+        description.write_text(json.dumps(recording))
+        told = self.ok("reconstruct", "stale", "-o", "m.ply", "--report", "m.json",
+                       "--calibration", "recorded").stdout
+        verdict = json.loads((self.dir / "m.json").read_text())["objects"][0]["verdict"]
+        self.assertNotEqual(verdict["colour"], "green", told)
+        said = self.text(verdict, "calibration")
+        self.assertIn("made 3 months before this recording (2026-08-01)", said)
+        self.assertRegex(said, r"the platter in it lies [\d.]+ mm \w+, [456]\.\d mm aside")
+        told = self.ok("reconstruct", "stale", "-o", "m.ply").stdout
+        self.assertIn("the turntable was found from the motion in this recording", told)
+
+    def test_an_object_that_moved_is_said_when_and_how_far(self):
+        moved = ("--turns", "1.1", "--object-move-at", "5s", "--object-move", "6mm")
+        told, verdict = self.scan("kept", *moved, reconstruct=("--calibration", "recorded"))
+        self.assertEqual(verdict["colour"], "red", told)
+        self.assertRegex(self.text(verdict, "disturbance"),
+                         r"the object moved by [\d.]+ mm at [\d.]+ s.*nothing was done about it")
+        self.assertEqual(self.level(verdict, "agreement"), {"fair"})
+        told, verdict = self.scan("right", *moved)
+        self.assertIn("its frames were put right or left out", self.text(verdict, "disturbance"))
+        self.assertEqual(self.level(verdict, "agreement"), {"good"}, told)
+
+    def test_thin_walls_are_told(self):
+        told, verdict = self.scan("thin", object=("builtin:scorpion",))
+        self.assertRegex(self.text(verdict, "thin"), r"% of it are walls thinner than [\d.]+ mm")
+
+
+if __name__ == "__main__":
+    harness.main()
