@@ -1,10 +1,15 @@
 // Whether the stated errors of vertices, and the verdicts, hold: random simulated scans, good and
-// bad (random_rigs/recipe.hpp, and of a third of them only a part of a turn), reconstructed as the
-// command does, judged by the truth. Usage: expected_error MESHES [FIRST_SEED] [COUNT]
-// [MOST_FRAMES]
+// bad (random_rigs/recipe.hpp, and what vary() changes: sensors that are better, thin objects,
+// scans that break off, dropped frames), reconstructed as the command does, judged by the truth.
+// Usage: expected_error MESHES [FIRST_SEED] [COUNT] [MOST_FRAMES]
+//        expected_error --table MOST_FRAMES
+// The second prints a table of the errors alone: objects, noise and numbers of frames, with the
+// poses known.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <turnscan/core/random.hpp>
@@ -45,22 +50,76 @@ std::vector<double> ratios(const ObjectResult& object, const TriangleMesh& truth
   return out;
 }
 
+/// A recipe, and what recipes leave out.
+struct Scan {
+  rigs::Recipe recipe;
+  double dropped = 0.0;  ///< share of the frames
+};
+
+/// From 0 on, evenly below 1; another for each question.
+double dice_of(int seed, std::uint64_t question) {
+  return double(hash_key(question, std::uint64_t(seed)) >> 11) * 0x1.0p-53;
+}
+
+Scan vary(int seed, const std::string& meshes, int most_frames) {
+  Scan out{rigs::make_recipe(std::uint64_t(seed), meshes, most_frames), 0.0};
+  SceneDescription& scene = out.recipe.scene;
+  const auto dice = [&](std::uint64_t question) { return dice_of(seed, question); };
+  if (scene.measure.noise == "physics") {
+    if (dice(1) < 0.33) scene.measure.noise = "model";
+  } else {
+    scene.measure.noise = fmt::format("gaussian:{:.2f}mm", 0.3 * std::pow(5.0, dice(2)));
+  }
+  if (dice(3) < 0.12) {
+    constexpr std::array thin{"builtin:scorpion", "builtin:plate", "builtin:skull"};
+    scene.object = thin[std::size_t(dice(4) * 3.0)];
+  }
+  if (dice(5) < 0.25) {
+    const double share = 0.25 + 0.5 * dice(6);
+    scene.motion.turns *= share / std::abs(scene.motion.turns);
+    out.recipe.text += fmt::format(", broken off after {:.2f} turns", share);
+  }
+  if (dice(7) < 0.15) {
+    out.dropped = 0.05 + 0.45 * dice(8);
+    out.recipe.text += fmt::format(", {:.0f} % dropped", 100.0 * out.dropped);
+  }
+  out.recipe.text += fmt::format(" [{} {}]", scene.object.substr(scene.object.rfind('/') + 1),
+                                 scene.measure.noise);
+  return out;
+}
+
+/// In two gaps, and here and there.
+void drop_frames(int seed, double share, std::vector<FrameInfo>& infos) {
+  const double n = double(infos.size()), gap = 0.25 * share * n;
+  const double first = dice_of(seed, 9) * n, second = dice_of(seed, 10) * n;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    const auto in_gap = [&](double begin) {
+      const double away = double(i) - begin;
+      return away >= 0.0 && away < gap;
+    };
+    if (in_gap(first) || in_gap(second) || dice_of(seed, 100 + i) < 0.5 * share)
+      infos[i].status = FrameStatus::kDropped;
+  }
+}
+
 struct Tally {
   std::map<std::string, int> of;  ///< "true stated"
   int agreed = 0, judged = 0, bad_called_green = 0;
   std::vector<double> p68, p95;
 };
 
-void judge(const rigs::Recipe& recipe, Tally& tally) {
-  const auto simulation = prepare_simulation(recipe.scene, {});
+void judge(int seed, const Scan& scan, Tally& tally) {
+  const auto simulation = prepare_simulation(scan.recipe.scene, {});
   if (!simulation) return fmt::print("     cannot be simulated\n");
-  const auto frames = rigs::rendered(simulation->scan);
+  auto frames = rigs::rendered(simulation->scan);
+  drop_frames(seed, scan.dropped, frames.infos);
   ReconstructRequest request;
   const auto run = run_reconstruction(frames, request, {});
   if (!run) return fmt::print("     refused: {}\n", run.error().text());
   const ObjectResult& object = run->reconstruction.objects.front();
   EvaluateOptions options;
   options.align = Align::kIcp;
+  options.samples = 40000;  // shares to within 0.3 %
   const VirtualScan& pass = simulation->scan.pass(0);
   const TriangleMesh& truth = pass.objects().front();
   const SequenceView posed = rigs::at_true_poses(frames, pass);
@@ -91,27 +150,61 @@ void judge(const rigs::Recipe& recipe, Tally& tally) {
     fmt::print("       {:12} {:5} {}\n", s.topic, name_of(s.level), s.text);
 }
 
+/// A line of the table: one whole turn, of which the recording knows all.
+void print_row(const char* object, const char* noise, int frames) {
+  SceneDescription scene;
+  scene.object = object;
+  scene.object_placement.height_m = 0.18;
+  scene.placement.distance_m = 0.9;
+  scene.motion.frames = frames;
+  scene.motion.turns = 1.0;
+  scene.measure.noise = noise;
+  scene.measure.mixed_pixels = std::string_view(noise).starts_with("gaussian") ? 0.5 : 0.0;
+  const auto simulation = prepare_simulation(scene, {});
+  if (!simulation) return fmt::print("{}: {}\n", object, simulation.error().text());
+  ReconstructRequest request;
+  request.calibration = "recorded";
+  const auto run = run_reconstruction(rigs::rendered(simulation->scan), request, {});
+  if (!run) return fmt::print("{}: {}\n", object, run.error().text());
+  const ObjectResult& made = run->reconstruction.objects.front();
+  const auto r = ratios(made, simulation->scan.pass(0).objects().front(), Pose::Identity());
+  std::vector<double> expected_mm;
+  for (const VertexQuality& q : made.quality) expected_mm.push_back(1e3 * q.expected_error_m);
+  fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", object, noise, frames,
+             quantile(expected_mm, 0.5), quantile(r, 0.68), quantile(r, 0.95));
+  std::fflush(stdout);
+}
+
+void print_table(int most_frames) {
+  fmt::print("| object | noise | frames | expected, median, mm | 68 % | 95 % |\n");
+  for (const int frames : {36, 120, 400, 920}) {
+    if (frames > most_frames) break;
+    for (const char* object : {"builtin:letter-a", "builtin:scorpion", "builtin:doll"})
+      for (const char* noise : {"gaussian:1.5mm", "model", "physics"})
+        print_row(object, noise, frames);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == "--table") {
+    print_table(std::stoi(argv[2]));
+    return 0;
+  }
   if (argc < 2 || argc > 5) {
-    fmt::print(stderr, "usage: expected_error MESHES [FIRST_SEED] [COUNT] [MOST_FRAMES]\n");
+    fmt::print(stderr,
+               "usage: expected_error MESHES [FIRST_SEED] [COUNT] [MOST_FRAMES]\n"
+               "       expected_error --table MOST_FRAMES\n");
     return 2;
   }
   const auto number = [&](int k, int fallback) { return argc > k ? std::stoi(argv[k]) : fallback; };
   const int first = number(2, 1), count = number(3, 200);
   Tally tally;
   for (int seed = first; seed < first + count; ++seed) {
-    rigs::Recipe recipe = rigs::make_recipe(std::uint64_t(seed), argv[1], number(4, 920));
-    const std::uint64_t dice = hash_key(0x70617274, std::uint64_t(seed));
-    if (dice % 3 == 0) {
-      // A scan that broke off.
-      const double share = 0.25 + 0.5 * double(dice >> 40) * 0x1.0p-24;
-      recipe.scene.motion.turns *= share / std::abs(recipe.scene.motion.turns);
-      recipe.text += fmt::format(", broken off after {:.2f} turns", share);
-    }
-    fmt::print("{:4} {}\n", seed, recipe.text);
-    judge(recipe, tally);
+    const Scan scan = vary(seed, argv[1], number(4, 920));
+    fmt::print("{:4} {}\n", seed, scan.recipe.text);
+    judge(seed, scan, tally);
     std::fflush(stdout);
   }
   fmt::print("verdicts: {} of {} agree, bad ones called green: {}\n", tally.agreed, tally.judged,

@@ -72,6 +72,11 @@ footer { margin-top: 2.5rem; padding-bottom: 2rem; border-top: 1px solid var(--l
   main, header, footer { padding-left: 0.9rem; padding-right: 0.9rem; }
   canvas { height: 22rem; }
   th, td { padding-right: 0.7rem; min-width: 5rem; }
+  .verdict thead { position: absolute; left: -100rem; }
+  .verdict tr { display: grid; grid-template-columns: 1fr auto auto; padding: 0.3rem 0;
+    border-bottom: 1px solid var(--line); }
+  .verdict th, .verdict td { border: 0; padding: 0.1rem 0.7rem 0.1rem 0; }
+  .verdict td:nth-child(3) { grid-column: 1 / -1; grid-row: 2; }
   .plot svg text { font-size: 18px; }
   .pictures { grid-template-columns: repeat(2, 1fr); }
 }
