@@ -7,10 +7,12 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/workflow/text/evaluation_text.hpp>
 
 #include "explorer/models.hpp"
+#include "widgets/no_wheel.hpp"
 #include "widgets/option_form.hpp"
 #include "widgets/section.hpp"
 
@@ -62,6 +64,9 @@ ComparePanel::ComparePanel(ModelStore& store, QWidget* parent)
   layout->setSpacing(8);
   layout->addLayout(make_choice());
   layout->addLayout(make_way_buttons());
+  note_ = new ParagraphLabel(this);
+  note_->setObjectName("compare_note");
+  layout->addWidget(note_);
   error_ = new MessageLabel(this);
   layout->addWidget(error_);
   figures_ = new QLabel(this);
@@ -85,12 +90,18 @@ QLayout* ComparePanel::make_choice() {
   compared_ = new QComboBox(this);
   reference_->setObjectName("compare_reference");
   compared_->setObjectName("compare_model");
+  for (QComboBox* box : {reference_, compared_}) {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    leave_wheel_to_panel(box);
+    connect(box, qOverload<int>(&QComboBox::activated), this, [this] {
+      enable();
+      Q_EMIT changed();
+    });
+  }
   grid->addWidget(new QLabel(tr("Reference"), this), 0, 0);
   grid->addWidget(reference_, 0, 1);
   grid->addWidget(new QLabel(tr("Model"), this), 1, 0);
   grid->addWidget(compared_, 1, 1);
-  connect(reference_, qOverload<int>(&QComboBox::activated), this, &ComparePanel::changed);
-  connect(compared_, qOverload<int>(&QComboBox::activated), this, &ComparePanel::changed);
   return grid;
 }
 
@@ -124,8 +135,10 @@ int ComparePanel::compared() const { return compared_->currentData().toInt(); }
 
 QString ComparePanel::first_error() const { return form_->first_error(); }
 
-void ComparePanel::show_figures(const std::optional<Evaluation>& figures) {
-  figures_->setText(figures ? html_of(*figures) : QString());
+void ComparePanel::show_figures(const QString& pair, const std::optional<Evaluation>& figures) {
+  figures_->setText(figures
+                        ? QString("<p><b>%1</b></p>%2").arg(pair.toHtmlEscaped(), html_of(*figures))
+                        : QString());
   figures_->setToolTip(
       figures
           ? "<pre>" + QString::fromStdString(evaluation_text(*figures)).toHtmlEscaped() + "</pre>"
@@ -139,10 +152,15 @@ void ComparePanel::stop() { choose(kOff); }
 
 void ComparePanel::fill() {
   const int reference = this->reference(), compared = this->compared();
+  std::set<int> now;
+  // A recording has no surface yet.
+  for (const Model& model : store_.models())
+    if (model.data->kind != ModelKind::kRecording) now.insert(model.id);
   for (QComboBox* box : {reference_, compared_}) {
     const QSignalBlocker quiet(box);
     box->clear();
-    for (const Model& model : store_.models()) box->addItem(model.name, model.id);
+    for (const Model& model : store_.models())
+      if (now.count(model.id) > 0) box->addItem(model.name, model.id);
   }
   const auto choose_id = [](QComboBox* box, int id, int otherwise) {
     const int at = box->findData(id);
@@ -152,9 +170,50 @@ void ComparePanel::fill() {
   // The newest, until something else is chosen.
   const bool chosen = compared != reference;
   choose_id(compared_, chosen ? compared : 0, compared_->count() - 1);
-  const bool enough = store_.models().size() > 1;
-  for (QPushButton* each : ways_) each->setEnabled(enough);
-  if (!enough && way_ != kOff) choose(kOff);
+  // A model that comes is to be seen, and a pair of which one has gone is none.
+  const bool more =
+      std::any_of(now.begin(), now.end(), [this](int id) { return known_.count(id) == 0; });
+  const bool fewer = now.count(reference) == 0 || now.count(compared) == 0;
+  known_ = std::move(now);
+  if ((more || fewer) && way_ != kOff) choose(kOff);
+  enable();
+}
+
+/// Only what would work can be pressed, and a note says why not, or what to look at.
+void ComparePanel::enable() {
+  const Model* left = store_.find(reference());
+  const Model* right = store_.find(compared());
+  const bool pair = left && right && left != right;
+  const bool surface = pair && left->data->kind == ModelKind::kMesh;
+  for (int i = 0; i < 2; ++i) ways_[i]->setEnabled(pair);
+  ways_[2]->setEnabled(surface);
+  constexpr double kOtherUnit = 5.0;
+  QString note;
+  if (pair && !surface) note = tr("Distances are to a mesh: choose one as the reference.");
+  if (pair) {
+    const double a = box_of(*left->data->drawable).size().norm();
+    const double b = box_of(*right->data->drawable).size().norm();
+    const double ratio = std::max(a, b) / std::max(1e-12, std::min(a, b));
+    if (ratio > kOtherUnit)
+      note += tr("%1 is %2 times as large as %3: are both in the same unit?")
+                  .arg((a > b ? left : right)->name)
+                  .arg(ratio, 0, 'g', 3)
+                  .arg((a > b ? right : left)->name);
+  }
+  note_->setVisible(!note.isEmpty());
+  note_->show_text(note);
+}
+
+int ComparePanel::enclosing() const {
+  const Model* left = store_.find(reference());
+  const Model* right = store_.find(compared());
+  if (!left || !right || left == right) return 0;
+  const Box &a = box_of(*left->data->drawable), &b = box_of(*right->data->drawable);
+  const auto holds = [](const Box& outer, const Box& inner) {
+    return (outer.min.array() <= inner.min.array()).all() &&
+           (outer.max.array() >= inner.max.array()).all();
+  };
+  return holds(a, b) ? left->id : holds(b, a) ? right->id : 0;
 }
 
 void ComparePanel::choose(Way way) {

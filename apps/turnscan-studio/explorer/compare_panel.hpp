@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <set>
 
 class QComboBox;
 class QLabel;
@@ -19,6 +20,7 @@ namespace turnscan::studio {
 class MessageLabel;
 class ModelStore;
 class OptionForm;
+class ParagraphLabel;
 
 /// Two models: side by side, one over the other, or by their distance.
 class ComparePanel : public QWidget {
@@ -35,7 +37,9 @@ class ComparePanel : public QWidget {
   const EvaluateOptions& options() const { return *options_; }
   QString first_error() const;
   /// Nothing is shown without.
-  void show_figures(const std::optional<Evaluation>& figures);
+  void show_figures(const QString& pair, const std::optional<Evaluation>& figures);
+  /// Of the two models the one whose box holds the other one's; 0: neither.
+  int enclosing() const;
   void show_error(const QString& text);
   void stop();
 
@@ -48,6 +52,7 @@ class ComparePanel : public QWidget {
   QLayout* make_way_buttons();
   void fill();
   void choose(Way way);
+  void enable();
 
   ModelStore& store_;
   std::unique_ptr<EvaluateOptions> options_;
@@ -55,6 +60,8 @@ class ComparePanel : public QWidget {
   QPushButton* ways_[3];
   OptionForm* form_;
   QLabel* figures_;
+  ParagraphLabel* note_;
+  std::set<int> known_;  ///< models that there were
   MessageLabel* error_;
   Way way_ = kOff;
 };

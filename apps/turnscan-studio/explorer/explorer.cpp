@@ -4,15 +4,21 @@
 #include <QFileInfo>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "explorer/compare_panel.hpp"
-#include "explorer/edits.hpp"
+#include "explorer/editing/edit_panel.hpp"
+#include "explorer/editing/history_panel.hpp"
+#include "explorer/inspection/deviation_panel.hpp"
+#include "explorer/inspection/explorer_parts.hpp"
+#include "explorer/inspection/measure_panel.hpp"
+#include "explorer/inspection/section_panel.hpp"
+#include "explorer/inspection/tool_buttons.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/session.hpp"
 #include "explorer/side_panel.hpp"
 #include "explorer/stage_panel.hpp"
-#include "explorer/tool_panel.hpp"
 #include "explorer/verdict_panel.hpp"
 #include "view/scene_view.hpp"
 #include "widgets/section.hpp"
@@ -35,24 +41,49 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       list_(new ModelList(*store_, this)),
       stages_(new StagePanel(this)),
       compare_(new ComparePanel(*store_, this)),
-      tools_(new ToolPanel(view(), this)),
+      tools_(new ToolButtons(view(), this)),
       side_(new SidePanel(this)),
       verdict_(new VerdictPanel(this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)) {
-  auto* models = section_with(list_, tr("Models"), true, this);
-  auto* stages = section_with(stages_, tr("Processing"), true, this);
-  auto* tools = section_with(tools_, tr("Tools"), true, this);
-  auto* comparison = section_with(compare_, tr("Compare"), false, this);
-  auto* side = section_with(side_, tr("Another side"), true, this);
-  auto* verdict = section_with(verdict_, tr("Verdict"), true, this);
-  for (Section* each : {models, verdict, side, tools, stages, comparison}) panel()->addWidget(each);
-  panel()->addStretch();
+  const ExplorerParts parts{*store_, *list_, view(), jobs(), *tools_};
+  deviations_ = new DeviationPanel(parts, this);
+  measure_ = new MeasurePanel(
+      parts, [this](const Model& model) { return deviations_->distance_of(model); }, this);
+  section_ = new SectionPanel(parts, this);
+  edits_ = new EditPanel(parts, this);
+  add_sections();
   set_footer({stages_->error(), stages_->action()});
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
   view().set_empty_actions({{tr("Open…"), [this] { open_dialog(); }},
                             {tr("Scan an object"), [this] { Q_EMIT mode_wanted("scanner"); }},
                             {tr("Simulate a scan"), [this] { Q_EMIT mode_wanted("simulator"); }}});
+  connect_panels();
+  on_selection(0);
+}
+
+void ExplorerMode::add_sections() {
+  auto* inspection = new Section(tr("Inspection"), false, this);
+  const auto nested = [&](QWidget* content, const QString& title) {
+    auto* section = new Section(title, true, this, Section::kNested);
+    section->body()->addWidget(content);
+    inspection->body()->addWidget(section);
+  };
+  nested(deviations_, tr("Deviations"));
+  nested(measure_, tr("Measure"));
+  nested(section_, tr("Section"));
+  for (Section* each : {section_with(list_, tr("Models"), true, this),
+                        section_with(verdict_, tr("Verdict"), true, this),
+                        section_with(side_, tr("Another side"), true, this), inspection,
+                        section_with(edits_, tr("Editing"), false, this),
+                        section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
+                        section_with(stages_, tr("Processing"), true, this),
+                        section_with(compare_, tr("Compare"), false, this)})
+    panel()->addWidget(each);
+  panel()->addStretch();
+}
+
+void ExplorerMode::connect_panels() {
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
   connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
   connect(session_, &SessionKeeper::failed, this, &Mode::status);
@@ -64,8 +95,12 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
   connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
   connect(compare_, &ComparePanel::changed, this, &ExplorerMode::sync);
   connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
-  connect(tools_, &ToolPanel::cut_wanted, this, &ExplorerMode::cut_selected);
-  connect(tools_, &ToolPanel::lassoed, this, &ExplorerMode::remove_lassoed);
+  // Colours that were chosen under the verdict come back when those of the deviations go.
+  connect(deviations_, &DeviationPanel::changed, this, &ExplorerMode::color_selected);
+  connect(deviations_, &DeviationPanel::said, this, &Mode::status);
+  connect(measure_, &MeasurePanel::said, this, &Mode::status);
+  connect(section_, &SectionPanel::said, this, &Mode::status);
+  connect(edits_, &EditPanel::said, this, &Mode::status);
   connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
   connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
   connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
@@ -73,7 +108,6 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
     const Model* model = store_->find(list_->selected());
     if (model && model->data->missing) Q_EMIT another_side_wanted(model->data->missing->side);
   });
-  on_selection(0);
 }
 
 ExplorerMode::~ExplorerMode() {
@@ -116,7 +150,10 @@ void ExplorerMode::save() {
   save_as(model->id, path);
 }
 
-void ExplorerMode::remove_selected() { store_->remove(list_->selected()); }
+/// The selected part of a model, if there is one, else the model.
+void ExplorerMode::remove_selected() {
+  if (!edits_->delete_selected()) store_->remove(list_->selected());
+}
 
 void ExplorerMode::sync() {
   for (auto it = shown_.begin(); it != shown_.end();) {
@@ -134,22 +171,31 @@ void ExplorerMode::sync() {
   for (const Model& model : store_->models()) {
     const ItemStyle style = style_of(model);
     Shown& shown = shown_[model.id];
+    const DrawablePtr drawable = drawable_of(model);
     if (shown.item == 0) {
-      shown.item = view().add(model.data->drawable, style);
+      shown.item = view().add(drawable, style);
     } else {
-      if (shown.data != model.data) view().replace(shown.item, model.data->drawable);
+      if (shown.drawable != drawable) view().replace(shown.item, drawable);
       view().set_style(shown.item, style);
     }
     shown.data = model.data;
+    shown.drawable = drawable;
   }
   draw_missing();
   draw_colored();
 }
 
+/// In its own colours, or in those of its deviations.
+DrawablePtr ExplorerMode::drawable_of(const Model& model) const {
+  const DrawablePtr colored = deviations_->drawable_of(model);
+  return colored ? colored : model.data->drawable;
+}
+
 /// The selected mesh in the colours that were chosen for it lies in its own place.
 void ExplorerMode::draw_colored() {
   const Model* model = store_->find(list_->selected());
-  const bool wanted = model && colored_.drawable && colored_.of == model->data;
+  const bool wanted =
+      model && colored_.drawable && colored_.of == model->data && !deviations_->drawable_of(*model);
   if (wanted) {
     ItemStyle style = style_of(*model);
     style.own_colors = true;
@@ -166,7 +212,9 @@ void ExplorerMode::draw_colored() {
   }
   const Model* compared = store_->find(legend_model_);
   const bool of_comparison = compared && style_of(*compared).visible;
+  const auto deviations = deviations_->legend();
   view().set_legend(wanted && style_of(*model).visible ? colored_.legend
+                    : deviations                       ? *deviations
                     : of_comparison                    ? legend_
                                                        : Legend());
 }
@@ -189,30 +237,16 @@ ItemStyle ExplorerMode::style_of(const Model& model) const {
   ItemStyle style;
   style.visible = model.visible;
   style.color = model.color;
-  style.own_colors = model.own_colors;
+  style.own_colors = model.own_colors || deviations_->drawable_of(model);
+  if (deviations_->hides(model.id)) style.visible = false;
   if (compare_->way() == ComparePanel::kOff) return style;
   const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
   style.visible = left || right;
   style.pane = right && !left ? 1 : 0;
+  // A smaller one within it is seen through it.
+  if (compare_->way() == ComparePanel::kOverlay && model.id == compare_->enclosing())
+    style.opacity = std::min(style.opacity, 0.35);
   return style;
-}
-
-void ExplorerMode::cut_selected(const Vec3d& normal, double offset) {
-  edit_selected(tr("cut"), false, [normal, offset](const ModelData& from) {
-    const QString source = tr("cut of %1").arg(from.source);
-    return from.kind == ModelKind::kMesh
-               ? mesh_model(cut(from.mesh, normal, offset), source)
-               : cloud_model(cut(from.cloud, normal, offset), source, {}, from.viewpoints);
-  });
-}
-
-void ExplorerMode::remove_lassoed(const Outline& outline, const Eigen::Matrix4d& to_pixels) {
-  edit_selected(tr("lasso"), true, [outline, to_pixels](const ModelData& from) {
-    return from.kind == ModelKind::kMesh
-               ? mesh_model(without_lassoed(from.mesh, outline, to_pixels), from.source)
-               : cloud_model(without_lassoed(from.cloud, outline, to_pixels), from.source, {},
-                             from.viewpoints);
-  });
 }
 
 /// Over the selected mesh, while that is shown.
@@ -228,7 +262,7 @@ void ExplorerMode::draw_missing() {
   ItemStyle style = style_of(*model);
   style.color = QColor(0xff0090);
   style.boxed = style.in_view = false;
-  missing_ = {view().add(model->data->missing->drawable, style), model->data};
+  missing_ = {view().add(model->data->missing->drawable, style), model->data, nullptr};
 }
 
 void ExplorerMode::on_selection(int id) {
@@ -244,7 +278,6 @@ void ExplorerMode::on_selection(int id) {
   const bool recording = model && model->data->kind == ModelKind::kRecording;
   const bool cloud = model && model->data->kind == ModelKind::kCloud;
   stages_->set_target(recording, cloud);
-  tools_->set_box(model && !recording ? box_of(*model->data->drawable) : Box());
   if (model) Q_EMIT described(QString("%1: %2").arg(model->name, count_text(*model->data)));
 }
 

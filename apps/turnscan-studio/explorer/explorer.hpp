@@ -5,19 +5,22 @@
 #include <memory>
 
 #include "app/mode.hpp"
-#include "explorer/edits.hpp"
 #include "explorer/models.hpp"
 #include "view/scene_view.hpp"
 
 namespace turnscan::studio {
 
 class ComparePanel;
+class DeviationPanel;
+class EditPanel;
+class MeasurePanel;
 class ModelList;
+class SectionPanel;
 class SessionKeeper;
 class SidePanel;
 struct LostSession;
 class StagePanel;
-class ToolPanel;
+class ToolButtons;
 class VerdictPanel;
 
 class ExplorerMode : public Mode {
@@ -50,7 +53,10 @@ class ExplorerMode : public Mode {
   ModelList& list() { return *list_; }
   StagePanel& stages() { return *stages_; }
   ComparePanel& comparison() { return *compare_; }
-  ToolPanel& tools() { return *tools_; }
+  DeviationPanel& deviations() { return *deviations_; }
+  MeasurePanel& measurements() { return *measure_; }
+  SectionPanel& section() { return *section_; }
+  EditPanel& edits() { return *edits_; }
   SessionKeeper& session() { return *session_; }
   SidePanel& side() { return *side_; }
   VerdictPanel& verdict() { return *verdict_; }
@@ -62,13 +68,10 @@ class ExplorerMode : public Mode {
   void load(const QString& path, const std::function<void()>& then);
   void run_filter();
   void run_comparison();
-  void cut_selected(const Vec3d& normal, double offset);
-  void remove_lassoed(const Outline& outline, const Eigen::Matrix4d& to_pixels);
-  /// Changes the data of the selected model on a worker's thread. in_place: the model itself
-  /// changes, which undo takes back; else a new one is added.
-  void edit_selected(const QString& what, bool in_place,
-                     const std::function<ModelDataPtr(const ModelData&)>& edit);
+  void add_sections();
+  void connect_panels();
   ItemStyle style_of(const Model& model) const;
+  DrawablePtr drawable_of(const Model& model) const;
   void sync();
   void draw_missing();
   void color_selected();
@@ -80,13 +83,18 @@ class ExplorerMode : public Mode {
   ModelList* list_;
   StagePanel* stages_;
   ComparePanel* compare_;
-  ToolPanel* tools_;
+  ToolButtons* tools_;
+  DeviationPanel* deviations_;
+  MeasurePanel* measure_;
+  SectionPanel* section_;
+  EditPanel* edits_;
   SidePanel* side_;
   VerdictPanel* verdict_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;
     ModelDataPtr data;
+    DrawablePtr drawable;
   };
   int legend_model_ = 0;  ///< the legend is shown while this model is
   Legend legend_;

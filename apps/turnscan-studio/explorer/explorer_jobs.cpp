@@ -81,9 +81,7 @@ void ExplorerMode::run_stage(const QString& stage) {
        options = stages_->options()](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(StageRun run, run_stage_of(model, stage, options, context));
         return Finish([this, id = model.id, run = std::move(run)] {
-          const auto ids = store_->add_all(run.models, tr("reconstruct"));
-          // What it was made from lies in the same place; it would hide the result.
-          store_->set_visible(id, false);
+          const auto ids = store_->add_instead(run.models, {id}, tr("reconstruct"));
           list_->select(ids.front());
           stages_->show_used(run.choices);
           if (!run.not_joined.isEmpty()) stages_->show_error(run.not_joined);
@@ -104,9 +102,10 @@ void ExplorerMode::run_filter() {
        options = stages_->options().outliers](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(ModelDataPtr kept, filter_cloud(model, options, context));
         return Finish([this, model, kept] {
-          const int id = store_->add(tr("%1 filtered").arg(model.name), kept);
-          store_->set_visible(model.id, false);
-          list_->select(id);
+          const QString name = tr("%1 filtered").arg(model.name);
+          list_->select(
+              store_->add_instead({{name, kept}}, {model.id}, tr("filter %1").arg(model.name))
+                  .front());
         });
       },
       [this](const QString& text) { stages_->show_error(text); });
@@ -123,46 +122,17 @@ void ExplorerMode::run_comparison() {
        options = compare_->options()](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(Comparison made, compare(*a.data, *b.data, options, 0.0, context));
         return Finish([this, a, b, made = std::move(made)] {
-          const int id = store_->add(tr("%1 to %2").arg(a.name, b.name), made.colored);
-          store_->set_visible(a.id, false);
-          store_->set_visible(b.id, false);
+          const QString pair = tr("%1 to %2").arg(a.name, b.name);
+          const int id =
+              store_->add_instead({{pair, made.colored}}, {a.id, b.id}, tr("distances")).front();
           list_->select(id);
-          compare_->show_figures(made.figures);
+          compare_->show_figures(pair, made.figures);
           legend_model_ = id;
           legend_ = distance_legend(b.name, made);
           sync();
         });
       },
       [this](const QString& text) { compare_->show_error(text); });
-}
-
-void ExplorerMode::edit_selected(const QString& what, bool in_place,
-                                 const std::function<ModelDataPtr(const ModelData&)>& edit) {
-  const Model* selected = store_->find(list_->selected());
-  if (!selected || selected->data->kind == ModelKind::kRecording) return;
-  jobs().start(
-      what, this,
-      [this, what, in_place, edit, model = *selected](const RunContext& context) -> Result<Finish> {
-        context.begin_phase(what.toStdString(), 0);
-        const ModelDataPtr made = edit(*model.data);
-        const bool empty =
-            made->kind == ModelKind::kMesh ? made->mesh.empty() : made->cloud.empty();
-        if (empty)
-          return fail(ErrorCode::kTooFewPoints,
-                      "{}: nothing would be left of '{}'; delete it "
-                      "instead",
-                      what.toStdString(), model.name.toStdString());
-        return Finish([this, what, in_place, model, made] {
-          if (in_place) {
-            store_->set_data(model.id, made, what);
-            return;
-          }
-          const int id = store_->add(QString("%1 %2").arg(model.name, what), made);
-          store_->set_visible(model.id, false);
-          list_->select(id);
-        });
-      },
-      [this](const QString& text) { stages_->show_error(text); });
 }
 
 void ExplorerMode::save_as(int id, const QString& path) {

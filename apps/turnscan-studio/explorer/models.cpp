@@ -54,8 +54,8 @@ int ModelStore::add(const QString& name, ModelDataPtr data) {
   return add_all({{name, std::move(data)}}, tr("add %1").arg(name)).front();
 }
 
-std::vector<int> ModelStore::add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
-                                     const QString& what) {
+std::vector<Model> ModelStore::as_models(
+    const std::vector<std::pair<QString, ModelDataPtr>>& made) {
   std::vector<Model> models;
   for (const auto& [name, data] : made) {
     Model model;
@@ -64,11 +64,15 @@ std::vector<int> ModelStore::add_all(const std::vector<std::pair<QString, ModelD
     model.color = model_color(next_color_++);
     models.push_back(std::move(model));
   }
-  return add_models(std::move(models), what);
+  return models;
 }
 
-std::vector<int> ModelStore::add_models(std::vector<Model> models, const QString& what) {
-  step(what);
+std::vector<int> ModelStore::add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
+                                     const QString& what) {
+  return add_models(as_models(made), what);
+}
+
+std::vector<int> ModelStore::append(std::vector<Model> models) {
   std::vector<int> ids;
   for (Model& model : models) {
     model.id = next_id_++;
@@ -76,6 +80,22 @@ std::vector<int> ModelStore::add_models(std::vector<Model> models, const QString
     ids.push_back(model.id);
     models_.push_back(std::move(model));
   }
+  return ids;
+}
+
+std::vector<int> ModelStore::add_models(std::vector<Model> models, const QString& what) {
+  step(what);
+  const std::vector<int> ids = append(std::move(models));
+  Q_EMIT changed();
+  return ids;
+}
+
+std::vector<int> ModelStore::add_instead(const std::vector<std::pair<QString, ModelDataPtr>>& made,
+                                         const std::vector<int>& hidden, const QString& what) {
+  step(what);
+  const std::vector<int> ids = append(as_models(made));
+  for (const int id : hidden)
+    if (Model* model = mutable_find(id)) model->visible = false;
   Q_EMIT changed();
   return ids;
 }
@@ -155,20 +175,42 @@ QStringList ModelStore::unsaved() const {
   return out;
 }
 
-void ModelStore::undo() {
-  if (undo_.empty()) return;
+void ModelStore::step_back() {
   redo_.push_back({undo_.back().what, models_});
   models_ = std::move(undo_.back().models);
   undo_.pop_back();
+}
+
+void ModelStore::step_forward() {
+  undo_.push_back({redo_.back().what, models_});
+  models_ = std::move(redo_.back().models);
+  redo_.pop_back();
+}
+
+void ModelStore::undo() {
+  if (undo_.empty()) return;
+  step_back();
   Q_EMIT changed();
 }
 
 void ModelStore::redo() {
   if (redo_.empty()) return;
-  undo_.push_back({redo_.back().what, models_});
-  models_ = std::move(redo_.back().models);
-  redo_.pop_back();
+  step_forward();
   Q_EMIT changed();
+}
+
+QStringList ModelStore::history() const {
+  QStringList out;
+  for (const State& state : undo_) out << state.what;
+  for (auto state = redo_.rbegin(); state != redo_.rend(); ++state) out << state->what;
+  return out;
+}
+
+void ModelStore::go_to(std::size_t place) {
+  const std::size_t before = undo_.size();
+  while (undo_.size() > place) step_back();
+  while (undo_.size() < place && !redo_.empty()) step_forward();
+  if (undo_.size() != before) Q_EMIT changed();
 }
 
 }  // namespace turnscan::studio

@@ -70,6 +70,9 @@ class ModelStore : public QObject {
                            const QString& what);
   /// The same, with colours and visibility of their own; ids are given anew.
   std::vector<int> add_models(std::vector<Model> models, const QString& what);
+  /// The same, hiding those that they were made from: they lie in the same place.
+  std::vector<int> add_instead(const std::vector<std::pair<QString, ModelDataPtr>>& made,
+                               const std::vector<int>& hidden, const QString& what);
   void rename(int id, const QString& name);
   void set_visible(int id, bool visible);
   void set_color(int id, const QColor& color, bool own_colors);
@@ -90,6 +93,12 @@ class ModelStore : public QObject {
   QString redo_text() const { return redo_.empty() ? QString() : redo_.back().what; }
   void undo();
   void redo();
+  /// What each step did, oldest first, those that redo would bring back included.
+  QStringList history() const;
+  /// After how many of them the models are as they are now.
+  std::size_t place_in_history() const { return undo_.size(); }
+  /// Undoes or redoes until as many steps are done; more than there are: all.
+  void go_to(std::size_t place);
 
  Q_SIGNALS:
   void changed();
@@ -100,6 +109,10 @@ class ModelStore : public QObject {
     std::vector<Model> models;
   };
   void step(const QString& what);
+  void step_back();
+  void step_forward();
+  std::vector<int> append(std::vector<Model> models);
+  std::vector<Model> as_models(const std::vector<std::pair<QString, ModelDataPtr>>& made);
   Model* mutable_find(int id);
   QString free_name(const QString& wanted) const;
 

@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "explorer/cloud_sequence.hpp"
-#include "explorer/edits.hpp"
+#include "explorer/editing/edits.hpp"
 #include "explorer/reconstruct_until.hpp"
 #include "explorer/scan_quality.hpp"
 #include "widgets/text.hpp"

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 
 #include "explorer/scan_quality.hpp"
+#include "widgets/no_wheel.hpp"
 #include "widgets/section.hpp"
 
 namespace turnscan::studio {
@@ -42,7 +43,7 @@ VerdictPanel::VerdictPanel(QWidget* parent) : QWidget(parent) {
   colors_->setObjectName("verdict_colors");
   colors_->setAccessibleName(tr("Colours of the mesh"));
   colors_->setToolTip(tr("What the colours of the selected mesh show"));
-  colors_->setFocusPolicy(Qt::StrongFocus);
+  leave_wheel_to_panel(colors_);
   report_ = button(tr("Export report…"),
                    tr("One HTML file with the model in 3D, the verdict, pictures and plots"), this);
   row->addWidget(colors_, 1);

@@ -83,6 +83,7 @@ void SceneView::style_actor(const Item& item, vtkActor* actor) {
   property->SetDiffuse(0.85);
   property->SetSpecular(0.12);
   property->SetSpecularPower(20.0);
+  property->SetOpacity(style.opacity);
   actor->GetMapper()->SetScalarVisibility(style.own_colors && item.drawable->colored);
   const int pane = p.split && style.pane == 1 ? 1 : 0;
   p.renderers[std::size_t(1 - pane)]->RemoveActor(actor);

@@ -37,11 +37,13 @@ void paint_card(QPainter& painter, const QRectF& rect, const Theme& theme) {
 /// The colours of a continuous legend, low values at the bottom; with a histogram a narrow bar, and
 /// its shares beside it.
 void paint_color_bar(QPainter& painter, const Legend& legend, const QRectF& bar) {
-  const std::size_t n = legend.entries.size();
+  std::vector<QColor> colors = legend.bar;
+  if (colors.empty())
+    for (const auto& entry : legend.entries) colors.push_back(entry.color);
+  const std::size_t n = colors.size();
   QLinearGradient gradient(0, bar.top(), 0, bar.bottom());
   for (std::size_t i = 0; i < n; ++i)
-    gradient.setColorAt(1.0 - double(i) / double(std::max<std::size_t>(1, n - 1)),
-                        legend.entries[i].color);
+    gradient.setColorAt(1.0 - double(i) / double(std::max<std::size_t>(1, n - 1)), colors[i]);
   painter.setPen(Qt::NoPen);
   painter.setBrush(gradient);
   if (legend.histogram.empty()) {
@@ -68,6 +70,7 @@ void SceneView::paint_overlay(QPainter& painter) {
     paint_axes(painter);
   }
   if (!parts_->legend.entries.empty()) paint_legend(painter);
+  if (parts_->marks) parts_->marks(painter);
   if (tool_) tool_->paint(painter);
 }
 

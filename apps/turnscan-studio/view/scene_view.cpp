@@ -157,6 +157,11 @@ void SceneView::set_tool(ViewTool* tool) {
   update_overlay();
 }
 
+void SceneView::set_marks(std::function<void(QPainter&)> paint) {
+  parts_->marks = std::move(paint);
+  update_overlay();
+}
+
 void SceneView::set_up(const Vec3d& up) {
   parts_->up = up;
   parts_->camera->SetViewUp(up.data());

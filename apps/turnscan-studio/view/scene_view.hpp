@@ -26,6 +26,7 @@ struct ItemStyle {
   bool visible = true;
   QColor color = QColor(0xb9c4cf);  ///< where the item has no colours of its own
   bool own_colors = true;           ///< draw the colours that it has
+  double opacity = 1.0;             ///< 0 to 1
   int pane = 0;                     ///< 1: on the right where the view is split
   double line_width = 1.5;
   double point_scale = 1.0;  ///< of the view's point size
@@ -58,6 +59,7 @@ struct Legend {
   std::vector<Entry> entries;
   bool continuous = false;        ///< one bar with the colours blended, texts at even distances
   std::vector<double> histogram;  ///< shares beside the bar; may be empty
+  std::vector<QColor> bar;        ///< of a continuous one: finer colours than the entries have
 };
 
 class SceneView : public QWidget {
@@ -90,6 +92,8 @@ class SceneView : public QWidget {
   void set_hint(const QString& text);
   void set_tool(ViewTool* tool);  ///< nullptr: the camera alone
   ViewTool* tool() const { return tool_; }
+  /// Painted above the picture whichever tool is active, e.g. measurements; empty: nothing.
+  void set_marks(std::function<void(QPainter&)> paint);
   /// Up on the screen: +Y of the table's frame, -Y of a sensor's.
   void set_up(const Vec3d& up);
   /// A plane (normal . p >= offset is shown) that everything is cut by; normal 0: none.

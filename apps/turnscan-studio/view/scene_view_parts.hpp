@@ -65,6 +65,7 @@ struct SceneView::Parts {
   Legend legend;
   QString empty_title, empty_text, hint;
   QWidget* empty_actions = nullptr;
+  std::function<void(QPainter&)> marks;
 
   Vec3d up = Vec3d::UnitY();
   Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a flight

@@ -8,8 +8,8 @@
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QStyle>
-#include <QWheelEvent>
 
+#include "widgets/no_wheel.hpp"
 #include "widgets/text.hpp"
 
 namespace turnscan::studio {
@@ -50,17 +50,6 @@ QString tip_of(const OptionField& field) {
   }
   return tip;
 }
-
-/// The wheel scrolls the panel; it must not change values on its way.
-class NoWheel : public QObject {
- public:
-  using QObject::QObject;
-  bool eventFilter(QObject* object, QEvent* event) override {
-    if (event->type() != QEvent::Wheel) return QObject::eventFilter(object, event);
-    event->ignore();
-    return true;
-  }
-};
 
 }  // namespace
 
@@ -112,7 +101,7 @@ QWidget* OptionForm::make_editor(std::size_t index) {
   if (!field.choices.empty()) {
     auto* box = new QComboBox(this);
     for (const std::string& choice : field.choices) box->addItem(QString::fromStdString(choice));
-    box->installEventFilter(new NoWheel(box));
+    leave_wheel_to_panel(box);
     connect(box, &QComboBox::currentTextChanged, this,
             [this, index](const QString& text) { take(index, text); });
     return box;

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <QWidget>
+#include <functional>
+#include <memory>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/geometry/selection/screen_selection.hpp>
+#include <vector>
+
+#include "explorer/inspection/explorer_parts.hpp"
+#include "explorer/models.hpp"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+
+namespace turnscan::studio {
+
+class MessageLabel;
+class PlaneBox;
+class SelectionTool;
+
+/// Parts of the selected model are chosen on the screen, shown, and then edited; each edit is one
+/// step of undo.
+class EditPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit EditPanel(const ExplorerParts& parts, QWidget* parent = nullptr);
+  ~EditPanel() override;
+
+  std::size_t selected() const { return count_selected(selection_); }
+  const Selection& selection() const { return selection_; }
+  /// Nothing, where nothing is selected: the model as a whole is deleted elsewhere.
+  bool delete_selected();
+
+ Q_SIGNALS:
+  void said(const QString& text);
+
+ private:
+  /// What an edit makes of a model, and what is said about it; on a worker's thread.
+  struct Edited {
+    ModelDataPtr data;
+    QString text;
+  };
+  using Edit = std::function<Result<Edited>(const ModelData&, const Selection&, const RunContext&)>;
+  using Change = std::function<Selection(const ModelData&, const Selection&)>;
+
+  QWidget* make_tools();
+  QWidget* make_changes();
+  QWidget* make_edits();
+  QWidget* make_cut();
+  void add_tool(QPushButton* button, int shape);
+  void pick(const ScreenRegion& region, std::optional<SelectHow> how);
+  void change(const QString& what, const Change& made);
+  void take_selection(const ModelDataPtr& of, Selection made, DrawablePtr drawable);
+  void clear_selection();
+  void follow_model();
+  void show_count();
+  void edit(const QString& what, const Edit& made);
+  void fill_holes_beside();
+  void smooth();
+  void reduce();
+  void show_plane(bool on);
+  void cut();
+  const Model* target() const;
+
+  ExplorerParts parts_;
+  std::vector<std::unique_ptr<SelectionTool>> tools_;
+  std::vector<QPushButton*> of_any_, of_mesh_, of_selection_;
+  QComboBox* how_;
+  QCheckBox* through_;
+  QSpinBox* radius_;
+  QLabel* count_;
+  QDoubleSpinBox* wavelength_;
+  QSpinBox* triangles_;
+  QPushButton* cut_on_;
+  PlaneBox* plane_;
+  QWidget* plane_row_;
+  MessageLabel* error_;
+
+  ModelDataPtr of_;  ///< that the selection belongs to
+  Selection selection_;
+  int item_ = 0;  ///< in the view
+};
+
+}  // namespace turnscan::studio
