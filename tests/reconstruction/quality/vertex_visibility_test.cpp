@@ -71,5 +71,18 @@ TEST(VertexVisibility, SaysZeroWithoutViewsAndStopsWhenItIsCancelled) {
   EXPECT_EQ(vertex_visibility(cube(), one, 0.001, cancelled).error().code, ErrorCode::kCancelled);
 }
 
+TEST(WithoutReturn, IsWhatHalfOfTheViewsThatItFacesLookedAtInVain) {
+  const auto looked_at = [](std::size_t in_vain, std::uint32_t word, std::uint8_t asked) {
+    std::vector<views::DepthView> views(6, view_from(45.0 * kRadiansPerDegree));
+    for (std::size_t v = 0; v < in_vain; ++v) views[v].pixels.assign(kSide * kSide, word);
+    return *without_return(cube(), views, std::vector<std::uint8_t>(8, asked), {});
+  };
+  const std::vector<std::uint8_t> none(8, 0), two_corners{0, 0, 0, 0, 0, 1, 0, 1};
+  EXPECT_EQ(looked_at(3, 0, 1), two_corners) << "of the edge that faces them";
+  EXPECT_EQ(looked_at(2, 0, 1), none) << "most had returns there";
+  EXPECT_EQ(looked_at(3, views::DepthView::pack(0, false, 9000), 1), none) << "seen to be empty";
+  EXPECT_EQ(looked_at(3, 0, 0), none) << "not asked";
+}
+
 }  // namespace
 }  // namespace turnscan::quality

@@ -102,6 +102,28 @@ TEST(Volumetric, WhatHangsInTheAirBelongsToWhatStandsBelow) {
   EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("hangs in the air")));
 }
 
+TEST(Volumetric, SaysWhereSensorsHadNoReturn) {
+  // A ball with a black band, on nothing that would be seen behind it.
+  const auto banded = [](const Vec3d& o, const Vec3d& d) {
+    const double t = ball(o, d);
+    return std::abs((o + t * d).y() - kCenter.y() - 0.004) < 0.006 ? 0.0 : t;
+  };
+  Rig rig;
+  rig.platter = false;
+  const auto no_return = [&](const Trace& things) {
+    const auto result = reconstruct(scan(things, rig), volumetric(), {}, RunContext());
+    EXPECT_TRUE(result) << result.error().text();
+    EXPECT_EQ(result->objects.size(), 1u) << "one object, whatever band is missing";
+    EXPECT_EQ(result->objects[0].check.components, 1);
+    const auto& notes = result->objects[0].notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("too dark") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(no_return(banded));
+  EXPECT_FALSE(no_return(ball));
+}
+
 /// Value of an automatic choice, metres.
 double chosen(const Reconstruction& result, const std::string& option) {
   for (const Choice& choice : result.choices) {

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMostViews = 128;
 constexpr float kLeastCosine = 0.1f;
+constexpr float kFacingCosine = 0.4f;  ///< a surface that does not reflect hardly at all returns
+constexpr std::size_t kLeastInVain = 3;
 
 /// Of the views that are looked at.
 std::vector<std::size_t> spread_views(std::size_t count) {
@@ -20,19 +22,30 @@ std::vector<std::size_t> spread_views(std::size_t count) {
   return out;
 }
 
-bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
-         float tolerance_m) {
+/// The pixel of a view's window in which a vertex lies that faces it by the cosine; -1 if none
+/// does.
+struct PixelOfVertex {
+  std::ptrdiff_t pixel = -1;
+  float z = 0.0f, along = 1.0f, cosine = 0.0f;  ///< along: a ray's length by its part along z
+};
+PixelOfVertex pixel_of(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
+                       float least_cosine) {
   const Vec3f p = view.rotation * vertex + view.translation;
-  if (!view.parallel && !(p.z() > 0.0f)) return false;
+  if (!view.parallel && !(p.z() > 0.0f)) return {};
   const Vec3f ray = view.parallel ? Vec3f(Vec3f::UnitZ()) : Vec3f(p / p.z());
   const float cosine = -(view.rotation * normal).dot(ray) / ray.norm();
-  if (!(cosine > kLeastCosine)) return false;
-  const std::ptrdiff_t pixel = view.pixel_at(p);
-  if (pixel < 0) return false;
-  const std::uint32_t word = view.pixels[std::size_t(pixel)];
+  if (!(cosine > least_cosine)) return {};
+  return {view.pixel_at(p), p.z(), ray.norm(), cosine};
+}
+
+bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
+         float tolerance_m) {
+  const PixelOfVertex at = pixel_of(view, vertex, normal, kLeastCosine);
+  if (at.pixel < 0) return false;
+  const std::uint32_t word = view.pixels[std::size_t(at.pixel)];
   if ((word & 0xffffu) == 0) return false;
   const float depth = float(word & 0xffffu) * view.unit_m + view.bias_m;
-  return std::abs(depth - p.z()) * ray.norm() * cosine <= tolerance_m;
+  return std::abs(depth - at.z) * at.along * at.cosine <= tolerance_m;
 }
 
 /// Of the sectors in all bands, that of a view as a point sees it.
@@ -70,6 +83,32 @@ Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
     }
     out.frames[v] = std::uint16_t(std::min(65535.0, std::round(share * double(count))));
     out.directions[v] = std::uint8_t(std::popcount(sectors));
+  });
+  TURNSCAN_TRY(context.check());
+  return out;
+}
+
+Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
+                                                 std::span<const views::DepthView> views,
+                                                 const std::vector<std::uint8_t>& asked,
+                                                 const RunContext& context) {
+  std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
+  const auto chosen = spread_views(views.size());
+  const auto normals = vertex_normals(mesh);
+  TURNSCAN_TRY(context.check());
+  parallel_for(out.size(), 256, [&](std::size_t v) {
+    if (!asked[v]) return;
+    std::size_t facing = 0, in_vain = 0;
+    for (const std::size_t i : chosen) {
+      const views::DepthView& view = views[i];
+      const PixelOfVertex at = pixel_of(view, mesh.vertices[v], normals[v], kFacingCosine);
+      if (at.pixel < 0) continue;
+      const auto x = at.pixel % view.width, y = at.pixel / view.width;
+      if (x == 0 || y == 0 || x + 1 == view.width || y + 1 == view.height) continue;  // border
+      ++facing;
+      in_vain += view.pixels[std::size_t(at.pixel)] == 0 ? 1 : 0;
+    }
+    out[v] = in_vain >= kLeastInVain && 2 * in_vain >= facing ? 1 : 0;
   });
   TURNSCAN_TRY(context.check());
   return out;

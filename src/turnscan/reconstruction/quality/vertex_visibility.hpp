@@ -26,4 +26,13 @@ Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
                                            std::span<const views::DepthView> views,
                                            double tolerance_m, const RunContext& context);
 
+/// Which vertices sensors looked at in vain: of the views that they face by less than 66 degrees at
+/// least half, and three or more, had no return there, and nothing before them. Only those marked
+/// in `asked` are looked at, in as many views as above. Fails with kCancelled. The same for any
+/// number of threads.
+Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
+                                                 std::span<const views::DepthView> views,
+                                                 const std::vector<std::uint8_t>& asked,
+                                                 const RunContext& context);
+
 }  // namespace turnscan::quality

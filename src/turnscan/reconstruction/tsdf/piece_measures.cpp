@@ -64,6 +64,24 @@ void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
   }
 }
 
+Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthView> views,
+                           const RunContext& context) {
+  const auto& triangles = piece.mesh.triangles;
+  std::vector<std::uint8_t> asked(piece.mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (piece.evidence[i] == Evidence::kInvented)
+      for (const std::uint32_t v : triangles[i]) asked[v] = 1;
+  TURNSCAN_ASSIGN(const std::vector<std::uint8_t> in_vain,
+                  quality::without_return(piece.mesh, views, asked, context));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = triangles[i];
+    if (piece.evidence[i] == Evidence::kInvented &&
+        in_vain[t[0]] + in_vain[t[1]] + in_vain[t[2]] > 1)
+      piece.no_return_area_m2 += triangle_area(piece.mesh, i);
+  }
+  return {};
+}
+
 std::size_t count_points(const VolumetricInput& input, const Box& box) {
   std::vector<std::size_t> counts(input.views.size(), 0);
   parallel_for(counts.size(), 4, [&](std::size_t v) {

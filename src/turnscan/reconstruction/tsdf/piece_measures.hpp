@@ -16,6 +16,10 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
 /// was invented. Needs the confidence.
 void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale);
 
+/// Sets the area in which sensors looked in vain. Needs the evidence. Fails with kCancelled.
+Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthView> views,
+                           const RunContext& context);
+
 /// Points in a box that the input's views measured.
 std::size_t count_points(const VolumetricInput& input, const Box& box);
 

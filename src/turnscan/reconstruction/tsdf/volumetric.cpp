@@ -144,6 +144,7 @@ class VolumetricReconstruction {
     TURNSCAN_TRY(
         timed("quality", [&] { return measure_quality(piece, input_, scale_.volume, context_); }));
     measure_evidence(piece, scale_.volume);
+    TURNSCAN_TRY(measure_no_return(piece, input_.views, context_));
     if (options_.mark_invented) mesh_refinement::paint_invented(piece.mesh, piece.evidence);
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.volume.truncation_m;

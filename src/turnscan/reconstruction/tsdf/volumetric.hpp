@@ -35,10 +35,11 @@ struct VolumetricPiece {
   std::vector<float> confidence;       ///< per vertex: support over its median, at most 1
   std::vector<VertexQuality> quality;  ///< per vertex
   std::vector<Evidence> evidence;      ///< per triangle
-  double invented_area_m2 = 0.0;  ///< where vertices have a fiftieth of the usual support or less
-  double base_area_m2 = 0.0;      ///< closed flat on the platter
-  std::size_t points = 0;         ///< measured, in the box of the piece
-  std::size_t detached = 0;       ///< components that no frame shows to be connected to the rest
+  double invented_area_m2 = 0.0;   ///< where vertices have a fiftieth of the usual support or less
+  double base_area_m2 = 0.0;       ///< closed flat on the platter
+  double no_return_area_m2 = 0.0;  ///< of what was invented: where sensors looked in vain
+  std::size_t points = 0;          ///< measured, in the box of the piece
+  std::size_t detached = 0;        ///< components that no frame shows to be connected to the rest
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first

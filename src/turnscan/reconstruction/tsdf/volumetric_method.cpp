@@ -26,6 +26,9 @@ constexpr std::size_t kPreviewBricks = 4000;
 /// Platters that differ by less are one: cosine of 1.8 degrees, and metres.
 constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
 
+/// Less invented surface without a return than this is not worth a note: rims have some.
+constexpr double kLeastNoReturn_m2 = 2e-4;
+
 /// Fewer points than this make no object.
 constexpr std::uint64_t kFewestPoints = 100;
 
@@ -337,6 +340,11 @@ ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
   if (piece.base_area_m2 > 0.0)
     object.notes.push_back(
         fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+  if (piece.no_return_area_m2 >= kLeastNoReturn_m2)
+    object.notes.push_back(fmt::format(
+        "{:.1f} cm^2 of its invented surface face sensors that had no return from there: "
+        "too dark, too shiny or transparent",
+        piece.no_return_area_m2 * 1e4));
   if (piece.detached > 0)
     object.notes.push_back(fmt::format(
         "{} part{} of it hang{} in the air: no frame shows what "
