@@ -3,6 +3,7 @@
 #include <turnscan/simulator/rendering/picture.hpp>
 
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/turning_picture.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 
@@ -14,28 +15,53 @@ class RenderCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positionals("MESH...", meshes_, "Meshes to show");
-    line.required_option("-o,--out", "PICTURE.png", out_, "Picture to write");
+    line.option("-o,--out", "PICTURE.png", out_, "Picture to write");
+    line.option(
+        "--turntable", "FILE.mp4|.png", turning_,
+        "Write the meshes as they turn: .png, an animation that browsers show, or .mp4, for "
+        "which the program ffmpeg must be installed");
     line.flag("--side-by-side", side_by_side_, "Show each mesh in a picture of its own, in a row");
     line.allow_config();
     line.group("picture", "Picture", describe(options_));
+    line.group("turn", "Turning picture, with --turntable", describe(turn_));
   }
 
-  FileRoles files() const override { return {meshes_, {out_}}; }
+  FileRoles files() const override { return {meshes_, {out_, turning_}}; }
 
   Result<> run(Session& session) override {
-    TURNSCAN_TRY(check_output_file(out_, ".png"));
+    TURNSCAN_TRY(check(session.context()));
     std::vector<TriangleMesh> meshes;
     for (const std::string& path : meshes_) {
       TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(path, {}, session.context()));
       meshes.push_back(std::move(mesh));
     }
-    TURNSCAN_ASSIGN(const ColorImage picture, draw(meshes, session.context()));
-    TURNSCAN_TRY(write_color_png(out_, picture));
-    session.print("Wrote {}\n", out_);
+    if (!out_.empty()) {
+      TURNSCAN_ASSIGN(const ColorImage picture, draw(meshes, session.context()));
+      TURNSCAN_TRY(write_color_png(out_, picture));
+      session.print("Wrote {}\n", out_);
+    }
+    if (!turning_.empty()) {
+      TURNSCAN_TRY(write_turning_picture(turning_, meshes, options_, turn_, session.context()));
+      session.print("Wrote {}\n", turning_);
+    }
     return {};
   }
 
  private:
+  Result<> check(const RunContext& context) const {
+    if (out_.empty() && turning_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "there is nothing to write; give -o PICTURE.png, --turntable FILE or both");
+    TURNSCAN_TRY(check_output_file(out_, ".png"));
+    if (turning_.empty()) return {};
+    if (side_by_side_ || options_.views != 1)
+      return fail(
+          ErrorCode::kInvalidOption,
+          "a turning picture has one view; leave --side-by-side and --picture-views out, or "
+          "--turntable");
+    return check_turning_picture(turning_, context);
+  }
+
   Result<ColorImage> draw(const std::vector<TriangleMesh>& meshes,
                           const RunContext& context) const {
     if (!side_by_side_) return render_picture(meshes, options_, context);
@@ -48,9 +74,10 @@ class RenderCommand : public Command {
   }
 
   std::vector<std::string> meshes_;
-  std::string out_;
+  std::string out_, turning_;
   bool side_by_side_ = false;
   PictureOptions options_;
+  TurnOptions turn_;
 };
 
 }  // namespace

@@ -70,6 +70,38 @@ TEST(Recorder, NumberOfThreadsDoesNotChangeTheBytes) {
   EXPECT_EQ(content_of(temp / "1/depth/000059.png"), content_of(temp / "5/depth/000059.png"));
 }
 
+TEST(Recorder, WritesJpegFilesOfTheQualityThatWasAskedFor) {
+  const TempFolder temp;
+  Frame frame = depth_frame(0);
+  frame.color = ColorImage(8, 6);
+  for (std::size_t i = 0; i < frame.color.pixels.size(); ++i)
+    frame.color.pixels[i] = {std::uint8_t(i * 37), std::uint8_t(i * 91), std::uint8_t(i * 53)};
+  std::vector<std::uintmax_t> sizes;
+  std::vector<double> errors;
+  for (const int quality : {10, 95}) {
+    RecorderOptions options = without_limit();
+    options.color = ColorFileFormat::kJpeg;
+    options.color_quality = quality;
+    const fs::path folder = temp / std::to_string(quality);
+    auto recorder = Recorder::create(folder, small_header(), {}, options);
+    ASSERT_TRUE(recorder) << recorder.error().text();
+    ASSERT_TRUE(recorder->put(frame));
+    ASSERT_TRUE(recorder->finish());
+    sizes.push_back(fs::file_size(folder / "color/000000.jpg"));
+    const ColorImage back = Recording::open(folder)->read(0)->color;
+    double error = 0.0;
+    for (std::size_t i = 0; i < back.pixels.size(); ++i)
+      error += std::abs(back.pixels[i].g - frame.color.pixels[i].g);
+    errors.push_back(error);
+  }
+  EXPECT_LT(sizes[0], sizes[1]);
+  EXPECT_GT(errors[0], 2.0 * errors[1]);
+  RecorderOptions none = without_limit();
+  none.color_quality = 0;
+  EXPECT_EQ(Recorder::create(temp / "r", small_header(), {}, none).error().code,
+            ErrorCode::kInvalidOption);
+}
+
 TEST(Recorder, WhatTheDiskCannotTakeBecomesDroppedLines) {
   const TempFolder temp;
   RecorderOptions options = without_limit();

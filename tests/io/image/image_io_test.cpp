@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <libdeflate.h>
 #include <png.h>
 
 #include <cmath>
 #include <turnscan/core/random.hpp>
+#include <turnscan/io/image/animated_png.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/image/jpeg_codec.hpp>
+#include <turnscan/io/image/png_codec.hpp>
 
 #include "tests/io/scarcity.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -316,6 +319,69 @@ TEST(ColorJpeg, HugeClaimIsRefused) {
 TEST(Color, ContentThatIsNoImageIsUnsupported) {
   EXPECT_EQ(decode_color("").error().code, ErrorCode::kUnsupported);
   EXPECT_EQ(decode_color("GIF89a").error().code, ErrorCode::kUnsupported);
+}
+
+/// Chunk by chunk: type and content.
+std::vector<std::pair<std::string, std::string>> chunks_of(const std::string& png) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    const auto size = std::size_t(image::big_endian_32(png, at));
+    out.emplace_back(png.substr(at + 4, 4), png.substr(at + 8, size));
+    at += size + 12;
+  }
+  return out;
+}
+
+/// The picture that its header and data make, as libpng reads them without looking at the sums.
+ColorImage image_of(const std::string& png, const std::string& header, const std::string& data) {
+  std::string plain = png.substr(0, 8);
+  for (const auto& [type, content] :
+       {std::pair<std::string, std::string>{"IHDR", header}, {"IDAT", data}, {"IEND", ""}}) {
+    for (const int shift : {24, 16, 8, 0}) plain.push_back(char(content.size() >> shift & 0xff));
+    plain += type + content;
+    const std::uint32_t sum =
+        libdeflate_crc32(0, plain.data() + plain.size() - content.size() - 4, content.size() + 4);
+    for (const int shift : {24, 16, 8, 0}) plain.push_back(char(sum >> shift & 0xff));
+  }
+  return decode_color(plain).value();
+}
+
+TEST(AnimatedPng, HoldsEveryImageAndShowsTheFirstWithoutAnimation) {
+  std::vector<ColorImage> images;
+  std::vector<std::string> packed;
+  for (int i = 0; i < 3; ++i) {
+    images.push_back(some_color(40, 30));
+    images.back().at(5 + i, 7) = {255, 0, 0};
+    packed.push_back(encode_color_png(images.back()).value());
+  }
+  const std::string png = animated_png(packed, 40).value();
+  EXPECT_EQ(decode_color(png)->pixels, images[0].pixels);  // libpng checks the sums
+  std::vector<std::string> data(3);
+  std::string header;
+  std::uint32_t sequence = 0;
+  std::size_t frame = 0;
+  for (const auto& [type, content] : chunks_of(png)) {
+    if (type == "IHDR") header = content;
+    if (type == "fcTL" || type == "fdAT") {
+      EXPECT_EQ(image::big_endian_32(content, 0), sequence++);
+    }
+    if (type == "fcTL") {
+      ++frame;
+      EXPECT_EQ(image::big_endian_32(content, 20), 40u << 16 | 1000u);
+    }
+    if (type == "IDAT") data[frame - 1] += content;
+    if (type == "fdAT") data[frame - 1] += content.substr(4);
+  }
+  ASSERT_EQ(frame, 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(image_of(png, header, data[i]).pixels, images[i].pixels) << i;
+}
+
+TEST(AnimatedPng, RefusesImagesOfSeveralSizes) {
+  const std::vector<std::string> packed{encode_color_png(some_color(4, 4)).value(),
+                                        encode_color_png(some_color(4, 5)).value()};
+  EXPECT_EQ(animated_png(packed, 40).error().code, ErrorCode::kFormat);
+  EXPECT_EQ(animated_png({}, 40).error().code, ErrorCode::kFormat);
 }
 
 TEST(Images, WritersRefuseAnImageThatDoesNotFitItsSize) {

@@ -1,7 +1,9 @@
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/implicit_mesh.hpp>
+#include <turnscan/simulator/objects/labelled_cylinder.hpp>
 
 #include "tests/simulator/shapes.hpp"
 
@@ -30,7 +32,7 @@ TEST(BuiltinObjects, AreClosedTwoManifoldOutwardOnThePlatterWithColoursAndAName)
     EXPECT_TRUE(test::one_ring_each(mesh)) << name;
     EXPECT_GT(test::volume_of(mesh), 0.0) << name;
     EXPECT_NEAR(bounds(mesh.vertices).min.y(), 0.0, 1e-6) << name;
-    EXPECT_EQ(mesh.colors.size(), mesh.vertices.size()) << name;
+    EXPECT_TRUE(mesh.colors.size() == mesh.vertices.size() || has_texture(mesh)) << name;
     EXPECT_EQ(mesh.name, name);
   }
 }
@@ -40,7 +42,8 @@ TEST(BuiltinObjects, NamesTheKnownOnesWhenAskedForAnother) {
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().code, ErrorCode::kNotFound);
   EXPECT_NE(
-      mesh.error().message.find("letter-a, cylinder, doll, scorpion, skull, ball, ball-bar, plate"),
+      mesh.error().message.find(
+          "letter-a, cylinder, labelled-cylinder, doll, scorpion, skull, ball, ball-bar, plate"),
       std::string::npos);
 }
 
@@ -68,6 +71,49 @@ TEST(Cylinder, HasItsDiameterHeightAndVolume) {
   const double n = SolidCylinder::segments;
   const double polygon = 0.5 * n * std::sin(2.0 * kPi / n) * 0.04 * 0.04;
   EXPECT_NEAR(test::volume_of(mesh), polygon * 0.16, 1e-9);
+}
+
+TEST(LabelledCylinder, IsTheCylinderWithItsTextReadableFromOutside) {
+  const TriangleMesh mesh = object("labelled-cylinder");
+  EXPECT_EQ(mesh.vertices, object("cylinder").vertices);
+  ASSERT_TRUE(has_texture(mesh));
+  /// Grey level at an angle from the front and a height, on the triangle that is there.
+  const auto level = [&](double angle, double y) {
+    const Vec3f p = Vec3d(0.04 * std::sin(angle), y, 0.04 * std::cos(angle)).cast<float>();
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& v = mesh.triangles[t];
+      const Vec3f a = mesh.vertices[v[0]], b = mesh.vertices[v[1]] - a, c = mesh.vertices[v[2]] - a;
+      const Vec3f n = b.cross(c), d = p - a;
+      const float over = 1.0f / n.squaredNorm();
+      const float u = d.cross(c).dot(n) * over, w = b.cross(d).dot(n) * over;
+      if (std::abs(d.dot(n.normalized())) < 1e-5f && u > -1e-4f && w > -1e-4f && u + w < 1.0001f)
+        return texture_at(mesh, t, u, w).mean();
+    }
+    return -1.0f;
+  };
+  for (const objects::LabelLine& line : objects::label_lines()) {
+    const double dot = line.cap_height_m / objects::kGlyphRows;
+    // Its first character, and the last one, dot by dot from the left and from the top.
+    for (const std::size_t i : {std::size_t(0), line.text.size() - 1}) {
+      const auto glyph = objects::glyph_of(line.text[i]);
+      for (int c = 0; c < objects::kGlyphColumns; c += 2)
+        for (int r = 0; r < objects::kGlyphRows; r += 3) {
+          const double x = (double(i) * objects::kGlyphAdvance + c + 0.5) * dot;
+          const double y = line.baseline_m + (objects::kGlyphRows - r - 0.5) * dot;
+          const bool inked = (glyph[std::size_t(c)] >> r & 1u) != 0;
+          EXPECT_EQ(level(line.angle_rad + x / 0.04, y) < 128.0f, inked)
+              << line.text[i] << ' ' << c << ' ' << r;
+        }
+    }
+  }
+}
+
+TEST(LabelledCylinder, HasAGlyphForEveryCharacterOfItsText) {
+  for (const objects::LabelLine& line : objects::label_lines())
+    for (const char character : line.text) {
+      const auto glyph = objects::glyph_of(character);
+      EXPECT_NE(glyph == decltype(glyph){}, character != ' ') << character;
+    }
 }
 
 TEST(Gauges, HaveTheirSizes) {

@@ -1,6 +1,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/rendering/picture.hpp>
+#include <turnscan/simulator/rendering/turning_picture.hpp>
 
 #include "tests/simulator/shapes.hpp"
 
@@ -72,6 +73,73 @@ TEST(Picture, PutsViewsSideBySide) {
   ASSERT_EQ(image.width, 360);
   for (int v = 0; v < 3; ++v)
     expect_framed(extent_of(image, 120 * v, 120 * (v + 1)), 120 * v, 120 * (v + 1), 100);
+}
+
+std::vector<ColorImage> turn_of(const std::vector<TriangleMesh>& meshes,
+                                const PictureOptions& options, int frames) {
+  std::vector<ColorImage> out;
+  const auto take = [&](ColorImage image) -> Result<> {
+    out.push_back(std::move(image));
+    return {};
+  };
+  EXPECT_TRUE(render_turn(meshes, options, {frames, 1.0}, take));
+  return out;
+}
+
+TEST(TurningPicture, KeepsTheCameraWhereItIsAndAllOfTheObjectInThePicture) {
+  TriangleMesh mesh = *builtin_object("plate");
+  for (Vec3f& p : mesh.vertices) p += Vec3f(3.0f, -2.0f, 1.0f);
+  int widest = 0, narrowest = 1000, tallest = 0, lowest = 1000;
+  for (const ColorImage& image : turn_of({mesh}, small(), 8)) {
+    const Extent e = extent_of(image);
+    EXPECT_GT(e.left, 0);
+    EXPECT_LT(e.right, 119);
+    EXPECT_GT(e.top, 0);
+    EXPECT_LT(e.bottom, 99);
+    widest = std::max(widest, e.right - e.left);
+    narrowest = std::min(narrowest, e.right - e.left);
+    tallest = std::max(tallest, e.bottom - e.top);
+    lowest = std::min(lowest, e.bottom - e.top);
+  }
+  EXPECT_GT(widest, 3 * narrowest);  // from its edge
+  EXPECT_LT(tallest, lowest * 1.3);  // which a camera that came nearer would fill the picture with
+}
+
+TEST(TurningPicture, TurnsCounterClockwiseSeenFromAbove) {
+  PictureOptions o = small();
+  o.azimuth_rad = 0.0;
+  // What is in front, towards +Z, goes to the right.
+  const TriangleMesh body = test::sphere_mesh({0, 0, 0}, 0.3, 12);
+  TriangleMesh mark = test::sphere_mesh({0, 0.0, 0.4}, 0.1, 12);
+  mark.colors.assign(mark.vertices.size(), Rgb{200, 0, 0});
+  std::vector<double> columns;
+  for (const ColorImage& image : turn_of({body, mark}, o, 6)) {
+    double sum = 0.0, n = 0.0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const Rgb c = image.at(x, y);
+        if (c.r > 2 * c.g + 20) sum += x, n += 1.0;
+      }
+    columns.push_back(n > 0.0 ? sum / n : 0.0);
+  }
+  EXPECT_NEAR(columns[0], 60.0, 2.0);
+  EXPECT_GT(columns[1], columns[0] + 5.0);
+  EXPECT_LT(columns[5], columns[0] - 5.0);
+}
+
+TEST(TurningPicture, EndsWhenItsTakerFails) {
+  int taken = 0;
+  const auto take = [&](const ColorImage&) -> Result<> {
+    if (++taken == 2) return fail(ErrorCode::kIo, "full");
+    return {};
+  };
+  const auto done = render_turn({}, small(), {8, 1.0}, take);
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kIo);
+  EXPECT_EQ(taken, 2);
+  PictureOptions two = small();
+  two.views = 2;
+  EXPECT_EQ(render_turn({}, two, {8, 1.0}, take).error().code, ErrorCode::kInvalidOption);
 }
 
 TEST(Picture, LooksAtTheFrontFromAzimuthZero) {

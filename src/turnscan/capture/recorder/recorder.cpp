@@ -12,6 +12,7 @@
 #include <thread>
 #include <turnscan/capture/recorder/recorder.hpp>
 #include <turnscan/core/guarded.hpp>
+#include <turnscan/io/image/image_io.hpp>
 
 namespace turnscan {
 
@@ -76,7 +77,9 @@ OptionTable describe(RecorderOptions& o) {
               "Stop before the disk has less free bytes than this")
       .choice("color-files", o.color, {"png", "jpeg"},
               "How colour images are written; PNG loses nothing. JPEG images of the source stay as "
-              "they are");
+              "they are")
+      .number("color-quality", o.color_quality, {1, 100},
+              "Quality of colour images that are written as JPEG");
   return table;
 }
 
@@ -107,6 +110,7 @@ struct Recorder::State {
 
   void run();
   bool work();
+  Result<std::string> write_files(Frame& frame) const;
   void fail_with(Error error);
   Result<> append_ready();
   Result<> look_at_disk(Clock::time_point now);
@@ -166,6 +170,16 @@ Result<> Recorder::State::append_ready() {
   return {};
 }
 
+Result<std::string> Recorder::State::write_files(Frame& frame) const {
+  const ColorImage& color = frame.color;
+  const bool whole =
+      !color.empty() && color.pixels.size() == std::size_t(color.width) * std::size_t(color.height);
+  if (options.color == ColorFileFormat::kJpeg && frame.color_jpeg.empty() && whole) {
+    TURNSCAN_ASSIGN(frame.color_jpeg, encode_color_jpeg(color, options.color_quality));
+  }
+  return writer.write_files(frame);
+}
+
 /// One frame. False: there will be no more.
 bool Recorder::State::work() {
   std::unique_lock lock(mutex);
@@ -180,7 +194,7 @@ bool Recorder::State::work() {
   lock.unlock();
   if (skip) return true;
   const double begin = thread_cpu_s();
-  auto line = writer.write_files(job.frame);
+  auto line = write_files(job.frame);
   const double used = thread_cpu_s() - begin;
   if (!line) {
     fail_with(std::move(line).error());

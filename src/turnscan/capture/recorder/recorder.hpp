@@ -14,8 +14,9 @@ struct RecorderOptions {
   int encoders = 2;               ///< threads that encode and write
   double min_free_bytes = 256e6;  ///< stop before the disk has less free space than this
   ColorFileFormat color = ColorFileFormat::kPng;
+  int color_quality = 92;  ///< of JPEG images, 1 to 100
 };
-/// Fields record-queue, record-threads, min-free, color-files.
+/// Fields record-queue, record-threads, min-free, color-files, color-quality.
 OptionTable describe(RecorderOptions& options);
 
 /// Counted since create().

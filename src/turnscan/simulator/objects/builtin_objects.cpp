@@ -5,6 +5,7 @@
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/doll.hpp>
 #include <turnscan/simulator/objects/gauges.hpp>
+#include <turnscan/simulator/objects/labelled_cylinder.hpp>
 #include <turnscan/simulator/objects/scorpion.hpp>
 #include <turnscan/simulator/objects/skull.hpp>
 
@@ -108,9 +109,13 @@ TriangleMesh make_cylinder() {
 }
 
 using Maker = Result<TriangleMesh> (*)(const RunContext&);
-constexpr std::array<std::pair<std::string_view, Maker>, 8> kObjects{
+constexpr std::array<std::pair<std::string_view, Maker>, 9> kObjects{
     {{"letter-a", [](const RunContext&) -> Result<TriangleMesh> { return make_letter(); }},
      {"cylinder", [](const RunContext&) -> Result<TriangleMesh> { return make_cylinder(); }},
+     {"labelled-cylinder",
+      [](const RunContext&) -> Result<TriangleMesh> {
+        return objects::make_labelled_cylinder(make_cylinder());
+      }},
      {"doll", objects::make_doll},
      {"scorpion", objects::make_scorpion},
      {"skull", objects::make_skull},

@@ -83,15 +83,16 @@ struct GaugePlate {
   static constexpr double thickness_m = 0.012;
 };
 
-/// "letter-a", "cylinder", "doll", "scorpion", "skull", and the gauges "ball", "ball-bar", "plate".
+/// "letter-a", "cylinder", "labelled-cylinder", "doll", "scorpion", "skull", and the gauges "ball",
+/// "ball-bar", "plate".
 std::vector<std::string> builtin_object_names();
 
 /// Whether it is an artefact to test a rig with (measure_artefact()), not an object.
 bool is_gauge(std::string_view name);
 
-/// The object of that name, with vertex colours. Takes up to about a second of a processor (doll,
-/// scorpion and skull). An unknown name fails with kNotFound and lists the known ones; fails with
-/// kCancelled.
+/// The object of that name, with vertex colours or, the labelled cylinder, a texture. Takes up to
+/// about a second of a processor (doll, scorpion and skull). An unknown name fails with kNotFound
+/// and lists the known ones; fails with kCancelled.
 Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context = {});
 
 /// The mesh turned by yaw_rad about +Y (counter-clockwise seen from above), then moved by (x, z).

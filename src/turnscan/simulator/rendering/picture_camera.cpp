@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/simulator/rendering/picture_camera.hpp>
 
 namespace turnscan::rendering {
@@ -58,6 +59,44 @@ PictureCamera camera_around(std::span<const Vec3f> points, double azimuth_rad, d
   }
   camera.eye = aim - std::max(f.distance / zoom, 1e-9) * camera.forward;
   return camera;
+}
+
+std::vector<Vec3f> swept_about(std::span<const Vec3f> points, const Vec3d& axis) {
+  constexpr std::size_t kRings = 256, kPerRing = 64;
+  float low = 1e30f, high = -1e30f;
+  for (const Vec3f& p : points) low = std::min(low, p.y()), high = std::max(high, p.y());
+  struct Ring {
+    float radius = -1.0f, low = 1e30f, high = -1e30f;
+  };
+  std::vector<Ring> rings(kRings);
+  const float step = std::max(high - low, 1e-30f) / float(kRings);
+  for (const Vec3f& p : points) {
+    Ring& ring = rings[std::min(kRings - 1, std::size_t((p.y() - low) / step))];
+    ring.radius =
+        std::max(ring.radius, std::hypot(p.x() - float(axis.x()), p.z() - float(axis.z())));
+    ring.low = std::min(ring.low, p.y()), ring.high = std::max(ring.high, p.y());
+  }
+  std::vector<Vec3f> out;
+  for (const Ring& ring : rings) {
+    if (ring.radius < 0.0f) continue;
+    for (std::size_t k = 0; k < kPerRing; ++k) {
+      const double angle = kTurn * double(k) / double(kPerRing);
+      const Vec3d side = axis + double(ring.radius) * Vec3d(std::sin(angle), 0.0, std::cos(angle));
+      out.emplace_back(float(side.x()), ring.low, float(side.z()));
+      out.emplace_back(float(side.x()), ring.high, float(side.z()));
+    }
+  }
+  return out;
+}
+
+PictureCamera turned_about(const PictureCamera& camera, const Vec3d& axis, double angle_rad) {
+  const Eigen::Matrix3d turn = rotation_about_y(angle_rad).linear();
+  PictureCamera out = camera;
+  out.eye = axis + turn * (camera.eye - axis);
+  out.right = turn * camera.right;
+  out.up = turn * camera.up;
+  out.forward = turn * camera.forward;
+  return out;
 }
 
 }  // namespace turnscan::rendering

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
 
 namespace turnscan::rendering {
 
@@ -23,5 +24,12 @@ struct PictureCamera {
 /// picture, centred, with a margin. zoom > 1 comes nearer.
 PictureCamera camera_around(std::span<const Vec3f> points, double azimuth_rad, double elevation_rad,
                             double field_of_view_rad, double aspect, double zoom);
+
+/// Points of the body that points cover as they turn about a vertical axis: rings, from the lowest
+/// to the highest.
+std::vector<Vec3f> swept_about(std::span<const Vec3f> points, const Vec3d& axis);
+
+/// The camera carried about that axis by an angle, counter-clockwise seen from above.
+PictureCamera turned_about(const PictureCamera& camera, const Vec3d& axis, double angle_rad);
 
 }  // namespace turnscan::rendering

@@ -1,0 +1,37 @@
+#pragma once
+// Meshes in their light, row by row of a picture.
+
+#include <span>
+#include <turnscan/simulator/rendering/picture.hpp>
+#include <turnscan/simulator/rendering/picture_camera.hpp>
+#include <turnscan/simulator/rendering/picture_surface.hpp>
+#include <turnscan/simulator/scene/scene.hpp>
+#include <vector>
+
+namespace turnscan::rendering {
+
+/// Meshes made ready for any number of pictures; refers to them.
+struct Subject {
+  Scene scene;
+  std::vector<PictureSurface> surfaces;
+  std::vector<Vec3f> points;  ///< vertices of triangles
+
+  /// Fails with kInvalidOption, and as Scene::create() does.
+  static Result<Subject> create(std::span<const TriangleMesh> meshes,
+                                const PictureOptions& options);
+};
+
+struct ViewSetup {
+  PictureCamera camera;
+  Vec3f to_light;
+};
+
+/// The key light, from the upper left of who looks from that azimuth.
+Vec3f light_for(double azimuth_rad);
+
+/// Paints a view of options.width columns into the image, from first_column on. view: of the random
+/// numbers of its soft shadows. Progress counts rows; a cancelled view is left unfinished.
+void paint_view(const Subject& subject, const PictureOptions& options, const ViewSetup& setup,
+                int view, std::size_t first_column, ColorImage& image, const RunContext& context);
+
+}  // namespace turnscan::rendering
