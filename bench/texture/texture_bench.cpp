@@ -1,17 +1,24 @@
-// texture_bench [MESH] [--only CASE] [--frames N] [--size PIXELS] [--depth-noise SIGMA] [--pictures
-// FOLDER]
+// texture_bench [MESH] [--only CASE,...] [--frames N] [--size PIXELS] [--depth-noise SIGMA]
+// [--width PIXELS] [--held-out N] [--white] [--true-shape] [--pictures FOLDER]
 //
 // Scans a painted object with a virtual depth camera and its colour camera (1920 x 1080, noise of 2
 // levels), reconstructs it with vertex colours and with a texture, and draws it anew as the colour
 // camera sees it from 20 directions in which no frame was taken. PSNR and SSIM over the object,
-// against the same pictures of the painted object itself, where both show it: once as it is, once
-// with an exposure that drifts by 20 %, once with a colour camera whose recorded place is wrong by
-// 0.5 deg and 5 mm.
+// against the same pictures of the painted object itself, where both show it, and what kinds of
+// places the squared error comes from. Cases: as-it-is; drift (exposure wanders by 20 %); misplaced
+// (the colour camera's recorded place is wrong by 0.5 deg and 5 mm); gloss (a lamp is mirrored);
+// lamp, albedo (six tenths of the light from one side, without and with --albedo). builtin:doll and
+// meshes are 0.2 m tall; objects with a texture of their own keep it and their size, and of
+// builtin:labelled-cylinder the text is read. --white: paints the object evenly, and prints how far
+// its colours are from even. --true-shape: textures the object itself, not what was reconstructed.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <map>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/sequence_views.hpp>
@@ -28,7 +35,9 @@
 #include <turnscan/turntable/rotation.hpp>
 
 #include "bench/texture/image_likeness.hpp"
+#include "bench/texture/label_reading.hpp"
 #include "bench/texture/painted.hpp"
+#include "bench/texture/pixel_kinds.hpp"
 
 using namespace turnscan;
 
@@ -37,10 +46,9 @@ namespace {
 struct Settings {
   std::string mesh = "builtin:doll", pictures, only, noise = "gaussian:1mm";
   int frames = 60;
-  int size = 0;
+  int size = 0, width = 1920, held_out = 20;
+  bool white = false, true_shape = false;
 };
-
-constexpr int kHeldOut = 20;
 
 VirtualScanOptions scan_of(const Settings& settings, const ScannerModel& scanner, double aim_m) {
   VirtualScanOptions o;
@@ -52,31 +60,58 @@ VirtualScanOptions scan_of(const Settings& settings, const ScannerModel& scanner
   o.motion.turns = 1.0;
   o.measure.noise = settings.noise;
   o.record.color = true;
-  o.color_camera.width = 1920;
-  o.color_camera.height = 1080;
+  o.color_camera.width = settings.width;
   o.color_camera.fov_y_rad = 42.0 / 57.29578;
   o.color_camera.noise = 2.0;
   return o;
 }
 
-/// Pictures of an object in the directions that are kept back, as the true colour camera sees them.
-Result<std::vector<ColorImage>> held_out(const std::vector<TriangleMesh>& objects,
-                                         VirtualScanOptions o, double first_angle_turns) {
-  o.motion.frames = kHeldOut;
+/// A scan in the directions that are kept back, as the true colour camera sees the objects.
+Result<VirtualScan> held_out_scan(const std::vector<TriangleMesh>& objects, VirtualScanOptions o,
+                                  int pictures, const Pose& T_turned_object) {
+  o.motion.frames = pictures;
   o.measure.noise = "none";
   o.platter.visible = false;
   o.color_camera.noise = o.color_camera.drift = o.color_camera.white_drift = 0.0;
   o.color_camera.vignetting = o.color_camera.gloss = o.color_camera.lamp = 0.0;
   std::vector<TriangleMesh> turned = objects;
   for (TriangleMesh& mesh : turned) {
-    const Pose T = rotation_about_y(first_angle_turns * 6.283185307179586);
-    for (Vec3f& p : mesh.vertices) p = (T * p.cast<double>()).cast<float>();
+    for (Vec3f& p : mesh.vertices) p = (T_turned_object * p.cast<double>()).cast<float>();
     mesh.normals.clear();
   }
-  TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create(std::move(turned), o));
-  std::vector<ColorImage> out(kHeldOut);
+  return VirtualScan::create(std::move(turned), o);
+}
+
+std::vector<ColorImage> pictures_of(const VirtualScan& scan) {
+  std::vector<ColorImage> out(scan.frames().size());
   parallel_for(out.size(), 1, [&](std::size_t i) { out[i] = scan.read(i)->color; });
   return out;
+}
+
+/// What is to be compared with.
+struct Truth {
+  VirtualScanOptions options;
+  Pose T_turned_object;
+  std::vector<ColorImage> pictures;
+  std::vector<Pose> T_object_camera;
+  std::vector<Image<bench::PixelKind>> kinds;
+};
+
+Result<Truth> truth_of(const Settings& settings, const TriangleMesh& object,
+                       const VirtualScanOptions& base) {
+  Truth truth{base, rotation_about_y(0.37 / settings.frames * 6.283185307179586), {}, {}, {}};
+  TURNSCAN_ASSIGN(const VirtualScan frames_scan, VirtualScan::create({object}, base));
+  std::vector<Vec3d> eyes;
+  for (const Pose& T : bench::color_cameras(frames_scan, base.color_camera))
+    eyes.push_back(truth.T_turned_object * T.translation());
+  TURNSCAN_ASSIGN(const VirtualScan scan,
+                  held_out_scan({object}, base, settings.held_out, truth.T_turned_object));
+  truth.pictures = pictures_of(scan);
+  for (const Pose& T : bench::color_cameras(scan, base.color_camera)) {
+    truth.kinds.push_back(bench::pixel_kinds(scan, base.color_camera, T, eyes));
+    truth.T_object_camera.push_back(truth.T_turned_object.inverse() * T);
+  }
+  return truth;
 }
 
 std::vector<std::uint8_t> object_mask(const ColorImage& image) {
@@ -97,31 +132,102 @@ ColorImage cropped(const ColorImage& image, const std::vector<std::uint8_t>& mas
   return out;
 }
 
+/// The squared error of the pixels of each kind.
+class ErrorShares {
+ public:
+  void add(const ColorImage& a, const ColorImage& b, const std::vector<std::uint8_t>& mask,
+           const Image<bench::PixelKind>& kinds) {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (mask[i] == 0) continue;
+      const auto kind = std::size_t(kinds.pixels[i]);
+      const Rgb p = a.pixels[i], q = b.pixels[i];
+      for (const int d : {p.r - q.r, p.g - q.g, p.b - q.b}) squared_[kind] += double(d * d);
+      pixels_[kind] += 1.0;
+    }
+  }
+  void print() const {
+    double squared = 0.0, pixels = 0.0;
+    for (std::size_t k = 1; k < squared_.size(); ++k) squared += squared_[k], pixels += pixels_[k];
+    fmt::print("    error");
+    const char* const names[] = {"", "rims", "unseen", "flat", "well seen"};
+    for (std::size_t k = 1; k < squared_.size(); ++k)
+      fmt::print("   {} {:.0f} % (of {:.1f} % of the pixels, {:.1f} dB)", names[k],
+                 100.0 * squared_[k] / squared, 100.0 * pixels_[k] / pixels,
+                 10.0 * std::log10(3.0 * 255.0 * 255.0 * pixels_[k] / std::max(1.0, squared_[k])));
+    fmt::print("\n");
+  }
+
+ private:
+  std::array<double, bench::kPixelKinds> squared_{}, pixels_{};
+};
+
+/// How far the luminances of an evenly painted object are from their median, linear light.
+class Evenness {
+ public:
+  void add(const ColorImage& image, const std::vector<std::uint8_t>& mask,
+           const Image<bench::PixelKind>& kinds) {
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (mask[i] != 0 && kinds.pixels[i] >= bench::PixelKind::kFlat)
+        light_.push_back(std::pow(double(image.pixels[i].g) / 255.0, 2.2));
+  }
+  void print() {
+    const double middle = median(light_);
+    double squared = 0.0;
+    for (double& value : light_) value = std::abs(value / middle - 1.0), squared += value * value;
+    std::sort(light_.begin(), light_.end());
+    fmt::print("    shading left: rms {:.1f} %, 95th percentile {:.1f} %\n",
+               100.0 * std::sqrt(squared / double(light_.size())),
+               100.0 * light_[light_.size() * 95 / 100]);
+  }
+
+ private:
+  std::vector<double> light_;
+};
+
 Result<> compare(const Settings& settings, const std::string& name, const TriangleMesh& mesh,
-                 const VirtualScanOptions& o, double first, const std::vector<ColorImage>& truth) {
-  TURNSCAN_ASSIGN(const auto pictures, held_out({mesh}, o, first));
+                 const Truth& truth) {
+  TURNSCAN_ASSIGN(const VirtualScan scan,
+                  held_out_scan({mesh}, truth.options, settings.held_out, truth.T_turned_object));
+  const auto pictures = pictures_of(scan);
   bench::Likeness all;
+  ErrorShares shares;
+  Evenness evenness;
+  std::map<double, bench::Reading> text;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    auto mask = object_mask(truth[i]);
+    auto mask = object_mask(truth.pictures[i]);
     const auto own = object_mask(pictures[i]);
     for (std::size_t k = 0; k < mask.size(); ++k) mask[k] &= own[k];
-    all.add(bench::likeness(truth[i], pictures[i], mask));
+    all.add(bench::likeness(truth.pictures[i], pictures[i], mask));
+    shares.add(truth.pictures[i], pictures[i], mask, truth.kinds[i]);
+    if (settings.white) evenness.add(pictures[i], mask, truth.kinds[i]);
+    if (settings.mesh == "builtin:labelled-cylinder")
+      for (const auto& [height, reading] :
+           bench::read_label(pictures[i], intrinsics_of(truth.options.color_camera),
+                             truth.T_object_camera[i].inverse()))
+        text[height].right += reading.right, text[height].all += reading.all;
     if (settings.pictures.empty() || i % 7 != 0) continue;
     const std::string file = fmt::format("{}/{}-{}.png", settings.pictures, name, i);
     TURNSCAN_TRY(write_color_png(file, cropped(pictures[i], mask)));
     TURNSCAN_TRY(write_color_png(fmt::format("{}/truth-{}.png", settings.pictures, i),
-                                 cropped(truth[i], mask)));
+                                 cropped(truth.pictures[i], mask)));
   }
   fmt::print("  {:32} PSNR {:5.2f} dB   SSIM {:.3f}\n", name, all.psnr_db(), all.ssim());
+  shares.print();
+  if (settings.white) evenness.print();
+  for (const auto& [height, reading] : text)
+    fmt::print("    text of {:4.1f} mm: {} of {} characters read\n", height * 1e3, reading.right,
+               reading.all);
   std::fflush(stdout);
   return {};
 }
 
-Result<> run_case(const Settings& settings, const std::string& name, TriangleMesh object,
-                  const VirtualScanOptions& o, const std::vector<ColorImage>& truth, double first) {
-  if (!settings.only.empty() && settings.only != name) return {};
+Result<> run_case(const Settings& settings, const std::string& name, const TriangleMesh& object,
+                  const VirtualScanOptions& o, const Truth& truth, bool albedo = false) {
+  if (!settings.only.empty() &&
+      ("," + settings.only + ",").find("," + name + ",") == std::string::npos)
+    return {};
   const auto start = std::chrono::steady_clock::now();
-  TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create({std::move(object)}, o));
+  TURNSCAN_ASSIGN(const VirtualScan scan, VirtualScan::create({object}, o));
   std::vector<Frame> frames(scan.frames().size());
   parallel_for(frames.size(), 1, [&](std::size_t i) { frames[i] = *scan.read(i); });
   const MemoryFrames recording(scan.header(), std::move(frames));
@@ -130,18 +236,22 @@ Result<> run_case(const Settings& settings, const std::string& name, TriangleMes
   options.color = true;
   TURNSCAN_ASSIGN(const Reconstruction plain, reconstruct(recording, options, {}, RunContext()));
   TriangleMesh mesh = plain.objects[0].mesh;
-  TURNSCAN_TRY(compare(settings, name + "-vertices", mesh, o, first, truth));
+  if (settings.true_shape)
+    mesh = object, mesh.texture.reset();
+  else
+    TURNSCAN_TRY(compare(settings, name + "-vertices", mesh, truth));
   TURNSCAN_ASSIGN(const FramePoses poses,
                   frame_poses(recording.header(), recording.frames(), std::nullopt));
   const auto views = texture::color_views(recording, poses.T_table_sensor, {}, std::nullopt);
   TextureOptions texture;
   texture.texture = true;
+  texture.albedo = albedo;
   if (settings.size > 0) texture.size_px = settings.size;
   const auto begun = std::chrono::steady_clock::now();
   TURNSCAN_ASSIGN(const TextureReport report,
                   texture::texture_mesh(recording, views, texture, mesh, RunContext()));
   const double textured = seconds_since(begun);
-  TURNSCAN_TRY(compare(settings, name + "-texture", mesh, o, first, truth));
+  TURNSCAN_TRY(compare(settings, name + "-texture", mesh, truth));
   fmt::print(
       "    {} triangles, {} charts, stretch {:.2f}, {} px of {:.3f} mm, filled {:.1f} %, one "
       "view {:.1f} %, views {}, off by {:.2f} px; simulated {:.1f} s, textured {:.1f} s\n",
@@ -158,8 +268,8 @@ Result<> run_case(const Settings& settings, const std::string& name, TriangleMes
   return {};
 }
 
-Result<> run(const Settings& settings) {
-  TURNSCAN_ASSIGN(const ScannerModel scanner, find_scanner("kinect-v2"));
+/// Stands on the platter, with a texture.
+Result<TriangleMesh> object_of(const Settings& settings) {
   TriangleMesh object;
   if (settings.mesh.starts_with("builtin:")) {
     TURNSCAN_ASSIGN(object, builtin_object(settings.mesh.substr(8)));
@@ -167,22 +277,40 @@ Result<> run(const Settings& settings) {
     TURNSCAN_ASSIGN(object, read_mesh(settings.mesh));
   }
   ObjectPlacement placement;
-  placement.height_m = 0.2;
+  if (!has_texture(object)) placement.height_m = 0.2;
   TURNSCAN_ASSIGN(PlacedObject placed, place_object(std::move(object), placement));
-  TURNSCAN_TRY(bench::paint(placed.mesh, 4096));
-  const Box box = bounds(placed.mesh.vertices);
-  const VirtualScanOptions base = scan_of(settings, scanner, box.center().y());
-  const double first = 0.37 / settings.frames;
-  TURNSCAN_ASSIGN(const auto truth, held_out({placed.mesh}, base, first));
+  if (settings.white) {
+    placed.mesh.texture.reset();
+    placed.mesh.colors.assign(placed.mesh.vertices.size(), Rgb{190, 190, 190});
+  } else if (!has_texture(placed.mesh)) {
+    TURNSCAN_TRY(bench::paint(placed.mesh, 4096));
+  }
+  return std::move(placed.mesh);
+}
+
+Result<> run(const Settings& settings) {
+  TURNSCAN_ASSIGN(const ScannerModel scanner, find_scanner("kinect-v2"));
+  TURNSCAN_ASSIGN(const TriangleMesh object, object_of(settings));
+  const VirtualScanOptions base = scan_of(settings, scanner, bounds(object.vertices).center().y());
+  TURNSCAN_ASSIGN(const Truth truth, truth_of(settings, object, base));
   fmt::print("{}, {} frames\n", settings.mesh, settings.frames);
-  TURNSCAN_TRY(run_case(settings, "as-it-is", placed.mesh, base, truth, first));
+  TURNSCAN_TRY(run_case(settings, "as-it-is", object, base, truth));
   VirtualScanOptions drift = base;
   drift.color_camera.drift = 0.2;
-  TURNSCAN_TRY(run_case(settings, "drift", placed.mesh, drift, truth, first));
+  TURNSCAN_TRY(run_case(settings, "drift", object, drift, truth));
   VirtualScanOptions wrong = base;
   wrong.color_camera.given_turn_rad = 0.5 / 57.29578;
   wrong.color_camera.given_shift_m = 0.005;
-  return run_case(settings, "misplaced", placed.mesh, wrong, truth, first);
+  TURNSCAN_TRY(run_case(settings, "misplaced", object, wrong, truth));
+  VirtualScanOptions glossy = base;
+  glossy.color_camera.gloss = 0.6;
+  TURNSCAN_TRY(run_case(settings, "gloss", object, glossy, truth));
+  VirtualScanOptions lamp = base;
+  lamp.color_camera.lamp = 0.6;
+  lamp.color_camera.lamp_azimuth_rad = 60.0 / 57.29578;
+  lamp.color_camera.lamp_elevation_rad = 30.0 / 57.29578;
+  TURNSCAN_TRY(run_case(settings, "lamp", object, lamp, truth));
+  return run_case(settings, "albedo", object, lamp, truth, true);
 }
 
 }  // namespace
@@ -194,8 +322,16 @@ int main(int argc, char** argv) {
     const bool more = i + 1 < argc;
     if (a == "--frames" && more)
       settings.frames = std::atoi(argv[++i]);
+    else if (a == "--true-shape")
+      settings.true_shape = true;
+    else if (a == "--white")
+      settings.white = true;
     else if (a == "--only" && more)
       settings.only = argv[++i];
+    else if (a == "--width" && more)
+      settings.width = std::atoi(argv[++i]);
+    else if (a == "--held-out" && more)
+      settings.held_out = std::atoi(argv[++i]);
     else if (a == "--size" && more)
       settings.size = std::atoi(argv[++i]);
     else if (a == "--depth-noise" && more)

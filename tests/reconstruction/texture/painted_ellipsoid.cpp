@@ -101,11 +101,12 @@ MemoryFrames ellipsoid_frames(const EllipsoidPictures& pictures) {
         const Eigen::Matrix3d to_sensor = frame.info.T_table_sensor->linear().transpose();
         const double shine =
             double(pictures.gloss(to_sensor * normal, to_sensor * -ray.normalized()));
-        const Vec3f color = pattern_at(p);
+        const Vec3f color = pictures.pattern(p);
+        const double lamp = double(pictures.lamp(to_sensor * normal));
         std::array<std::uint8_t, 3> bytes{};
         for (int c = 0; c < 3; ++c)
           bytes[std::size_t(c)] = std::uint8_t(std::clamp(
-              srgb(double(gain[c]) * linear(double(color[c]))) + shine + 0.5, 0.0, 255.0));
+              srgb(double(gain[c]) * lamp * linear(double(color[c]))) + shine + 0.5, 0.0, 255.0));
         frame.color.at(x, y) = {bytes[0], bytes[1], bytes[2]};
       }
     }

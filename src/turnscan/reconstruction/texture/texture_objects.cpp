@@ -17,7 +17,9 @@ namespace turnscan::texture {
 namespace {
 
 constexpr int kLeastSize_px = 256, kMostSize_px = 4096;  // chosen by itself
-constexpr double kTexelsPerPixel = 1.5;  // so that the texels blur nothing that the images show
+constexpr int kLightRounds = 3;
+constexpr double kLeastOfScale = 0.97;
+constexpr double kTexelsPerPixel = 2.0;  // so that the texels blur little that the images show
 
 double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& center) {
   std::vector<double> all;
@@ -26,11 +28,25 @@ double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& cente
   return median(all, 1000.0);
 }
 
-int size_for(const TriangleMesh& mesh, const TextureOptions& options, double texels_per_m) {
-  if (options.size_px) return *options.size_px / kBlock_px * kBlock_px;
-  const double side = expected_side_px(mesh, texels_per_m);
-  const int rounded = int(std::min(side / 256.0, 1000.0) + 1.0) * 256;
+int rounded_size(double side_px) {
+  const int rounded = int(std::min(side_px / 256.0, 1000.0) + 1.0) * 256;
   return std::clamp(rounded, kLeastSize_px, kMostSize_px);
+}
+
+/// In a picture of the size that was asked for, which is then used in full, or in the smallest that
+/// holds the finest texels that show more.
+Result<Atlas> atlas_for(const TriangleMesh& mesh, const TextureOptions& options,
+                        double texels_per_m, const RunContext& context) {
+  if (options.size_px)
+    return make_atlas(mesh, *options.size_px / kBlock_px * kBlock_px, 1e9, context);
+  int size = rounded_size(expected_side_px(mesh, texels_per_m));
+  for (;;) {
+    TURNSCAN_ASSIGN(Atlas atlas, make_atlas(mesh, size, texels_per_m, context));
+    const double share = atlas.texels_per_m / texels_per_m;
+    if (share > kLeastOfScale || size == kMostSize_px) return atlas;
+    // Charts of this mesh fill less than those of most.
+    size = std::min(kMostSize_px, std::max(size + 256, rounded_size(double(size) / share)));
+  }
 }
 
 /// From the object's frame to that in which lamps stand still: the table's at angle 0.
@@ -69,6 +85,28 @@ std::vector<std::array<float, kSlots>> shading_of(const FixedLight& light,
     out[b].fill(1.0f);
     for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
       out[b][k] = std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
+  }
+  return out;
+}
+
+BlockMeans without_shading(BlockMeans means,
+                           const std::vector<std::array<float, kSlots>>& shading) {
+  for (std::size_t b = 0; b < means.size(); ++b)
+    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] /= shading[b][k];
+  return means;
+}
+
+/// Light and exposure in turn: a lamp that stands still looks like an exposure that changes with
+/// the turn, and gains that were found without it would hide most of it.
+Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
+                        const std::vector<Vec3f>& normals,
+                        const std::vector<Eigen::Matrix3f>& rotation) {
+  Correction out;
+  out.gains.assign(rotation.size(), Vec3f::Ones());
+  for (int round = 0; round < kLightRounds; ++round) {
+    const FixedLight light = solve_light(chosen, means, out.gains, normals, rotation);
+    out.shading = shading_of(light, chosen, normals, rotation);
+    out.gains = solve_gains(chosen, without_shading(means, out.shading), rotation.size());
   }
   return out;
 }
@@ -135,10 +173,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   context.begin_phase("texture", 2 * views.size());
   if (options.refine_camera) TURNSCAN_TRY(refine_cameras(sequence, mesh, views, report, context));
   const double finest = kTexelsPerPixel * best_pixels_per_m(views, center);
-  const int size = size_for(mesh, options, finest);
-  // A size that was asked for is used in full.
-  TURNSCAN_ASSIGN(const Atlas atlas,
-                  make_atlas(mesh, size, options.size_px ? 1e9 : finest, context));
+  TURNSCAN_ASSIGN(const Atlas atlas, atlas_for(mesh, options, finest, context));
   const std::vector<Vec3f> vertex_normal = vertex_normals(mesh);
   const TexelBlocks blocks(mesh, atlas, vertex_normal);
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
@@ -146,14 +181,11 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
                   sample_views(sequence, mesh, blocks, views, chosen, context));
   const BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
-  correction.gains = solve_gains(chosen, means, views.size());
-  if (options.albedo) {
-    const std::vector<Vec3f> normals = block_normals(blocks);
-    const auto rotation = rig_rotations(sequence, views);
-    const FixedLight light = solve_light(chosen, means, correction.gains, normals, rotation);
-    correction.shading = shading_of(light, chosen, normals, rotation);
-    report.albedo = true;
-  }
+  if (options.albedo)
+    correction = without_lamp(chosen, means, block_normals(blocks), rig_rotations(sequence, views));
+  else
+    correction.gains = solve_gains(chosen, means, views.size());
+  report.albedo = options.albedo;
   TURNSCAN_ASSIGN(const Blended blended,
                   blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
   auto texture = std::make_shared<MeshTexture>();
