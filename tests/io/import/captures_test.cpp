@@ -156,6 +156,9 @@ TEST(Sens, ReadsDepthColourTimesAndCameras) {
   EXPECT_EQ(frame.depth.at(5, 3), 700 + 5 + 9 + 10);
   EXPECT_NEAR(frame.info.time_s, 0.033333, 1e-9);
   EXPECT_NEAR(frame.color.at(20, 20).g, 100, 3);
+  const std::string file = ::turnscan::testing::content_of(data("moved.sens"));
+  EXPECT_FALSE(frame.color_jpeg.empty());
+  EXPECT_NE(file.find(frame.color_jpeg), std::string::npos) << "byte for byte";
 }
 
 TEST(Sens, FramesWithoutAPoseAndGapsAreDropped) {
