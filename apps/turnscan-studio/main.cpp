@@ -3,6 +3,7 @@
 #include <turnscan/core/process/process_setup.hpp>
 #include <turnscan/core/version.hpp>
 
+#include "app/language.hpp"
 #include "app/program.hpp"
 #include "window/main_window.hpp"
 
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
   QApplication app(argc, argv);
   name_application();
   QApplication::setApplicationVersion(turnscan::version());
+  install_language(app, shown_language());
   QCommandLineParser parser;
   parser.setApplicationDescription("Scan, look at and simulate objects on a turntable.");
   parser.addHelpOption();

@@ -8,7 +8,12 @@
 #include <clocale>
 
 /// Of a static library, resources are only there when somebody asks for them, in no namespace.
-static void load_resources() { Q_INIT_RESOURCE(studio); }
+static void load_resources() {
+  Q_INIT_RESOURCE(studio);
+#ifdef TURNSCAN_STUDIO_TRANSLATED
+  Q_INIT_RESOURCE(translations);
+#endif
+}
 
 namespace turnscan::studio {
 

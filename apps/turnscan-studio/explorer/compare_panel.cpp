@@ -98,6 +98,8 @@ QLayout* ComparePanel::make_choice() {
       Q_EMIT changed();
     });
   }
+  reference_->setAccessibleName(tr("Reference"));
+  compared_->setAccessibleName(tr("Model"));
   grid->addWidget(new QLabel(tr("Reference"), this), 0, 0);
   grid->addWidget(reference_, 0, 1);
   grid->addWidget(new QLabel(tr("Model"), this), 1, 0);

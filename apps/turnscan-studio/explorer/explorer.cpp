@@ -15,6 +15,7 @@
 #include "explorer/inspection/section_panel.hpp"
 #include "explorer/inspection/tool_buttons.hpp"
 #include "explorer/loading.hpp"
+#include "explorer/looking/look_panel.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/session.hpp"
 #include "explorer/side_panel.hpp"
@@ -44,7 +45,9 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       tools_(new ToolButtons(view(), this)),
       side_(new SidePanel(this)),
       verdict_(new VerdictPanel(this)),
-      session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)) {
+      look_(new LookPanel(view(), *store_, this)),
+      session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)),
+      ask_unit_([this](const DoubtfulUnit& doubt) { return ask_unit(doubt, this); }) {
   const ExplorerParts parts{*store_, *list_, view(), jobs(), *tools_};
   deviations_ = new DeviationPanel(parts, this);
   measure_ = new MeasurePanel(
@@ -77,6 +80,7 @@ void ExplorerMode::add_sections() {
                         section_with(side_, tr("Another side"), true, this), inspection,
                         section_with(edits_, tr("Editing"), false, this),
                         section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
+                        section_with(look_, tr("Looking"), false, this),
                         section_with(stages_, tr("Processing"), true, this),
                         section_with(compare_, tr("Compare"), false, this)})
     panel()->addWidget(each);
@@ -104,6 +108,8 @@ void ExplorerMode::connect_panels() {
   connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
   connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
   connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
+  connect(look_, &LookPanel::isolation_changed, this, &ExplorerMode::sync);
+  connect(look_, &LookPanel::movie_wanted, this, &ExplorerMode::movie_dialog);
   connect(side_, &SidePanel::scan_wanted, this, [this] {
     const Model* model = store_->find(list_->selected());
     if (model && model->data->missing) Q_EMIT another_side_wanted(model->data->missing->side);
@@ -238,7 +244,9 @@ ItemStyle ExplorerMode::style_of(const Model& model) const {
   style.visible = model.visible;
   style.color = model.color;
   style.own_colors = model.own_colors || deviations_->drawable_of(model);
+  style.opacity = model.opacity;
   if (deviations_->hides(model.id)) style.visible = false;
+  if (look_->isolated() && model.id != list_->selected()) style.visible = false;
   if (compare_->way() == ComparePanel::kOff) return style;
   const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
   style.visible = left || right;
@@ -269,6 +277,8 @@ void ExplorerMode::on_selection(int id) {
   const Model* model = store_->find(id);
   side_->show_missing(model ? model->data->missing : nullptr);
   verdict_->show_quality(model ? model->data->quality : nullptr);
+  look_->show_model(id);
+  if (look_->isolated()) sync();
   draw_missing();
   if (model && model->data->quality && colored_.of != model->data) {
     color_selected();

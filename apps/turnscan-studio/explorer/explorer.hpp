@@ -6,6 +6,8 @@
 
 #include "app/mode.hpp"
 #include "explorer/models.hpp"
+#include "explorer/output/doubtful_unit.hpp"
+#include "explorer/output/export_model.hpp"
 #include "view/scene_view.hpp"
 
 namespace turnscan::studio {
@@ -13,6 +15,7 @@ namespace turnscan::studio {
 class ComparePanel;
 class DeviationPanel;
 class EditPanel;
+class LookPanel;
 class MeasurePanel;
 class ModelList;
 class SectionPanel;
@@ -39,6 +42,19 @@ class ExplorerMode : public Mode {
   void shut_down() override;
 
   void open_dialog();
+  /// How the selected model is to be exported, and where to.
+  void export_dialog();
+  void export_as(int id, const QString& path, const ExportOptions& options);
+  /// Reconstructs a recording after the jobs that wait, and writes its meshes into a folder, unless
+  /// that is empty. `done` is called unless it is cancelled; text: what it gave, or why not.
+  void reconstruct_queued(const QString& recording, const QString& folder,
+                          const std::function<void(bool good, const QString& text)>& done);
+  /// The title of that job.
+  static QString queue_title(const QString& recording);
+  /// Turns the view once; see TurntableMovie.
+  void make_movie(const QString& path, int frames);
+  /// Who says in which unit a file is that looks doubtful.
+  void set_unit_question(UnitQuestion question) { ask_unit_ = std::move(question); }
   /// Loads a recording and, when it is there, runs all stages.
   void take_recording(const QString& folder, bool reconstruct);
   void run_stage(const QString& stage);
@@ -65,7 +81,9 @@ class ExplorerMode : public Mode {
   void file_opened(const QString& path);
 
  private:
-  void load(const QString& path, const std::function<void()>& then);
+  void load(const QString& path, const std::function<void()>& then,
+            std::optional<double> metres_per_unit = std::nullopt);
+  void movie_dialog();
   void run_filter();
   void run_comparison();
   void add_sections();
@@ -90,6 +108,7 @@ class ExplorerMode : public Mode {
   EditPanel* edits_;
   SidePanel* side_;
   VerdictPanel* verdict_;
+  LookPanel* look_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;
@@ -99,7 +118,9 @@ class ExplorerMode : public Mode {
   int legend_model_ = 0;  ///< the legend is shown while this model is
   Legend legend_;
   std::map<int, Shown> shown_;  ///< by model
-  Shown missing_;               ///< what no view saw of the selected mesh
+  UnitQuestion ask_unit_;
+  std::vector<int> queued_results_;  ///< models
+  Shown missing_;                    ///< what no view saw of the selected mesh
   /// The selected mesh in the colours of a property.
   struct Colored {
     int item = 0;

@@ -40,16 +40,29 @@ Legend distance_legend(const QString& reference, const Comparison& made) {
 
 }  // namespace
 
-void ExplorerMode::load(const QString& path, const std::function<void()>& then) {
+void ExplorerMode::load(const QString& path, const std::function<void()>& then,
+                        std::optional<double> metres_per_unit) {
   stages_->show_error({});
   jobs().start(
       tr("Open %1").arg(QFileInfo(path).fileName()), this,
-      [this, path, then](const RunContext& context) -> Result<Finish> {
-        TURNSCAN_ASSIGN(NamedModels models, load_models(path.toStdString(), context));
-        return Finish([this, path, then, models = std::move(models)] {
+      [this, path, then, metres_per_unit](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(NamedModels models,
+                        load_models(path.toStdString(), context, metres_per_unit));
+        return Finish([this, path, then, metres_per_unit, models = std::move(models)] {
+          if (const auto doubt = doubtful_unit(path, models); doubt && !metres_per_unit) {
+            const double unit = ask_unit_(*doubt);
+            if (unit != doubt->metres_per_unit) return load(path, then, unit);
+          }
           for (const auto& model : models) store_->set_file(model.second, path);
           const auto ids = store_->add_all(models, tr("open %1").arg(QFileInfo(path).fileName()));
           list_->select(ids.back());
+          Box box;
+          for (const auto& [name, made] : models) {
+            if (box_of(*made->drawable).empty()) continue;
+            box.add(box_of(*made->drawable).min);
+            box.add(box_of(*made->drawable).max);
+          }
+          view().bring_into_view(box);
           Q_EMIT file_opened(path);
           if (then) then();
         });

@@ -1,6 +1,7 @@
 #include "explorer/loading.hpp"
 
 #include <filesystem>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
@@ -9,6 +10,7 @@
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
 
+#include "explorer/output/export_model.hpp"
 #include "widgets/text.hpp"
 
 namespace turnscan::studio {
@@ -29,15 +31,20 @@ QString mesh_report(const TriangleMesh& mesh) {
                                                  : QObject::tr("%1 pieces").arg(report.components))
                      .arg(text_of(bounds(mesh.vertices)))
                      .arg(report.area_m2 * 1e4, 0, 'f', 2);
+  if (has_texture(mesh))
+    text += QObject::tr("\nTexture of %1 × %2 texels")
+                .arg(mesh.texture->image.width)
+                .arg(mesh.texture->image.height);
   if (report.closed) text += QObject::tr(", volume %1 cm³").arg(report.volume_m3 * 1e6, 0, 'f', 2);
   return text + "\n" + QString::fromStdString(check_sentences(report));
 }
 
 QString cloud_report(const PointCloud& cloud) {
-  QString text =
-      QObject::tr("%1 points%2%3\n%4")
-          .arg(grouped(cloud.size()), cloud.normals.empty() ? "" : ", with normals",
-               cloud.colors.empty() ? "" : ", with colours", text_of(bounds(cloud.points)));
+  QString text = QObject::tr("%1 points%2%3\n%4")
+                     .arg(grouped(cloud.size()),
+                          cloud.normals.empty() ? QString() : QObject::tr(", with normals"),
+                          cloud.colors.empty() ? QString() : QObject::tr(", with colours"),
+                          text_of(bounds(cloud.points)));
   return text;
 }
 
@@ -103,7 +110,24 @@ Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& 
   return ModelDataPtr(std::move(data));
 }
 
-Result<NamedModels> load_models(const std::string& path, const RunContext& context) {
+namespace {
+
+/// Notes with what unit a file was read, where that was told.
+ModelDataPtr told_unit(const ModelDataPtr& data, std::optional<double> metres_per_unit) {
+  if (!metres_per_unit) return data;
+  auto told = std::make_shared<ModelData>(*data);
+  told->metres_per_unit = metres_per_unit;
+  return told;
+}
+
+void scale_cloud(PointCloud& cloud, double factor) {
+  for (Vec3f& p : cloud.points) p *= float(factor);
+}
+
+}  // namespace
+
+Result<NamedModels> load_models(const std::string& path, const RunContext& context,
+                                std::optional<double> metres_per_unit) {
   const fs::path file(path);
   TURNSCAN_TRY(file::check_exists(file, "file or folder"));
   std::error_code error;
@@ -127,10 +151,12 @@ Result<NamedModels> load_models(const std::string& path, const RunContext& conte
     TURNSCAN_ASSIGN(CloudFile cloud, read_cloud(file));
     TURNSCAN_TRY(context.check());
     context.begin_phase("prepare the view", 0);
-    return NamedModels{{name, cloud_model(std::move(cloud.cloud), source)}};
+    if (metres_per_unit) scale_cloud(cloud.cloud, *metres_per_unit);
+    return NamedModels{
+        {name, told_unit(cloud_model(std::move(cloud.cloud), source), metres_per_unit)}};
   };
   if (ending == ".pcd") return as_cloud();
-  auto meshes = read_meshes(file, {}, context);
+  auto meshes = read_meshes(file, {metres_per_unit}, context);
   if (!meshes && meshes.error().code == ErrorCode::kTooFewPoints && ending == ".ply")
     return as_cloud();
   if (!meshes) return tl::unexpected<Error>(meshes.error());
@@ -140,7 +166,7 @@ Result<NamedModels> load_models(const std::string& path, const RunContext& conte
     TURNSCAN_TRY(context.check());
     const bool named = !mesh.name.empty() && meshes->size() > 1;
     const QString title = named ? QString::fromStdString(mesh.name) : name;
-    out.emplace_back(title, mesh_model(std::move(mesh), source));
+    out.emplace_back(title, told_unit(mesh_model(std::move(mesh), source), metres_per_unit));
     context.advance();
   }
   return out;
@@ -149,6 +175,8 @@ Result<NamedModels> load_models(const std::string& path, const RunContext& conte
 Result<> save_model(const ModelData& data, const std::string& path) {
   switch (data.kind) {
     case ModelKind::kMesh:
+      if (has_texture(data.mesh) && !holds_textures(path))
+        return write_mesh(path, with_vertex_colors(data.mesh), data.confidence);
       return write_mesh(path, data.mesh, data.confidence);
     case ModelKind::kCloud:
       return write_cloud(path, data.cloud);

@@ -46,6 +46,7 @@ ModelList::ModelList(ModelStore& store, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   tree_->setObjectName("model_list");
+  tree_->setAccessibleName(tr("Models"));
   tree_->setHeaderHidden(true);
   tree_->setColumnCount(2);
   tree_->setRootIsDecorated(false);
@@ -57,6 +58,7 @@ ModelList::ModelList(ModelStore& store, QWidget* parent)
   tree_->setMinimumHeight(130);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   properties_->setObjectName("model_properties");
+  properties_->setAccessibleName(tr("Properties of the selected model"));
   properties_->setReadOnly(true);
   properties_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   properties_->setLineWrapMode(QPlainTextEdit::NoWrap);

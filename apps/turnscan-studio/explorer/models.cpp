@@ -22,8 +22,13 @@ QString count_text(const ModelData& data) {
     case ModelKind::kRecording:
       break;
   }
-  return QObject::tr("%1 frames")
-      .arg(grouped(data.recording ? data.recording->frames().size() : 0));
+  // Those that were written, as the Scanner counts, and those that were not.
+  std::size_t written = 0, dropped = 0;
+  if (data.recording)
+    for (const FrameInfo& info : data.recording->frames())
+      ++(info.status == FrameStatus::kDropped ? dropped : written);
+  const QString text = QObject::tr("%1 frames").arg(grouped(written));
+  return dropped == 0 ? text : QObject::tr("%1, %2 dropped").arg(text, grouped(dropped));
 }
 
 const Model* ModelStore::find(int id) const {
@@ -123,6 +128,15 @@ void ModelStore::set_color(int id, const QColor& color, bool own_colors) {
   Model* model = mutable_find(id);
   model->color = color;
   model->own_colors = own_colors;
+  Q_EMIT changed();
+}
+
+void ModelStore::set_opacity(int id, double opacity) {
+  const Model* model = find(id);
+  if (!model || model->opacity == opacity) return;
+  const QString what = tr("opacity of %1").arg(model->name);
+  if (undo_.empty() || undo_.back().what != what || !redo_.empty()) step(what);
+  mutable_find(id)->opacity = opacity;
   Q_EMIT changed();
 }
 

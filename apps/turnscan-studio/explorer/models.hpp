@@ -37,6 +37,7 @@ struct ModelData {
   std::vector<std::string> recording_notes;        ///< what is missing in it
   std::shared_ptr<const MissingSurface> missing;   ///< of a mesh; nullptr: not known
   std::shared_ptr<const ScanQuality> quality;      ///< of a mesh as the scan made it, or nullptr
+  std::optional<double> metres_per_unit;           ///< that its file was read with, if it was told
   QString source;                                  ///< file, or what was run to make it
   QString report;                                  ///< several lines for people
   DrawablePtr drawable;
@@ -50,6 +51,7 @@ struct Model {
   bool visible = true;
   QColor color;
   bool own_colors = true;
+  double opacity = 1.0;
 };
 
 /// "24 686 triangles", "12 345 points" or "920 frames"
@@ -76,6 +78,8 @@ class ModelStore : public QObject {
   void rename(int id, const QString& name);
   void set_visible(int id, bool visible);
   void set_color(int id, const QColor& color, bool own_colors);
+  /// Of several changes of one model in a row only the first is a step of undo.
+  void set_opacity(int id, double opacity);
   void set_data(int id, ModelDataPtr data, const QString& what);
   void duplicate(int id);
   void remove(int id);

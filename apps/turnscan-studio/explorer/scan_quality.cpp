@@ -6,6 +6,8 @@
 #include <turnscan/evaluation/colormap.hpp>
 #include <turnscan/workflow/page/page_fields.hpp>
 
+#include "explorer/looking/texture_views.hpp"
+
 namespace turnscan::studio {
 
 namespace {
@@ -13,6 +15,7 @@ namespace {
 constexpr Rgb kNotKnown{150, 150, 150};
 constexpr Rgb kMeasured{0, 114, 178}, kInvented{230, 159, 0};  // blue and orange of Okabe and Ito
 constexpr int kSteps = 4;
+const QString kViewWay = "texture-view";
 
 QColor to_qcolor(const Rgb& c) { return {c.r, c.g, c.b}; }
 
@@ -52,11 +55,14 @@ std::vector<ColorWay> color_ways(const ScanQuality& quality) {
     if (!field.values(object).empty())
       out.push_back({QString::fromStdString(field.id), QString::fromStdString(field.label)});
   }
+  if (quality.texture && !quality.texture->view_of_square.empty())
+    out.push_back({kViewWay, QObject::tr("View of each place")});
   return out;
 }
 
 ColoredMesh color_mesh(const ScanQuality& quality, const QString& way) {
   const PageObject& object = quality.page->objects.at(quality.object);
+  if (way == kViewWay && quality.texture) return color_by_view(object.mesh, *quality.texture);
   const auto fields = page::fields_of(quality.page->objects);
   const auto field = std::find_if(fields.begin(), fields.end(),
                                   [&](const page::Field& f) { return f.id == way.toStdString(); });

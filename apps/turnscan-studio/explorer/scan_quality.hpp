@@ -3,7 +3,7 @@
 
 #include <QString>
 #include <memory>
-#include <turnscan/reconstruction/verdict.hpp>
+#include <turnscan/reconstruction/result.hpp>
 #include <turnscan/workflow/page/page.hpp>
 #include <vector>
 
@@ -15,8 +15,9 @@ namespace turnscan::studio {
 /// Of a mesh as the scan made it; an edited one has none.
 struct ScanQuality {
   Verdict verdict;
-  std::shared_ptr<const PageInput> page;  ///< the report of the whole run
-  std::size_t object = 0;                 ///< of page, this mesh
+  std::shared_ptr<const PageInput> page;                   ///< the report of the whole run
+  std::size_t object = 0;                                  ///< of page, this mesh
+  std::shared_ptr<const TextureReport> texture = nullptr;  ///< of its texture; nullptr: none
 };
 
 /// A property of the vertices that a mesh can be coloured by.

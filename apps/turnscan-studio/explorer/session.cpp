@@ -9,6 +9,8 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QStandardPaths>
+#include <algorithm>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 
 namespace turnscan::studio {
@@ -22,13 +24,17 @@ QString lock_of(const QString& folder) { return folder + ".lock"; }
 
 QByteArray list_text(const std::vector<KeptModel>& models) {
   QJsonArray list;
-  for (const KeptModel& model : models)
-    list.append(QJsonObject{{"name", model.name},
-                            {"file", model.file},
-                            {"in_own_file", model.in_own_file},
-                            {"visible", model.visible},
-                            {"own_colors", model.own_colors},
-                            {"color", model.color.name()}});
+  for (const KeptModel& model : models) {
+    QJsonObject entry{{"name", model.name},
+                      {"file", model.file},
+                      {"in_own_file", model.in_own_file},
+                      {"visible", model.visible},
+                      {"own_colors", model.own_colors},
+                      {"color", model.color.name()},
+                      {"opacity", model.opacity}};
+    if (model.metres_per_unit) entry["metres_per_unit"] = *model.metres_per_unit;
+    list.append(entry);
+  }
   return QJsonDocument(QJsonObject{{"models", list}}).toJson();
 }
 
@@ -49,6 +55,9 @@ std::vector<KeptModel> read_list(const QString& folder) {
     model.visible = entry.value("visible").toBool(true);
     model.own_colors = entry.value("own_colors").toBool(true);
     model.color = QColor(entry.value("color").toString());
+    model.opacity = std::clamp(entry.value("opacity").toDouble(1.0), 0.0, 1.0);
+    if (const double unit = entry.value("metres_per_unit").toDouble(); unit > 0.0)
+      model.metres_per_unit = unit;
     out.push_back(model);
   }
   return out;
@@ -138,8 +147,14 @@ void SessionKeeper::write() {
   std::vector<std::pair<QString, ModelDataPtr>> files;
   std::map<QString, std::weak_ptr<const ModelData>> kept;
   for (const Model& model : store_.models()) {
-    KeptModel entry{model.name, store_.file_of(*model.data), true, model.visible, model.own_colors,
-                    model.color};
+    KeptModel entry{model.name,
+                    store_.file_of(*model.data),
+                    true,
+                    model.visible,
+                    model.own_colors,
+                    model.color,
+                    model.opacity,
+                    model.data->metres_per_unit};
     if (entry.file.isEmpty()) {
       entry.in_own_file = false;
       for (const auto& [file, data] : kept_)
@@ -147,7 +162,7 @@ void SessionKeeper::write() {
       if (entry.file.isEmpty()) {
         // PLY keeps the confidence of vertices, but no texture.
         entry.file =
-            QString("%1.%2").arg(next_file_++).arg(model.data->mesh.texture ? "glb" : "ply");
+            QString("%1.%2").arg(next_file_++).arg(has_texture(model.data->mesh) ? "glb" : "ply");
         files.emplace_back(entry.file, model.data);
       }
       kept.emplace(entry.file, model.data);
@@ -191,7 +206,7 @@ Result<RestoredModels> restore(const LostSession& lost, const RunContext& contex
   for (const KeptModel& entry : lost.models) {
     TURNSCAN_TRY(context.check());
     if (opened.count(entry.file) == 0) {
-      auto models = load_models(entry.file.toStdString(), context);
+      auto models = load_models(entry.file.toStdString(), context, entry.metres_per_unit);
       if (!models && models.error().code == ErrorCode::kCancelled)
         return tl::unexpected<Error>(models.error());
       opened[entry.file] = models ? std::move(*models) : NamedModels();
@@ -202,8 +217,8 @@ Result<RestoredModels> restore(const LostSession& lost, const RunContext& contex
       out.missing << entry.name;
       continue;
     }
-    out.models.push_back(
-        {0, entry.name, models[next].second, entry.visible, entry.color, entry.own_colors});
+    out.models.push_back({0, entry.name, models[next].second, entry.visible, entry.color,
+                          entry.own_colors, entry.opacity});
     out.files << (entry.in_own_file ? entry.file : QString());
   }
   return out;

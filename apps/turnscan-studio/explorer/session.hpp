@@ -19,6 +19,8 @@ struct KeptModel {
   bool in_own_file = false;  ///< a file of the person's; else one of the session's
   bool visible = true, own_colors = true;
   QColor color;
+  double opacity = 1.0;
+  std::optional<double> metres_per_unit = std::nullopt;  ///< of its own file, if it was told
 };
 
 /// What a session that did not end well has left.

@@ -30,7 +30,9 @@ const std::map<std::string, QString>& titles() {
                                                     {"refine", QObject::tr("Refinement")},
                                                     {"base", QObject::tr("Base")},
                                                     {"surface", QObject::tr("Mesh")},
-                                                    {"volumetric", QObject::tr("Volumetric mesh")}};
+                                                    {"volumetric", QObject::tr("Volumetric mesh")},
+                                                    {"finish", QObject::tr("Finish")},
+                                                    {"texture", QObject::tr("Texture")}};
   return names;
 }
 
@@ -103,8 +105,8 @@ QLayout* StagePanel::make_preset_buttons() {
 
 Section* StagePanel::make_section(const std::string& stage, OptionTable table) {
   const auto title = titles().find(stage);
-  auto* section = new Section(title == titles().end() ? title_of(stage) : title->second, false,
-                              this, Section::kNested);
+  auto* section = new Section(title == titles().end() ? translated_title(stage) : title->second,
+                              false, this, Section::kNested);
   section->setObjectName("stage:" + QString::fromStdString(stage));
   auto* form = new OptionForm(std::move(table), {}, section);
   section->body()->addWidget(form);

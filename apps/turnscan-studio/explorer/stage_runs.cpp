@@ -111,7 +111,9 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
     if (out.models.empty()) data->missing = missing;
     const std::size_t on_page = first_of_page + out.models.size();
     if (page && object.verdict)
-      data->quality = std::make_shared<ScanQuality>(ScanQuality{*object.verdict, page, on_page});
+      data->quality = std::make_shared<ScanQuality>(ScanQuality{
+          *object.verdict, page, on_page,
+          object.texture ? std::make_shared<const TextureReport>(*object.texture) : nullptr});
     out.models.emplace_back(name, std::move(data));
     context.advance();
   }
@@ -206,6 +208,7 @@ Result<StageRun> run_cloud(const Model& model, const std::string& stage, Reconst
   options.crop.enabled = false;
   options.outliers.enabled = options.merge.cloud_outliers;
   options.base.enabled = false;
+  options.texture.texture = false;  // there are no images
   const auto frames = sequence_of(model.data->cloud, model.data->viewpoints);
   return run_on(*frames, model, stage, std::move(options), note, context);
 }

@@ -49,6 +49,7 @@ MotorPanel::MotorPanel(QWidget* parent) : QWidget(parent), jobs_(new JobRunner(t
   layout->setSpacing(8);
   port_ = new QComboBox(this);
   port_->setObjectName("motor_port");
+  port_->setAccessibleName(tr("Port of the motor"));
   port_->setEditable(true);
   port_->setInsertPolicy(QComboBox::NoInsert);
   port_->setToolTip(tr("Serial port of the board that turns the table, e.g. /dev/ttyUSB0"));

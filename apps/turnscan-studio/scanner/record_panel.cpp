@@ -52,9 +52,11 @@ RecordPanel::RecordPanel(QWidget* parent)
   auto* row = new QHBoxLayout;
   folder_ = new QLineEdit(this);
   folder_->setObjectName("scanner_folder");
+  folder_->setAccessibleName(tr("Folder of the recording"));
   folder_->setToolTip(tr("Folder to make; a number is added where it has content"));
   folder_->setText(QSettings().value("scanner/folder", "~/recording").toString());
   auto* browse = button(tr("…"), tr("Choose the folder"), this);
+  browse->setAccessibleName(tr("Choose the folder"));
   row->addWidget(folder_, 1);
   row->addWidget(browse);
   layout->addLayout(row);
@@ -67,6 +69,7 @@ RecordPanel::RecordPanel(QWidget* parent)
   record_->setObjectName("record");
   record_->setEnabled(false);
   bar_ = new QProgressBar(footer_);
+  bar_->setAccessibleName(tr("Progress of the recording"));
   bar_->setRange(0, 1000);
   bar_->setTextVisible(false);
   bar_->setVisible(false);

@@ -73,6 +73,7 @@ void ScannerMode::build_device() {
   auto* section = new Section(tr("1  Device"), true, this);
   device_ = new QComboBox(section);
   device_->setObjectName("device");
+  device_->setAccessibleName(tr("Device"));
   device_->setEditable(true);
   device_->setInsertPolicy(QComboBox::NoInsert);
   device_->setToolTip(tr("A device of the list, or any URI, e.g. replay:FOLDER"));

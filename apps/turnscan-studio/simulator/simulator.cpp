@@ -59,8 +59,9 @@ void SimulatorMode::build_object() {
   auto* row = new QHBoxLayout;
   object_ = new QComboBox(section);
   object_->setObjectName("simulator_object");
+  object_->setAccessibleName(tr("Object to scan"));
   for (const std::string& name : builtin_object_names())
-    object_->addItem(title_of(name), QString::fromStdString("builtin:" + name));
+    object_->addItem(translated_title(name), QString::fromStdString("builtin:" + name));
   auto* open = button(tr("File…"), tr("Any mesh: PLY, STL, OBJ, OFF, 3MF, GLB, …"), section);
   row->addWidget(object_, 1);
   row->addWidget(open);
@@ -99,7 +100,8 @@ void SimulatorMode::build_options() {
   });
   for (SceneTable& table : describe(*scene_)) {
     if (table.name == "object" || table.name == "placement") continue;
-    auto* section = new Section(QString::fromStdString(table.title), false, all, Section::kNested);
+    auto* section =
+        new Section(translated(QString::fromStdString(table.title)), false, all, Section::kNested);
     auto* form = new OptionForm(std::move(table.options), {}, section);
     section->body()->addWidget(form);
     all->body()->addWidget(section);
@@ -119,8 +121,10 @@ void SimulatorMode::build_run() {
   auto* row = new QHBoxLayout;
   folder_ = new QLineEdit(section);
   folder_->setObjectName("simulator_folder");
+  folder_->setAccessibleName(tr("Folder of the recording"));
   folder_->setToolTip(tr("Folder to make for the recording; it must not exist or be empty"));
   auto* browse = button(tr("…"), tr("Choose the folder"), section);
+  browse->setAccessibleName(tr("Choose the folder"));
   row->addWidget(folder_, 1);
   row->addWidget(browse);
   run_ = primary_button(tr("Scan"), tr("Record the object with all scanners"), section);

@@ -121,7 +121,7 @@ class SimulatorMode : public Mode {
   QWidget* coverage_box_;
   MessageLabel* error_;
   std::vector<std::pair<QString, OptionForm*>> forms_;
-  int object_item_ = 0, table_item_ = 0, coverage_item_ = 0;
+  int object_item_ = 0, table_item_ = 0, coverage_item_ = 0, hole_item_ = 0;
   std::vector<std::string> steps_;  ///< of undo: the scene as TOML, oldest first
   int step_ = 0;
   std::vector<int> sample_items_;

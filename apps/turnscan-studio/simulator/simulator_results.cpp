@@ -23,14 +23,15 @@ namespace turnscan::studio {
 namespace {
 
 constexpr std::size_t kShownSamples = 600000;
+const QColor kHoleColor(0xff0090);
 constexpr double kSmallestShare = 5e-4;  // of the surface; a smaller reason gets no line
 
 /// "Missed  12.3 %"
 template <class Category>
 Legend::Entry share_entry(Category category, double percent) {
-  return {
-      to_color(color_of(category)),
-      QString("%1  %2 %").arg(title_of(std::string(name_of(category)))).arg(percent, 0, 'f', 1)};
+  return {to_color(color_of(category)), QString("%1  %2 %")
+                                            .arg(translated_title(std::string(name_of(category))))
+                                            .arg(percent, 0, 'f', 1)};
 }
 
 Legend state_legend(const CoverageMap& map) {
@@ -74,10 +75,12 @@ void SimulatorMode::build_coverage() {
   coverage_box_ = section;
   coloring_ = new QComboBox(section);
   coloring_->setObjectName("coverage_coloring");
+  coloring_->setAccessibleName(tr("What the colours show"));
   coloring_->addItems(
       {tr("Coverage"), tr("Density of samples"), tr("Why it was missed"), tr("The samples only")});
   holes_ = new QTableWidget(0, 3, section);
   holes_->setObjectName("holes");
+  holes_->setAccessibleName(tr("The largest holes"));
   holes_->setHorizontalHeaderLabels({tr("Hole"), tr("Size, mm"), tr("Reason")});
   holes_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   holes_->horizontalHeader()->setStretchLastSection(true);
@@ -148,7 +151,8 @@ void SimulatorMode::show_coloring(int index) {
   object.visible = samples;
   view().set_style(object_item_, object);
   view().remove(coverage_item_);
-  coverage_item_ = 0;
+  view().remove(hole_item_);
+  coverage_item_ = hole_item_ = 0;
   if (!samples) {
     ItemStyle style;
     style.boxed = false;
@@ -171,18 +175,23 @@ void SimulatorMode::fill_holes() {
                                  .arg(size.x(), 0, 'f', 0)
                                  .arg(size.y(), 0, 'f', 0)
                                  .arg(size.z(), 0, 'f', 0),
-                             title_of(std::string(name_of(hole.reason)))};
+                             translated_title(std::string(name_of(hole.reason)))};
     for (int c = 0; c < 3; ++c) holes_->setItem(int(i), c, new QTableWidgetItem(texts[c]));
   }
 }
 
+/// The camera looks along the normal of the hole's surface, which is drawn over the object.
 void SimulatorMode::fly_to_hole(int row) {
   if (!result_ || row < 0 || row >= int(result_->map.holes.size())) return;
   const CoverageHole& hole = result_->map.holes[std::size_t(row)];
-  const Vec3d at = result_->T_world_table * hole.center;
-  Vec3d outward = at - Vec3d(0.0, aim_height(), 0.0);
-  if (outward.norm() < 1e-6) outward = Vec3d::UnitZ();
-  view().fly_to(at, std::max(0.05, 2.5 * hole.size_m.norm()), outward);
+  const HoleSurface surface =
+      surface_of_hole(result_->map, std::size_t(row), result_->T_world_table);
+  view().remove(hole_item_);
+  ItemStyle style;
+  style.color = kHoleColor;
+  style.lit = style.boxed = style.in_view = false;
+  hole_item_ = view().add(make_drawable(surface.mesh, Shading::kFlat), style);
+  view().fly_to(surface.middle, std::max(0.05, 2.5 * hole.size_m.norm()), surface.from);
 }
 
 }  // namespace turnscan::studio

@@ -110,6 +110,7 @@ void SimulatorMode::build_scanners() {
   auto* section = new Section(tr("Scanners"), true, this);
   list_ = new QListWidget(section);
   list_->setObjectName("scanner_list");
+  list_->setAccessibleName(tr("Scanners"));
   list_->setFixedHeight(84);
   auto* row = new QHBoxLayout;
   auto* add = tool_button(tr("Add scanner"), tr("Matrix and line scanners from presets"), section);
@@ -159,7 +160,10 @@ void SimulatorMode::add_scanner(const QString& model) {
   draw_scanner(scanner);
   list_->setCurrentRow(list_->count() - 1);
   place_changed();
-  view().reset_camera();  // it may stand beside what was seen
+  // It may stand beside what is seen; else the camera stays where somebody has put it.
+  const Vec3d at = scanner_pose(scanner.placement, aim_height(), 0.5, Vec3d::UnitY()).translation();
+  const auto pixel = view().project(at);
+  if (!pixel || !QRectF(view().rect()).contains(*pixel)) view().reset_camera();
 }
 
 bool SimulatorMode::add_entry(const ScannerEntry& entry) {
@@ -218,7 +222,8 @@ void SimulatorMode::draw_rig() {
   // What was seen of another scene says nothing about this one.
   clear_samples();
   view().remove(coverage_item_);
-  coverage_item_ = 0;
+  view().remove(hole_item_);
+  coverage_item_ = hole_item_ = 0;
   view().set_legend(rig_legend());
   coverage_box_->setVisible(false);
   const bool first = table_item_ == 0;

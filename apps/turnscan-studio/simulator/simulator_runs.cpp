@@ -1,6 +1,7 @@
 #include "simulator/simulator_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/simulation/coverage_file.hpp>
@@ -108,31 +109,105 @@ Result<SimulationResult> simulate(const SceneDescription& scene, const std::stri
   return result;
 }
 
+namespace {
+
+/// Whether a ray meets a triangle beyond a start that clears the surface it begins on (Moeller and
+/// Trumbore 1997).
+bool meets(const Vec3d& origin, const Vec3d& direction, const std::array<Vec3f, 3>& corners) {
+  constexpr double kClear_m = 1e-3;
+  const Vec3d a = corners[0].cast<double>(), ab = corners[1].cast<double>() - a,
+              ac = corners[2].cast<double>() - a;
+  const Vec3d p = direction.cross(ac);
+  const double det = ab.dot(p);
+  if (std::abs(det) < 1e-18) return false;
+  const Vec3d s = origin - a;
+  const double u = s.dot(p) / det;
+  if (u < 0.0 || u > 1.0) return false;
+  const Vec3d q = s.cross(ab);
+  const double v = direction.dot(q) / det;
+  return v >= 0.0 && u + v <= 1.0 && ac.dot(q) / det > kClear_m;
+}
+
+/// The normal, and directions about it, the farther the later.
+std::vector<Vec3d> directions_about(const Vec3d& normal) {
+  std::vector<Vec3d> out{normal};
+  const Vec3d side = normal.unitOrthogonal();
+  constexpr int kAround = 12;
+  for (const double tilt_deg : {15.0, 30.0, 45.0, 60.0, 75.0})
+    for (int i = 0; i < kAround; ++i) {
+      const Vec3d axis = Eigen::AngleAxisd(2.0 * EIGEN_PI * i / kAround, normal) * side;
+      out.push_back(Eigen::AngleAxisd(tilt_deg * EIGEN_PI / 180.0, axis) * normal);
+    }
+  return out;
+}
+
+/// Table frame.
+Vec3d free_direction(const CoverageMap& map, const Vec3d& at, const Vec3d& normal) {
+  for (const Vec3d& direction : directions_about(normal)) {
+    const bool hidden =
+        std::any_of(map.patches.begin(), map.patches.end(),
+                    [&](const CoveragePatch& p) { return meets(at, direction, p.corners); });
+    if (!hidden) return direction;
+  }
+  return normal;
+}
+
+}  // namespace
+
+HoleSurface surface_of_hole(const CoverageMap& map, std::size_t hole, const Pose& T_world_table) {
+  constexpr float kOutside_m = 0.0003f;
+  HoleSurface out;
+  const Vec3d center = map.holes.at(hole).center;
+  Vec3d middle = center, normal = Vec3d::UnitZ();
+  double nearest = 1e300;
+  for (const CoveragePatch& patch : map.patches) {
+    if (map.cells[patch.cell].hole != hole) continue;
+    const auto& [a, b, c] = patch.corners;
+    const Vec3f doubled = (b - a).cross(c - a);
+    if (!(doubled.norm() > 0.0f)) continue;
+    const Vec3f unit = doubled.normalized();
+    const auto first = static_cast<std::uint32_t>(out.mesh.vertices.size());
+    for (const Vec3f& p : patch.corners)
+      out.mesh.vertices.push_back(
+          (T_world_table * (p + kOutside_m * unit).cast<double>()).cast<float>());
+    out.mesh.triangles.push_back({first, first + 1, first + 2});
+    const Vec3d at = ((a + b + c) / 3.0f).cast<double>();
+    if ((at - center).squaredNorm() >= nearest) continue;
+    nearest = (at - center).squaredNorm();
+    middle = at;
+    normal = unit.cast<double>();
+  }
+  out.middle = T_world_table * middle;
+  out.from = T_world_table.linear() * free_direction(map, middle, normal);
+  return out;
+}
+
 Rgb color_of(CoverageState state) {
+  // Of M. Okabe and K. Ito, "Color universal design" (2008): apart for everyone.
   switch (state) {
     case CoverageState::kCovered:
-      return {91, 168, 120};
+      return {86, 180, 233};
     case CoverageState::kThin:
-      return {226, 160, 60};
+      return {240, 228, 66};
     case CoverageState::kMissed:
-      return {204, 74, 66};
+      return {213, 94, 0};
     case CoverageState::kUnreachable:
       break;
   }
-  return {140, 146, 152};
+  return {90, 94, 100};
 }
 
 Rgb color_of(Miss reason) {
-  static constexpr std::array<Rgb, std::size_t(kMissCount)> colors{{{188, 200, 208},
-                                                                    {110, 110, 110},
-                                                                    {124, 92, 170},
-                                                                    {160, 130, 200},
-                                                                    {90, 140, 200},
-                                                                    {226, 122, 63},
-                                                                    {204, 74, 66},
-                                                                    {226, 190, 70},
-                                                                    {80, 70, 60},
-                                                                    {200, 110, 160}}};
+  static constexpr std::array<Rgb, std::size_t(kMissCount)> colors{{{196, 204, 210},
+                                                                    {110, 112, 116},
+                                                                    {0, 75, 135},
+                                                                    {86, 180, 233},
+                                                                    {0, 158, 115},
+                                                                    {230, 159, 0},
+                                                                    {213, 94, 0},
+                                                                    {240, 228, 66},
+                                                                    {40, 36, 32},
+                                                                    {204, 121, 167}}};
   return colors[static_cast<std::size_t>(reason)];
 }
 

@@ -38,6 +38,16 @@ Result<SimulationResult> simulate(const SceneDescription& scene, const std::stri
                                   const CoverageMapOptions& coverage, const SampleSink& sink,
                                   const RunContext& context);
 
+/// The surface of a hole of the map, a little outside so that it covers the object, and how to look
+/// at it. World frame.
+struct HoleSurface {
+  TriangleMesh mesh;
+  Vec3d middle = Vec3d::Zero();  ///< a place on it
+  /// Of the directions from which nothing hides that place the nearest to the surface's normal.
+  Vec3d from = Vec3d::UnitZ();
+};
+HoleSurface surface_of_hole(const CoverageMap& map, std::size_t hole, const Pose& T_world_table);
+
 /// Colours of the states and of the reasons, for meshes and legends.
 Rgb color_of(CoverageState state);
 Rgb color_of(Miss reason);

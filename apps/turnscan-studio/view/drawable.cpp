@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 
@@ -125,6 +126,36 @@ vtkSmartPointer<vtkPolyData> make_surface(const TriangleMesh& mesh) {
   return data;
 }
 
+/// Each vertex with its place in the picture; split where the picture has its seams, over which the
+/// normals of the mesh go on.
+vtkSmartPointer<vtkPolyData> make_textured(const TriangleMesh& mesh) {
+  const SplitMesh split = split_at_seams(mesh);
+  auto data = make_surface(split.mesh);
+  vtkNew<vtkFloatArray> places;
+  places->SetName("Places");
+  places->SetNumberOfComponents(2);
+  places->SetNumberOfTuples(vtkIdType(split.places.size()));
+  static_assert(sizeof(Eigen::Vector2f) == 2 * sizeof(float));
+  if (!split.places.empty())
+    std::memcpy(places->GetPointer(0), split.places.data(),
+                split.places.size() * sizeof(Eigen::Vector2f));
+  data->GetPointData()->SetTCoords(places);
+  return data;
+}
+
+/// Refers to the pixels. Rows from the top, as places count: (0, 0) is the upper left corner.
+vtkSmartPointer<vtkImageData> make_picture(const ColorImage& image) {
+  vtkNew<vtkUnsignedCharArray> pixels;
+  pixels->SetNumberOfComponents(3);
+  // It only reads them.
+  auto* first = const_cast<unsigned char*>(&image.pixels.front().r);
+  pixels->SetArray(first, vtkIdType(3 * image.pixels.size()), 1);
+  auto out = vtkSmartPointer<vtkImageData>::New();
+  out->SetDimensions(image.width, image.height, 1);
+  out->GetPointData()->SetScalars(pixels);
+  return out;
+}
+
 vtkSmartPointer<vtkPolyData> make_coarse(vtkPolyData* surface) {
   vtkNew<vtkQuadricClustering> clustering;
   clustering->SetInputData(surface);
@@ -140,17 +171,29 @@ vtkSmartPointer<vtkPolyData> make_coarse(vtkPolyData* surface) {
 
 }  // namespace
 
-DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading) {
+DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading, Texels texels) {
   auto out = std::make_shared<Drawable>();
   out->kind = DrawableKind::kMesh;
   out->box = bounds(mesh.vertices);
   out->points = mesh.vertices.size();
   out->colored = !mesh.colors.empty();
+  const bool textured =
+      shading == Shading::kSmooth && has_texture(mesh) && !mesh.texture->image.empty();
   const bool creases = mesh.normals.empty() && mesh.triangles.size() < kCreasesBelow;
-  out->chunks.push_back(make_surface(shading == Shading::kFlat ? exploded(mesh)
-                                     : creases                 ? split_at_creases(mesh, kCrease_rad)
-                                                               : mesh));
-  if (mesh.triangles.size() > kCoarseAbove) out->coarse = make_coarse(out->chunks.front());
+  TriangleMesh made = shading == Shading::kFlat ? exploded(mesh)
+                      : creases                 ? split_at_creases(mesh, kCrease_rad)
+                                                : mesh;
+  if (textured) {
+    if (made.normals.empty()) made.normals = vertex_normals(made);
+    out->texture = mesh.texture;
+    out->picture = make_picture(mesh.texture->image);
+    out->texels = texels;
+    out->chunks.push_back(make_textured(made));
+  } else {
+    out->chunks.push_back(make_surface(made));
+  }
+  if (mesh.triangles.size() > (textured ? kCoarseTexturedAbove : kCoarseAbove))
+    out->coarse = make_coarse(out->chunks.front());
   return out;
 }
 

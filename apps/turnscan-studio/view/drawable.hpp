@@ -28,8 +28,15 @@ enum class Shading {
   kFlat     ///< every face with a normal of its own
 };
 
-/// A mesh without triangles gives something that draws nothing.
-DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth);
+enum class Texels {
+  kBlended,  ///< a picture of something
+  kSquares   ///< each texel one colour: what it stands for must not be mixed
+};
+
+/// A mesh without triangles gives something that draws nothing. A texture that fits the mesh
+/// (has_texture()) is drawn, unless the shading is flat; the picture is shared, not copied.
+DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth,
+                          Texels texels = Texels::kBlended);
 /// spacing_m: how far its points lie apart; they are drawn so large that they touch. 0: not known,
 /// all are drawn in the view's point size.
 DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m = 0.0);

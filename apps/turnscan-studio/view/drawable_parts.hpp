@@ -1,8 +1,11 @@
 #pragma once
 // For the sources that talk to VTK.
 
+#include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+
+#include <turnscan/core/mesh_texture.hpp>
 
 #include "view/drawable.hpp"
 
@@ -22,10 +25,17 @@ struct Drawable {
   std::size_t points = 0;
   double spacing_m = 0.0;  ///< of a cloud whose points are to touch; else 0
   bool colored = false;
+  /// The texture's picture, whose pixels are those of `texture`; nullptr: none.
+  vtkSmartPointer<vtkImageData> picture;
+  std::shared_ptr<const MeshTexture> texture;
+  Texels texels = Texels::kBlended;
+
+  bool has_colors() const { return colored || picture; }
 };
 
 inline constexpr std::size_t kSmallChunks = 10, kSmallChunkPoints = 10000;
 inline constexpr std::size_t kChunkPoints = 40000;
-inline constexpr std::size_t kCoarseAbove = 150000;  ///< triangles
+inline constexpr std::size_t kCoarseAbove = 150000;           ///< triangles
+inline constexpr std::size_t kCoarseTexturedAbove = 1000000;  ///< the same, which loses the picture
 
 }  // namespace turnscan::studio

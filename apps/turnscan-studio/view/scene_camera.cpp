@@ -38,6 +38,35 @@ void SceneView::fit_unless_moved() {
   if (!parts_->touched) reset_camera();
 }
 
+bool SceneView::sees(const Box& box) const {
+  if (box.empty()) return true;
+  QRectF seen;
+  for (int i = 0; i < 8; ++i) {
+    const auto at = project(Vec3d((i & 1) != 0 ? box.max.x() : box.min.x(),
+                                  (i & 2) != 0 ? box.max.y() : box.min.y(),
+                                  (i & 4) != 0 ? box.max.z() : box.min.z()));
+    if (!at || !QRectF(rect()).contains(*at)) return false;
+    seen = seen.united(QRectF(*at, QSizeF(1e-3, 1e-3)));
+  }
+  constexpr double kLeastShare = 0.05;
+  return std::max(seen.width(), seen.height()) > kLeastShare * std::min(width(), height());
+}
+
+void SceneView::bring_into_view(const Box& box) {
+  if (!sees(box)) fly_to(box.center(), box.size().norm(), Vec3d::Zero());
+}
+
+void SceneView::turn(double angle_rad) {
+  Parts& p = *parts_;
+  Vec3d position, focus;
+  p.camera->GetPosition(position.data());
+  p.camera->GetFocalPoint(focus.data());
+  position = focus + Eigen::AngleAxisd(angle_rad, p.up.normalized()) * (position - focus);
+  p.camera->SetPosition(position.data());
+  p.camera->SetViewUp(p.up.data());
+  request_render();
+}
+
 void SceneView::Parts::aim(const Vec3d& center, double size_m, const Vec3d& from,
                            const QSize& pixels) {
   Vec3d position, focus;

@@ -39,6 +39,7 @@ void SceneView::draw_coarse() {
     renderer->PreserveDepthBufferOff();
     renderer->SetUseFXAA(!p.moving && p.pending.empty());
   }
+  p.set_up_passes(scene_box().size().norm());
   QElapsedTimer clock;
   clock.start();
   p.window->Render();
@@ -48,6 +49,24 @@ void SceneView::draw_coarse() {
   p.learn_from(ms);
   if (!p.moving && !p.pending.empty()) p.more.start(0);
   update_overlay();
+}
+
+/// What costs a software renderer much, only where it shows.
+void SceneView::Parts::set_up_passes(double scene_size_m) {
+  const bool translucent = std::any_of(items.begin(), items.end(), [](const auto& entry) {
+    return entry.second.style.visible && entry.second.style.opacity < 1.0;
+  });
+  for (auto& renderer : renderers) {
+    renderer->SetUseDepthPeeling(translucent);
+    renderer->SetMaximumNumberOfPeels(moving ? 2 : 6);
+    renderer->SetOcclusionRatio(0.0);
+    const bool shade = occlusion && !moving && pending.empty() && !translucent;
+    renderer->SetUseSSAO(shade);
+    renderer->SetSSAORadius(0.1 * scene_size_m);
+    renderer->SetSSAOBias(0.001 * scene_size_m);
+    renderer->SetSSAOKernelSize(64);
+    renderer->SSAOBlurOn();
+  }
 }
 
 /// A slow renderer gets fewer points the next time, a quick one more, if it was given many.
@@ -145,6 +164,7 @@ void SceneView::draw_rest() {
     renderer->PreserveColorBufferOn();
     renderer->PreserveDepthBufferOn();
     renderer->UseFXAAOff();
+    renderer->UseSSAOOff();
   }
   QElapsedTimer clock;
   clock.start();

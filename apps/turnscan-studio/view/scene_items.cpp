@@ -1,14 +1,67 @@
 // The items of the view: their actors, how they look, and their bounding boxes.
 
-#include <vtkMapper.h>
+#include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 
 #include "view/scene_view_parts.hpp"
 
 namespace turnscan::studio {
+
+namespace {
+
+constexpr const char* kNormalColors = "NormalColors";
+
+/// -1 to 1 becomes 0 to 255.
+void add_normal_colors(vtkPolyData& data) {
+  vtkDataArray* normals = data.GetPointData()->GetNormals();
+  if (!normals || data.GetPointData()->HasArray(kNormalColors)) return;
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName(kNormalColors);
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(normals->GetNumberOfTuples());
+  std::array<double, 3> n{};
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i) {
+    normals->GetTuple(i, n.data());
+    for (int c = 0; c < 3; ++c)
+      colors->SetTypedComponent(
+          i, c,
+          static_cast<unsigned char>(std::clamp(127.5 * (n[std::size_t(c)] + 1.0), 0.0, 255.0)));
+  }
+  data.GetPointData()->AddArray(colors);
+}
+
+void look_of_surface(SurfaceLook look, vtkActor& actor, vtkPolyDataMapper& mapper) {
+  vtkProperty* property = actor.GetProperty();
+  property->SetRepresentation(look == SurfaceLook::kWireframe ? VTK_WIREFRAME : VTK_SURFACE);
+  property->SetEdgeVisibility(look == SurfaceLook::kEdges);
+  property->SetEdgeColor(0.15, 0.2, 0.25);
+  if (look != SurfaceLook::kNormals) return;
+  add_normal_colors(*mapper.GetInput());
+  if (!mapper.GetInput()->GetPointData()->HasArray(kNormalColors)) return;
+  actor.SetTexture(nullptr);
+  property->LightingOff();
+  mapper.SetScalarModeToUsePointFieldData();
+  mapper.SelectColorArray(kNormalColors);
+  mapper.ScalarVisibilityOn();
+}
+
+vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable) {
+  if (!drawable.picture) return nullptr;
+  auto out = vtkSmartPointer<vtkTexture>::New();
+  const bool blended = drawable.texels == Texels::kBlended;
+  out->SetInputData(drawable.picture);
+  out->SetColorModeToDirectScalars();
+  out->SetInterpolate(blended);
+  out->SetMipmap(blended);
+  out->RepeatOn();
+  return out;
+}
+
+}  // namespace
 
 int SceneView::add(DrawablePtr drawable, const ItemStyle& style) {
   Parts& p = *parts_;
@@ -40,6 +93,7 @@ vtkActor* SceneView::actor_of(Item& item, std::size_t chunk) {
   mapper->StaticOn();
   if (parts_->clip_planes->GetNumberOfItems() > 0 && item.style.boxed)
     mapper->SetClippingPlanes(parts_->clip_planes);
+  if (!item.texture) item.texture = texture_of(*item.drawable);
   actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   style_actor(item, actor);
@@ -75,16 +129,24 @@ void SceneView::style_actor(const Item& item, vtkActor* actor) {
   Parts& p = *parts_;
   const ItemStyle& style = item.style;
   vtkProperty* property = actor->GetProperty();
-  property->SetColor(style.color.redF(), style.color.greenF(), style.color.blueF());
+  const bool mesh = item.drawable->kind == DrawableKind::kMesh;
+  const bool pictured = style.own_colors && item.drawable->picture;
+  const QColor color = pictured ? QColor(Qt::white) : style.color;
+  property->SetColor(color.redF(), color.greenF(), color.blueF());
   property->SetLineWidth(float(style.line_width * devicePixelRatioF()));
-  property->SetLighting(style.lit && item.drawable->kind == DrawableKind::kMesh);
+  property->SetLighting(style.lit && mesh);
   property->SetInterpolationToPhong();
-  property->SetAmbient(0.12);
-  property->SetDiffuse(0.85);
-  property->SetSpecular(0.12);
+  // A picture has its own light; little of the view's shows the shape.
+  property->SetAmbient(pictured ? 0.45 : 0.12);
+  property->SetDiffuse(pictured ? 0.55 : 0.85);
+  property->SetSpecular(pictured ? 0.0 : 0.12);
   property->SetSpecularPower(20.0);
   property->SetOpacity(style.opacity);
-  actor->GetMapper()->SetScalarVisibility(style.own_colors && item.drawable->colored);
+  actor->SetTexture(pictured ? item.texture : nullptr);
+  auto* mapper = static_cast<vtkPolyDataMapper*>(actor->GetMapper());
+  mapper->SetScalarModeToDefault();
+  mapper->SetScalarVisibility(style.own_colors && item.drawable->colored && !pictured);
+  look_of_surface(mesh && style.boxed ? p.look : SurfaceLook::kShaded, *actor, *mapper);
   const int pane = p.split && style.pane == 1 ? 1 : 0;
   p.renderers[std::size_t(1 - pane)]->RemoveActor(actor);
   if (!p.renderers[std::size_t(pane)]->HasViewProp(actor))

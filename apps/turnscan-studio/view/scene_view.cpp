@@ -168,12 +168,25 @@ void SceneView::set_up(const Vec3d& up) {
 }
 
 void SceneView::set_clip(const Vec3d& normal, double offset) {
+  parts_->tool_clip = {normal, offset};
+  update_clip();
+}
+
+void SceneView::set_view_clip(const Vec3d& normal, double offset) {
+  const Parts::ClipPlane wanted{normal, offset};
+  if (parts_->view_clip == wanted) return;
+  parts_->view_clip = wanted;
+  update_clip();
+}
+
+void SceneView::update_clip() {
   Parts& p = *parts_;
   p.clip_planes->RemoveAllItems();
-  if (!normal.isZero()) {
+  for (const Parts::ClipPlane& clip : {p.tool_clip, p.view_clip}) {
+    if (clip.normal.isZero()) continue;
     vtkNew<vtkPlane> plane;
-    const Vec3d origin = offset * normal / normal.squaredNorm();
-    plane->SetNormal(normal.data());
+    const Vec3d origin = clip.offset * clip.normal / clip.normal.squaredNorm();
+    plane->SetNormal(clip.normal.data());
     plane->SetOrigin(origin.data());
     p.clip_planes->AddItem(plane);
   }
@@ -183,6 +196,17 @@ void SceneView::set_clip(const Vec3d& normal, double offset) {
       if (actor) actor->GetMapper()->SetClippingPlanes(p.clip_planes);
     if (item.coarse) item.coarse->GetMapper()->SetClippingPlanes(p.clip_planes);
   }
+  request_render();
+}
+
+void SceneView::set_surface_look(SurfaceLook look) {
+  parts_->look = look;
+  for (auto& [id, item] : parts_->items) apply_style(item);
+  request_render();
+}
+
+void SceneView::set_ambient_occlusion(bool on) {
+  parts_->occlusion = on;
   request_render();
 }
 

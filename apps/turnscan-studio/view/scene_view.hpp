@@ -25,7 +25,7 @@ inline QColor to_color(const Rgb& c) { return {c.r, c.g, c.b}; }
 struct ItemStyle {
   bool visible = true;
   QColor color = QColor(0xb9c4cf);  ///< where the item has no colours of its own
-  bool own_colors = true;           ///< draw the colours that it has
+  bool own_colors = true;           ///< draw the colours, or the texture, that it has
   double opacity = 1.0;             ///< 0 to 1
   int pane = 0;                     ///< 1: on the right where the view is split
   double line_width = 1.5;
@@ -45,6 +45,14 @@ class ViewTool {
   virtual void release(const QPointF& /*at*/) {}
   virtual void paint(QPainter& /*painter*/) {}
   virtual QCursor cursor() const { return Qt::CrossCursor; }
+};
+
+/// How the surfaces of all models are drawn.
+enum class SurfaceLook {
+  kShaded,
+  kEdges,      ///< with the edges of its triangles
+  kWireframe,  ///< these alone
+  kNormals     ///< coloured by where it faces: x red, y green, z blue
 };
 
 enum class StandardView { kFront, kBack, kLeft, kRight, kTop, kBottom, kCorner };
@@ -98,9 +106,21 @@ class SceneView : public QWidget {
   void set_up(const Vec3d& up);
   /// A plane (normal . p >= offset is shown) that everything is cut by; normal 0: none.
   void set_clip(const Vec3d& normal, double offset);
+  /// The same, of another plane: that of a person who looks inside, beside that of a tool.
+  void set_view_clip(const Vec3d& normal, double offset);
+
+  void set_surface_look(SurfaceLook look);
+  /// Places that little light reaches are darker; off by itself while the view moves.
+  void set_ambient_occlusion(bool on);
 
   void reset_camera();
-  /// The same, unless somebody has moved the camera.
+  /// Whether all of a box is seen, and no smaller than a twentieth of the view.
+  bool sees(const Box& box) const;
+  /// The camera moves until it does, if it does not yet.
+  void bring_into_view(const Box& box);
+  /// Turns the camera about the vertical through its centre of rotation.
+  void turn(double angle_rad);
+  /// reset_camera(), unless somebody has moved the camera.
   void fit_unless_moved();
   void look(StandardView from);
   /// The camera moves to look at a point from a direction (0: as now), `size_m` filling the view.
@@ -157,6 +177,7 @@ class SceneView : public QWidget {
   void draw_rest();
   void apply_style(Item& item);
   void update_box(Item& item);
+  void update_clip();
   Box scene_box() const;
   void set_clipping_range();
   void paint_overlay(QPainter& painter);

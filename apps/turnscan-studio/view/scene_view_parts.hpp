@@ -9,6 +9,7 @@
 #include <vtkPlaneCollection.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTexture.h>
 
 #include <QPainter>
 #include <QTimer>
@@ -46,6 +47,7 @@ struct SceneView::Item {
   /// Of each chunk, made when it is first drawn: hundreds at once would be a pause that shows.
   std::vector<vtkSmartPointer<vtkActor>> actors;
   vtkSmartPointer<vtkActor> coarse, box;
+  vtkSmartPointer<vtkTexture> texture;  ///< made with the first actor
 };
 
 struct SceneView::Parts {
@@ -55,12 +57,19 @@ struct SceneView::Parts {
   std::array<vtkNew<vtkRenderer>, 2> renderers;
   vtkNew<vtkCamera> camera;
   vtkNew<vtkPlaneCollection> clip_planes;
+  struct ClipPlane {
+    Vec3d normal = Vec3d::Zero();
+    double offset = 0.0;
+    bool operator==(const ClipPlane&) const = default;
+  };
+  ClipPlane tool_clip, view_clip;
   std::map<int, Item> items;
   int next_item = 1;
 
   const Theme* theme = nullptr;
   double point_size = kPointSize, speed = 1.0;
-  bool boxes = false, split = false;
+  bool boxes = false, split = false, occlusion = false;
+  SurfaceLook look = SurfaceLook::kShaded;
   std::array<QString, 2> pane_titles;
   Legend legend;
   QString empty_title, empty_text, hint;
@@ -91,6 +100,7 @@ struct SceneView::Parts {
   void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
   void warm_up();
   void learn_from(double ms);
+  void set_up_passes(double scene_size_m);
   void size_points(Item& item, double ratio, double metres_per_pixel);
   void drop(Item& item) {
     for (auto& renderer : renderers) {
@@ -101,6 +111,7 @@ struct SceneView::Parts {
     }
     item.actors.clear();
     item.coarse = item.box = nullptr;
+    item.texture = nullptr;
     pending.clear();
   }
 };

@@ -108,8 +108,9 @@ double value_of(int step, double low, double high) {
   return low * std::pow(high / low, step / 100.0);
 }
 
-QSlider* slider(const QString& tip, const QString& name, QWidget* parent) {
+QSlider* slider(const QString& said, const QString& tip, const QString& name, QWidget* parent) {
   auto* made = new QSlider(Qt::Horizontal, parent);
+  made->setAccessibleName(said);
   made->setRange(0, 100);
   made->setToolTip(tip);
   made->setObjectName(name);
@@ -131,8 +132,9 @@ ViewPanel::ViewPanel(ViewSettings& settings, SceneView& view, QWidget* parent) :
   boxes->setToolTip(tr("Draw the box around each model (B)"));
   row->addWidget(boxes);
   grid->addLayout(row, 0, 0, 1, 4);
-  auto* speed = slider(tr("How fast mouse and keys move the camera"), "camera_speed", this);
-  auto* size = slider(tr("Size of points on the screen"), "point_size", this);
+  auto* speed = slider(tr("Camera speed"), tr("How fast mouse and keys move the camera"),
+                       "camera_speed", this);
+  auto* size = slider(tr("Point size"), tr("Size of points on the screen"), "point_size", this);
   grid->addWidget(new QLabel(tr("Camera speed"), this), 1, 0);
   grid->addWidget(speed, 1, 1);
   grid->addWidget(new QLabel(tr("Point size"), this), 1, 2);

@@ -71,11 +71,12 @@ void OptionForm::add_row(const OptionField& field) {
   row.editor = make_editor(index);
   row.editor->setObjectName("option:" + QString::fromStdString(field.name));
   row.editor->setToolTip(tip_of(field));
+  row.editor->setAccessibleName(translated_title(field.name));
   const int line = grid_->rowCount();
   if (field.is_flag) {
     grid_->addWidget(row.editor, line, 0, 1, 2);
   } else {
-    auto* label = new QLabel(title_of(field.name), this);
+    auto* label = new QLabel(translated_title(field.name), this);
     label->setToolTip(tip_of(field));
     label->setBuddy(row.editor);
     label->setWordWrap(true);
@@ -93,7 +94,7 @@ void OptionForm::add_row(const OptionField& field) {
 QWidget* OptionForm::make_editor(std::size_t index) {
   const OptionField& field = *rows_[index].field;
   if (field.is_flag) {
-    auto* box = new QCheckBox(title_of(field.name), this);
+    auto* box = new QCheckBox(translated_title(field.name), this);
     connect(box, &QCheckBox::toggled, this,
             [this, index](bool on) { take(index, on ? "true" : "false"); });
     return box;
@@ -190,7 +191,7 @@ void OptionForm::show_used(const QString& field, const QString& value, const QSt
   for (Row& row : rows_) {
     if (field != QString::fromStdString(row.field->name) || !row.field->may_be_auto) continue;
     auto* edit = static_cast<QLineEdit*>(row.editor);
-    edit->setPlaceholderText(tr("auto: %1").arg(value));
+    edit->setPlaceholderText(tr("auto: %1").arg(short_value(value)));
     edit->setToolTip(tip_of(*row.field) +
                      tr("<br><i>Last run: %1, %2</i>").arg(value, why.toHtmlEscaped()));
   }

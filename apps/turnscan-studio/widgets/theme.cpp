@@ -69,7 +69,7 @@ QPushButton#primary { background: %accent; color: %accent_text; border-color: %a
   font-weight: 600; padding: 6px 14px; }
 QPushButton#primary:disabled { background: %line; border-color: %line; color: %quiet; }
 QPushButton#secondary { padding: 6px 14px; }
-QPushButton#record { background: %error; color: white; border-color: %error; font-weight: 600;
+QPushButton#record { background: %error; color: %accent_text; border-color: %error; font-weight: 600;
   padding: 7px 14px; }
 QPushButton#record:disabled { background: %line; border-color: %line; color: %quiet; }
 QHeaderView::section { background: %panel; color: %quiet; border: none;
@@ -153,7 +153,7 @@ const Theme& light_theme() {
                            QColor(0xf8f9fb),
                            QColor(0xffffff),
                            QColor(0x1d2630),
-                           QColor(0x66717d),
+                           QColor(0x596470),
                            QColor(0xd5dbe1),
                            QColor(0x12708f),
                            QColor(0xffffff),

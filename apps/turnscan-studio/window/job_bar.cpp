@@ -35,6 +35,7 @@ JobBar::JobBar(JobRunner& jobs, QWidget* parent)
   bar_->setTextVisible(false);
   bar_->setFixedWidth(200);
   bar_->setObjectName("job_progress");
+  bar_->setAccessibleName(tr("Progress of the running job"));
   cancel_->setText(tr("Cancel"));
   cancel_->setObjectName("tool");
   cancel_->setToolTip(tr("Stop the running job (Esc)"));

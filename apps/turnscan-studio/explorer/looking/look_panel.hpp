@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+
+#include "view/scene_view.hpp"
+
+class QCheckBox;
+class QComboBox;
+class QPushButton;
+class QSlider;
+
+namespace turnscan::studio {
+
+class ModelStore;
+
+/// How the models are drawn: surfaces, opacity, isolation, a clipping plane, ambient occlusion.
+class LookPanel : public QWidget {
+  Q_OBJECT
+ public:
+  LookPanel(SceneView& view, ModelStore& store, QWidget* parent = nullptr);
+
+  /// Which model the opacity is of; 0: none.
+  void show_model(int id);
+  /// Whether only the selected model is shown.
+  bool isolated() const;
+
+ Q_SIGNALS:
+  void isolation_changed();
+  void movie_wanted();
+
+ private:
+  QWidget* make_clip_row();
+  void follow();
+  void clip();
+
+  QPointer<SceneView> view_;
+  ModelStore& store_;
+  int model_ = 0;
+  QComboBox *surface_, *axis_;
+  QSlider *opacity_, *place_;
+  QPushButton *isolate_, *flip_, *movie_;
+  QCheckBox* occlusion_;
+};
+
+}  // namespace turnscan::studio

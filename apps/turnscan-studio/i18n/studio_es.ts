@@ -1,0 +1,2993 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="es_ES" sourcelanguage="en">
+<context>
+    <name>Options</name>
+    <message>
+        <source>Aim height</source>
+        <translation>Altura de mira</translation>
+    </message>
+    <message>
+        <source>Aim x</source>
+        <translation>Mira x</translation>
+    </message>
+    <message>
+        <source>Aim z</source>
+        <translation>Mira z</translation>
+    </message>
+    <message>
+        <source>Albedo</source>
+        <translation>Albedo</translation>
+    </message>
+    <message>
+        <source>Align</source>
+        <translation>Alinear</translation>
+    </message>
+    <message>
+        <source>Alpha</source>
+        <translation>Alfa</translation>
+    </message>
+    <message>
+        <source>Angles</source>
+        <translation>Ángulos</translation>
+    </message>
+    <message>
+        <source>Average frames</source>
+        <translation>Fotogramas promediados</translation>
+    </message>
+    <message>
+        <source>Average share</source>
+        <translation>Parte del promedio</translation>
+    </message>
+    <message>
+        <source>Azimuth</source>
+        <translation>Acimut</translation>
+    </message>
+    <message>
+        <source>Base</source>
+        <translation>Base</translation>
+    </message>
+    <message>
+        <source>Border</source>
+        <translation>Borde</translation>
+    </message>
+    <message>
+        <source>Calibration</source>
+        <translation>Calibración</translation>
+    </message>
+    <message>
+        <source>Candidates</source>
+        <translation>Candidatos</translation>
+    </message>
+    <message>
+        <source>Cloud outliers</source>
+        <translation>Atípicos de la nube</translation>
+    </message>
+    <message>
+        <source>Clutter</source>
+        <translation>Trastos</translation>
+    </message>
+    <message>
+        <source>Color files</source>
+        <translation>Archivos de color</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>Color</translation>
+    </message>
+    <message>
+        <source>Colour drift</source>
+        <translation>Deriva del color</translation>
+    </message>
+    <message>
+        <source>Colour fov</source>
+        <translation>Campo de visión del color</translation>
+    </message>
+    <message>
+        <source>Colour given shift</source>
+        <translation>Desplazamiento indicado del color</translation>
+    </message>
+    <message>
+        <source>Colour given turn</source>
+        <translation>Giro indicado del color</translation>
+    </message>
+    <message>
+        <source>Colour gloss</source>
+        <translation>Brillo del color</translation>
+    </message>
+    <message>
+        <source>Colour height</source>
+        <translation>Alto del color</translation>
+    </message>
+    <message>
+        <source>Colour lamp</source>
+        <translation>Lámpara</translation>
+    </message>
+    <message>
+        <source>Colour lamp azimuth</source>
+        <translation>Acimut de la lámpara</translation>
+    </message>
+    <message>
+        <source>Colour lamp elevation</source>
+        <translation>Elevación de la lámpara</translation>
+    </message>
+    <message>
+        <source>Colour noise</source>
+        <translation>Ruido del color</translation>
+    </message>
+    <message>
+        <source>Colour pan</source>
+        <translation>Giro de la cámara de color</translation>
+    </message>
+    <message>
+        <source>Colour tilt</source>
+        <translation>Inclinación de la cámara de color</translation>
+    </message>
+    <message>
+        <source>Colour vignetting</source>
+        <translation>Viñeteado</translation>
+    </message>
+    <message>
+        <source>Colour white drift</source>
+        <translation>Deriva del blanco</translation>
+    </message>
+    <message>
+        <source>Colour width</source>
+        <translation>Ancho del color</translation>
+    </message>
+    <message>
+        <source>Colour x</source>
+        <translation>Cámara de color x</translation>
+    </message>
+    <message>
+        <source>Colour y</source>
+        <translation>Cámara de color y</translation>
+    </message>
+    <message>
+        <source>Colour z</source>
+        <translation>Cámara de color z</translation>
+    </message>
+    <message>
+        <source>Coverage cell</source>
+        <translation>Celda de cobertura</translation>
+    </message>
+    <message>
+        <source>Coverage holes</source>
+        <translation>Huecos de cobertura</translation>
+    </message>
+    <message>
+        <source>Coverage thin</source>
+        <translation>Cobertura escasa</translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation>Recorte</translation>
+    </message>
+    <message>
+        <source>Crop below</source>
+        <translation>Recorte por debajo</translation>
+    </message>
+    <message>
+        <source>Crop beyond</source>
+        <translation>Recorte por fuera</translation>
+    </message>
+    <message>
+        <source>Crop height</source>
+        <translation>Altura del recorte</translation>
+    </message>
+    <message>
+        <source>Crop margin</source>
+        <translation>Margen del recorte</translation>
+    </message>
+    <message>
+        <source>Crop radius</source>
+        <translation>Radio del recorte</translation>
+    </message>
+    <message>
+        <source>Cut plane</source>
+        <translation>Plano de corte</translation>
+    </message>
+    <message>
+        <source>Device timeout</source>
+        <translation>Espera del dispositivo</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Distancia</translation>
+    </message>
+    <message>
+        <source>Dropped</source>
+        <translation>Perdidos</translation>
+    </message>
+    <message>
+        <source>Edge fattening</source>
+        <translation>Engrosamiento de bordes</translation>
+    </message>
+    <message>
+        <source>Elevation</source>
+        <translation>Elevación</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Exposición</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Ajuste</translation>
+    </message>
+    <message>
+        <source>Fit iterations</source>
+        <translation>Iteraciones del ajuste</translation>
+    </message>
+    <message>
+        <source>Fit reach</source>
+        <translation>Alcance del ajuste</translation>
+    </message>
+    <message>
+        <source>Foot</source>
+        <translation>Pie</translation>
+    </message>
+    <message>
+        <source>Fps</source>
+        <translation>Fotogramas por segundo</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Fotogramas</translation>
+    </message>
+    <message>
+        <source>Gauge ball</source>
+        <translation>Bola patrón</translation>
+    </message>
+    <message>
+        <source>Halt</source>
+        <translation>Parada</translation>
+    </message>
+    <message>
+        <source>Halt at</source>
+        <translation>Momento de la parada</translation>
+    </message>
+    <message>
+        <source>Hand</source>
+        <translation>Mano</translation>
+    </message>
+    <message>
+        <source>Hand at</source>
+        <translation>Momento de la mano</translation>
+    </message>
+    <message>
+        <source>Hand direction</source>
+        <translation>Dirección de la mano</translation>
+    </message>
+    <message>
+        <source>Hand height</source>
+        <translation>Altura de la mano</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Altura</translation>
+    </message>
+    <message>
+        <source>Hole size</source>
+        <translation>Tamaño de huecos</translation>
+    </message>
+    <message>
+        <source>Holes</source>
+        <translation>Huecos</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Conservar</translation>
+    </message>
+    <message>
+        <source>Keep box</source>
+        <translation>Conservar la caja</translation>
+    </message>
+    <message>
+        <source>Knock</source>
+        <translation>Golpe</translation>
+    </message>
+    <message>
+        <source>Knock at</source>
+        <translation>Momento del golpe</translation>
+    </message>
+    <message>
+        <source>Knock direction</source>
+        <translation>Dirección del golpe</translation>
+    </message>
+    <message>
+        <source>Knock pan</source>
+        <translation>Giro por el golpe</translation>
+    </message>
+    <message>
+        <source>Knock tilt</source>
+        <translation>Inclinación por el golpe</translation>
+    </message>
+    <message>
+        <source>Lean</source>
+        <translation>Inclinación</translation>
+    </message>
+    <message>
+        <source>Live height</source>
+        <translation>Altura en directo</translation>
+    </message>
+    <message>
+        <source>Live inset</source>
+        <translation>Retranqueo en directo</translation>
+    </message>
+    <message>
+        <source>Live margin</source>
+        <translation>Margen en directo</translation>
+    </message>
+    <message>
+        <source>Mark invented</source>
+        <translation>Marcar lo inventado</translation>
+    </message>
+    <message>
+        <source>Max error</source>
+        <translation>Error máximo</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Método</translation>
+    </message>
+    <message>
+        <source>Min free</source>
+        <translation>Mínimo libre (bytes)</translation>
+    </message>
+    <message>
+        <source>Min object share</source>
+        <translation>Parte mínima de un objeto</translation>
+    </message>
+    <message>
+        <source>Mixed pixels</source>
+        <translation>Píxeles mixtos</translation>
+    </message>
+    <message>
+        <source>Mixed reach</source>
+        <translation>Alcance de píxeles mixtos</translation>
+    </message>
+    <message>
+        <source>Motion angle sigma</source>
+        <translation>Sigma del ángulo</translation>
+    </message>
+    <message>
+        <source>Motion angles</source>
+        <translation>Ángulos por movimiento</translation>
+    </message>
+    <message>
+        <source>Motion keys</source>
+        <translation>Claves del movimiento</translation>
+    </message>
+    <message>
+        <source>Motion table</source>
+        <translation>Mesa por movimiento</translation>
+    </message>
+    <message>
+        <source>Motor baud</source>
+        <translation>Baudios del motor</translation>
+    </message>
+    <message>
+        <source>Motor boot</source>
+        <translation>Arranque del motor</translation>
+    </message>
+    <message>
+        <source>Motor max speed</source>
+        <translation>Velocidad máxima del motor</translation>
+    </message>
+    <message>
+        <source>Motor protocol</source>
+        <translation>Protocolo del motor</translation>
+    </message>
+    <message>
+        <source>Motor reversed</source>
+        <translation>Motor invertido</translation>
+    </message>
+    <message>
+        <source>Motor timeout</source>
+        <translation>Espera del motor</translation>
+    </message>
+    <message>
+        <source>Motor units</source>
+        <translation>Unidades del motor</translation>
+    </message>
+    <message>
+        <source>Noise</source>
+        <translation>Ruido</translation>
+    </message>
+    <message>
+        <source>Noise window</source>
+        <translation>Ventana del ruido</translation>
+    </message>
+    <message>
+        <source>Normal radius</source>
+        <translation>Radio de las normales</translation>
+    </message>
+    <message>
+        <source>Object gap</source>
+        <translation>Separación entre objetos</translation>
+    </message>
+    <message>
+        <source>Object move</source>
+        <translation>Desplazamiento del objeto</translation>
+    </message>
+    <message>
+        <source>Object move at</source>
+        <translation>Momento del desplazamiento</translation>
+    </message>
+    <message>
+        <source>Object move direction</source>
+        <translation>Dirección del desplazamiento</translation>
+    </message>
+    <message>
+        <source>Object move tip</source>
+        <translation>Vuelco del desplazamiento</translation>
+    </message>
+    <message>
+        <source>Object move turn</source>
+        <translation>Giro del desplazamiento</translation>
+    </message>
+    <message>
+        <source>Object x</source>
+        <translation>Objeto x</translation>
+    </message>
+    <message>
+        <source>Object z</source>
+        <translation>Objeto z</translation>
+    </message>
+    <message>
+        <source>Only object</source>
+        <translation>Solo el objeto</translation>
+    </message>
+    <message>
+        <source>Outlier k</source>
+        <translation>Vecinos de atípicos</translation>
+    </message>
+    <message>
+        <source>Outlier lambda</source>
+        <translation>Lambda de atípicos</translation>
+    </message>
+    <message>
+        <source>Outliers</source>
+        <translation>Atípicos</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Solape</translation>
+    </message>
+    <message>
+        <source>Pass</source>
+        <translation>Pasada</translation>
+    </message>
+    <message>
+        <source>Platter</source>
+        <translation>Plato</translation>
+    </message>
+    <message>
+        <source>Platter confidence</source>
+        <translation>Confianza del plato</translation>
+    </message>
+    <message>
+        <source>Platter max radius</source>
+        <translation>Radio máximo del plato</translation>
+    </message>
+    <message>
+        <source>Platter min radius</source>
+        <translation>Radio mínimo del plato</translation>
+    </message>
+    <message>
+        <source>Platter radius</source>
+        <translation>Radio del plato</translation>
+    </message>
+    <message>
+        <source>Platter rim</source>
+        <translation>Borde del plato</translation>
+    </message>
+    <message>
+        <source>Platter thickness</source>
+        <translation>Grosor del plato</translation>
+    </message>
+    <message>
+        <source>Poisson depth</source>
+        <translation>Profundidad de Poisson</translation>
+    </message>
+    <message>
+        <source>Poisson point weight</source>
+        <translation>Peso de puntos de Poisson</translation>
+    </message>
+    <message>
+        <source>Poisson samples</source>
+        <translation>Muestras de Poisson</translation>
+    </message>
+    <message>
+        <source>Poisson scale</source>
+        <translation>Escala de Poisson</translation>
+    </message>
+    <message>
+        <source>Record queue</source>
+        <translation>Cola de grabación</translation>
+    </message>
+    <message>
+        <source>Record threads</source>
+        <translation>Hilos de grabación</translation>
+    </message>
+    <message>
+        <source>Refine</source>
+        <translation>Refinar</translation>
+    </message>
+    <message>
+        <source>Refine colour camera</source>
+        <translation>Refinar la cámara de color</translation>
+    </message>
+    <message>
+        <source>Refine iterations</source>
+        <translation>Iteraciones del refinamiento</translation>
+    </message>
+    <message>
+        <source>Refine radius</source>
+        <translation>Radio del refinamiento</translation>
+    </message>
+    <message>
+        <source>Repair</source>
+        <translation>Reparar</translation>
+    </message>
+    <message>
+        <source>Ripple</source>
+        <translation>Rizado</translation>
+    </message>
+    <message>
+        <source>Ripple cycles</source>
+        <translation>Ciclos del rizado</translation>
+    </message>
+    <message>
+        <source>Roll</source>
+        <translation>Alabeo</translation>
+    </message>
+    <message>
+        <source>Room</source>
+        <translation>Habitación</translation>
+    </message>
+    <message>
+        <source>Runout</source>
+        <translation>Descentrado</translation>
+    </message>
+    <message>
+        <source>Runout cycles</source>
+        <translation>Ciclos del descentrado</translation>
+    </message>
+    <message>
+        <source>Sample seed</source>
+        <translation>Semilla de muestras</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>Muestras</translation>
+    </message>
+    <message>
+        <source>Scan colour</source>
+        <translation>Escanear color</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>Segundos</translation>
+    </message>
+    <message>
+        <source>Seed</source>
+        <translation>Semilla</translation>
+    </message>
+    <message>
+        <source>Settle</source>
+        <translation>Reposo</translation>
+    </message>
+    <message>
+        <source>Sharpen</source>
+        <translation>Enfocar</translation>
+    </message>
+    <message>
+        <source>Slip</source>
+        <translation>Deslizamiento</translation>
+    </message>
+    <message>
+        <source>Slip at</source>
+        <translation>Momento del deslizamiento</translation>
+    </message>
+    <message>
+        <source>Smallest part</source>
+        <translation>Parte más pequeña</translation>
+    </message>
+    <message>
+        <source>Smooth</source>
+        <translation>Suavizar</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Velocidad</translation>
+    </message>
+    <message>
+        <source>Start delay</source>
+        <translation>Retardo de arranque</translation>
+    </message>
+    <message>
+        <source>Start ramp</source>
+        <translation>Rampa de arranque</translation>
+    </message>
+    <message>
+        <source>Stop frames</source>
+        <translation>Fotogramas por parada</translation>
+    </message>
+    <message>
+        <source>Stop ramp</source>
+        <translation>Rampa de parada</translation>
+    </message>
+    <message>
+        <source>Stops</source>
+        <translation>Paradas</translation>
+    </message>
+    <message>
+        <source>Sub voxel line</source>
+        <translation>Línea de subvóxeles</translation>
+    </message>
+    <message>
+        <source>Sub voxels</source>
+        <translation>Subvóxeles</translation>
+    </message>
+    <message>
+        <source>Table tilt</source>
+        <translation>Inclinación de la mesa</translation>
+    </message>
+    <message>
+        <source>Table tilt direction</source>
+        <translation>Dirección de la inclinación</translation>
+    </message>
+    <message>
+        <source>Table x</source>
+        <translation>Mesa x</translation>
+    </message>
+    <message>
+        <source>Table y</source>
+        <translation>Mesa y</translation>
+    </message>
+    <message>
+        <source>Table z</source>
+        <translation>Mesa z</translation>
+    </message>
+    <message>
+        <source>Texture</source>
+        <translation>Textura</translation>
+    </message>
+    <message>
+        <source>Texture size</source>
+        <translation>Tamaño de la textura</translation>
+    </message>
+    <message>
+        <source>Thresholds</source>
+        <translation>Umbrales</translation>
+    </message>
+    <message>
+        <source>Tip</source>
+        <translation>Vuelco</translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation>Tolerancia</translation>
+    </message>
+    <message>
+        <source>Travel</source>
+        <translation>Recorrido</translation>
+    </message>
+    <message>
+        <source>Travel along</source>
+        <translation>Dirección del recorrido</translation>
+    </message>
+    <message>
+        <source>Triangles</source>
+        <translation>Triángulos</translation>
+    </message>
+    <message>
+        <source>Truncation</source>
+        <translation>Truncamiento</translation>
+    </message>
+    <message>
+        <source>Turns</source>
+        <translation>Vueltas</translation>
+    </message>
+    <message>
+        <source>Until stopped</source>
+        <translation>Hasta detener</translation>
+    </message>
+    <message>
+        <source>Voxel grid</source>
+        <translation>Rejilla de vóxeles</translation>
+    </message>
+    <message>
+        <source>Voxel min points</source>
+        <translation>Puntos mínimos por vóxel</translation>
+    </message>
+    <message>
+        <source>Voxel size</source>
+        <translation>Tamaño de vóxel</translation>
+    </message>
+    <message>
+        <source>Warm up</source>
+        <translation>Calentamiento</translation>
+    </message>
+    <message>
+        <source>Warm up time</source>
+        <translation>Tiempo de calentamiento</translation>
+    </message>
+    <message>
+        <source>Wiggling</source>
+        <translation>Ondulación</translation>
+    </message>
+    <message>
+        <source>Wiggling period</source>
+        <translation>Periodo de la ondulación</translation>
+    </message>
+    <message>
+        <source>Wobble</source>
+        <translation>Bamboleo</translation>
+    </message>
+    <message>
+        <source>Wobble cycles</source>
+        <translation>Ciclos del bamboleo</translation>
+    </message>
+    <message>
+        <source>Yaw</source>
+        <translation>Giro</translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation>Bola</translation>
+    </message>
+    <message>
+        <source>Ball bar</source>
+        <translation>Barra de bolas</translation>
+    </message>
+    <message>
+        <source>Colour camera</source>
+        <translation>Cámara de color</translation>
+    </message>
+    <message>
+        <source>Covered</source>
+        <translation>Cubierto</translation>
+    </message>
+    <message>
+        <source>Cylinder</source>
+        <translation>Cilindro</translation>
+    </message>
+    <message>
+        <source>Doll</source>
+        <translation>Muñeca</translation>
+    </message>
+    <message>
+        <source>Emitter blocked</source>
+        <translation>Emisor tapado</translation>
+    </message>
+    <message>
+        <source>Grazing</source>
+        <translation>Rasante</translation>
+    </message>
+    <message>
+        <source>Letter a</source>
+        <translation>Letra A</translation>
+    </message>
+    <message>
+        <source>Missed</source>
+        <translation>Sin cubrir</translation>
+    </message>
+    <message>
+        <source>Motion of the turntable</source>
+        <translation>Movimiento de la mesa giratoria</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Ninguno</translation>
+    </message>
+    <message>
+        <source>Nothing</source>
+        <translation>Nada</translation>
+    </message>
+    <message>
+        <source>Object</source>
+        <translation>Objeto</translation>
+    </message>
+    <message>
+        <source>Out of view</source>
+        <translation>Fuera de la vista</translation>
+    </message>
+    <message>
+        <source>Place of the scanners</source>
+        <translation>Posición de los escáneres</translation>
+    </message>
+    <message>
+        <source>Plate</source>
+        <translation>Placa</translation>
+    </message>
+    <message>
+        <source>Receiver blocked</source>
+        <translation>Receptor tapado</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Grabación</translation>
+    </message>
+    <message>
+        <source>Rejected</source>
+        <translation>Rechazado</translation>
+    </message>
+    <message>
+        <source>Scorpion</source>
+        <translation>Escorpión</translation>
+    </message>
+    <message>
+        <source>Skull</source>
+        <translation>Cráneo</translation>
+    </message>
+    <message>
+        <source>Thin</source>
+        <translation>Escaso</translation>
+    </message>
+    <message>
+        <source>Too dark</source>
+        <translation>Demasiado oscuro</translation>
+    </message>
+    <message>
+        <source>Too far</source>
+        <translation>Demasiado lejos</translation>
+    </message>
+    <message>
+        <source>Too near</source>
+        <translation>Demasiado cerca</translation>
+    </message>
+    <message>
+        <source>Turntable</source>
+        <translation>Mesa giratoria</translation>
+    </message>
+    <message>
+        <source>Unreachable</source>
+        <translation>Inalcanzable</translation>
+    </message>
+    <message>
+        <source>What happens meanwhile</source>
+        <translation>Lo que ocurre mientras</translation>
+    </message>
+</context>
+<context>
+    <name>QObject</name>
+    <message>
+        <source>Error, mm</source>
+        <translation>Error, mm</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>media</translation>
+    </message>
+    <message>
+        <source>median</source>
+        <translation>mediana</translation>
+    </message>
+    <message>
+        <source>p95</source>
+        <translation>p95</translation>
+    </message>
+    <message>
+        <source>max</source>
+        <translation>máx.</translation>
+    </message>
+    <message>
+        <source>Accuracy</source>
+        <translation>Exactitud</translation>
+    </message>
+    <message>
+        <source>Completeness</source>
+        <translation>Compleción</translation>
+    </message>
+    <message>
+        <source>Within</source>
+        <translation>Dentro de</translation>
+    </message>
+    <message>
+        <source>precision</source>
+        <translation>precisión</translation>
+    </message>
+    <message>
+        <source>recall</source>
+        <translation>exhaustividad</translation>
+    </message>
+    <message>
+        <source>distance to %1</source>
+        <translation>distancia a %1</translation>
+    </message>
+    <message>
+        <source>Millimetres</source>
+        <translation>Milímetros</translation>
+    </message>
+    <message>
+        <source>Centimetres</source>
+        <translation>Centímetros</translation>
+    </message>
+    <message>
+        <source>Inches</source>
+        <translation>Pulgadas</translation>
+    </message>
+    <message>
+        <source>Metres</source>
+        <translation>Metros</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>Which unit?</source>
+        <translation>¿Qué unidad?</translation>
+    </message>
+    <message>
+        <source>%1 does not say its unit. Read in %2 it is %3 large. In which unit is it?</source>
+        <translation>%1 no indica su unidad. Leído en %2 mide %3. ¿En qué unidad está?</translation>
+    </message>
+    <message>
+        <source>Distance to %1</source>
+        <translation>Distancia a %1</translation>
+    </message>
+    <message>
+        <source> and more</source>
+        <translation> y más</translation>
+    </message>
+    <message>
+        <source>empty</source>
+        <translation>vacío</translation>
+    </message>
+    <message>
+        <source>%1 vertices, %2 triangles in %3
+%4
+Area %5 cm²</source>
+        <translation>%1 vértices, %2 triángulos en %3
+%4
+Área %5 cm²</translation>
+    </message>
+    <message>
+        <source>1 piece</source>
+        <translation>1 pieza</translation>
+    </message>
+    <message>
+        <source>%1 pieces</source>
+        <translation>%1 piezas</translation>
+    </message>
+    <message>
+        <source>
+Texture of %1 × %2 texels</source>
+        <translation>
+Textura de %1 × %2 téxeles</translation>
+    </message>
+    <message>
+        <source>, volume %1 cm³</source>
+        <translation>, volumen %1 cm³</translation>
+    </message>
+    <message>
+        <source>%1 points%2%3
+%4</source>
+        <translation>%1 puntos%2%3
+%4</translation>
+    </message>
+    <message>
+        <source>, with normals</source>
+        <translation>, con normales</translation>
+    </message>
+    <message>
+        <source>, with colours</source>
+        <translation>, con colores</translation>
+    </message>
+    <message>
+        <source>%1 triangles</source>
+        <translation>%1 triángulos</translation>
+    </message>
+    <message>
+        <source>%1 points</source>
+        <translation>%1 puntos</translation>
+    </message>
+    <message>
+        <source>%1 frames</source>
+        <translation>%1 fotogramas</translation>
+    </message>
+    <message>
+        <source>View of each place</source>
+        <translation>Vista de cada lugar</translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation>Recorte</translation>
+    </message>
+    <message>
+        <source>Statistical filter</source>
+        <translation>Filtro estadístico</translation>
+    </message>
+    <message>
+        <source>Merge</source>
+        <translation>Fusión</translation>
+    </message>
+    <message>
+        <source>Voxelisation</source>
+        <translation>Voxelización</translation>
+    </message>
+    <message>
+        <source>Candidate points</source>
+        <translation>Puntos candidatos</translation>
+    </message>
+    <message>
+        <source>Objects</source>
+        <translation>Objetos</translation>
+    </message>
+    <message>
+        <source>Normals</source>
+        <translation>Normales</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>Refinamiento</translation>
+    </message>
+    <message>
+        <source>Base</source>
+        <translation>Base</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Malla</translation>
+    </message>
+    <message>
+        <source>Volumetric mesh</source>
+        <translation>Malla volumétrica</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>Acabado</translation>
+    </message>
+    <message>
+        <source>Texture</source>
+        <translation>Textura</translation>
+    </message>
+    <message>
+        <source>Merge the frames</source>
+        <translation>Fusionar los fotogramas</translation>
+    </message>
+    <message>
+        <source>Voxelise</source>
+        <translation>Voxelizar</translation>
+    </message>
+    <message>
+        <source>Find candidates</source>
+        <translation>Buscar candidatos</translation>
+    </message>
+    <message>
+        <source>Refine candidates</source>
+        <translation>Refinar candidatos</translation>
+    </message>
+    <message>
+        <source>Oriented points</source>
+        <translation>Puntos orientados</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 de %2</translation>
+    </message>
+    <message>
+        <source>Hardly anything of it was not seen.</source>
+        <translation>Casi no queda nada del objeto sin ver.</translation>
+    </message>
+    <message>
+        <source>%1 mesh</source>
+        <translation>malla de %1</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>%1 was not joined: %2; its mesh is a model of its own</source>
+        <translation>%1 no se unió: %2; su malla es un modelo aparte</translation>
+    </message>
+    <message>
+        <source>
+Note: %1</source>
+        <translation>
+Nota: %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2 points were dropped</source>
+        <translation>Se descartaron %1 de %2 puntos</translation>
+    </message>
+    <message>
+        <source>filter of %1</source>
+        <translation>filtro de %1</translation>
+    </message>
+    <message>
+        <source>frame %1, from %2°: %3 %</source>
+        <translation>fotograma %1, desde %2°: %3 %</translation>
+    </message>
+    <message>
+        <source>no view, filled: %1 %</source>
+        <translation>sin vista, rellenado: %1 %</translation>
+    </message>
+    <message>
+        <source>Distance: %1</source>
+        <translation>Distancia: %1</translation>
+    </message>
+    <message>
+        <source>Click the second point</source>
+        <translation>Haga clic en el segundo punto</translation>
+    </message>
+    <message>
+        <source>Click two points on a model</source>
+        <translation>Haga clic en dos puntos de un modelo</translation>
+    </message>
+    <message>
+        <source>Above the plane</source>
+        <translation>Sobre el plano</translation>
+    </message>
+    <message>
+        <source>Seen from</source>
+        <translation>Visto desde</translation>
+    </message>
+    <message>
+        <source>1 side</source>
+        <translation>1 lado</translation>
+    </message>
+    <message>
+        <source>2 sides</source>
+        <translation>2 lados</translation>
+    </message>
+    <message>
+        <source>%1 or more</source>
+        <translation>%1 o más</translation>
+    </message>
+    <message>
+        <source>nowhere yet</source>
+        <translation>ninguno aún</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>desconocido</translation>
+    </message>
+    <message>
+        <source>Put nothing on the table, take an averaged scan, then calibrate.</source>
+        <translation>Deje la mesa vacía, tome un escaneo promediado y calibre.</translation>
+    </message>
+    <message>
+        <source>Share of the surface</source>
+        <translation>Parte de la superficie</translation>
+    </message>
+    <message>
+        <source>Samples per mm²</source>
+        <translation>Muestras por mm²</translation>
+    </message>
+    <message>
+        <source>Without a sample</source>
+        <translation>Sin muestras</translation>
+    </message>
+    <message>
+        <source>Has samples</source>
+        <translation>Con muestras</translation>
+    </message>
+    <message>
+        <source>Rig</source>
+        <translation>Montaje</translation>
+    </message>
+    <message>
+        <source>View of a scanner</source>
+        <translation>Campo de visión de un escáner</translation>
+    </message>
+    <message>
+        <source>Emitter</source>
+        <translation>Emisor</translation>
+    </message>
+    <message>
+        <source>Receiver</source>
+        <translation>Receptor</translation>
+    </message>
+    <message>
+        <source>Rim, and the way it turns</source>
+        <translation>Borde y sentido de giro</translation>
+    </message>
+    <message>
+        <source>Front	1</source>
+        <translation>Frente	1</translation>
+    </message>
+    <message>
+        <source>Back	2</source>
+        <translation>Atrás	2</translation>
+    </message>
+    <message>
+        <source>Left	3</source>
+        <translation>Izquierda	3</translation>
+    </message>
+    <message>
+        <source>Right	4</source>
+        <translation>Derecha	4</translation>
+    </message>
+    <message>
+        <source>Top	5</source>
+        <translation>Arriba	5</translation>
+    </message>
+    <message>
+        <source>Bottom	6</source>
+        <translation>Abajo	6</translation>
+    </message>
+    <message>
+        <source>Corner	7</source>
+        <translation>Esquina	7</translation>
+    </message>
+    <message>
+        <source>Reset camera</source>
+        <translation>Encuadrar todo</translation>
+    </message>
+    <message>
+        <source>Show everything (Home)</source>
+        <translation>Mostrar todo (Inicio)</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Vistas</translation>
+    </message>
+    <message>
+        <source>Look from one side (1 to 7)</source>
+        <translation>Mirar desde un lado (1 a 7)</translation>
+    </message>
+    <message>
+        <source>&lt;br&gt;From %1 to %2</source>
+        <translation>&lt;br&gt;De %1 a %2</translation>
+    </message>
+    <message>
+        <source>%1 s left</source>
+        <translation>quedan %1 s</translation>
+    </message>
+    <message>
+        <source>%1 min %2 s left</source>
+        <translation>quedan %1 min %2 s</translation>
+    </message>
+    <message>
+        <source>Quit?</source>
+        <translation>¿Salir?</translation>
+    </message>
+    <message>
+        <source>Quit without saving</source>
+        <translation>Salir sin guardar</translation>
+    </message>
+    <message>
+        <source>Stay</source>
+        <translation>Quedarse</translation>
+    </message>
+    <message>
+        <source>%1, %2 dropped</source>
+        <translation>%1, %2 perdidos</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ComparePanel</name>
+    <message>
+        <source>Options of distances</source>
+        <translation>Opciones de las distancias</translation>
+    </message>
+    <message>
+        <source>Reference</source>
+        <translation>Referencia</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modelo</translation>
+    </message>
+    <message>
+        <source>Side by side</source>
+        <translation>Lado a lado</translation>
+    </message>
+    <message>
+        <source>Both with one camera</source>
+        <translation>Los dos con una misma cámara</translation>
+    </message>
+    <message>
+        <source>Overlay</source>
+        <translation>Superponer</translation>
+    </message>
+    <message>
+        <source>One over the other</source>
+        <translation>Uno sobre el otro</translation>
+    </message>
+    <message>
+        <source>Distances</source>
+        <translation>Distancias</translation>
+    </message>
+    <message>
+        <source>Colour the model by its distance to the reference</source>
+        <translation>Colorear el modelo según su distancia a la referencia</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ExplorerMode</name>
+    <message>
+        <source>Models</source>
+        <translation>Modelos</translation>
+    </message>
+    <message>
+        <source>Processing</source>
+        <translation>Procesado</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Herramientas</translation>
+    </message>
+    <message>
+        <source>Compare</source>
+        <translation>Comparar</translation>
+    </message>
+    <message>
+        <source>Another side</source>
+        <translation>Otro lado</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>Veredicto</translation>
+    </message>
+    <message>
+        <source>Looking</source>
+        <translation>Aspecto</translation>
+    </message>
+    <message>
+        <source>Nothing loaded yet</source>
+        <translation>Aún no hay nada cargado</translation>
+    </message>
+    <message>
+        <source>Drop meshes, point clouds or recordings here, or begin with a scan.</source>
+        <translation>Suelte aquí mallas, nubes de puntos o grabaciones, o empiece con un escaneo.</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Abrir…</translation>
+    </message>
+    <message>
+        <source>Scan an object</source>
+        <translation>Escanear un objeto</translation>
+    </message>
+    <message>
+        <source>Simulate a scan</source>
+        <translation>Simular un escaneo</translation>
+    </message>
+    <message>
+        <source>Open meshes, clouds or recordings</source>
+        <translation>Abrir mallas, nubes o grabaciones</translation>
+    </message>
+    <message>
+        <source>Meshes, clouds and recordings (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mkv *.r3d *.sens *.conf *.json);;All files (*)</source>
+        <translation>Mallas, nubes y grabaciones (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mkv *.r3d *.sens *.conf *.json);;Todos los archivos (*)</translation>
+    </message>
+    <message>
+        <source>Save %1</source>
+        <translation>Guardar %1</translation>
+    </message>
+    <message>
+        <source>PLY (*.ply);;STL, millimetres (*.stl);;3MF, millimetres (*.3mf);;OBJ (*.obj);;GLB (*.glb)</source>
+        <translation>PLY (*.ply);;STL, milímetros (*.stl);;3MF, milímetros (*.3mf);;OBJ (*.obj);;GLB (*.glb)</translation>
+    </message>
+    <message>
+        <source>PLY (*.ply)</source>
+        <translation>PLY (*.ply)</translation>
+    </message>
+    <message>
+        <source>Export the report of %1</source>
+        <translation>Exportar el informe de %1</translation>
+    </message>
+    <message>
+        <source>Report page (*.html)</source>
+        <translation>Página de informe (*.html)</translation>
+    </message>
+    <message>
+        <source>cut</source>
+        <translation>corte</translation>
+    </message>
+    <message>
+        <source>cut of %1</source>
+        <translation>corte de %1</translation>
+    </message>
+    <message>
+        <source>lasso</source>
+        <translation>lazo</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>Abrir %1</translation>
+    </message>
+    <message>
+        <source>open %1</source>
+        <translation>abrir %1</translation>
+    </message>
+    <message>
+        <source>Reconstruct</source>
+        <translation>Reconstruir</translation>
+    </message>
+    <message>
+        <source>reconstruct</source>
+        <translation>reconstruir</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filtrar</translation>
+    </message>
+    <message>
+        <source>%1 filtered</source>
+        <translation>%1 filtrado</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 respecto a %2</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+    <message>
+        <source>Colour the mesh</source>
+        <translation>Colorear la malla</translation>
+    </message>
+    <message>
+        <source>Export %1</source>
+        <translation>Exportar %1</translation>
+    </message>
+    <message>
+        <source>; without the 3D view, which this build lacks</source>
+        <translation>; sin la vista 3D, que falta en esta compilación</translation>
+    </message>
+    <message>
+        <source>Wrote %1%2</source>
+        <translation>Se escribió %1%2</translation>
+    </message>
+    <message>
+        <source>Restore the session</source>
+        <translation>Restaurar la sesión</translation>
+    </message>
+    <message>
+        <source>restore the session</source>
+        <translation>restaurar la sesión</translation>
+    </message>
+    <message>
+        <source>These could not be restored, and are kept in %1: %2</source>
+        <translation>Estos no se pudieron restaurar y se conservan en %1: %2</translation>
+    </message>
+    <message>
+        <source>Save preset</source>
+        <translation>Guardar ajustes</translation>
+    </message>
+    <message>
+        <source>Select a mesh or a cloud to export</source>
+        <translation>Seleccione una malla o una nube para exportar</translation>
+    </message>
+    <message>
+        <source>Pictures, NAME-0001.png and so on (*.png)</source>
+        <translation>Imágenes, NOMBRE-0001.png, etc. (*.png)</translation>
+    </message>
+    <message>
+        <source>Turntable movie</source>
+        <translation>Película giratoria</translation>
+    </message>
+    <message>
+        <source>Film (*.mp4)</source>
+        <translation>Película (*.mp4)</translation>
+    </message>
+    <message>
+        <source>Reconstruct %1</source>
+        <translation>Reconstruir %1</translation>
+    </message>
+    <message>
+        <source>reconstruct %1</source>
+        <translation>reconstruir %1</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ExportDialog</name>
+    <message>
+        <source>Export %1</source>
+        <translation>Exportar %1</translation>
+    </message>
+    <message>
+        <source>PLY</source>
+        <translation>PLY</translation>
+    </message>
+    <message>
+        <source>STL, for printing</source>
+        <translation>STL, para imprimir</translation>
+    </message>
+    <message>
+        <source>3MF, for printing, with colours</source>
+        <translation>3MF, para imprimir, con colores</translation>
+    </message>
+    <message>
+        <source>OBJ</source>
+        <translation>OBJ</translation>
+    </message>
+    <message>
+        <source>GLB, for the web</source>
+        <translation>GLB, para la web</translation>
+    </message>
+    <message>
+        <source>Millimetres</source>
+        <translation>Milímetros</translation>
+    </message>
+    <message>
+        <source>Centimetres</source>
+        <translation>Centímetros</translation>
+    </message>
+    <message>
+        <source>Inches</source>
+        <translation>Pulgadas</translation>
+    </message>
+    <message>
+        <source>Metres</source>
+        <translation>Metros</translation>
+    </message>
+    <message>
+        <source>Y, as in the view</source>
+        <translation>Y, como en la vista</translation>
+    </message>
+    <message>
+        <source>Z, as slicers and CAD have it</source>
+        <translation>Z, como en laminadores y CAD</translation>
+    </message>
+    <message>
+        <source>Texture</source>
+        <translation>Textura</translation>
+    </message>
+    <message>
+        <source>Colours of the vertices</source>
+        <translation>Colores de los vértices</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Ninguno</translation>
+    </message>
+    <message>
+        <source>all %1</source>
+        <translation>los %1</translation>
+    </message>
+    <message>
+        <source>Format</source>
+        <translation>Formato</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Unidad</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>Hacia arriba</translation>
+    </message>
+    <message>
+        <source>Triangles, at most</source>
+        <translation>Triángulos, como máximo</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Colores</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportar…</translation>
+    </message>
+    <message>
+        <source>The format says its unit: %1.</source>
+        <translation>El formato indica su unidad: %1.</translation>
+    </message>
+    <message>
+        <source>GLB is always Y up.</source>
+        <translation>En GLB, Y siempre va hacia arriba.</translation>
+    </message>
+    <message>
+        <source>With fewer triangles the texture becomes colours of the vertices.</source>
+        <translation>Con menos triángulos la textura pasa a ser colores de los vértices.</translation>
+    </message>
+    <message>
+        <source>This format keeps no texture.</source>
+        <translation>Este formato no conserva texturas.</translation>
+    </message>
+    <message>
+        <source>STL keeps no colours.</source>
+        <translation>STL no conserva colores.</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::JobBar</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>Stop the running job (Esc)</source>
+        <translation>Detener la tarea en curso (Esc)</translation>
+    </message>
+    <message>
+        <source>Progress of the running job</source>
+        <translation>Progreso de la tarea en curso</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::LookPanel</name>
+    <message>
+        <source>Opacity of the selected model</source>
+        <translation>Opacidad del modelo seleccionado</translation>
+    </message>
+    <message>
+        <source>Isolate</source>
+        <translation>Aislar</translation>
+    </message>
+    <message>
+        <source>Show the selected model alone</source>
+        <translation>Mostrar solo el modelo seleccionado</translation>
+    </message>
+    <message>
+        <source>Turntable movie…</source>
+        <translation>Película…</translation>
+    </message>
+    <message>
+        <source>A film or pictures of the view, turned once about the vertical</source>
+        <translation>Una película o imágenes de la vista, que da una vuelta sobre la vertical</translation>
+    </message>
+    <message>
+        <source>Ambient occlusion</source>
+        <translation>Oclusión ambiental</translation>
+    </message>
+    <message>
+        <source>Shaded</source>
+        <translation>Sombreado</translation>
+    </message>
+    <message>
+        <source>Shaded, with edges</source>
+        <translation>Sombreado, con aristas</translation>
+    </message>
+    <message>
+        <source>Wireframe</source>
+        <translation>Alambre</translation>
+    </message>
+    <message>
+        <source>Normals</source>
+        <translation>Normales</translation>
+    </message>
+    <message>
+        <source>How surfaces are drawn; normals: x red, y green, z blue</source>
+        <translation>Cómo se dibujan las superficies; normales: x rojo, y verde, z azul</translation>
+    </message>
+    <message>
+        <source>Places that little light reaches are darker, while the view rests; slow without a graphics card</source>
+        <translation>Los lugares a los que llega poca luz son más oscuros mientras la vista no se mueve; lento sin tarjeta gráfica</translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation>Superficie</translation>
+    </message>
+    <message>
+        <source>Opacity</source>
+        <translation>Opacidad</translation>
+    </message>
+    <message>
+        <source>Clip</source>
+        <translation>Seccionar</translation>
+    </message>
+    <message>
+        <source>Axis of the clipping plane</source>
+        <translation>Eje del plano de sección</translation>
+    </message>
+    <message>
+        <source>Off</source>
+        <translation>No</translation>
+    </message>
+    <message>
+        <source>Place of the clipping plane</source>
+        <translation>Posición del plano de sección</translation>
+    </message>
+    <message>
+        <source>Flip</source>
+        <translation>Invertir</translation>
+    </message>
+    <message>
+        <source>Show the other side</source>
+        <translation>Mostrar el otro lado</translation>
+    </message>
+    <message>
+        <source>Show the other side of the clipping plane</source>
+        <translation>Mostrar el otro lado del plano de sección</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::MainWindow</name>
+    <message>
+        <source>Left button</source>
+        <translation>Botón izquierdo</translation>
+    </message>
+    <message>
+        <source>turn</source>
+        <translation>girar</translation>
+    </message>
+    <message>
+        <source>Middle button, or Shift and left</source>
+        <translation>Botón central, o Mayús e izquierdo</translation>
+    </message>
+    <message>
+        <source>move</source>
+        <translation>desplazar</translation>
+    </message>
+    <message>
+        <source>Wheel, or right button</source>
+        <translation>Rueda, o botón derecho</translation>
+    </message>
+    <message>
+        <source>nearer, farther</source>
+        <translation>acercar, alejar</translation>
+    </message>
+    <message>
+        <source>Arrows, +, -</source>
+        <translation>Flechas, +, -</translation>
+    </message>
+    <message>
+        <source>turn, nearer, farther</source>
+        <translation>girar, acercar, alejar</translation>
+    </message>
+    <message>
+        <source>Keyboard shortcuts</source>
+        <translation>Atajos de teclado</translation>
+    </message>
+    <message>
+        <source>The manual is not installed here</source>
+        <translation>El manual no está instalado aquí</translation>
+    </message>
+    <message>
+        <source>Manual</source>
+        <translation>Manual</translation>
+    </message>
+    <message>
+        <source>Messages, oldest first</source>
+        <translation>Mensajes, del más antiguo al más reciente</translation>
+    </message>
+    <message>
+        <source>Messages</source>
+        <translation>Mensajes</translation>
+    </message>
+    <message>
+        <source>From an object on a turntable to a watertight mesh.</source>
+        <translation>De un objeto sobre una mesa giratoria a una malla cerrada.</translation>
+    </message>
+    <message>
+        <source>turnscan is free software under the Apache License 2.0, whose text is below.</source>
+        <translation>turnscan es software libre con licencia Apache 2.0, cuyo texto está más abajo.</translation>
+    </message>
+    <message>
+        <source>It uses these libraries, with Qt %1 and VTK %2:</source>
+        <translation>Usa estas bibliotecas, con Qt %1 y VTK %2:</translation>
+    </message>
+    <message>
+        <source>About turnscan Studio</source>
+        <translation>Acerca de turnscan Studio</translation>
+    </message>
+    <message>
+        <source>Open a recording</source>
+        <translation>Abrir una grabación</translation>
+    </message>
+    <message>
+        <source>Save screenshot</source>
+        <translation>Guardar captura</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png)</source>
+        <translation>Imágenes (*.png)</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Archivo</translation>
+    </message>
+    <message>
+        <source>&amp;Open…</source>
+        <translation>A&amp;brir…</translation>
+    </message>
+    <message>
+        <source>Open &amp;recording…</source>
+        <translation>Abrir &amp;grabación…</translation>
+    </message>
+    <message>
+        <source>Open r&amp;ecent</source>
+        <translation>Abrir &amp;reciente</translation>
+    </message>
+    <message>
+        <source>&amp;Save…</source>
+        <translation>&amp;Guardar…</translation>
+    </message>
+    <message>
+        <source>&amp;Export…</source>
+        <translation>&amp;Exportar…</translation>
+    </message>
+    <message>
+        <source>Reconstruct se&amp;veral recordings…</source>
+        <translation>Reconstruir &amp;varias grabaciones…</translation>
+    </message>
+    <message>
+        <source>Save s&amp;creenshot…</source>
+        <translation>Guardar &amp;captura…</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>&amp;Salir</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>&amp;Editar</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Deshacer</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>Rehacer</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Eliminar</translation>
+    </message>
+    <message>
+        <source>Cancel the running job</source>
+        <translation>Cancelar la tarea en curso</translation>
+    </message>
+    <message>
+        <source>&amp;Language</source>
+        <translation>&amp;Idioma</translation>
+    </message>
+    <message>
+        <source>The language changes with the next start</source>
+        <translation>El idioma cambia en el próximo inicio</translation>
+    </message>
+    <message>
+        <source>As the system</source>
+        <translation>El del sistema</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ver</translation>
+    </message>
+    <message>
+        <source>Reset camera</source>
+        <translation>Encuadrar todo</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>Frente</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Atrás</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>Izquierda</translation>
+    </message>
+    <message>
+        <source>Right</source>
+        <translation>Derecha</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>Arriba</translation>
+    </message>
+    <message>
+        <source>Bottom</source>
+        <translation>Abajo</translation>
+    </message>
+    <message>
+        <source>Corner</source>
+        <translation>Esquina</translation>
+    </message>
+    <message>
+        <source>Bounding boxes</source>
+        <translation>Cajas</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Oscuro</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>A&amp;yuda</translation>
+    </message>
+    <message>
+        <source>&amp;Manual</source>
+        <translation>&amp;Manual</translation>
+    </message>
+    <message>
+        <source>&amp;Keyboard shortcuts</source>
+        <translation>A&amp;tajos de teclado</translation>
+    </message>
+    <message>
+        <source>&amp;About turnscan Studio</source>
+        <translation>&amp;Acerca de turnscan Studio</translation>
+    </message>
+    <message>
+        <source>turnscan Studio</source>
+        <translation>turnscan Studio</translation>
+    </message>
+    <message>
+        <source>3D Scanner</source>
+        <translation>Escáner 3D</translation>
+    </message>
+    <message>
+        <source>Calibrate and record with a sensor (F1)</source>
+        <translation>Calibrar y grabar con un sensor (F1)</translation>
+    </message>
+    <message>
+        <source>Model Explorer</source>
+        <translation>Explorador de modelos</translation>
+    </message>
+    <message>
+        <source>Look at models and process them (F2)</source>
+        <translation>Ver modelos y procesarlos (F2)</translation>
+    </message>
+    <message>
+        <source>Scanner Simulator</source>
+        <translation>Simulador de escáneres</translation>
+    </message>
+    <message>
+        <source>Try a rig before it is built (F3)</source>
+        <translation>Probar un montaje antes de construirlo (F3)</translation>
+    </message>
+    <message>
+        <source>%1: cancelled</source>
+        <translation>%1: cancelado</translation>
+    </message>
+    <message>
+        <source>%1: failed</source>
+        <translation>%1: ha fallado</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+    <message>
+        <source>No files yet</source>
+        <translation>Aún no hay archivos</translation>
+    </message>
+    <message>
+        <source>Undo %1</source>
+        <translation>Deshacer %1</translation>
+    </message>
+    <message>
+        <source>Redo %1</source>
+        <translation>Rehacer %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n model(s) in no file: %1</source>
+        <translation>
+            <numerusform>%n modelo que no está en ningún archivo: %1</numerusform>
+            <numerusform>%n modelos que no están en ningún archivo: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>A recording runs; it ends, and what it has is kept</source>
+        <translation>Hay una grabación en curso; termina y se conserva lo grabado</translation>
+    </message>
+    <message>
+        <source>Restore the last session?</source>
+        <translation>¿Restaurar la última sesión?</translation>
+    </message>
+    <message>
+        <source>The last session did not end well. It had these models:
+%1</source>
+        <translation>La última sesión no terminó bien. Tenía estos modelos:
+%1</translation>
+    </message>
+    <message>
+        <source>Restore</source>
+        <translation>Restaurar</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Descartar</translation>
+    </message>
+    <message>
+        <source>Ask again later</source>
+        <translation>Preguntar más tarde</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::MessageLog</name>
+    <message>
+        <source>Error: </source>
+        <translation>Error: </translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ModelList</name>
+    <message>
+        <source>Properties of the selected model</source>
+        <translation>Propiedades del modelo seleccionado</translation>
+    </message>
+    <message>
+        <source>Open…</source>
+        <translation>Abrir…</translation>
+    </message>
+    <message>
+        <source>Load meshes, clouds or recordings (Ctrl+O)</source>
+        <translation>Cargar mallas, nubes o grabaciones (Ctrl+O)</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Guardar…</translation>
+    </message>
+    <message>
+        <source>Save the selected model (Ctrl+S)</source>
+        <translation>Guardar el modelo seleccionado (Ctrl+S)</translation>
+    </message>
+    <message>
+        <source>Edit</source>
+        <translation>Editar</translation>
+    </message>
+    <message>
+        <source>Rename, colour, duplicate, delete</source>
+        <translation>Renombrar, color, duplicar, eliminar</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Renombrar</translation>
+    </message>
+    <message>
+        <source>Colour…</source>
+        <translation>Color…</translation>
+    </message>
+    <message>
+        <source>Own colours on/off</source>
+        <translation>Colores propios sí/no</translation>
+    </message>
+    <message>
+        <source>Duplicate</source>
+        <translation>Duplicar</translation>
+    </message>
+    <message>
+        <source>Delete	Del</source>
+        <translation>Eliminar	Supr</translation>
+    </message>
+    <message>
+        <source>Colour of %1</source>
+        <translation>Color de %1</translation>
+    </message>
+    <message>
+        <source>Models</source>
+        <translation>Modelos</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ModelStore</name>
+    <message>
+        <source>add %1</source>
+        <translation>añadir %1</translation>
+    </message>
+    <message>
+        <source>rename</source>
+        <translation>renombrar</translation>
+    </message>
+    <message>
+        <source>show</source>
+        <translation>mostrar</translation>
+    </message>
+    <message>
+        <source>hide</source>
+        <translation>ocultar</translation>
+    </message>
+    <message>
+        <source>colour</source>
+        <translation>color</translation>
+    </message>
+    <message>
+        <source>opacity of %1</source>
+        <translation>opacidad de %1</translation>
+    </message>
+    <message>
+        <source>duplicate</source>
+        <translation>duplicar</translation>
+    </message>
+    <message>
+        <source>delete</source>
+        <translation>eliminar</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::MotorPanel</name>
+    <message>
+        <source>Serial port of the board that turns the table, e.g. /dev/ttyUSB0</source>
+        <translation>Puerto serie de la placa que gira la mesa, p. ej. /dev/ttyUSB0</translation>
+    </message>
+    <message>
+        <source>Turn</source>
+        <translation>Girar</translation>
+    </message>
+    <message>
+        <source>Turn the table to see that it works: 10 degrees a second</source>
+        <translation>Girar la mesa para ver que funciona: 10 grados por segundo</translation>
+    </message>
+    <message>
+        <source>With a motor, Record turns the table by itself.</source>
+        <translation>Con un motor, Grabar hace girar la mesa.</translation>
+    </message>
+    <message>
+        <source>Board</source>
+        <translation>Placa</translation>
+    </message>
+    <message>
+        <source>No motor</source>
+        <translation>Sin motor</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Detener</translation>
+    </message>
+    <message>
+        <source>Turning</source>
+        <translation>Girando</translation>
+    </message>
+    <message>
+        <source>The table stands at %1 degrees</source>
+        <translation>La mesa está a %1 grados</translation>
+    </message>
+    <message>
+        <source>The table does not turn</source>
+        <translation>La mesa no gira</translation>
+    </message>
+    <message>
+        <source>Port of the motor</source>
+        <translation>Puerto del motor</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::OptionForm</name>
+    <message>
+        <source>automatic</source>
+        <translation>automático</translation>
+    </message>
+    <message>
+        <source>auto: %1</source>
+        <translation>auto: %1</translation>
+    </message>
+    <message>
+        <source>&lt;br&gt;&lt;i&gt;Last run: %1, %2&lt;/i&gt;</source>
+        <translation>&lt;br&gt;&lt;i&gt;Última vez: %1, %2&lt;/i&gt;</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::QueueDialog</name>
+    <message>
+        <source>Reconstruct several recordings</source>
+        <translation>Reconstruir varias grabaciones</translation>
+    </message>
+    <message>
+        <source>They are reconstructed one after the other with the options of the Model Explorer. Add recordings, or drop them here.</source>
+        <translation>Se reconstruyen una tras otra con las opciones del Explorador de modelos. Añada grabaciones o suéltelas aquí.</translation>
+    </message>
+    <message>
+        <source>Recordings in the queue</source>
+        <translation>Grabaciones en la cola</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Grabación</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Estado</translation>
+    </message>
+    <message>
+        <source>Write meshes to</source>
+        <translation>Escribir las mallas en</translation>
+    </message>
+    <message>
+        <source>nowhere: they are in the Model Explorer only</source>
+        <translation>ninguna parte: quedan solo en el Explorador de modelos</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>en curso</translation>
+    </message>
+    <message>
+        <source>cancelled</source>
+        <translation>cancelada</translation>
+    </message>
+    <message>
+        <source>Add recording…</source>
+        <translation>Añadir grabación…</translation>
+    </message>
+    <message>
+        <source>The folder of a recording</source>
+        <translation>La carpeta de una grabación</translation>
+    </message>
+    <message>
+        <source>Add files…</source>
+        <translation>Añadir archivos…</translation>
+    </message>
+    <message>
+        <source>Recordings of other programs</source>
+        <translation>Grabaciones de otros programas</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Take the selected ones off the list</source>
+        <translation>Quitar de la lista las seleccionadas</translation>
+    </message>
+    <message>
+        <source>Reconstruct all</source>
+        <translation>Reconstruir todo</translation>
+    </message>
+    <message>
+        <source>Begin with the first that waits</source>
+        <translation>Empezar por la primera en espera</translation>
+    </message>
+    <message>
+        <source>Add a recording</source>
+        <translation>Añadir una grabación</translation>
+    </message>
+    <message>
+        <source>Add recordings</source>
+        <translation>Añadir grabaciones</translation>
+    </message>
+    <message>
+        <source>waits</source>
+        <translation>en espera</translation>
+    </message>
+    <message>
+        <source>queued</source>
+        <translation>en cola</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::RecordPanel</name>
+    <message>
+        <source>Folder to make; a number is added where it has content</source>
+        <translation>Carpeta que se crea; se le añade un número si tiene contenido</translation>
+    </message>
+    <message>
+        <source>…</source>
+        <translation>…</translation>
+    </message>
+    <message>
+        <source>Choose the folder</source>
+        <translation>Elegir la carpeta</translation>
+    </message>
+    <message>
+        <source>Make the mesh when it is done</source>
+        <translation>Hacer la malla al terminar</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Grabar</translation>
+    </message>
+    <message>
+        <source>Record until the turns are done</source>
+        <translation>Grabar hasta completar las vueltas</translation>
+    </message>
+    <message>
+        <source>Folder of the recording</source>
+        <translation>Carpeta de la grabación</translation>
+    </message>
+    <message>
+        <source>New recording instead</source>
+        <translation>Mejor una grabación nueva</translation>
+    </message>
+    <message>
+        <source>What is recorded next is another object, or this one anew</source>
+        <translation>Lo siguiente que se graba es otro objeto, o este de nuevo</translation>
+    </message>
+    <message>
+        <source>The next pass goes into %1. %2</source>
+        <translation>La próxima pasada va a %1. %2</translation>
+    </message>
+    <message>
+        <source>Motor</source>
+        <translation>Motor</translation>
+    </message>
+    <message>
+        <source>More options</source>
+        <translation>Más opciones</translation>
+    </message>
+    <message>
+        <source>The motor is being tried; stop it first</source>
+        <translation>Se está probando el motor; deténgalo primero</translation>
+    </message>
+    <message>
+        <source>turn %1</source>
+        <translation>vuelta %1</translation>
+    </message>
+    <message>
+        <source>turns not known yet</source>
+        <translation>vueltas aún desconocidas</translation>
+    </message>
+    <message>
+        <source>, %1 GB free</source>
+        <translation>, %1 GB libres</translation>
+    </message>
+    <message>
+        <source>%1 frames, %2, %3 dropped%4</source>
+        <translation>%1 fotogramas, %2, %3 perdidos%4</translation>
+    </message>
+    <message>
+        <source>Seen so far: about %1 cm², %2 % of it well (from %3 sides or more)</source>
+        <translation>Visto hasta ahora: unos %1 cm², el %2 % bien (desde %3 lados o más)</translation>
+    </message>
+    <message>
+        <source>; %1 % of the surface is still missing</source>
+        <translation>; aún falta el %1 % de la superficie</translation>
+    </message>
+    <message>
+        <source>Stop recording</source>
+        <translation>Detener la grabación</translation>
+    </message>
+    <message>
+        <source>Record another side</source>
+        <translation>Grabar otro lado</translation>
+    </message>
+    <message>
+        <source>The surface is shown once the object's motion is known, seconds after it begins to turn.</source>
+        <translation>La superficie aparece cuando se conoce el movimiento del objeto, segundos después de que empiece a girar.</translation>
+    </message>
+    <message>
+        <source>Recorded %1</source>
+        <translation>Grabado: %1</translation>
+    </message>
+    <message>
+        <source>Progress of the recording</source>
+        <translation>Progreso de la grabación</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ScannerMode</name>
+    <message>
+        <source>No picture yet</source>
+        <translation>Aún no hay imagen</translation>
+    </message>
+    <message>
+        <source>Choose a device on the right and press Play. The virtual sensors need no hardware.</source>
+        <translation>Elija un dispositivo a la derecha y pulse Ver. Los sensores virtuales no necesitan equipo.</translation>
+    </message>
+    <message>
+        <source>Play now</source>
+        <translation>Ver ahora</translation>
+    </message>
+    <message>
+        <source>1  Device</source>
+        <translation>1  Dispositivo</translation>
+    </message>
+    <message>
+        <source>A device of the list, or any URI, e.g. replay:FOLDER</source>
+        <translation>Un dispositivo de la lista o cualquier URI, p. ej. replay:CARPETA</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Ver</translation>
+    </message>
+    <message>
+        <source>Show what the sensor sees</source>
+        <translation>Mostrar lo que ve el sensor</translation>
+    </message>
+    <message>
+        <source>Filter points</source>
+        <translation>Filtrar puntos</translation>
+    </message>
+    <message>
+        <source>Show only what stands on the turntable; needs a calibration</source>
+        <translation>Mostrar solo lo que está sobre la mesa giratoria; necesita una calibración</translation>
+    </message>
+    <message>
+        <source>Back to live</source>
+        <translation>Volver al directo</translation>
+    </message>
+    <message>
+        <source>Show what the sensor sees now</source>
+        <translation>Mostrar lo que el sensor ve ahora</translation>
+    </message>
+    <message>
+        <source>Not playing</source>
+        <translation>Parado</translation>
+    </message>
+    <message>
+        <source>3  Recording</source>
+        <translation>3  Grabación</translation>
+    </message>
+    <message>
+        <source>Calibrate again</source>
+        <translation>Calibrar de nuevo</translation>
+    </message>
+    <message>
+        <source>Take an averaged scan of the empty table, then press Calibrate</source>
+        <translation>Tome un escaneo promediado de la mesa vacía y pulse Calibrar</translation>
+    </message>
+    <message>
+        <source>Use motion</source>
+        <translation>Usar el movimiento</translation>
+    </message>
+    <message>
+        <source>Forget the calibration: the object's motion shows where the table is</source>
+        <translation>Olvidar la calibración: el movimiento del objeto muestra dónde está la mesa</translation>
+    </message>
+    <message>
+        <source>Virtual Kinect v2, doll</source>
+        <translation>Kinect v2 virtual, muñeca</translation>
+    </message>
+    <message>
+        <source>Virtual Kinect v2, letter A on a desk</source>
+        <translation>Kinect v2 virtual, letra A en un escritorio</translation>
+    </message>
+    <message>
+        <source>Virtual Kinect v1, cylinder</source>
+        <translation>Kinect v1 virtual, cilindro</translation>
+    </message>
+    <message>
+        <source>Virtual Kinect v2, empty table on a desk</source>
+        <translation>Kinect v2 virtual, mesa vacía en un escritorio</translation>
+    </message>
+    <message>
+        <source>Look for devices</source>
+        <translation>Buscar dispositivos</translation>
+    </message>
+    <message>
+        <source>Stopping</source>
+        <translation>Deteniendo</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Detener</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>Abriendo %1</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+    <message>
+        <source>%1 frames a second, %2 points, %3 dropped</source>
+        <translation>%1 fotogramas por segundo, %2 puntos, %3 perdidos</translation>
+    </message>
+    <message>
+        <source>Averaging: %1 of %2 frames</source>
+        <translation>Promediando: %1 de %2 fotogramas</translation>
+    </message>
+    <message>
+        <source>click</source>
+        <translation>clic</translation>
+    </message>
+    <message>
+        <source>2  Calibration</source>
+        <translation>2  Calibración</translation>
+    </message>
+    <message>
+        <source>Averaged scan</source>
+        <translation>Escaneo promediado</translation>
+    </message>
+    <message>
+        <source>Average frames of what stands still</source>
+        <translation>Promediar fotogramas de lo que está quieto</translation>
+    </message>
+    <message>
+        <source>Calibrate</source>
+        <translation>Calibrar</translation>
+    </message>
+    <message>
+        <source>Find the turntable in the averaged scan</source>
+        <translation>Buscar la mesa giratoria en el escaneo promediado</translation>
+    </message>
+    <message>
+        <source>Options</source>
+        <translation>Opciones</translation>
+    </message>
+    <message>
+        <source>Pick rim points</source>
+        <translation>Marcar el borde</translation>
+    </message>
+    <message>
+        <source>Click at least 3 points on the platter's rim</source>
+        <translation>Haga clic en al menos 3 puntos del borde del plato</translation>
+    </message>
+    <message>
+        <source>Undo click</source>
+        <translation>Deshacer clic</translation>
+    </message>
+    <message>
+        <source>Take back the last point (Ctrl+Z)</source>
+        <translation>Quitar el último punto (Ctrl+Z)</translation>
+    </message>
+    <message>
+        <source>Load…</source>
+        <translation>Cargar…</translation>
+    </message>
+    <message>
+        <source>A calibration saved before</source>
+        <translation>Una calibración guardada antes</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Guardar…</translation>
+    </message>
+    <message>
+        <source>Keep the calibration as a file</source>
+        <translation>Conservar la calibración en un archivo</translation>
+    </message>
+    <message>
+        <source>Calibrations (*.json)</source>
+        <translation>Calibraciones (*.json)</translation>
+    </message>
+    <message>
+        <source>Load calibration</source>
+        <translation>Cargar calibración</translation>
+    </message>
+    <message>
+        <source>Save calibration</source>
+        <translation>Guardar calibración</translation>
+    </message>
+    <message>
+        <source>Averaged %1 frames; noise of one frame %2</source>
+        <translation>%1 fotogramas promediados; ruido de un fotograma %2</translation>
+    </message>
+    <message>
+        <source>%1. Pick points on the platter's rim instead.</source>
+        <translation>%1. Marque mejor puntos en el borde del plato.</translation>
+    </message>
+    <message>
+        <source>Click points on the rim of the platter, at least 3</source>
+        <translation>Haga clic en puntos del borde del plato, al menos 3</translation>
+    </message>
+    <message>
+        <source>%1 of at least 3 points</source>
+        <translation>%1 de al menos 3 puntos</translation>
+    </message>
+    <message>
+        <source>By %1: radius %2, error %3 (root mean square)</source>
+        <translation>Por %1: radio %2, error %3 (media cuadrática)</translation>
+    </message>
+    <message>
+        <source>
+From the last recording with this device. Calibrate anew if sensor or table were moved since.</source>
+        <translation>
+De la última grabación con este dispositivo. Calibre de nuevo si desde entonces se movió el sensor o la mesa.</translation>
+    </message>
+    <message>
+        <source>The calibration of the last recording is not used: %1</source>
+        <translation>No se usa la calibración de la última grabación: %1</translation>
+    </message>
+    <message>
+        <source>There is no calibration yet</source>
+        <translation>Aún no hay calibración</translation>
+    </message>
+    <message>
+        <source>Device</source>
+        <translation>Dispositivo</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::SessionKeeper</name>
+    <message>
+        <source>The session is not kept: %1 cannot be made</source>
+        <translation>La sesión no se conserva: no se puede crear %1</translation>
+    </message>
+    <message>
+        <source>The session is not kept: %1</source>
+        <translation>La sesión no se conserva: %1</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::SidePanel</name>
+    <message>
+        <source>Show what no view saw</source>
+        <translation>Mostrar lo que ninguna vista vio</translation>
+    </message>
+    <message>
+        <source>Surface that was closed without a measurement, in magenta</source>
+        <translation>Superficie que se cerró sin medirla, en magenta</translation>
+    </message>
+    <message>
+        <source>Scan another side</source>
+        <translation>Escanear otro lado</translation>
+    </message>
+    <message>
+        <source>Lay the object another way and record it again; the passes become one mesh</source>
+        <translation>Coloque el objeto de otra forma y grábelo de nuevo; las pasadas forman una sola malla</translation>
+    </message>
+    <message>
+        <source>Select a mesh that was made from a recording: what no view saw of it, and how to lay it for the next pass, stands here.</source>
+        <translation>Seleccione una malla hecha a partir de una grabación: aquí se indica lo que ninguna vista vio y cómo colocar el objeto para la próxima pasada.</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::SimulatorMode</name>
+    <message>
+        <source>Loading the object</source>
+        <translation>Cargando el objeto</translation>
+    </message>
+    <message>
+        <source>Object</source>
+        <translation>Objeto</translation>
+    </message>
+    <message>
+        <source>File…</source>
+        <translation>Archivo…</translation>
+    </message>
+    <message>
+        <source>Any mesh: PLY, STL, OBJ, OFF, 3MF, GLB, …</source>
+        <translation>Cualquier malla: PLY, STL, OBJ, OFF, 3MF, GLB, …</translation>
+    </message>
+    <message>
+        <source>How it stands</source>
+        <translation>Cómo está colocado</translation>
+    </message>
+    <message>
+        <source>Object to scan</source>
+        <translation>Objeto que se escanea</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Escena</translation>
+    </message>
+    <message>
+        <source>Load scene…</source>
+        <translation>Cargar escena…</translation>
+    </message>
+    <message>
+        <source>A scene file, as turnscan simulate reads it</source>
+        <translation>Un archivo de escena, como lo lee turnscan simulate</translation>
+    </message>
+    <message>
+        <source>Save scene…</source>
+        <translation>Guardar escena…</translation>
+    </message>
+    <message>
+        <source>Everything here as a file for --scene</source>
+        <translation>Todo esto como archivo para --scene</translation>
+    </message>
+    <message>
+        <source>Scenes (*.toml)</source>
+        <translation>Escenas (*.toml)</translation>
+    </message>
+    <message>
+        <source>Load scene</source>
+        <translation>Cargar escena</translation>
+    </message>
+    <message>
+        <source>Save scene</source>
+        <translation>Guardar escena</translation>
+    </message>
+    <message>
+        <source>Coverage</source>
+        <translation>Cobertura</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Grabación</translation>
+    </message>
+    <message>
+        <source>Folder to make for the recording; it must not exist or be empty</source>
+        <translation>Carpeta que se crea para la grabación; no debe existir o debe estar vacía</translation>
+    </message>
+    <message>
+        <source>…</source>
+        <translation>…</translation>
+    </message>
+    <message>
+        <source>Choose the folder</source>
+        <translation>Elegir la carpeta</translation>
+    </message>
+    <message>
+        <source>Scan</source>
+        <translation>Escanear</translation>
+    </message>
+    <message>
+        <source>Record the object with all scanners</source>
+        <translation>Grabar el objeto con todos los escáneres</translation>
+    </message>
+    <message>
+        <source>Open in Explorer</source>
+        <translation>Abrir en el Explorador</translation>
+    </message>
+    <message>
+        <source>Load the recording in the Model Explorer</source>
+        <translation>Cargar la grabación en el Explorador de modelos</translation>
+    </message>
+    <message>
+        <source>Reconstruct</source>
+        <translation>Reconstruir</translation>
+    </message>
+    <message>
+        <source>Load it there and run every stage</source>
+        <translation>Cargarla allí y ejecutar todas las etapas</translation>
+    </message>
+    <message>
+        <source>Folder of the recording</source>
+        <translation>Carpeta de la grabación</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Vista previa</translation>
+    </message>
+    <message>
+        <source>There is no scanner; add one first</source>
+        <translation>No hay ningún escáner; añada uno primero</translation>
+    </message>
+    <message>
+        <source>What was covered</source>
+        <translation>Lo que se cubrió</translation>
+    </message>
+    <message>
+        <source>Density of samples</source>
+        <translation>Densidad de muestras</translation>
+    </message>
+    <message>
+        <source>Why it was missed</source>
+        <translation>Por qué faltó</translation>
+    </message>
+    <message>
+        <source>The samples only</source>
+        <translation>Solo las muestras</translation>
+    </message>
+    <message>
+        <source>Hole</source>
+        <translation>Hueco</translation>
+    </message>
+    <message>
+        <source>Size, mm</source>
+        <translation>Tamaño, mm</translation>
+    </message>
+    <message>
+        <source>Reason</source>
+        <translation>Motivo</translation>
+    </message>
+    <message>
+        <source>The largest holes; click one to fly there.</source>
+        <translation>Los huecos mayores; haga clic en uno para ir allí.</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+    <message>
+        <source>%1 cm²</source>
+        <translation>%1 cm²</translation>
+    </message>
+    <message>
+        <source>Scanners</source>
+        <translation>Escáneres</translation>
+    </message>
+    <message>
+        <source>Add scanner</source>
+        <translation>Añadir escáner</translation>
+    </message>
+    <message>
+        <source>Matrix and line scanners from presets</source>
+        <translation>Escáneres matriciales y de línea predefinidos</translation>
+    </message>
+    <message>
+        <source>From file…</source>
+        <translation>De un archivo…</translation>
+    </message>
+    <message>
+        <source>Scanner</source>
+        <translation>Escáner</translation>
+    </message>
+    <message>
+        <source>Scanners (*.toml)</source>
+        <translation>Escáneres (*.toml)</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Remove the selected scanner</source>
+        <translation>Quitar el escáner seleccionado</translation>
+    </message>
+    <message>
+        <source>Drag a scanner in the view to move it, with Shift nearer or farther, or type its place:</source>
+        <translation>Arrastre un escáner en la vista para moverlo, con Mayús más cerca o más lejos, o escriba su posición:</translation>
+    </message>
+    <message>
+        <source>change of the rig</source>
+        <translation>cambio del montaje</translation>
+    </message>
+    <message>
+        <source>What the colours show</source>
+        <translation>Lo que muestran los colores</translation>
+    </message>
+    <message>
+        <source>The largest holes</source>
+        <translation>Los huecos mayores</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::StagePanel</name>
+    <message>
+        <source>Reconstruct</source>
+        <translation>Reconstruir</translation>
+    </message>
+    <message>
+        <source>Run every stage on the selected recording or cloud (Ctrl+R)</source>
+        <translation>Ejecutar todas las etapas con la grabación o nube seleccionada (Ctrl+R)</translation>
+    </message>
+    <message>
+        <source>Load preset…</source>
+        <translation>Cargar…</translation>
+    </message>
+    <message>
+        <source>Options from a TOML file</source>
+        <translation>Opciones de un archivo TOML</translation>
+    </message>
+    <message>
+        <source>Save preset…</source>
+        <translation>Guardar…</translation>
+    </message>
+    <message>
+        <source>Options as a TOML file for --config</source>
+        <translation>Opciones como archivo TOML para --config</translation>
+    </message>
+    <message>
+        <source>Defaults</source>
+        <translation>Restablecer</translation>
+    </message>
+    <message>
+        <source>Set all options back</source>
+        <translation>Devolver todas las opciones a su valor inicial</translation>
+    </message>
+    <message>
+        <source>Presets (*.toml)</source>
+        <translation>Ajustes (*.toml)</translation>
+    </message>
+    <message>
+        <source>Load preset</source>
+        <translation>Cargar ajustes</translation>
+    </message>
+    <message>
+        <source>Save preset</source>
+        <translation>Guardar ajustes</translation>
+    </message>
+    <message>
+        <source>Filter the cloud</source>
+        <translation>Filtrar la nube</translation>
+    </message>
+    <message>
+        <source>Drop outliers of the selected cloud; adds a new model</source>
+        <translation>Descartar los valores atípicos de la nube seleccionada; añade un modelo nuevo</translation>
+    </message>
+    <message>
+        <source>Run the stages up to this one; adds its cloud as a new model</source>
+        <translation>Ejecutar las etapas hasta esta; añade su nube como modelo nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ToolPanel</name>
+    <message>
+        <source>Measure</source>
+        <translation>Medir</translation>
+    </message>
+    <message>
+        <source>Click two points; the distance is shown</source>
+        <translation>Haga clic en dos puntos; se muestra la distancia</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Cortar</translation>
+    </message>
+    <message>
+        <source>Cut the selected model by a plane</source>
+        <translation>Cortar el modelo seleccionado con un plano</translation>
+    </message>
+    <message>
+        <source>Lasso</source>
+        <translation>Lazo</translation>
+    </message>
+    <message>
+        <source>Draw around a part of the selected model to delete it</source>
+        <translation>Rodee una parte del modelo seleccionado para eliminarla</translation>
+    </message>
+    <message>
+        <source>Flip</source>
+        <translation>Invertir</translation>
+    </message>
+    <message>
+        <source>Keep the other side</source>
+        <translation>Conservar el otro lado</translation>
+    </message>
+    <message>
+        <source>Add the part that is shown as a new model</source>
+        <translation>Añadir la parte que se muestra como modelo nuevo</translation>
+    </message>
+    <message>
+        <source>Draw around what is to go; Ctrl+Z brings it back</source>
+        <translation>Rodee lo que sobra; Ctrl+Z lo recupera</translation>
+    </message>
+    <message>
+        <source>Axis of the cut</source>
+        <translation>Eje del corte</translation>
+    </message>
+    <message>
+        <source>Place of the cut</source>
+        <translation>Posición del corte</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::TurntableMovie</name>
+    <message>
+        <source>The view was closed</source>
+        <translation>La vista se cerró</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written</source>
+        <translation>No se puede escribir %1</translation>
+    </message>
+    <message>
+        <source>Picture %1 of %2</source>
+        <translation>Imagen %1 de %2</translation>
+    </message>
+    <message>
+        <source>Make the film</source>
+        <translation>Hacer la película</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::VerdictPanel</name>
+    <message>
+        <source>Verdict</source>
+        <translation>Veredicto</translation>
+    </message>
+    <message>
+        <source>Colours of the mesh</source>
+        <translation>Colores de la malla</translation>
+    </message>
+    <message>
+        <source>What the colours of the selected mesh show</source>
+        <translation>Lo que muestran los colores de la malla seleccionada</translation>
+    </message>
+    <message>
+        <source>Export report…</source>
+        <translation>Informe…</translation>
+    </message>
+    <message>
+        <source>One HTML file with the model in 3D, the verdict, pictures and plots</source>
+        <translation>Un archivo HTML con el modelo en 3D, el veredicto, imágenes y gráficas</translation>
+    </message>
+    <message>
+        <source>Own colours</source>
+        <translation>Colores propios</translation>
+    </message>
+    <message>
+        <source>Select a mesh that was made from a recording: how good it is, and why, stands here. An edited mesh has no verdict.</source>
+        <translation>Seleccione una malla hecha a partir de una grabación: aquí se indica cómo de buena es y por qué. Una malla editada no tiene veredicto.</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::ViewPanel</name>
+    <message>
+        <source>Bounding boxes</source>
+        <translation>Cajas</translation>
+    </message>
+    <message>
+        <source>Draw the box around each model (B)</source>
+        <translation>Dibujar la caja alrededor de cada modelo (B)</translation>
+    </message>
+    <message>
+        <source>How fast mouse and keys move the camera</source>
+        <translation>Con qué rapidez mueven la cámara el ratón y las teclas</translation>
+    </message>
+    <message>
+        <source>Size of points on the screen</source>
+        <translation>Tamaño de los puntos en pantalla</translation>
+    </message>
+    <message>
+        <source>Camera speed</source>
+        <translation>Velocidad</translation>
+    </message>
+    <message>
+        <source>Point size</source>
+        <translation>Puntos</translation>
+    </message>
+</context>
+</TS>
