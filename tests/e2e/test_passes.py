@@ -63,6 +63,28 @@ class Passes(harness.TestCase):
         wrong = self.ok("reconstruct", "rec", "--pass-pose", "1=beside.txt", "-o", "m.ply").stdout
         self.assertIn("pass 1 lies 3.0 mm from where its surface fits", wrong)
 
+    def test_a_pose_that_is_about_right_is_refined_by_the_surfaces(self):
+        self.simulate("tip=90deg,yaw=40deg")
+        rows = [[float(x) for x in row.split()]
+                for row in (self.dir / "pose1.txt").read_text().splitlines()]
+        turn = math.radians(3)
+        about = [[math.cos(turn), -math.sin(turn), 0, 0.004], [math.sin(turn), math.cos(turn), 0, 0],
+                 [0, 0, 1, -0.003], [0, 0, 0, 1]]
+        for name, move in (("about", about), ("away", [[-1, 0, 0, 0.1], [0, -1, 0, 0.1],
+                                                       [0, 0, 1, 0], [0, 0, 0, 1]])):
+            (self.dir / f"{name}.txt").write_text(
+                "\n".join(" ".join(f"{x:.9g}" for x in row) for row in product(move, rows)))
+        out = self.ok("reconstruct", "rec", "--pass-pose", "1=about.txt", "--refine-pass-poses",
+                      "-o", "m.ply", "--report", "m.json").stdout
+        self.assertIn("2 passes in one mesh", out)
+        found = json.loads((self.dir / "m.json").read_text())["passes"][1]["T_object_table"]
+        for i in range(3):
+            self.assertAlmostEqual(found[i][3], rows[i][3], delta=0.0007)
+        self.refused(FAILED, "reconstruct", "rec", "--pass-pose", "1=away.txt",
+                     "--refine-pass-poses", "-o", "n.ply", says="as it was placed")
+        self.refused(USAGE, "reconstruct", "rec", "--refine-pass-poses", "-o", "n.ply",
+                     says="--pass-pose")
+
     def test_the_points_methods_fuse_passes_too(self):
         self.simulate("tip=90deg,yaw=40deg")
         self.ok("reconstruct", "rec", "--pass", "0", "--method", "poisson", "--keep", "largest",
@@ -106,6 +128,51 @@ class Passes(harness.TestCase):
         self.assertFalse((self.dir / "whole.ply").exists())
         for name in ("whole-pass0.ply", "whole-pass1.ply"):
             self.assertIn("watertight", self.ok("info", name).stdout)
+
+    def vase(self, name, color):
+        """A vase of 120 mm, and what its paint is at an angle and a height."""
+        steps, rows = 120, 100
+        places = [(0.0, 0.0)]
+        places += [(30 + 12 * math.sin(y / 20), y) for y in (120 * r / rows for r in range(rows + 1))]
+        places += [(0.0, 120.0)]
+        vertices, faces = [], []
+        for r, y in places:
+            for k in range(steps):
+                a = 2 * math.pi * k / steps
+                vertices.append("%.4f %.4f %.4f %d %d %d" % (
+                    r * math.cos(a), y, -r * math.sin(a), *color(a, y)))
+        for i in range(len(places) - 1):
+            for k in range(steps):
+                a, b = i * steps + k, i * steps + (k + 1) % steps
+                faces += [f"3 {a} {b} {b + steps}", f"3 {a} {b + steps} {a + steps}"]
+        (self.dir / name).write_text("\n".join(
+            ["ply", "format ascii 1.0", f"element vertex {len(vertices)}",
+             *(f"property float {c}" for c in "xyz"),
+             *(f"property uchar {c}" for c in ("red", "green", "blue")),
+             f"element face {len(faces)}", "property list uchar int vertex_indices",
+             "end_header", *vertices, *faces]) + "\n")
+
+    def test_where_the_shape_does_not_tell_how_it_lay_the_paint_does(self):
+        def painted(a, y):
+            spot = math.sin(2 * a + y / 15) + math.sin(a - y / 22) > 0.2
+            return (200, 60, 40) if spot else (220, 210, 190) if math.sin(3 * a) > 0.4 else (60, 90, 150)
+
+        for name, color in (("painted", painted), ("plain", lambda a, y: (200, 190, 180))):
+            self.vase(f"{name}.ply", color)
+            self.ok("simulate", f"{name}.ply", "--unit", "mm", "--frames", 24, "--seed", 5,
+                    "--noise", "gaussian:1mm", "--scan-colour", "--colour-width", 480,
+                    "--colour-lamp", 0.6, "--colour-noise", 2, "--next-pass", "tip=90deg,yaw=40deg",
+                    "--out", name, "--quiet")
+        out = self.ok("reconstruct", "painted", "-o", "m.ply", "--report", "m.json").stdout
+        self.assertIn("pass 1 was joined by its colours", out)
+        truth = json.loads((self.dir / "painted/truth/truth.json").read_text())
+        true = product(truth["object"]["T_table_object"],
+                       inverse(truth["next_passes"][0]["T_table_object"]))
+        found = json.loads((self.dir / "m.json").read_text())["passes"][1]["T_object_table"]
+        for i in range(3):
+            for j in range(4):
+                self.assertAlmostEqual(found[i][j], true[i][j], delta=0.02 if j < 3 else 0.0015)
+        self.refused(FAILED, "reconstruct", "plain", "-o", "n.ply", says="its shape does not tell")
 
     def test_poses_are_of_passes_of_this_recording(self):
         self.simulate("tip=90deg", "tip=180deg", frames=4)

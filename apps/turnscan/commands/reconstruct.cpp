@@ -61,6 +61,10 @@ class ReconstructCommand : public Command {
         "pass's table, as a file with the rows of a 4x4 matrix in metres, or as RX,RY,RZ,TX,TY,TZ: "
         "turned about the fixed axes x, then y, then z, then shifted, e.g. "
         "1=180deg,0deg,30deg,0mm,200mm,0mm; may be given for several passes");
+    line.flag(
+        "--refine-pass-poses", refine_pass_poses_,
+        "A pass lies only about where --pass-pose says: its surface is brought from there onto "
+        "that of the others, and it is not joined where they contradict each other");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
     declare_stages(line, request_.options);
@@ -140,8 +144,12 @@ class ReconstructCommand : public Command {
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
     for (const std::string& text : pass_poses_) {
       TURNSCAN_ASSIGN(PassPose pose, parse_pass_pose(text));
+      pose.refine = refine_pass_poses_;
       request_.pass_poses.push_back(std::move(pose));
     }
+    if (refine_pass_poses_ && pass_poses_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--refine-pass-poses refines what --pass-pose says; give that, too");
     return {};
   }
 
@@ -174,6 +182,7 @@ class ReconstructCommand : public Command {
   std::vector<std::string> recordings_;
   std::vector<std::string> save_stages_, pass_poses_, reports_, import_;
   std::string keep_recording_;
+  bool refine_pass_poses_ = false;
   ReconstructFiles files_;
   ReconstructRequest request_;
 };

@@ -32,19 +32,29 @@ struct Direction {
   float tolerance;
   std::size_t stride;  ///< of views
 
-  Statement statement(std::size_t i) const {
+  /// What a sample agrees with; kNone: with nothing.
+  struct Partner {
+    std::uint32_t sample = NearestGrid::kNone;
+    float r2 = 0.0f;
+  };
+  Partner partner(std::size_t i) const {
     const Vec3f q = T_target_source * source.samples.points[i];
     const std::uint32_t near = target.nearest(q);
-    if (near != NearestGrid::kNone) {
-      const Vec3f n = T_target_source.linear() * source.samples.normals[i];
-      const Vec3f& np = target.samples.normals[near];
-      const Vec3f apart = target.samples.points[near] - q;
-      const float r = (n + np).normalized().dot(apart) / tolerance;
-      // The nearest sample lies beside the point, but not farther than samples do.
-      const auto beside = float(1.5 * target.samples.spacing_m) + tolerance;
-      if (n.dot(np) > kAgreeCos && std::abs(r) < 1.0f && apart.norm() < beside)
-        return {Says::kAgrees, r * r};
-    }
+    if (near == NearestGrid::kNone) return {};
+    const Vec3f n = T_target_source.linear() * source.samples.normals[i];
+    const Vec3f& np = target.samples.normals[near];
+    const Vec3f apart = target.samples.points[near] - q;
+    const float r = (n + np).normalized().dot(apart) / tolerance;
+    // The nearest sample lies beside the point, but not farther than samples do.
+    const auto beside = float(1.5 * target.samples.spacing_m) + tolerance;
+    if (n.dot(np) > kAgreeCos && std::abs(r) < 1.0f && apart.norm() < beside) return {near, r * r};
+    return {};
+  }
+
+  Statement statement(std::size_t i) const {
+    const Partner with = partner(i);
+    if (with.sample != NearestGrid::kNone) return {Says::kAgrees, with.r2};
+    const Vec3f q = T_target_source * source.samples.points[i];
     return {free.empty_at(q, stride) ? Says::kOpposes : Says::kNothing, 0.0f};
   }
   double area(std::size_t i) const { return 0.5 * double(source.samples.areas[i]); }
@@ -93,6 +103,17 @@ Agreement compare(const PreparedPass& a, const PreparedPass& b, const Pose& T_a_
   add({of_b, of_a, a.free, T, float(tolerance_m), stride}, out);
   add({of_a, of_b, b.free, T.inverse(), float(tolerance_m), stride}, out);
   if (out.agreeing_m2 > 0.0) out.rms_m = tolerance_m * std::sqrt(out.rms_m / out.agreeing_m2);
+  return out;
+}
+
+std::vector<std::uint32_t> agreeing_partners(const PreparedPass& a, const PreparedPass& b,
+                                             const Pose& T_a_b, double tolerance_m,
+                                             Density density) {
+  const bool coarse = density == Density::kCoarse;
+  const Direction direction{coarse ? b.coarse : b.medium, coarse ? a.coarse : a.medium, a.free,
+                            T_a_b.cast<float>(),          float(tolerance_m),           1};
+  std::vector<std::uint32_t> out(direction.source.samples.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = direction.partner(i).sample;
   return out;
 }
 

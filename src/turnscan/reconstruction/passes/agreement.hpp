@@ -20,6 +20,11 @@ enum class Density { kCoarse, kMedium };
 Agreement compare(const PreparedPass& a, const PreparedPass& b, const Pose& T_a_b,
                   double tolerance_m, Density density);
 
+/// Per sample of b the sample of a that it agrees with; NearestGrid::kNone where there is none.
+std::vector<std::uint32_t> agreeing_partners(const PreparedPass& a, const PreparedPass& b,
+                                             const Pose& T_a_b, double tolerance_m,
+                                             Density density);
+
 /// How sure it is that one motion fits better than another: what the difference of their scores is
 /// over its deviation, as the differences over blocks of the surface show it.
 double preference(const PreparedPass& a, const PreparedPass& b, const Pose& one, const Pose& other,

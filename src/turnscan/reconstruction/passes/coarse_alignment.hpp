@@ -8,9 +8,10 @@ namespace turnscan::passes {
 
 /// One step a reach: pairs, in both directions, farther apart than that do not count, and their
 /// weight falls with the distance to the tangent plane as Tukey's. Directions that the pairs do
-/// not hold stay as they are.
+/// not hold stay as they are. color_spread: so far apart colours are simply different, and their
+/// gradients pull, too (Park, Zhou and Koltun 2017); 0: colours do not matter.
 Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
-                  std::span<const double> reaches_m);
+                  std::span<const double> reaches_m, float color_spread = 0.0f);
 
 /// exp of a rotation vector and a translation, about the point `center`.
 Pose motion_about(const Vec3d& center, const Eigen::Matrix<double, 6, 1>& step);

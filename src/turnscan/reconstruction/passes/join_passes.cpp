@@ -10,26 +10,14 @@ namespace turnscan::passes {
 
 namespace {
 
-constexpr std::size_t kFewestPoints = 200;
-
-Result<> check_surface(const PassSurface& surface, std::size_t pass) {
-  const std::size_t points = surface.points.size();
-  if (points < kFewestPoints)
-    return fail(ErrorCode::kTooFewPoints,
-                "join passes: pass {} has {} measured points, {} are needed", pass, points,
-                kFewestPoints);
-  if (surface.normals.size() != points || surface.areas.size() != points ||
-      surface.weights.size() != points)
-    throw std::invalid_argument("join_passes: normals, areas and weights must fit the points");
-  return {};
-}
-
 Result<> check_passes(std::span<const std::vector<PassSurface>> passes) {
   if (passes.size() < 2)
     return fail(ErrorCode::kTooFewPoints, "join passes: there are {}, two are needed",
                 passes.size());
   for (std::size_t k = 0; k < passes.size(); ++k)
-    for (const PassSurface& surface : passes[k]) TURNSCAN_TRY(check_surface(surface, k));
+    for (const PassSurface& surface : passes[k])
+      if (auto good = check_surface(surface); !good)
+        return fail(good.error().code, "join passes: pass {}: {}", k, good.error().message);
   return {};
 }
 
@@ -107,19 +95,23 @@ class ObjectJoin {
       part.motion.joined = group.members.size() > 1;
     }
     if (out.size() == 1) {
-      out[0].motion.reason = reason_of(group.members[0]);
+      out[0].motion.reason = "no other pass has an object";
+      if (const PairVerdict* verdict = verdict_of(group.members[0])) {
+        out[0].motion.reason = verdict->reason;
+        out[0].motion.open = verdict->fits;
+      }
     } else {
       TURNSCAN_TRY(adjust_parts(group, out));
     }
     return out;
   }
 
-  /// That of the pair with the most evidence.
-  std::string reason_of(std::size_t object) const {
+  /// Of the pairs that were refused the one with the most evidence.
+  const PairVerdict* verdict_of(std::size_t object) const {
     for (const JudgedPair& judged : verdicts_)
       if ((judged.a == object || judged.b == object) && !judged.verdict.reason.empty())
-        return judged.verdict.reason;
-    return "no other pass has an object";
+        return &judged.verdict;
+    return nullptr;
   }
 
   Result<> adjust_parts(const ObjectGroup& group, std::vector<ObjectPart>& parts) const {
@@ -131,15 +123,25 @@ class ObjectJoin {
       start.push_back(parts[i].motion.T_first_pass);
       noise = std::max(noise, surfaces.back()->surface->noise_m);
     }
-    TURNSCAN_ASSIGN(const Adjustment fine, adjust(surfaces, overlapping(surfaces, start), start,
-                                                  2.0 * noise, {}, context_));
+    std::vector<PassPair> pairs = overlapping(surfaces, start);
+    for (PassPair& pair : pairs)
+      pair.by_colors = told_by_colors(group.members[pair.a], group.members[pair.b]);
+    TURNSCAN_ASSIGN(const Adjustment fine,
+                    adjust(surfaces, pairs, start, 2.0 * noise, {}, context_));
     for (std::size_t i = 0; i < parts.size(); ++i) state(surfaces, fine, i, parts[i].motion);
+    for (const PassPair& pair : pairs) parts[pair.b].motion.by_colors |= pair.by_colors;
     for (const JudgedPair& judged : verdicts_) {
       if (!judged.verdict.certain || !judged.verdict.interchangeable) continue;
       for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].motion.interchangeable |= group.members[i] == judged.b;
     }
     return {};
+  }
+
+  bool told_by_colors(std::size_t a, std::size_t b) const {
+    return std::any_of(verdicts_.begin(), verdicts_.end(), [&](const JudgedPair& judged) {
+      return judged.a == a && judged.b == b && judged.verdict.certain && judged.verdict.by_colors;
+    });
   }
 
   static Agreement agreement(std::span<const PreparedPass* const> surfaces,

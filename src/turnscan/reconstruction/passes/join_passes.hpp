@@ -15,6 +15,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 struct PassMotion {
   bool joined = false;
   std::string reason;                    ///< why it was not joined: one clause, for people
+  bool open = false;                     ///< not joined, though in several ways it would fit
   Pose T_first_pass = Pose::Identity();  ///< from this pass's table frame to the first one's
   /// Of a rotation vector (rad) and a translation (m) that follow the motion, in the first pass's
   /// frame, about `center`: T = exp(error about center) * T_first_pass. Zero for the first.
@@ -28,6 +29,7 @@ struct PassMotion {
   /// Another object on the same table is of the same shape wherever both were measured, and would
   /// do as well.
   bool interchangeable = false;
+  bool by_colors = false;  ///< its shape left the motion open, and its colours told
 };
 
 struct JoinOptions {
@@ -36,7 +38,8 @@ struct JoinOptions {
   double max_sigma_m = 0.0005;  ///< a motion known less well is undetermined
 };
 
-/// One motion a pass; the first is where it is. A pass whose motion is not determined, or that does
+/// One motion a pass; the first is where it is. Shapes decide; where they leave a motion open and
+/// both passes have colours, these do. A pass whose motion is not determined, or that does
 /// not fit, is not joined and has a reason; the others are joined without it. Passes that overlap
 /// only with passes that are joined are found through them. Each pass needs points and normals.
 /// Fails with kTooFewPoints for fewer than two passes or a pass with fewer than 200 points, and

@@ -6,6 +6,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
+#include <turnscan/reconstruction/passes/color_match.hpp>
 
 namespace turnscan::passes {
 
@@ -21,6 +22,7 @@ constexpr double kBlock = 0.012;
 /// turn. From simulated scans.
 constexpr double kRaised = 0.018, kTilted = 0.0045;
 constexpr std::size_t kFewestPairs = 50;
+constexpr double kLeastColorSigma = 0.02;
 
 /// A point and a tangent plane of another pass, in the first pass's frame.
 struct PlanePair {
@@ -28,16 +30,27 @@ struct PlanePair {
   float distance = 0.0f, weight = 0.0f;  ///< weight 0: no partner
 };
 
+/// The colours of such a pair: what is left between them, and how they change along the surface, a
+/// channel a row. NaN: not known.
+struct ColorPair {
+  Vec3f difference;
+  Eigen::Matrix3f gradient;
+  float up_source, up_target;
+};
+
 struct DirectedPairs {
   std::size_t source, target;
+  bool by_colors;
   std::vector<PlanePair> pairs;
+  std::vector<ColorPair> colors;  ///< as many, or none
+  double color_sigma = 0.0;
 };
 
 using Row = Eigen::Matrix<double, 12, 1>;
 
 /// Of the source's step, then of the target's.
-Row row_of(const PlanePair& pair, const Vec3d& center) {
-  const Vec3d n = pair.normal.cast<double>(), p = pair.point.cast<double>() - center;
+Row row_of(const Vec3f& direction, const Vec3f& point, const Vec3d& center) {
+  const Vec3d n = direction.cast<double>(), p = point.cast<double>() - center;
   Row row;
   row << p.cross(n), n, -p.cross(n), -n;
   return row;
@@ -51,8 +64,8 @@ class JointAdjustment {
     out_.T_first_pass = std::move(poses);
     out_.center = bounds(passes[0]->surface->points).center();
     for (const PassPair& pair : pairs) {
-      directed_.push_back({pair.a, pair.b, {}});
-      directed_.push_back({pair.b, pair.a, {}});
+      directed_.push_back({pair.a, pair.b, pair.by_colors, {}, {}});
+      directed_.push_back({pair.b, pair.a, pair.by_colors, {}, {}});
     }
   }
 
@@ -114,7 +127,30 @@ class JointAdjustment {
     if (out_.pairs < kFewestPairs)
       return fail(ErrorCode::kTooFewPoints, "the passes' surfaces do not meet");
     out_.sigma_m = std::max(kLeastSigma, 1.4826 * median(distances));
+    for (DirectedPairs& directed : directed_)
+      if (directed.by_colors) take_out_light(directed);
     return {};
+  }
+
+  /// What only the light explains, and the scatter of the rest.
+  void take_out_light(DirectedPairs& directed) const {
+    std::vector<ShadingFit::Pair> pairs;
+    for (std::size_t i = 0; i < directed.pairs.size(); ++i) {
+      const ColorPair& c = directed.colors[i];
+      if (directed.pairs[i].weight > 0.0f && c.difference.allFinite())
+        pairs.push_back({c.difference, c.up_source, c.up_target, directed.pairs[i].weight});
+    }
+    std::vector<float> sizes;
+    const auto scatter_of = [&](const ShadingFit& light) {
+      sizes.clear();
+      for (const ShadingFit::Pair& p : pairs)
+        sizes.push_back((p.difference - light.at(p.up_a, p.up_b)).norm());
+      // Of three normal deviates the median length is 1.54 of their deviation.
+      return std::max(kLeastColorSigma, median(sizes) / 1.54);
+    };
+    ShadingFit light(pairs, float(kTukey * scatter_of({})));
+    directed.color_sigma = scatter_of(light);
+    for (ColorPair& c : directed.colors) c.difference -= light.at(c.up_source, c.up_target);
   }
 
   void find_partners(DirectedPairs& directed, double reach_m) const {
@@ -126,6 +162,7 @@ class JointAdjustment {
             .cast<float>();
     const std::size_t stride = std::max<std::size_t>(1, source.points.size() / effort_.sources);
     directed.pairs.assign(source.points.size() / stride, {});
+    directed.colors.resize(directed.by_colors ? directed.pairs.size() : 0);
     parallel_for(directed.pairs.size(), 256, [&](std::size_t k) {
       const std::size_t i = k * stride;
       const Vec3f q = T * source.points[i], nq = T.linear() * source.normals[i];
@@ -141,12 +178,48 @@ class JointAdjustment {
       const float wq = source.weights[i], wp = target.surface->weights[near];
       directed.pairs[k] = {T_first_target * q, T_first_target.linear() * n, r,
                            source.areas[i] * wq * wp / (wq + wp)};
+      if (directed.by_colors)
+        directed.colors[k] =
+            colors_of(*passes_[directed.source], i, target, near, apart, T, T_first_target);
     });
+  }
+
+  static ColorPair colors_of(const PreparedPass& source, std::size_t i, const PreparedPass& target,
+                             std::uint32_t near, const Vec3f& apart,
+                             const Eigen::Isometry3f& T_target_source,
+                             const Eigen::Isometry3f& T_first_target) {
+    const Eigen::Matrix3f gradient =
+        0.5f * (target.color_gradients[near] +
+                source.color_gradients[i] * T_target_source.linear().transpose());
+    ColorPair out;
+    out.difference = source.surface->colors[i] - target.surface->colors[near] + gradient * apart;
+    out.gradient = gradient * T_first_target.linear().transpose();
+    out.up_source = source.surface->normals[i].y();
+    out.up_target = target.surface->normals[near].y();
+    return out;
   }
 
   double tukey(const PlanePair& pair) const {
     const double u = double(pair.distance) / (kTukey * out_.sigma_m);
     return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) * double(pair.weight) : 0.0;
+  }
+
+  /// Calls use(weight, residual, row) for what a pair of points has to say.
+  template <class Use>
+  void each_row(const DirectedPairs& directed, std::size_t i, const Use& use) const {
+    const PlanePair& pair = directed.pairs[i];
+    const double w = tukey(pair);
+    if (!(w > 0.0)) return;
+    use(w, double(pair.distance), row_of(pair.normal, pair.point, out_.center));
+    if (!directed.by_colors) return;
+    const ColorPair& colors = directed.colors[i];
+    const double u = double(colors.difference.norm()) / (kTukey * directed.color_sigma);
+    if (!(u < 1.0)) return;
+    const double per_color = out_.sigma_m / directed.color_sigma;
+    const double color_weight = w * (1.0 - u * u) * (1.0 - u * u) * per_color * per_color;
+    for (int c = 0; c < 3; ++c)
+      use(color_weight, double(colors.difference[c]),
+          row_of(colors.gradient.row(c).transpose(), pair.point, out_.center));
   }
 
   /// Adds a 12-vector or 12 x 12 matrix of two passes where their unknowns are; the first has none.
@@ -163,13 +236,11 @@ class JointAdjustment {
     for (const DirectedPairs& directed : directed_) {
       Eigen::Matrix<double, 12, 12> m = Eigen::Matrix<double, 12, 12>::Zero();
       Row v = Row::Zero();
-      for (const PlanePair& pair : directed.pairs) {
-        const double w = tukey(pair);
-        if (!(w > 0.0)) continue;
-        const Row row = row_of(pair, out_.center);
-        m.noalias() += (w * row) * row.transpose();
-        v += w * double(pair.distance) * row;
-      }
+      for (std::size_t i = 0; i < directed.pairs.size(); ++i)
+        each_row(directed, i, [&](double w, double residual, const Row& row) {
+          m.noalias() += (w * row) * row.transpose();
+          v += w * residual * row;
+        });
       scatter(directed, [&](Eigen::Index at, Eigen::Index from) {
         gradient_.segment<6>(at) += v.segment<6>(from);
         scatter(directed, [&](Eigen::Index to, Eigen::Index other) {
@@ -202,16 +273,17 @@ class JointAdjustment {
     using Key = std::array<int, 4>;
     std::map<Key, Eigen::VectorXd> blocks;
     for (std::size_t d = 0; d < directed_.size(); ++d) {
-      for (const PlanePair& pair : directed_[d].pairs) {
-        const double w = tukey(pair);
-        if (!(w > 0.0)) continue;
-        const Eigen::Vector3i at = (pair.point / float(kBlock)).array().floor().cast<int>();
-        // Both directions compare the same two surfaces.
-        auto& block = blocks[{int(d / 2), at.x(), at.y(), at.z()}];
-        if (block.size() == 0) block.setZero(Eigen::Index(unknowns()));
-        const Row g = w * double(pair.distance) * row_of(pair, out_.center);
-        scatter(directed_[d], [&](Eigen::Index to, Eigen::Index from) {
-          block.segment<6>(to) += g.segment<6>(from);
+      for (std::size_t i = 0; i < directed_[d].pairs.size(); ++i) {
+        const Vec3f& point = directed_[d].pairs[i].point;
+        each_row(directed_[d], i, [&](double w, double residual, const Row& row) {
+          const Eigen::Vector3i at = (point / float(kBlock)).array().floor().cast<int>();
+          // Both directions compare the same two surfaces.
+          auto& block = blocks[{int(d / 2), at.x(), at.y(), at.z()}];
+          if (block.size() == 0) block.setZero(Eigen::Index(unknowns()));
+          const Row g = w * residual * row;
+          scatter(directed_[d], [&](Eigen::Index to, Eigen::Index from) {
+            block.segment<6>(to) += g.segment<6>(from);
+          });
         });
       }
     }

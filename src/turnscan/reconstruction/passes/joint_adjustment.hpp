@@ -11,6 +11,7 @@ namespace turnscan::passes {
 /// Two passes whose surfaces overlap, by number.
 struct PassPair {
   std::size_t a = 0, b = 0;
+  bool by_colors = false;  ///< their colours are brought together, too; both have some
 };
 
 struct Adjustment {
@@ -31,7 +32,8 @@ struct AdjustEffort {
 
 /// Minimises Tukey's function of the distances between each point and the nearest tangent plane of
 /// the other pass, in both directions, over all pairs of passes. The covariance counts what lies
-/// together on the surface as one measurement: neighbours share their errors.
+/// together on the surface as one measurement: neighbours share their errors. Differences of
+/// colour pull along the surface, weighed by their own scatter, after a ShadingFit.
 /// Fails with kTooFewPoints where a pass has no partners, and with kCancelled.
 Result<Adjustment> adjust(std::span<const PreparedPass* const> passes,
                           std::span<const PassPair> pairs, std::vector<Pose> T_first_pass,

@@ -34,7 +34,12 @@ Vec3f bin_direction(int bin) {
   return n.normalized();
 }
 
-/// The points of a surface by the directions that their normals may have, in cells of translation.
+/// A point in cells of translation, and its colour.
+struct Place {
+  Vec3f cell, color;
+};
+
+/// The points of a surface by the directions that their normals may have.
 class NormalIndex {
  public:
   NormalIndex(const Samples& samples, const Vec3f& center, float per_cell) {
@@ -43,21 +48,28 @@ class NormalIndex {
       const Vec3f direction = bin_direction(bin);
       for (std::size_t i = 0; i < samples.size(); ++i)
         if (samples.normals[i].dot(direction) > kVoteCos)
-          lists_[std::size_t(bin)].push_back((samples.points[i] - center) * per_cell);
+          lists_[std::size_t(bin)].push_back(
+              {(samples.points[i] - center) * per_cell,
+               samples.colors.empty() ? Vec3f(Vec3f::Zero()) : samples.colors[i]});
     }
   }
-  const std::vector<Vec3f>& at(const Vec3f& normal) const {
+  const std::vector<Place>& at(const Vec3f& normal) const {
     return lists_[std::size_t(normal_bin(normal))];
   }
 
  private:
-  std::vector<std::vector<Vec3f>> lists_;
+  std::vector<std::vector<Place>> lists_;
 };
 
 struct Peak {
   float votes = 0.0f;
   Vec3f cell = Vec3f::Zero();
 };
+
+float likeness(const Vec3f& one, const Vec3f& other, float spread) {
+  const float squared = (one - other).squaredNorm();
+  return squared >= 0.0f ? 1.0f / (1.0f + 4.0f * squared / (spread * spread)) : 0.5f;  // NaN
+}
 
 /// The votes for translations under one rotation.
 class VoteBox {
@@ -127,7 +139,8 @@ std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad) {
 }
 
 Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b, double extent_m,
-                                              std::size_t count, const RunContext& context) {
+                                              std::size_t count, float color_spread,
+                                              const RunContext& context) {
   const std::vector<Eigen::Matrix3f> rotations = rotation_grid(kRotationSpacing);
   const Vec3f center_a = bounds(a.points).center().cast<float>();
   const Vec3f center_b = bounds(b.points).center().cast<float>();
@@ -142,11 +155,14 @@ Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b
          ++r) {
       box.clear();
       for (std::size_t i = 0; i < b.size(); ++i) {
-        const std::vector<Vec3f>& partners = index.at(rotations[r] * b.normals[i]);
+        const std::vector<Place>& partners = index.at(rotations[r] * b.normals[i]);
         const Vec3f q = rotations[r] * ((b.points[i] - center_b) * per_cell);
         // Of a plane all points are partners of each other.
         const float weight = 1.0f / std::sqrt(1.0f + float(partners.size()));
-        for (const Vec3f& p : partners) box.add(p - q, weight);
+        for (const Place& p : partners)
+          box.add(p.cell - q, color_spread > 0.0f
+                                  ? weight * likeness(p.color, b.colors[i], color_spread)
+                                  : weight);
       }
       peaks[r] = box.peaks();
     }

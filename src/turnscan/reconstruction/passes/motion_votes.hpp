@@ -16,8 +16,10 @@ struct VotedMotion {
 };
 
 /// The `count` motions with the most votes, at most two a rotation, best first. extent_m: of the
-/// larger one of the two surfaces. Fails with kCancelled.
+/// larger one of the two surfaces. color_spread: votes of points whose colours differ by so much
+/// count little; 0: colours do not matter. Fails with kCancelled.
 Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b, double extent_m,
-                                              std::size_t count, const RunContext& context);
+                                              std::size_t count, float color_spread,
+                                              const RunContext& context);
 
 }  // namespace turnscan::passes

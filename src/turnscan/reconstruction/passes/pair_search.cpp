@@ -10,6 +10,8 @@ namespace turnscan::passes {
 namespace {
 
 constexpr std::size_t kVoted = 800, kRefined = 40, kKept = 12;
+/// Where the shape leaves it open, many motions fit alike, and colours choose among them.
+constexpr std::size_t kColored = 2;
 /// Of the object's extent. A rotation of the grid is up to 10 degrees off.
 constexpr std::array<double, 12> kCoarseReach{0.11, 0.10, 0.09, 0.08, 0.07, 0.06,
                                               0.05, 0.05, 0.04, 0.04, 0.03, 0.03};
@@ -20,6 +22,7 @@ constexpr double kCoarseTolerance = 0.015;
 struct Refinement {
   const PreparedPass& a;
   const PreparedPass& b;
+  const ColorScale& colors;
   const RunContext& context;
 
   Result<> run(std::vector<CandidateMotion>& motions, Density density,
@@ -30,12 +33,15 @@ struct Refinement {
     std::vector<double> reaches;
     for (const double share : shares) reaches.push_back(share * std::max(a.extent_m, b.extent_m));
     TURNSCAN_TRY(parallel_for(motions.size(), 1, context, [&](std::size_t i) {
-      motions[i].T_a_b = align_levels(of_a, of_b, motions[i].T_a_b, reaches);
-      motions[i].agreement = compare(a, b, motions[i].T_a_b, tolerance_m, density);
+      CandidateMotion& motion = motions[i];
+      motion.T_a_b = align_levels(of_a, of_b, motion.T_a_b, reaches, colors.spread);
+      motion.agreement = compare(a, b, motion.T_a_b, tolerance_m, density);
+      if (colors.any())
+        motion.colors = compare_colors(a, b, motion.T_a_b, colors, tolerance_m, density);
     }));
     std::stable_sort(motions.begin(), motions.end(),
                      [](const CandidateMotion& x, const CandidateMotion& y) {
-                       return x.agreement.score_m2 > y.agreement.score_m2;
+                       return x.evidence_m2() > y.evidence_m2();
                      });
     keep_different(motions, keep);
     return {};
@@ -66,17 +72,19 @@ double agreement_tolerance_m(const PreparedPass& a, const PreparedPass& b) {
 }
 
 Result<std::vector<CandidateMotion>> search_motions(const PreparedPass& a, const PreparedPass& b,
+                                                    const ColorScale& colors,
                                                     const RunContext& context) {
   const double extent = std::max(a.extent_m, b.extent_m);
-  TURNSCAN_ASSIGN(const auto voted,
-                  vote_motions(a.votes.samples, b.votes.samples, extent, kVoted, context));
+  TURNSCAN_ASSIGN(const auto voted, vote_motions(a.votes.samples, b.votes.samples, extent, kVoted,
+                                                 colors.spread, context));
   std::vector<CandidateMotion> motions(voted.size());
   for (std::size_t i = 0; i < voted.size(); ++i) motions[i].T_a_b = voted[i].T_a_b;
-  const Refinement refinement{a, b, context};
-  TURNSCAN_TRY(
-      refinement.run(motions, Density::kCoarse, kCoarseReach, kCoarseTolerance * extent, kRefined));
-  TURNSCAN_TRY(
-      refinement.run(motions, Density::kMedium, kMediumReach, agreement_tolerance_m(a, b), kKept));
+  const Refinement refinement{a, b, colors, context};
+  const std::size_t more = colors.any() ? kColored : 1;
+  TURNSCAN_TRY(refinement.run(motions, Density::kCoarse, kCoarseReach, kCoarseTolerance * extent,
+                              more * kRefined));
+  TURNSCAN_TRY(refinement.run(motions, Density::kMedium, kMediumReach, agreement_tolerance_m(a, b),
+                              more * kKept));
   return motions;
 }
 

@@ -2,17 +2,28 @@
 // The motions between two passes that the evidence allows, best first.
 
 #include <turnscan/core/run_context.hpp>
-#include <turnscan/reconstruction/passes/agreement.hpp>
+#include <turnscan/reconstruction/passes/color_match.hpp>
 
 namespace turnscan::passes {
 
 struct CandidateMotion {
   Pose T_a_b = Pose::Identity();
   Agreement agreement;
+  ColorAgreement colors;  ///< where colours matter
+
+  /// What it is ranked by. Where colours matter the shapes fit in many ways, and how much they
+  /// overlap says little.
+  double evidence_m2() const {
+    constexpr double kOfShape = 0.1;
+    return colors.area_m2 > 0.0 ? colors.evidence_m2() + kOfShape * agreement.score_m2
+                                : agreement.score_m2;
+  }
 };
 
-/// Up to a dozen clearly different motions, refined on thinned surfaces. Fails with kCancelled.
+/// Up to a dozen clearly different motions, refined on thinned surfaces; with colours twice as
+/// many. colors: its spread 0: of their shapes alone. Fails with kCancelled.
 Result<std::vector<CandidateMotion>> search_motions(const PreparedPass& a, const PreparedPass& b,
+                                                    const ColorScale& colors,
                                                     const RunContext& context);
 
 /// Motions that move b's surface by less than this from each other are one.

@@ -10,7 +10,7 @@ namespace turnscan::passes {
 namespace {
 
 /// Candidates that are refined before they are compared, and how well.
-constexpr std::size_t kAdjusted = 4;
+constexpr std::size_t kAdjusted = 4, kAdjustedByColors = 8;
 constexpr AdjustEffort kTrial{4000, 10};
 
 /// A second motion with so nearly the same evidence makes the first one a guess; the lower share
@@ -24,6 +24,16 @@ bool rivals(const PreparedPass& a, const PreparedPass& b, const CandidateMotion&
   return share > kGuess || (share > kMaybe && preference(a, b, best.T_a_b, other.T_a_b,
                                                          agreement_tolerance_m(a, b)) < kSure);
 }
+
+/// Share of the differences of colour that a motion has to explain; of a ball with a few patches
+/// wrong ones explained up to 0.65. And shares of the evidence of the best one: another one is its
+/// rival, or may be if the difference is not sure.
+constexpr double kColorsFit = 0.7, kExplainsAsMuch = 0.9, kExplainsSome = 0.4;
+/// Where colours tell, much of the surface may agree elsewhere, but not more closely.
+constexpr double kLoose = 1.3;
+/// Colours pull from a few millimetres only: candidates that stopped short of the best one, nearer
+/// than this share of the object, are not others.
+constexpr double kStoppedShort = 0.1;
 
 /// The part `share` of the way of a rigid motion, as a screw.
 Pose part_of(const Pose& motion, double share) {
@@ -58,60 +68,124 @@ std::string rival_text(const PreparedPass& a, const PreparedPass& b, const Candi
                            turn.angle() * 180.0 / std::numbers::pi, about);
 }
 
+/// Judges a pair by its shapes or, where the scale has a spread, by colours as well.
+class Judge {
+ public:
+  Judge(const PreparedPass& a, const PreparedPass& b, const ColorScale& colors,
+        const JoinOptions& options, const RunContext& context)
+      : a_(a),
+        b_(b),
+        colors_(colors),
+        options_(options),
+        context_(context),
+        tolerance_m_(agreement_tolerance_m(a, b)) {}
+
+  Result<PairVerdict> run() {
+    TURNSCAN_TRY(adjust_candidates());
+    PairVerdict out;
+    if (adjusted_.empty()) {
+      out.reason = "nowhere do their surfaces lie on each other";
+      return out;
+    }
+    out.best = adjusted_[0].first;
+    out.adjustment = std::move(adjusted_[0].second);
+    out.reason = misfit(a_, b_, out.best.agreement, options_);
+    out.fits = out.reason.empty();
+    if (out.fits) out.reason = open(out);
+    out.certain = out.reason.empty();
+    out.by_colors = out.certain && colors_.any();
+    return out;
+  }
+
+ private:
+  /// The best motions, refined; best first.
+  Result<> adjust_candidates() {
+    TURNSCAN_ASSIGN(const auto motions, search_motions(a_, b_, colors_, context_));
+    const std::array<const PreparedPass*, 2> both{&a_, &b_};
+    const PassPair pair{0, 1, colors_.any()};
+    for (std::size_t i = 0;
+         i < std::min(colors_.any() ? kAdjustedByColors : kAdjusted, motions.size()); ++i) {
+      auto fine = adjust(both, std::span(&pair, 1), {Pose::Identity(), motions[i].T_a_b},
+                         2.0 * tolerance_m_, kTrial, context_);
+      TURNSCAN_TRY(context_.check());
+      if (!fine) continue;
+      CandidateMotion motion{fine->T_first_pass[1], {}, {}};
+      motion.agreement = compare(a_, b_, motion.T_a_b, tolerance_m_, Density::kMedium);
+      if (colors_.any())
+        motion.colors =
+            compare_colors(a_, b_, motion.T_a_b, colors_, tolerance_m_, Density::kMedium);
+      adjusted_.emplace_back(motion, std::move(*fine));
+    }
+    std::stable_sort(adjusted_.begin(), adjusted_.end(), [](const auto& x, const auto& y) {
+      return x.first.evidence_m2() > y.first.evidence_m2();
+    });
+    return {};
+  }
+
+  /// A motion that hides the patterns in what the other pass did not see explains nothing.
+  bool rivals_in_color(const CandidateMotion& best, const CandidateMotion& other) const {
+    const double share = other.colors.evidence_m2() / best.colors.evidence_m2();
+    return share > kExplainsAsMuch ||
+           (share > kExplainsSome &&
+            color_preference(a_, b_, best.T_a_b, other.T_a_b, colors_, tolerance_m_) < kSure);
+  }
+
+  /// Why the motion is a guess though it fits; empty where it is none.
+  std::string open(const PairVerdict& verdict) const {
+    const CandidateMotion& best = verdict.best;
+    if (colors_.any() && best.colors.explained() < kColorsFit)
+      return "nowhere do their colours lie on each other";
+    const double same_m =
+        colors_.any() ? kStoppedShort * std::max(a_.extent_m, b_.extent_m) : same_motion_m(a_, b_);
+    for (std::size_t i = 1; i < adjusted_.size(); ++i) {
+      const CandidateMotion& other = adjusted_[i].first;
+      if (motion_distance(b_, best.T_a_b, other.T_a_b) < same_m) continue;
+      if (colors_.any() && best.agreement.rms_m > kLoose * other.agreement.rms_m)
+        return "where their colours fit their shapes do not";
+      if (!rivals(a_, b_, best, other)) continue;
+      if (colors_.any() && !rivals_in_color(best, other)) continue;
+      return (colors_.any() ? "" : "its shape does not tell how it lay: ") +
+             rival_text(a_, b_, best, other);
+    }
+    return undetermined_direction(b_, verdict.adjustment, options_.max_sigma_m);
+  }
+
+  const PreparedPass& a_;
+  const PreparedPass& b_;
+  const ColorScale& colors_;
+  const JoinOptions& options_;
+  const RunContext& context_;
+  double tolerance_m_;
+  std::vector<std::pair<CandidateMotion, Adjustment>> adjusted_;
+};
+
 }  // namespace
 
-Result<PairVerdict> judge_pair(const PreparedPass& a, const PreparedPass& b,
-                               const JoinOptions& options, const RunContext& context) {
-  TURNSCAN_ASSIGN(std::vector<CandidateMotion> motions, search_motions(a, b, context));
-  PairVerdict out;
-  const std::array<const PreparedPass*, 2> both{&a, &b};
-  const PassPair pair{0, 1};
-  const double tolerance = agreement_tolerance_m(a, b);
-  std::vector<std::pair<CandidateMotion, Adjustment>> adjusted;
-  for (std::size_t i = 0; i < std::min(kAdjusted, motions.size()); ++i) {
-    auto fine = adjust(both, std::span(&pair, 1), {Pose::Identity(), motions[i].T_a_b},
-                       2.0 * tolerance, kTrial, context);
-    TURNSCAN_TRY(context.check());
-    if (!fine) continue;
-    CandidateMotion motion{fine->T_first_pass[1], {}};
-    motion.agreement = compare(a, b, motion.T_a_b, tolerance, Density::kMedium);
-    adjusted.emplace_back(motion, std::move(*fine));
-  }
-  std::stable_sort(adjusted.begin(), adjusted.end(), [](const auto& x, const auto& y) {
-    return x.first.agreement.score_m2 > y.first.agreement.score_m2;
-  });
-  if (adjusted.empty()) {
-    out.reason = "nowhere do their surfaces lie on each other";
-    return out;
-  }
-  out.best = adjusted[0].first;
-  out.adjustment = std::move(adjusted[0].second);
-  const Agreement& agreement = out.best.agreement;
+std::string misfit(const PreparedPass& a, const PreparedPass& b, const Agreement& agreement,
+                   const JoinOptions& options) {
   const double smaller = std::min(a.area_m2, b.area_m2);
-  if (agreement.agreeing_m2 < options.min_overlap * smaller) {
-    out.reason = fmt::format(
+  if (agreement.agreeing_m2 < options.min_overlap * smaller)
+    return fmt::format(
         "their surfaces overlap too little, by {:.1f} of {:.1f} cm^2, to tell the motion",
         agreement.agreeing_m2 * 1e4, smaller * 1e4);
-    return out;
-  }
-  if (agreement.against_m2 > options.max_against * agreement.agreeing_m2) {
-    out.reason = fmt::format(
+  if (agreement.against_m2 > options.max_against * agreement.agreeing_m2)
+    return fmt::format(
         "they contradict each other: where {:.1f} cm^2 fit best, {:.1f} cm^2 of what one measured "
         "lies where the other saw nothing; these are different objects, or it changed its shape",
         agreement.agreeing_m2 * 1e4, agreement.against_m2 * 1e4);
-    return out;
-  }
-  out.fits = true;
-  for (std::size_t i = 1; i < adjusted.size(); ++i) {
-    const CandidateMotion& other = adjusted[i].first;
-    if (motion_distance(b, out.best.T_a_b, other.T_a_b) < same_motion_m(a, b)) continue;
-    if (!rivals(a, b, out.best, other)) continue;
-    out.reason = "its shape does not tell how it lay: " + rival_text(a, b, out.best, other);
-    return out;
-  }
-  out.reason = undetermined_direction(b, out.adjustment, options.max_sigma_m);
-  out.certain = out.reason.empty();
-  return out;
+  return {};
+}
+
+Result<PairVerdict> judge_pair(const PreparedPass& a, const PreparedPass& b,
+                               const JoinOptions& options, const RunContext& context) {
+  TURNSCAN_ASSIGN(PairVerdict by_shape, Judge(a, b, {}, options, context).run());
+  if (by_shape.certain || !by_shape.fits) return by_shape;
+  const ColorScale colors = color_scale(a, b);
+  if (!colors.any()) return by_shape;
+  TURNSCAN_ASSIGN(PairVerdict by_colors, Judge(a, b, colors, options, context).run());
+  if (by_colors.certain) return by_colors;
+  by_shape.reason += "; by its colours: " + by_colors.reason;
+  return by_shape;
 }
 
 }  // namespace turnscan::passes

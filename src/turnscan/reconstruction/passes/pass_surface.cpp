@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <stdexcept>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
 
 namespace turnscan::passes {
 
 namespace {
 
+constexpr std::size_t kFewestPoints = 200;
 /// The volume ends in rags where less than this share of the usual measurements is behind it.
 constexpr float kLeastConfidence = 0.1f;
 constexpr int kRagRings = 2;
@@ -32,6 +34,18 @@ std::vector<bool> unmeasured(const ObjectResult& object) {
 }
 
 }  // namespace
+
+Result<> check_surface(const PassSurface& surface) {
+  const std::size_t points = surface.points.size();
+  if (points < kFewestPoints)
+    return fail(ErrorCode::kTooFewPoints, "{} points of it were measured, {} are needed", points,
+                kFewestPoints);
+  if (surface.normals.size() != points || surface.areas.size() != points ||
+      surface.weights.size() != points ||
+      (!surface.colors.empty() && surface.colors.size() != points))
+    throw std::invalid_argument("a pass's normals, areas, weights and colours must fit its points");
+  return {};
+}
 
 PassSurface measured_surface(const ObjectResult& object) {
   const TriangleMesh& mesh = object.mesh;

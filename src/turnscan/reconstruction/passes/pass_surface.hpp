@@ -14,14 +14,21 @@ using SharedViews = std::shared_ptr<const std::vector<views::DepthView>>;
 
 /// One object of a pass. Table frame of the pass, metres.
 struct PassSurface {
-  std::vector<Vec3f> points;      ///< of the surface; only what was measured
-  std::vector<Vec3f> normals;     ///< unit, outwards; one a point
-  std::vector<float> areas;       ///< m^2 that each point stands for
-  std::vector<float> weights;     ///< of the measurements behind each point, relative, (0, 1]
+  std::vector<Vec3f> points;   ///< of the surface; only what was measured
+  std::vector<Vec3f> normals;  ///< unit, outwards; one a point
+  std::vector<float> areas;    ///< m^2 that each point stands for
+  std::vector<float> weights;  ///< of the measurements behind each point, relative, (0, 1]
+  /// Lightness (halved) and two opponent colours, as logarithms of the light that comes back; NaN
+  /// where not known. See surface_colors(). Empty: there is no colour.
+  std::vector<Vec3f> colors;
   SharedViews views;              ///< some or all of the pass; may be none
   std::optional<double> floor_m;  ///< height below which there is only the platter
   double noise_m = 0.0015;        ///< of a depth along its ray
 };
+
+/// Fails with kTooFewPoints when it has fewer than 200 points; throws std::invalid_argument when
+/// normals, areas, weights or colours do not fit them.
+Result<> check_surface(const PassSurface& surface);
 
 /// The vertices of a reconstructed object that were measured and lie at least two edges away from
 /// what was not. Without views, floor and noise.

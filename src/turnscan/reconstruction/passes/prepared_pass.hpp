@@ -14,18 +14,28 @@ struct SurfaceLevel {
   Samples samples;
   double reach_m;  ///< up to which nearest() finds points
   NearestGrid nearest;
+  /// Of each channel (row) by the place, along the surface; empty without colours.
+  std::vector<Eigen::Matrix3f> color_gradients;
 };
+
+/// From the nearest neighbours of each point; 0 where too few have a colour.
+std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
+                                             std::span<const Vec3f> normals,
+                                             std::span<const Vec3f> colors);
 
 struct PreparedPass {
   /// surface must outlive it.
   explicit PreparedPass(const PassSurface& surface);
+
+  bool colored() const { return !surface->colors.empty(); }
 
   const PassSurface* surface;
   double extent_m;  ///< diagonal of the box around it
   double area_m2;
   SurfaceLevel votes, coarse, medium;
   FreeSpace free;
-  KdTree tree;     ///< of all points
+  KdTree tree;                                   ///< of all points
+  std::vector<Eigen::Matrix3f> color_gradients;  ///< of all points, as SurfaceLevel's
   float beside_m;  ///< a point of the surface has one of them this near
 };
 

@@ -31,18 +31,22 @@ Samples thinned(const PassSurface& surface, std::size_t count) {
   Samples out;
   out.spacing_m = cell;
   for (std::size_t i = 0; i < order.size();) {
-    Vec3f point = Vec3f::Zero(), normal = Vec3f::Zero();
-    float sum = 0.0f;
+    Vec3f point = Vec3f::Zero(), normal = Vec3f::Zero(), color = Vec3f::Zero();
+    float sum = 0.0f, colored = 0.0f;
     for (const std::uint64_t key = order[i].first; i < order.size() && order[i].first == key; ++i) {
       const std::uint32_t v = order[i].second;
       point += surface.areas[v] * surface.points[v];
       normal += surface.areas[v] * surface.normals[v];
       sum += surface.areas[v];
+      if (surface.colors.empty() || !surface.colors[v].allFinite()) continue;
+      color += surface.areas[v] * surface.colors[v];
+      colored += surface.areas[v];
     }
     if (!(sum > 0.0f) || !(normal.norm() > 0.3f * sum)) continue;
     out.points.push_back(point / sum);
     out.normals.push_back(normal.normalized());
     out.areas.push_back(sum);
+    if (!surface.colors.empty()) out.colors.push_back(color / colored);  // NaN where none is known
   }
   return out;
 }

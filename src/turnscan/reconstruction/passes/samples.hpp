@@ -8,7 +8,8 @@ namespace turnscan::passes {
 
 struct Samples {
   std::vector<Vec3f> points, normals;
-  std::vector<float> areas;  ///< m^2
+  std::vector<float> areas;   ///< m^2
+  std::vector<Vec3f> colors;  ///< as PassSurface::colors, or empty
   double spacing_m = 0.0;
 
   std::size_t size() const { return points.size(); }

@@ -4,10 +4,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/reconstruction/passes/coarse_alignment.hpp>
 
 namespace turnscan::passes {
 
 namespace {
+
+/// A direction of which pairs of points say less, as a share of the one they say most of, is open.
+constexpr double kHeld = 0.02;
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
@@ -26,6 +30,23 @@ Matrix6 displacement_metric(const PreparedPass& pass, const Pose& T_first_pass,
   return sum / double(std::max<std::size_t>(1, pass.coarse.samples.size()));
 }
 
+/// Small motions of the second of two passes, in coordinates of which a unit moves the surface by a
+/// metre, by how well they are known.
+struct KnownDirections {
+  Matrix6 root;  ///< L; y = L^T x
+  Eigen::SelfAdjointEigenSolver<Matrix6> eigen;
+
+  KnownDirections(const PreparedPass& pass, const Adjustment& adjustment)
+      : root(Eigen::LLT<Matrix6>(
+                 displacement_metric(pass, adjustment.T_first_pass[1], adjustment.center))
+                 .matrixL()),
+        eigen(root.transpose() * adjustment.covariances[1] * root) {}
+  double sigma(int k) const { return std::sqrt(std::max(0.0, eigen.eigenvalues()[k])); }
+  Vec6 motion_of(const Vec6& y) const {
+    return root.transpose().triangularView<Eigen::Upper>().solve(y);
+  }
+};
+
 std::string direction_text(const Vec6& x, double lever_m) {
   const bool turns = x.head<3>().norm() * lever_m > x.tail<3>().norm();
   const Vec3d axis = (turns ? x.head<3>() : x.tail<3>()).normalized();
@@ -41,17 +62,36 @@ double surface_sigma(const PreparedPass& pass, const Pose& T_first_pass, const V
       std::max(0.0, (displacement_metric(pass, T_first_pass, center) * covariance).trace()));
 }
 
+Pose determined_part(const PreparedPass& pass, const Adjustment& adjustment, const Pose& from,
+                     double max_sigma_m) {
+  const KnownDirections known(pass, adjustment);
+  // What pairs of points say about each direction, of which noise says a little of any.
+  const auto l = known.root.triangularView<Eigen::Lower>();
+  const Matrix6 half = l.solve(adjustment.information[1]);
+  const Eigen::SelfAdjointEigenSolver<Matrix6> said(l.solve(Matrix6(half.transpose())));
+  const Matrix6 covariance = known.root.transpose() * adjustment.covariances[1] * known.root;
+  const Pose step = adjustment.T_first_pass[1] * from.inverse();
+  const Eigen::AngleAxisd turn(step.linear());
+  Vec6 x;
+  x << turn.angle() * turn.axis(), step * adjustment.center - adjustment.center;
+  Vec6 y = known.root.transpose() * x;
+  for (int k = 0; k < 6; ++k) {
+    const Vec6 direction = said.eigenvectors().col(k);
+    const bool held = said.eigenvalues()[k] > kHeld * said.eigenvalues()[5] &&
+                      direction.dot(covariance * direction) < max_sigma_m * max_sigma_m;
+    if (!held) y -= direction.dot(y) * direction;
+  }
+  Pose out = motion_about(adjustment.center, known.motion_of(y)) * from;
+  out.linear() = Eigen::Quaterniond(out.linear()).normalized().toRotationMatrix();
+  return out;
+}
+
 std::string undetermined_direction(const PreparedPass& pass, const Adjustment& adjustment,
                                    double max_sigma_m) {
-  const Matrix6 metric = displacement_metric(pass, adjustment.T_first_pass[1], adjustment.center);
-  const Eigen::LLT<Matrix6> root(metric);
-  const Matrix6 l = root.matrixL();
-  // In coordinates y = L^T x a unit moves the surface by a metre.
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(l.transpose() * adjustment.covariances[1] * l);
-  const double sigma = std::sqrt(std::max(0.0, eigen.eigenvalues()[5]));
+  const KnownDirections known(pass, adjustment);
+  const double sigma = known.sigma(5);
   if (sigma < max_sigma_m) return {};
-  const Vec6 x =
-      l.transpose().triangularView<Eigen::Upper>().solve(Vec6(eigen.eigenvectors().col(5)));
+  const Vec6 x = known.motion_of(known.eigen.eigenvectors().col(5));
   return fmt::format("its shape leaves open how it {}: known to {:.2f} mm only",
                      direction_text(x, 0.3 * pass.extent_m), sigma * 1e3);
 }

@@ -23,8 +23,9 @@ struct PlainOptions {
 };
 
 const PlainOptions& plain_options(const std::string& command) {
-  static const PlainOptions reconstruct{
-      {"calibration", "pass-pose", "import"}, {"turntable", "config"}, {"allow-open"}};
+  static const PlainOptions reconstruct{{"calibration", "pass-pose", "import"},
+                                        {"turntable", "config"},
+                                        {"allow-open", "refine-pass-poses"}};
   static const PlainOptions simulate{{"scanner", "next-pass", "unit"}, {"scene"}, {"samples"}};
   return command == "simulate" ? simulate : reconstruct;
 }

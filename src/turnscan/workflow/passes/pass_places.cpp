@@ -6,9 +6,11 @@
 #include <map>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
+#include <turnscan/reconstruction/passes/motion_refinement.hpp>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/seen_space.hpp>
+#include <turnscan/workflow/passes/pass_colors.hpp>
 
 namespace turnscan {
 
@@ -114,10 +116,12 @@ class PassSearch {
     TURNSCAN_TRY(measure(options, context));
     TURNSCAN_TRY(check_stated_tables());
     TURNSCAN_ASSIGN(const auto objects, join(context));
-    if (several_objects() && !any_stated())
+    if (several_objects() && !any_stated()) {
       for (const auto& parts : objects) take_object(parts);
-    else
-      take_passes(objects);
+    } else {
+      TURNSCAN_TRY(take_passes(objects, context));
+    }
+    note_colors(objects);
     note_what_is_left(objects);
     return std::move(out_);
   }
@@ -143,14 +147,17 @@ class PassSearch {
   }
 
   /// The first is where it is.
-  bool is_stated(std::size_t k) const { return k == 0 || passes_[k].T_first_pass; }
+  bool is_stated(std::size_t k) const {
+    return k == 0 || (passes_[k].T_first_pass && !passes_[k].refine);
+  }
   bool any_stated() const {
     return std::any_of(passes_.begin(), passes_.end(),
                        [](const PassOfMany& pass) { return pass.T_first_pass.has_value(); });
   }
   bool all_stated() const {
-    return std::all_of(passes_.begin() + 1, passes_.end(),
-                       [](const PassOfMany& pass) { return pass.T_first_pass.has_value(); });
+    for (std::size_t k = 0; k < passes_.size(); ++k)
+      if (!is_stated(k)) return false;
+    return true;
   }
   bool several_objects() const {
     return std::any_of(tables_.begin(), tables_.end(),
@@ -163,17 +170,41 @@ class PassSearch {
       if (tables_[k].objects.size() > 1)
         return fail(ErrorCode::kUnsupported,
                     "{}: {} objects stand on its table, and --pass-pose moves them as one; state "
-                    "the poses of all passes, or of none",
+                    "the poses of all passes as they are, or of none",
                     passes_[k].name, tables_[k].objects.size());
     return {};
   }
 
-  Result<std::vector<std::vector<ObjectPart>>> join(const RunContext& context) const {
+  Result<std::vector<std::vector<ObjectPart>>> join(const RunContext& context) {
     // What is stated of several objects is not questioned.
     if (several_objects() && any_stated()) return std::vector<std::vector<ObjectPart>>();
+    TURNSCAN_ASSIGN(auto by_shape, join_tables(context));
+    const bool open = std::any_of(by_shape.begin(), by_shape.end(),
+                                  [](const auto& parts) { return parts[0].motion.open; });
+    if (!open) return by_shape;
+    TURNSCAN_ASSIGN(const bool colored, color_tables(context));
+    if (!colored) return by_shape;
+    return join_tables(context);
+  }
+
+  Result<std::vector<std::vector<ObjectPart>>> join_tables(const RunContext& context) const {
     std::vector<std::vector<PassSurface>> surfaces;
-    for (const MeasuredTable& table : tables_) surfaces.push_back(table.objects);
+    for (std::size_t k = 0; k < passes_.size(); ++k) {
+      surfaces.push_back(tables_[k].objects);
+      if (passes_[k].refine) surfaces.back().clear();  // it is not searched for
+    }
     return passes::join_objects(surfaces, {}, context);
+  }
+
+  /// Whether two passes at least have colours. They are looked at only where shapes do not tell.
+  Result<bool> color_tables(const RunContext& context) {
+    std::size_t colored = 0;
+    for (std::size_t k = 0; k < passes_.size(); ++k) {
+      TURNSCAN_TRY(color_surfaces(passes_[k].frames, tables_[k].objects, context));
+      colored += std::any_of(tables_[k].objects.begin(), tables_[k].objects.end(),
+                             [](const PassSurface& object) { return !object.colors.empty(); });
+    }
+    return colored > 1;
   }
 
   void take_object(const std::vector<ObjectPart>& parts) {
@@ -201,7 +232,8 @@ class PassSearch {
 
   /// One object: what hangs together with the first pass or with one that is stated has its place
   /// through it, and of the others what hangs together is an object of its own.
-  void take_passes(const std::vector<std::vector<ObjectPart>>& groups) {
+  Result<> take_passes(const std::vector<std::vector<ObjectPart>>& groups,
+                       const RunContext& context) {
     ObjectPlaces first;
     first.of_pass.resize(passes_.size());
     for (std::size_t k = 0; k < passes_.size(); ++k)
@@ -217,10 +249,32 @@ class PassSearch {
       else
         place_through(*anchor, parts, first);
     }
+    for (std::size_t k = 1; k < passes_.size(); ++k)
+      if (passes_[k].refine) TURNSCAN_TRY(place_roughly_stated(k, first, context));
     const auto count = std::count_if(first.of_pass.begin(), first.of_pass.end(),
                                      [](const auto& place) { return place.has_value(); });
     if (count > 1) out_.objects.push_back(std::move(first));
     for (const auto* parts : others) take_object(*parts);
+    return {};
+  }
+
+  /// Onto what has its place already.
+  Result<> place_roughly_stated(std::size_t k, ObjectPlaces& object, const RunContext& context) {
+    if (tables_[k].objects.empty()) return {};  // why is known
+    std::vector<passes::PlacedSurface> placed;
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+      if (object.of_pass[i] && !tables_[i].objects.empty())
+        placed.push_back({&tables_[i].objects[0], object.of_pass[i]->T_object_table});
+    TURNSCAN_ASSIGN(const passes::RefinedMotion refined,
+                    passes::refine_motion(placed, tables_[k].objects[0], *passes_[k].T_first_pass,
+                                          {}, context));
+    if (!refined.misfit.empty()) {
+      out_.reasons[k] = "as it was placed, " + refined.misfit;
+      return {};
+    }
+    object.of_pass[k] = placement_of(passes_[k], refined.T_here_pass);
+    object.of_pass[k]->found = {refined.sigma_m, refined.sigma_rad, refined.overlap_m2};
+    return {};
   }
 
   void place_through(const ObjectPart& anchor, const std::vector<ObjectPart>& parts,
@@ -250,6 +304,15 @@ class PassSearch {
   bool is_placed(std::size_t k) const {
     return std::any_of(out_.objects.begin(), out_.objects.end(),
                        [&](const ObjectPlaces& object) { return object.of_pass[k].has_value(); });
+  }
+
+  void note_colors(const std::vector<std::vector<ObjectPart>>& groups) {
+    for (const auto& parts : groups)
+      for (const ObjectPart& part : parts)
+        if (part.motion.by_colors)
+          out_.notes.push_back(
+              fmt::format("{} was joined by its colours: its shape alone left open how it lay",
+                          passes_[part.pass].name));
   }
 
   void note_what_is_left(const std::vector<std::vector<ObjectPart>>& groups) {
@@ -308,7 +371,10 @@ Result<std::vector<PassOfMany>> list_passes(const std::vector<RecordingFrames>& 
       if (recordings.size() > 1) one.name += fmt::format(" ({})", recording.name);
       const auto given = std::find_if(stated.begin(), stated.end(),
                                       [&](const PassPose& p) { return p.pass == one.number; });
-      if (given != stated.end()) one.T_first_pass = given->T_first_table;
+      if (given != stated.end()) {
+        one.T_first_pass = given->T_first_table;
+        one.refine = given->refine;
+      }
       out.push_back(std::move(one));
     }
   }

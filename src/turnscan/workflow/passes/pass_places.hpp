@@ -21,6 +21,7 @@ struct PassOfMany {
   std::uint32_t number = 0;  ///< by which people call it
   std::string name;          ///< "pass 1", with the recording's name where there are several
   std::optional<Pose> T_first_pass;  ///< stated
+  bool refine = false;               ///< stated roughly; see PassPose
 };
 
 /// All passes. Those of one recording keep their numbers, those of several are counted from 0 on.
@@ -44,10 +45,11 @@ struct PassPlaces {
 
 /// Measures the surfaces of the objects in all passes and brings them together
 /// (reconstruction/passes). An object lies in the frame of the table of the first pass that shows
-/// it. What is stated is taken, and doubted where the surfaces show something else. options: of the
+/// it. What is stated is taken, and doubted where the surfaces show something else; what is stated
+/// roughly is brought onto the others, and not joined where it does not fit. options: of the
 /// reconstruction. Fails with kCancelled, unless all are stated as reconstruct() does for the first
-/// pass, and with kUnsupported when the poses of some passes only are stated and one of them has
-/// several objects.
+/// pass, and with kUnsupported when one of the passes has several objects and the poses of some
+/// passes only are stated, or one roughly.
 Result<PassPlaces> place_passes(const std::vector<PassOfMany>& passes,
                                 const ReconstructOptions& options, const RunContext& context);
 

@@ -9,6 +9,9 @@ namespace turnscan {
 struct PassPose {
   std::uint32_t pass = 0;
   Pose T_first_table = Pose::Identity();  ///< from its table frame to that of the first pass
+  /// It lies only about there: its surface is brought onto that of the others from there, and must
+  /// fit.
+  bool refine = false;
 };
 
 /// "PASS=FILE": the rows of a 4x4 matrix in metres, numbers with spaces, commas or line ends

@@ -1,0 +1,88 @@
+#include <turnscan/workflow/passes/pass_colors.hpp>
+
+#include <algorithm>
+#include <map>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/reconstruction/passes/surface_colors.hpp>
+
+namespace turnscan {
+
+namespace {
+
+/// Each point is then seen about a dozen times.
+constexpr std::size_t kMostFrames = 36;
+constexpr double kAround_m = 0.01;  // the space around the objects that is looked at
+
+std::vector<std::size_t> spread_frames(const FrameSequence& frames) {
+  std::vector<std::size_t> good, out;
+  for (std::size_t i = 0; i < frames.frames().size(); ++i)
+    if (frames.frames()[i].status == FrameStatus::kOk) good.push_back(i);
+  const std::size_t count = std::min(kMostFrames, good.size());
+  for (std::size_t k = 0; k < count; ++k) out.push_back(good[k * good.size() / count]);
+  return out;
+}
+
+Box box_around(const std::vector<passes::PassSurface>& objects) {
+  Box box;
+  for (const passes::PassSurface& object : objects)
+    for (const Vec3f& p : object.points) box.add(p.cast<double>());
+  box.min.array() -= kAround_m;
+  box.max.array() += kAround_m;
+  return box;
+}
+
+class ColoredViews {
+ public:
+  ColoredViews(const FrameSequence& frames, const Box& box) : frames_(frames), box_(box) {
+    for (const SensorInfo& sensor : frames.header().sensors)
+      rays_.push_back(sensor.kind == SensorKind::kDepthCamera ? RayTable(sensor.intrinsics)
+                                                              : RayTable());
+  }
+
+  Result<std::vector<views::DepthView>> read(const RunContext& context) const {
+    const std::vector<std::size_t> chosen = spread_frames(frames_);
+    std::vector<Result<views::DepthView>> made(chosen.size(), views::DepthView());
+    TURNSCAN_TRY(
+        parallel_for(chosen.size(), 1, context, [&](std::size_t k) { made[k] = view(chosen[k]); }));
+    std::vector<views::DepthView> out;
+    for (auto& view : made) {
+      TURNSCAN_ASSIGN(views::DepthView one, view);
+      if (!one.colors.empty()) out.push_back(std::move(one));
+    }
+    return out;
+  }
+
+ private:
+  Result<views::DepthView> view(std::size_t position) const {
+    TURNSCAN_ASSIGN(const Frame frame, frames_.read(position));
+    if (frame.color.empty() && frame.points.colors.empty()) return views::DepthView();
+    const std::size_t sensor = frame.info.sensor;
+    const Pose T = frame.info.T_table_sensor.value_or(Pose::Identity());
+    views::ViewScale scale;
+    scale.colored = true;
+    return views::make_view(
+        frame, frames_.header().sensors[sensor], rays_[sensor], T, scale, [&](const Vec3f& p) {
+          const Vec3d at = T * p.cast<double>();
+          return (at.array() >= box_.min.array()).all() && (at.array() <= box_.max.array()).all();
+        });
+  }
+
+  const FrameSequence& frames_;
+  Box box_;
+  std::vector<RayTable> rays_;
+};
+
+}  // namespace
+
+Result<> color_surfaces(const SequencePass& pass, std::vector<passes::PassSurface>& objects,
+                        const RunContext& context) {
+  if (objects.empty()) return {};
+  TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass}));
+  TURNSCAN_ASSIGN(const auto views, ColoredViews(frames, box_around(objects)).read(context));
+  for (passes::PassSurface& object : objects) {
+    TURNSCAN_ASSIGN(object.colors, passes::surface_colors(object, views, context));
+  }
+  return {};
+}
+
+}  // namespace turnscan
