@@ -145,6 +145,8 @@ void judge(int seed, const Scan& scan, Tally& tally) {
       "     {} (F {:.3f}, invented {:.0f} %), called {}; error over stated, 68 % {:.2f}, 95 % "
       "{:.2f}\n",
       truly, f, 100.0 * invented, stated, tally.p68.back(), tally.p95.back());
+  for (const VerdictSentence& s : object.verdict->sentences)
+    if (s.topic == "agreement" || s.topic == "error") fmt::print("     {}\n", s.text);
   if (truly == stated) return;
   for (const VerdictSentence& s : object.verdict->sentences)
     fmt::print("       {:12} {:5} {}\n", s.topic, name_of(s.level), s.text);

@@ -57,13 +57,15 @@ class Verdict(harness.TestCase):
         self.assertEqual(len(columns["off_mm"]), 40)
         self.assertLess(max(columns["off_mm"]), 0.6)
 
-    def test_a_letter_of_70_degrees_and_a_scan_that_broke_off_are_red(self):
-        for name, turns, degrees in (("seventy", 70 / 360, 108), ("broken", 0.4, 184)):
+    def test_a_letter_of_70_degrees_is_red_and_a_scan_that_broke_off_not_green(self):
+        for name, turns, colour in (("seventy", 70 / 360, "red"), ("broken", 0.4, "amber")):
             told, verdict = self.scan(name, "--turns", str(turns))
-            self.assertEqual(verdict["colour"], "red", told)
-            self.assertNotIn("can be printed", told)
-            self.assertIn(f"the frames look from {degrees} of 360 degrees",
-                          self.text(verdict, "turn"))
+            self.assertEqual(verdict["colour"], colour, told)
+            self.assertEqual("can be printed" in told, colour != "red")
+            looks = re.match(r"the frames look from (\d+) of 360 degrees",
+                             self.text(verdict, "turn"))
+            # 39 steps, and 20 degrees beside the first and the last frame.
+            self.assertAlmostEqual(float(looks[1]), 360 * turns * 39 / 40 + 40, delta=1)
             self.assertIn("a whole turn would show", self.text(verdict, "help"))
 
     def test_a_stale_calibration_is_red_where_it_is_kept_and_has_an_age(self):

@@ -13,15 +13,15 @@ namespace {
 
 constexpr int kFrames = 20;
 
-/// Frames of a letter with their true poses, over one turn and a bit.
+/// Frames of an object with their true poses, over one turn and a bit.
 struct TrueScan {
   testing::MemorySequence frames;
   ObjectResult object;
 };
 
-TrueScan true_scan() {
+TrueScan true_scan(const char* object = "builtin:cylinder") {
   SceneDescription scene;
-  scene.object = "builtin:letter-a";
+  scene.object = object;
   scene.motion.frames = kFrames;
   scene.motion.turns = 1.2;
   scene.measure.noise = "gaussian:0.5mm";
@@ -51,7 +51,7 @@ TEST(FrameResiduals, AreSmallWhereTheFramesStandAsTheyStood) {
   ASSERT_EQ(found.size(), std::size_t(kFrames));
   for (const FrameResidual& r : found) {
     EXPECT_LT(r.off_m(), 0.00025) << r.frame;
-    EXPECT_NEAR(r.spread_m, 0.0005, 0.0002) << r.frame;
+    EXPECT_NEAR(r.spread_m, 0.0004, 0.00015) << r.frame << ", along slanted normals less";
     EXPECT_NEAR(r.outward_m, 0.0, 0.0002) << r.frame;
   }
   const FrameAgreement agreement = frame_agreement(found);
@@ -64,9 +64,9 @@ TEST(FrameResiduals, AreSmallWhereTheFramesStandAsTheyStood) {
 
 TEST(FrameResiduals, TellWhichFramesLieElsewhereAndHowFar) {
   TrueScan scan = true_scan();
-  for (const std::size_t i : {5u, 6u, 7u}) move(scan.frames.infos[i], Vec3d(0.0, 0.003, 0.0));
+  for (const std::size_t i : {5u, 6u, 7u}) move(scan.frames.infos[i], Vec3d(0.0, 0.0, 0.003));
   const auto found = residuals_of(scan);
-  EXPECT_NEAR(found.at(6).shift_m.y(), 0.003, 0.0006);
+  EXPECT_NEAR(found.at(6).shift_m.z(), 0.003, 0.0006);
   const FrameAgreement agreement = frame_agreement(found);
   ASSERT_EQ(agreement.apart.size(), 1u);
   EXPECT_EQ(agreement.apart[0].first, 5u);
@@ -77,10 +77,10 @@ TEST(FrameResiduals, TellWhichFramesLieElsewhereAndHowFar) {
 }
 
 TEST(FrameResiduals, TellATurnAboutTheAxisByTheShape) {
-  TrueScan scan = true_scan();
-  Pose& T = *scan.frames.infos[3].T_table_sensor;
+  TrueScan scan = true_scan("builtin:letter-a");
+  Pose& T = *scan.frames.infos[0].T_table_sensor;
   T = rotation_about_y(2.0 * kRadiansPerDegree) * T;
-  const FrameResidual found = residuals_of(scan).at(3);
+  const FrameResidual found = residuals_of(scan).at(0);
   EXPECT_GT(std::abs(found.turn_m), 0.0005);
 }
 
@@ -121,7 +121,7 @@ TEST(FrameAgreement, ComparesSensors) {
 TEST(FrameAgreement, OfNothingKnowsNothing) { EXPECT_EQ(frame_agreement({}).frames, 0u); }
 
 TEST(SeenVertices, AreThoseThatTheFramesLookAt) {
-  TrueScan scan = true_scan();
+  TrueScan scan = true_scan("builtin:letter-a");
   const auto all = seen_vertices(scan.object.mesh, {{&scan.frames}}, {});
   ASSERT_TRUE(all);
   // Of a third of the turn.

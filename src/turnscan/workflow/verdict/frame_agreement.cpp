@@ -53,7 +53,7 @@ std::optional<double> turn_apart(const std::vector<FrameResidual>& residuals,
       step = std::max(step, (a.seen_from - b.seen_from).norm());
       const double away = (b.seen_from - residuals[i].seen_from).norm();
       farthest = std::max(farthest, away);
-      if (away > 0.5 * step + 1e-9 || farthest < 4.0 * step) continue;
+      if (away > 0.5 * step || !(farthest > 4.0 * step)) continue;
       differences.push_back((motion_of(residuals[i]) - motion_of(b)).norm());
       break;
     }

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kMostFrames = 128, kMostPoints = 800, kFewestPoints = 50;
 constexpr double kFarthest_m = 0.010, kFarthestNoises = 10.0;
+/// Above the table, where the platter's own points end.
+constexpr double kAbove_m = 0.004, kAboveNoises = 3.0;
 constexpr int kRounds = 6;
 /// Holds what the normals do not determine: 2 % of the points say that nothing moved.
 constexpr double kHold = 0.02;
@@ -105,7 +107,9 @@ class Surface {
 struct ChosenFrame {
   const MeshFrames* source;
   std::size_t position;
-  Pose T_mesh_sensor;
+  Pose T_table_sensor;
+
+  Pose T_mesh_sensor() const { return source->T_mesh_table * T_table_sensor; }
 };
 
 Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& sources) {
@@ -116,7 +120,7 @@ Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& so
                     frame_poses(source.frames->header(), infos, source.speed_rad_s));
     for (std::size_t i = 0; i < infos.size(); ++i)
       if (infos[i].status == FrameStatus::kOk && (!source.pass || infos[i].pass == *source.pass))
-        all.push_back({&source, i, source.T_mesh_table * poses.T_table_sensor[i]});
+        all.push_back({&source, i, poses.T_table_sensor[i]});
   }
   if (all.size() <= kMostFrames) return all;
   std::vector<ChosenFrame> out;
@@ -125,11 +129,12 @@ Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& so
 }
 
 std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points,
-                               const Pose& T_mesh_sensor) {
+                               const ChosenFrame& chosen, double above_m) {
   std::vector<Vec3d> near;
   for (const Vec3f& p : points.cloud.points) {
-    const Vec3d at = T_mesh_sensor * p.cast<double>();
-    if (surface.is_near(at)) near.push_back(at);
+    const Vec3d p_table = chosen.T_table_sensor * p.cast<double>();
+    const Vec3d at = chosen.source->T_mesh_table * p_table;
+    if (p_table.y() > above_m && surface.is_near(at)) near.push_back(at);
   }
   std::vector<Sample> out;
   const std::size_t stride = std::max<std::size_t>(1, near.size() / kMostPoints);
@@ -139,8 +144,8 @@ std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points
 }
 
 std::optional<FrameResidual> residual_of(const Surface& surface, const FramePoints& points,
-                                         const ChosenFrame& chosen) {
-  const std::vector<Sample> samples = samples_of(surface, points, chosen.T_mesh_sensor);
+                                         const ChosenFrame& chosen, double above_m) {
+  const std::vector<Sample> samples = samples_of(surface, points, chosen, above_m);
   if (samples.size() < kFewestPoints) return std::nullopt;
   const FrameInfo& info = chosen.source->frames->frames()[chosen.position];
   FrameResidual out;
@@ -153,7 +158,7 @@ std::optional<FrameResidual> residual_of(const Surface& surface, const FramePoin
   std::vector<double> distances;
   for (const Sample& s : samples) distances.push_back(s.distance_m);
   out.outward_m = median(distances);
-  out.seen_from = points.viewpoint.transformed(chosen.T_mesh_sensor).value;
+  out.seen_from = points.viewpoint.transformed(chosen.T_mesh_sensor()).value;
   out.points = samples.size();
   return out;
 }
@@ -165,6 +170,7 @@ Result<std::vector<FrameResidual>> frame_residuals(const ObjectResult& object,
                                                    double noise_m, const RunContext& context) {
   if (object.mesh.triangles.empty()) return std::vector<FrameResidual>();
   const Surface surface(object, std::max(kFarthest_m, kFarthestNoises * noise_m));
+  const double above_m = std::max(kAbove_m, kAboveNoises * noise_m);
   TURNSCAN_ASSIGN(const auto chosen, choose_frames(sources));
   std::map<const MeshFrames*, std::vector<RayTable>> rays;
   for (const MeshFrames& source : sources) rays[&source] = ray_tables(source.frames->header());
@@ -178,7 +184,7 @@ Result<std::vector<FrameResidual>> frame_residuals(const ObjectResult& object,
                                       rays.at(chosen[i].source).at(s));
                    })
                    .map([&](const FramePoints& points) {
-                     return residual_of(surface, points, chosen[i]);
+                     return residual_of(surface, points, chosen[i], above_m);
                    });
   }));
   std::vector<FrameResidual> out;

@@ -40,8 +40,9 @@ struct FrameResidual {
 /// the mesh, in their order. The motion is that of robust least squares over distances along the
 /// normals (Y. Chen and G. Medioni, "Object modelling by registration of multiple range images",
 /// 1992, equation 7; Huber's weights); what the shape does not determine stays 0. noise_m: of a
-/// depth along its ray; points farther off than ten times that, or 10 mm, are of something else.
-/// Fails as frame_poses() and reading do, and with kCancelled. The same for any number of threads.
+/// depth along its ray; points farther off than ten times that, or 10 mm, are of something else,
+/// and so are those less than 4 mm, or three times that, above the table. Fails as frame_poses()
+/// and reading do, and with kCancelled. The same for any number of threads.
 Result<std::vector<FrameResidual>> frame_residuals(const ObjectResult& object,
                                                    const std::vector<MeshFrames>& sources,
                                                    double noise_m, const RunContext& context);

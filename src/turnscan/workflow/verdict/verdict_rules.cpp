@@ -8,6 +8,7 @@
 #include <turnscan/reconstruction/quality/thin_walls.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/verdict/error_shares.hpp>
+#include <turnscan/workflow/verdict/frame_agreement.hpp>
 #include <turnscan/workflow/verdict/scan_sentences.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
 
@@ -27,6 +28,10 @@ constexpr int kManyFrames = 40;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
+/// Of a frame's spread, that its place is uncertain by; and which share of how far frames lie off
+/// stays in a surface that is their mean, since frames near each other err alike
+/// (bench/expected_error).
+constexpr double kOffNoise = 0.1, kSharedOff = 0.7;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
 
 /// How far the poses of the frames may be off, as a shift of what they saw.
@@ -56,6 +61,13 @@ PoseError pose_error(const ScanKnowledge& known) {
                            0.5 * std::sqrt(std::max(0.0, closure->shift_m * closure->shift_m -
                                                              closure->noise_m * closure->noise_m)));
   return out;
+}
+
+/// How far frames lie off each other beyond what the spread of their points explains.
+double disagreement_m(const std::vector<FrameResidual>& residuals) {
+  const FrameAgreement a = frame_agreement(residuals);
+  const double noise = kOffNoise * a.spread_m;
+  return std::sqrt(std::max(0.0, a.usual_m * a.usual_m - noise * noise));
 }
 
 std::vector<double> vertex_areas(const TriangleMesh& mesh) {
@@ -117,17 +129,18 @@ class Judge {
   }
 
   /// A shift of the frames moves what faces that way; a tilt moves it by its distance from the
-  /// middle.
+  /// middle; where frames disagree the surface lies between them.
   void add_pose_errors() {
     if (object_.quality.empty()) return;
     const PoseError error = pose_error(known_);
+    const double shared_m = residuals_ != nullptr ? kSharedOff * disagreement_m(*residuals_) : 0.0;
     const Vec3d middle = bounds(object_.mesh.vertices).center();
     for (std::size_t v = 0; v < object_.quality.size(); ++v) {
       const Vec3d n = normals_[v].cast<double>();
       const double across = std::hypot(n.x(), n.z());
       const double lever = (object_.mesh.vertices[v].cast<double>() - middle).norm();
       float& expected = object_.quality[v].expected_error_m;
-      expected = float(std::sqrt(double(expected) * double(expected) +
+      expected = float(std::sqrt(double(expected) * double(expected) + shared_m * shared_m +
                                  std::pow(error.shift_m * across, 2) +
                                  std::pow(error.tilt_rad * lever, 2)));
     }

@@ -36,8 +36,8 @@ Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames
 /// is 0.97 or more, and hardly a frame could see at most 0.10 of the surface (the base on the
 /// platter apart). red: less than 0.85, or more than 0.25; or the mesh is not closed without having
 /// been asked for; or what disturbed the recording was not corrected. amber: else. Objects without
-/// expected errors (methods from points) are amber at best. docs/report.md has the sentences and how they were
-/// judged.
+/// expected errors (methods from points) are amber at best. docs/report.md has the sentences and
+/// how they were judged.
 void judge_objects(Reconstruction& reconstruction, const ScanKnowledge& known);
 
 }  // namespace turnscan
