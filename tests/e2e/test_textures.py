@@ -1,15 +1,22 @@
 """A scan with a colour camera of its own becomes a mesh with a texture, in every format that has one."""
 
 import json
+import os
+import shutil
 import struct
+import subprocess
+import unittest
+import zlib
 
 import harness
-from harness import FAILED, USAGE
+from harness import FAILED, ROOT, USAGE
 
 SCAN = ("simulate", "builtin:doll", "--height", "100mm", "--frames", "10", "--distance", "0.6m",
         "--noise", "none", "--platter-radius", "80mm", "--scan-colour")
 CAMERA = ("--colour-width", "320", "--colour-fov", "20deg", "--colour-drift", "0.2")
 COARSE = ("--voxel-size", "3mm")
+VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
+TURN = ("render", "m.obj", "--picture-width", "61", "--picture-height", "47", "--picture-samples", "1")
 
 
 def gltf_of(path):
@@ -43,12 +50,81 @@ class Textures(harness.TestCase):
         self.assertIn("texture of 256 x 256", self.ok("info", "m.obj").stdout)
         self.ok("render", "m.obj", "--picture-width", "64", "--picture-height", "64", "-o", "p.png")
 
+    @unittest.skipUnless(shutil.which("node") and VALIDATOR.is_dir(),
+                         "Khronos' validator is not installed (scripts/setup page)")
+    def test_khronos_validator_finds_nothing_in_glb_files(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "-o", "plain.glb")
+        self.ok("reconstruct", "rec", *COARSE, "--colour", "-o", "colours.glb")
+        self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "texture.glb")
+        (self.dir / "damaged.glb").write_bytes((self.dir / "plain.glb").read_bytes()[:-64])
+
+        def validated(*names):
+            return subprocess.run(["node", str(ROOT / "web" / "validate.mjs"), *names], cwd=self.dir, text=True,
+                                  capture_output=True, timeout=60)
+        found = validated("plain.glb", "colours.glb", "texture.glb")
+        self.assertEqual((found.returncode, found.stderr), (0, ""), found.stdout)
+        self.assertIn("1 images", found.stdout)
+        self.assertEqual(validated("damaged.glb").returncode, 1)
+
     def test_what_cannot_have_a_texture_is_refused(self):
         self.ok(*SCAN[:-1], "--out", "rec")
         for name in ("m.stl", "m.ply"):
             self.refused(USAGE, "reconstruct", "rec", "--texture", "-o", name, says="no texture")
         self.refused(FAILED, "reconstruct", "rec", "--texture", "-o", "m.glb", says="no colour images")
         self.assertFalse((self.dir / "m.glb").exists())
+
+
+class TurningPictures(harness.TestCase):
+    """A body that looks different from all sides."""
+
+    def setUp(self):
+        super().setUp()
+        corners = [(2 * x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        corners[7] = (3, 1, 2)
+        sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        lines = ["v %d %d %d" % c for c in corners]
+        lines += ["f " + " ".join(str(i + 1) for i in side) for side in sides]
+        (self.dir / "m.obj").write_text("\n".join(lines) + "\n")
+
+    def test_an_animation_needs_no_other_program(self):
+        self.ok(*TURN, "--turn-frames", "8", "--turn-time", "2s", "--turntable", "t.png", env={"PATH": "/nowhere"})
+        data, at, chunks = (self.dir / "t.png").read_bytes(), 8, []
+        while at < len(data):
+            size, = struct.unpack_from(">I", data, at)
+            name, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+            self.assertEqual(struct.unpack_from(">I", data, at + 8 + size)[0], zlib.crc32(name + content))
+            chunks.append((name, content))
+            at += 12 + size
+        self.assertEqual([c for n, c in chunks if n == b"acTL"], [struct.pack(">II", 8, 0)])
+        controls = [struct.unpack(">IIIIIHHBB", c) for n, c in chunks if n == b"fcTL"]
+        self.assertEqual([c[1:7] for c in controls], [(61, 47, 0, 0, 250, 1000)] * 8)
+        shown = [zlib.decompress(c) for n, c in chunks if n == b"IDAT"]
+        shown += [zlib.decompress(c[4:]) for n, c in chunks if n == b"fdAT"]
+        self.assertEqual(len(shown), 8)
+        self.assertEqual(len(set(shown)), 8)
+
+    def test_a_video_is_made_by_ffmpeg_or_refused_at_once(self):
+        self.refused(FAILED, *TURN, "--turntable", "t.mp4", env={"PATH": "/nowhere"}, says="ffmpeg")
+        broken = self.dir / "bin" / "ffmpeg"
+        broken.parent.mkdir()
+        broken.write_text("#!/bin/sh\ncase \"$*\" in *-version*) exit 0;; esac\necho no such encoder >&2\nexit 1\n")
+        broken.chmod(0o755)
+        self.refused(FAILED, *TURN, "--turn-frames", "2", "--turntable", "t.mp4",
+                     env={"PATH": f"{broken.parent}:{os.environ['PATH']}"}, says="no such encoder")
+        self.assertFalse((self.dir / "t.mp4").exists())
+        if not shutil.which("ffmpeg"):
+            return
+        self.ok(*TURN, "--turn-frames", "6", "--turntable", "t.mp4")
+        video = (self.dir / "t.mp4").read_bytes()
+        self.assertEqual(video[4:8], b"ftyp")
+        self.assertLess(video.index(b"moov"), video.index(b"mdat"), "it does not play while it loads")
+
+    def test_what_makes_no_sense_is_refused(self):
+        self.refused(USAGE, "render", "m.obj", says="nothing to write")
+        self.refused(USAGE, *TURN, "--turntable", "t.gif", says=".mp4 or .png")
+        self.refused(USAGE, *TURN, "--turntable", "t.png", "--picture-views", "2", says="one view")
+        self.refused(USAGE, *TURN, "--turntable", "t.png", "--side-by-side", says="one view")
 
 
 if __name__ == "__main__":

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -20,7 +21,7 @@ class Builder {
     model_.asset.version = "2.0";
     model_.asset.generator = "turnscan";
     model_.buffers.emplace_back();
-    add_material(-1);
+    if (!std::all_of(meshes.begin(), meshes.end(), has_texture)) add_material(-1);
     model_.scenes.emplace_back();
     model_.defaultScene = 0;
     for (const TriangleMesh& mesh : meshes) {
