@@ -74,8 +74,10 @@ TEST(Recorder, WritesJpegFilesOfTheQualityThatWasAskedFor) {
   const TempFolder temp;
   Frame frame = depth_frame(0);
   frame.color = ColorImage(8, 6);
-  for (std::size_t i = 0; i < frame.color.pixels.size(); ++i)
-    frame.color.pixels[i] = {std::uint8_t(i * 37), std::uint8_t(i * 91), std::uint8_t(i * 53)};
+  for (std::size_t i = 0; i < frame.color.pixels.size(); ++i) {
+    const auto grey = std::uint8_t(i * 37);
+    frame.color.pixels[i] = {grey, grey, grey};
+  }
   std::vector<std::uintmax_t> sizes;
   std::vector<double> errors;
   for (const int quality : {10, 95}) {
