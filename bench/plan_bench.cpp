@@ -358,7 +358,7 @@ Result<> compare_turns(const PlanRequest& request, const PlanField& field, PlanS
                        int n, ChoiceCounts& counts) {
   const ChosenRig* best = nullptr;
   for (const ChosenRig& rig : rigs)
-    if (!rig.error_first && rig.rig.places.size() * rig.passes <= turns &&
+    if (rig.rig.places.size() * rig.passes <= turns &&
         (best == nullptr || rig.score.covered > best->score.covered))
       best = &rig;
   if (best == nullptr) return {};
