@@ -196,7 +196,7 @@ TEST_F(Editing, TheHistoryLeadsToEachStateAndBack) {
   ASSERT_NE(list, nullptr);
   ASSERT_EQ(list->count(), 4);  // start, open, smooth, reduce
   EXPECT_EQ(list->currentRow(), 3);
-  EXPECT_EQ(list->item(3)->text(), "Reduce");
+  EXPECT_EQ(list->item(3)->text(), "reduce");
   ASSERT_TRUE(click(list));
   keep_picture(window, "editing-history");
   const auto go = [&](int row) {

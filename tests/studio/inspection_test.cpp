@@ -178,15 +178,15 @@ TEST_F(Inspection, CutsACappedSectionInMillimetresAndDrawsIt) {
   set_length("section_place", 50.0);
   ASSERT_TRUE(wait_for([&] {
     const auto& made = window.explorer().section().section();
-    return made && std::abs(made->offset_m - 0.05) < 1e-9;
+    return made && std::abs(made->offset_m + 0.05) < 1e-9;
   }));
   ASSERT_TRUE(wait_idle(window));
   const auto& made = window.explorer().section().section();
   ASSERT_EQ(made->contours.size(), 1u);
   EXPECT_NEAR(made->area_m2, 3.14159 * 0.041 * 0.041, 3e-5);
   EXPECT_EQ(made->open, 0u);
-  // From below one looks at the cap.
-  view.look(StandardView::kBottom);
+  // From above one looks at the cap.
+  view.look(StandardView::kTop);
   ASSERT_TRUE(wait_for([&] { return view.settled(); }));
   const QColor middle =
       view.screenshot().pixelColor(view.rect().center() * view.devicePixelRatioF());

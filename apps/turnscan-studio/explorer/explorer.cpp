@@ -67,14 +67,14 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
 
 void ExplorerMode::add_sections() {
   auto* inspection = new Section(tr("Inspection"), false, this);
-  const auto nested = [&](QWidget* content, const QString& title) {
-    auto* section = new Section(title, true, this, Section::kNested);
+  const auto nested = [&](QWidget* content, const QString& title, bool open) {
+    auto* section = new Section(title, open, this, Section::kNested);
     section->body()->addWidget(content);
     inspection->body()->addWidget(section);
   };
-  nested(deviations_, tr("Deviations"));
-  nested(measure_, tr("Measure"));
-  nested(section_, tr("Section"));
+  nested(deviations_, tr("Deviations"), true);
+  nested(measure_, tr("Measure"), false);
+  nested(section_, tr("Section"), false);
   for (Section* each : {section_with(list_, tr("Models"), true, this),
                         section_with(verdict_, tr("Verdict"), true, this),
                         section_with(side_, tr("Another side"), true, this), inspection,

@@ -206,7 +206,7 @@ QWidget* EditPanel::make_cut() {
   plane_row_ = new QWidget(box);
   auto* row = new QVBoxLayout(plane_row_);
   row->setContentsMargins(0, 0, 0, 0);
-  plane_ = new PlaneBox("cut", plane_row_);
+  plane_ = new PlaneBox("cut", PlaneBox::kAbove, plane_row_);
   auto* apply = named_button("plane_cut", tr("Cut off what is not shown"), {}, plane_row_);
   row->addWidget(plane_);
   row->addWidget(apply);

@@ -154,7 +154,7 @@ void EditPanel::edit(const QString& what, const Edit& made) {
                       model.name.toStdString());
         }
         return Finish([this, what, id = model.id, edited] {
-          parts_.store.set_data(id, edited.data, what);
+          parts_.store.set_data(id, edited.data, what.toLower());
           Q_EMIT said(QString("%1: %2").arg(what, edited.text));
         });
       },

@@ -19,12 +19,13 @@ constexpr int kSliderSteps = 1000;
 
 }  // namespace
 
-PlaneBox::PlaneBox(const QString& name, QWidget* parent)
+PlaneBox::PlaneBox(const QString& name, Side stays, QWidget* parent)
     : QWidget(parent),
       axis_(new QComboBox(this)),
       place_(new QDoubleSpinBox(this)),
       slider_(new QSlider(Qt::Horizontal, this)),
-      flip_(button(tr("Flip"), tr("Keep the other side"), this)) {
+      flip_(button(tr("Flip"), tr("Keep the other side"), this)),
+      stays_(stays) {
   setObjectName(name);
   axis_->setObjectName(name + "_axis");
   axis_->addItems({"X", "Y", "Z"});
@@ -92,7 +93,7 @@ void PlaneBox::set_range() {
 }
 
 std::pair<Vec3d, double> PlaneBox::plane() const {
-  const double sign = flip_->isChecked() ? -1.0 : 1.0;
+  const double sign = flip_->isChecked() == (stays_ == kAbove) ? -1.0 : 1.0;
   return {sign * Vec3d::Unit(axis_->currentIndex()), sign * 1e-3 * place_->value()};
 }
 

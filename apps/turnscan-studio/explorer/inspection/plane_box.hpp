@@ -15,8 +15,10 @@ namespace turnscan::studio {
 class PlaneBox : public QWidget {
   Q_OBJECT
  public:
+  enum Side { kAbove, kBelow };  ///< of the place on the axis
   /// name: of the object; its editors are NAME_axis, NAME_place, NAME_slider and NAME_flip.
-  explicit PlaneBox(const QString& name, QWidget* parent = nullptr);
+  /// `stays`: unless it is flipped.
+  PlaneBox(const QString& name, Side stays, QWidget* parent = nullptr);
 
   /// The range of the place. One that is beyond it goes to the middle.
   void set_box(const Box& box);
@@ -35,6 +37,7 @@ class PlaneBox : public QWidget {
   QDoubleSpinBox* place_;
   QSlider* slider_;
   QPushButton* flip_;
+  Side stays_;
   Box box_;
 };
 

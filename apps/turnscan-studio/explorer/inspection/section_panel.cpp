@@ -37,7 +37,8 @@ DrawablePtr contour_drawable(const turnscan::Section& section) {
 SectionPanel::SectionPanel(const ExplorerParts& parts, QWidget* parent)
     : QWidget(parent),
       parts_(parts),
-      plane_(new PlaneBox("section", this)),
+      // The cut faces the person who looks from above.
+      plane_(new PlaneBox("section", PlaneBox::kBelow, this)),
       on_(button(tr("Section"), tr("Cut all models open by a plane, and close the selected one"),
                  this)),
       dxf_(button(tr("Export DXF…"), tr("The contours as a drawing in millimetres"), this)),
@@ -159,6 +160,7 @@ void SectionPanel::take(const turnscan::Section& made, DrawablePtr contour, Draw
   }
   if (cap) {
     style.color = kCapColor;
+    style.lit = false;
     cap_item_ = parts_.view.add(cap, style);
   }
   const QString open =
@@ -197,13 +199,16 @@ void SectionPanel::export_dialog(const QString& ending, const QString& filter) {
 }
 
 void SectionPanel::export_drawing(const QString& path) {
-  if (!section_) return;
+  if (!section_ || !of_) return;
   error_->show_text({});
   parts_.jobs.start(
       tr("Export %1").arg(QFileInfo(path).fileName()), this,
-      [this, section = *section_, path](const RunContext& context) -> Result<Finish> {
+      [this, of = of_, plane = HalfSpace{-section_->normal, -section_->offset_m},
+       path](const RunContext& context) -> Result<Finish> {
         context.begin_phase("write", 0);
         const bool dxf = path.endsWith(".dxf", Qt::CaseInsensitive);
+        // As the person sees the cut, who looks at it against its own normal.
+        TURNSCAN_ASSIGN(const turnscan::Section section, cross_section(of->mesh, plane));
         TURNSCAN_ASSIGN(const std::string text, dxf ? section_dxf(section) : section_svg(section));
         TURNSCAN_TRY(write_file_atomically(path.toStdString(), text));
         return Finish([this, path] { Q_EMIT said(tr("Wrote %1").arg(shown_path(path))); });
