@@ -49,7 +49,7 @@ TEST(SelectionChange, AddsSubtractsAndReplaces) {
 
 TEST(SelectionGrow, AddsExactlyTheTrianglesThatShareAVertex) {
   const TriangleMesh ring = torus(0.05, 0.02, 24, 12);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Selection start = random_selection(ring.triangles.size(), seed, 0.02);
     const Selection made = grown(ring, start);
     for (std::size_t t = 0; t < made.size(); ++t) {
