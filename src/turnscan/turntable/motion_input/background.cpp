@@ -209,7 +209,8 @@ class BackgroundSearch {
 
   /// Where the object hides a pixel always its own farthest depth is seen again, too. It would be
   /// cut off, of what lies there the part with the noise that makes it nearer would be kept, and
-  /// the axis lean.
+  /// the axis lean. Where something stands around, it may be that, though: a platter that was not
+  /// recognised, a step of a desk.
   void set_limits(std::vector<float>& nearer_than) {
     for (std::size_t i = 0; i < moving_.size(); ++i)
       if (moving_[i] == 0) still_.candidate[i] = 0.0f;
@@ -218,9 +219,9 @@ class BackgroundSearch {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (moving_[i] == 0) continue;
       const float far = still_.candidate[i], still = still_.tolerance[i];
-      nearer_than[i] = continued[i] != 0        ? far - still
-                       : room && apart_[i] != 0 ? far - 0.5f * float(kClearGap) * still
-                                                : std::numeric_limits<float>::infinity();
+      const bool apart = apart_[i] != 0 && continued[i] == 0;
+      nearer_than[i] = room && far > 0.0f ? far - (apart ? 0.5f * float(kClearGap) : 1.0f) * still
+                                          : std::numeric_limits<float>::infinity();
     }
   }
 
