@@ -113,7 +113,6 @@ TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
   };
   TextureOptions options;
   options.refine_camera = false;  // nothing to find it by
-  options.size_px = 256;
   EXPECT_GT(shading_left(texture_of(pictures, options).mesh), 0.1);
   options.albedo = true;
   EXPECT_LT(shading_left(texture_of(pictures, options).mesh), 0.05);
