@@ -851,6 +851,14 @@
         <source>What happens meanwhile</source>
         <translation>Lo que ocurre mientras</translation>
     </message>
+    <message>
+        <source>Color quality</source>
+        <translation>Calidad del color</translation>
+    </message>
+    <message>
+        <source>Labelled cylinder</source>
+        <translation>Cilindro con etiqueta</translation>
+    </message>
 </context>
 <context>
     <name>QObject</name>
@@ -1113,18 +1121,6 @@ Nota: %1</translation>
         <translation>sin vista, rellenado: %1 %</translation>
     </message>
     <message>
-        <source>Distance: %1</source>
-        <translation>Distancia: %1</translation>
-    </message>
-    <message>
-        <source>Click the second point</source>
-        <translation>Haga clic en el segundo punto</translation>
-    </message>
-    <message>
-        <source>Click two points on a model</source>
-        <translation>Haga clic en dos puntos de un modelo</translation>
-    </message>
-    <message>
         <source>Above the plane</source>
         <translation>Sobre el plano</translation>
     </message>
@@ -1264,6 +1260,78 @@ Nota: %1</translation>
         <source>%1, %2 dropped</source>
         <translation>%1, %2 perdidos</translation>
     </message>
+    <message>
+        <source>Probe</source>
+        <translation>Sonda</translation>
+    </message>
+    <message>
+        <source>The deviation from the reference at a place</source>
+        <translation>La desviación respecto a la referencia en un lugar</translation>
+    </message>
+    <message>
+        <source>Click on a model whose deviations are shown</source>
+        <translation>Haga clic en un modelo cuyas desviaciones se muestran</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Distancia</translation>
+    </message>
+    <message>
+        <source>Between two places</source>
+        <translation>Entre dos lugares</translation>
+    </message>
+    <message>
+        <source>Click two places on models</source>
+        <translation>Haga clic en dos lugares de los modelos</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>Ángulo</translation>
+    </message>
+    <message>
+        <source>Between the ways from a corner to two places</source>
+        <translation>Entre los caminos de un vértice a dos lugares</translation>
+    </message>
+    <message>
+        <source>Click a place, the corner, and another place</source>
+        <translation>Haga clic en un lugar, en el vértice y en otro lugar</translation>
+    </message>
+    <message>
+        <source>Circle</source>
+        <translation>Círculo</translation>
+    </message>
+    <message>
+        <source>Diameter of the circle through three places</source>
+        <translation>Diámetro del círculo que pasa por tres lugares</translation>
+    </message>
+    <message>
+        <source>Click three places on the circle</source>
+        <translation>Haga clic en tres lugares del círculo</translation>
+    </message>
+    <message>
+        <source>Plane</source>
+        <translation>Plano</translation>
+    </message>
+    <message>
+        <source>How flat the surface around a place is</source>
+        <translation>Lo plana que es la superficie alrededor de un lugar</translation>
+    </message>
+    <message>
+        <source>Click on a flat part of the selected model</source>
+        <translation>Haga clic en una parte plana del modelo seleccionado</translation>
+    </message>
+    <message>
+        <source>Thickness</source>
+        <translation>Espesor</translation>
+    </message>
+    <message>
+        <source>Of the wall behind a place, square to it</source>
+        <translation>De la pared detrás de un lugar, en perpendicular a él</translation>
+    </message>
+    <message>
+        <source>Click on the selected model</source>
+        <translation>Haga clic en el modelo seleccionado</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ComparePanel</name>
@@ -1303,6 +1371,328 @@ Nota: %1</translation>
         <source>Colour the model by its distance to the reference</source>
         <translation>Colorear el modelo según su distancia a la referencia</translation>
     </message>
+    <message>
+        <source>Distances are to a mesh: choose one as the reference.</source>
+        <translation>Las distancias se miden a una malla: elija una como referencia.</translation>
+    </message>
+    <message>
+        <source>%1 is %2 times as large as %3: are both in the same unit?</source>
+        <translation>%1 es %2 veces más grande que %3: ¿están ambos en la misma unidad?</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::DeviationPanel</name>
+    <message>
+        <source>What deviates by less is grey: it is in tolerance</source>
+        <translation>Lo que se desvía menos es gris: está dentro de la tolerancia</translation>
+    </message>
+    <message>
+        <source>The deviation of the darkest colours; automatic: 95 of 100 vertices deviate less</source>
+        <translation>La desviación de los colores más oscuros; automático: 95 de cada 100 vértices se desvían menos</translation>
+    </message>
+    <message>
+        <source>Deviations</source>
+        <translation>Desviaciones</translation>
+    </message>
+    <message>
+        <source>Colour the selected model by its signed distance to the reference: red outside of it, blue inside</source>
+        <translation>Colorear el modelo seleccionado por su distancia con signo a la referencia: rojo fuera de ella, azul dentro</translation>
+    </message>
+    <message>
+        <source>Align to it</source>
+        <translation>Alinear con ella</translation>
+    </message>
+    <message>
+        <source>Move the selected model rigidly onto the reference, from where it lies</source>
+        <translation>Mover el modelo seleccionado rígidamente sobre la referencia, desde donde está</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Ocultar</translation>
+    </message>
+    <message>
+        <source>Show the model in its own colours again</source>
+        <translation>Volver a mostrar el modelo con sus propios colores</translation>
+    </message>
+    <message>
+        <source>Export CSV…</source>
+        <translation>Exportar CSV…</translation>
+    </message>
+    <message>
+        <source>The deviation of each vertex or point</source>
+        <translation>La desviación de cada vértice o punto</translation>
+    </message>
+    <message>
+        <source>Reference of deviations</source>
+        <translation>Referencia de las desviaciones</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automático</translation>
+    </message>
+    <message>
+        <source>Reference</source>
+        <translation>Referencia</translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation>Tolerancia</translation>
+    </message>
+    <message>
+        <source>Range of colours</source>
+        <translation>Intervalo de los colores</translation>
+    </message>
+    <message>
+        <source>Deviation from %1</source>
+        <translation>Desviación respecto a %1</translation>
+    </message>
+    <message>
+        <source>Colour the deviations</source>
+        <translation>Colorear las desviaciones</translation>
+    </message>
+    <message>
+        <source>%1 to %2: mean %3, rms %4, from %5 to %6 mm. Within ±%7 mm %8 %, above %9 %, below %10 %. The reference is not drawn meanwhile.</source>
+        <translation>%1 respecto a %2: media %3, rms %4, de %5 a %6 mm. Dentro de ±%7 mm %8 %, por encima %9 %, por debajo %10 %. La referencia no se dibuja entretanto.</translation>
+    </message>
+    <message>
+        <source>Align</source>
+        <translation>Alinear</translation>
+    </message>
+    <message>
+        <source>align %1</source>
+        <translation>alinear %1</translation>
+    </message>
+    <message>
+        <source>%1 to %2: </source>
+        <translation>%1 con %2: </translation>
+    </message>
+    <message>
+        <source>Export deviations</source>
+        <translation>Exportar las desviaciones</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>Tabla (*.csv)</translation>
+    </message>
+    <message>
+        <source>Export %1</source>
+        <translation>Exportar %1</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::EditPanel</name>
+    <message>
+        <source>Rectangle</source>
+        <translation>Rectángulo</translation>
+    </message>
+    <message>
+        <source>Select what a rectangle on the screen encloses</source>
+        <translation>Seleccionar lo que encierra un rectángulo en la pantalla</translation>
+    </message>
+    <message>
+        <source>Lasso</source>
+        <translation>Lazo</translation>
+    </message>
+    <message>
+        <source>Select what an outline on the screen encloses</source>
+        <translation>Seleccionar lo que encierra un contorno en la pantalla</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pincel</translation>
+    </message>
+    <message>
+        <source>Select what is painted over</source>
+        <translation>Seleccionar lo que se pinta</translation>
+    </message>
+    <message>
+        <source>; with Shift it is added, with Ctrl subtracted, with Alt the mouse turns the camera</source>
+        <translation>; con Mayús se añade, con Ctrl se quita, con Alt el ratón gira la cámara</translation>
+    </message>
+    <message>
+        <source>Select</source>
+        <translation>Seleccionar</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Añadir</translation>
+    </message>
+    <message>
+        <source>Subtract</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>What the tool does with what was selected before</source>
+        <translation>Qué hace la herramienta con lo que estaba seleccionado antes</translation>
+    </message>
+    <message>
+        <source>Through</source>
+        <translation>A través</translation>
+    </message>
+    <message>
+        <source>Select what is hidden behind other parts, too</source>
+        <translation>Seleccionar también lo que está oculto detrás de otras partes</translation>
+    </message>
+    <message>
+        <source>Radius of the brush on the screen</source>
+        <translation>Radio del pincel en la pantalla</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Todo</translation>
+    </message>
+    <message>
+        <source>Select the whole model</source>
+        <translation>Seleccionar el modelo entero</translation>
+    </message>
+    <message>
+        <source>Invert</source>
+        <translation>Invertir</translation>
+    </message>
+    <message>
+        <source>Select what is not selected</source>
+        <translation>Seleccionar lo que no está seleccionado</translation>
+    </message>
+    <message>
+        <source>Nothing</source>
+        <translation>Nada</translation>
+    </message>
+    <message>
+        <source>Forget the selection</source>
+        <translation>Olvidar la selección</translation>
+    </message>
+    <message>
+        <source>Grow</source>
+        <translation>Ampliar</translation>
+    </message>
+    <message>
+        <source>Add the neighbours of what is selected</source>
+        <translation>Añadir los vecinos de lo seleccionado</translation>
+    </message>
+    <message>
+        <source>Shrink</source>
+        <translation>Reducir</translation>
+    </message>
+    <message>
+        <source>Leave out the rim of the selection</source>
+        <translation>Dejar fuera el borde de la selección</translation>
+    </message>
+    <message>
+        <source>Connected</source>
+        <translation>Conectado</translation>
+    </message>
+    <message>
+        <source>Add all that hangs together with what is selected</source>
+        <translation>Añadir todo lo que está unido a lo seleccionado</translation>
+    </message>
+    <message>
+        <source>Delete selected</source>
+        <translation>Borrar lo seleccionado</translation>
+    </message>
+    <message>
+        <source>Delete what is selected (Del)</source>
+        <translation>Borrar lo que está seleccionado (Supr)</translation>
+    </message>
+    <message>
+        <source>Fill holes</source>
+        <translation>Rellenar agujeros</translation>
+    </message>
+    <message>
+        <source>Close the holes beside the selection; without one, all</source>
+        <translation>Cerrar los agujeros junto a la selección; sin selección, todos</translation>
+    </message>
+    <message>
+        <source>Smooth</source>
+        <translation>Suavizar</translation>
+    </message>
+    <message>
+        <source>Take waves shorter than this off the selection; without one, off the whole mesh</source>
+        <translation>Quitar de la selección las ondas más cortas que esto; sin selección, de toda la malla</translation>
+    </message>
+    <message>
+        <source>Reduce to</source>
+        <translation>Reducir a</translation>
+    </message>
+    <message>
+        <source>So many triangles, by merging those of the selection; without one, all</source>
+        <translation>Tantos triángulos, uniendo los de la selección; sin selección, todos</translation>
+    </message>
+    <message>
+        <source>Waves of this length lose half of their height</source>
+        <translation>Las ondas de esta longitud pierden la mitad de su altura</translation>
+    </message>
+    <message>
+        <source>Triangles of the whole mesh afterwards</source>
+        <translation>Triángulos de toda la malla después</translation>
+    </message>
+    <message>
+        <source>Flat cut</source>
+        <translation>Corte plano</translation>
+    </message>
+    <message>
+        <source>Take away one side of a plane; the cut of a closed mesh is closed</source>
+        <translation>Quitar un lado de un plano; el corte de una malla cerrada se cierra</translation>
+    </message>
+    <message>
+        <source>Cut off what is not shown</source>
+        <translation>Cortar lo que no se muestra</translation>
+    </message>
+    <message>
+        <source>Choose a mesh or cloud above</source>
+        <translation>Elija arriba una malla o una nube</translation>
+    </message>
+    <message>
+        <source>Nothing selected</source>
+        <translation>Nada seleccionado</translation>
+    </message>
+    <message>
+        <source>%1 of %2 triangles selected</source>
+        <translation>%1 de %2 triángulos seleccionados</translation>
+    </message>
+    <message>
+        <source>%1 of %2 points selected</source>
+        <translation>%1 de %2 puntos seleccionados</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 de %2</translation>
+    </message>
+    <message>
+        <source>%1 closed</source>
+        <translation>%1 cerrados</translation>
+    </message>
+    <message>
+        <source>waves below %1 mm</source>
+        <translation>ondas por debajo de %1 mm</translation>
+    </message>
+    <message>
+        <source>Reduce</source>
+        <translation>Reducir</translation>
+    </message>
+    <message>
+        <source>%1 triangles, before %2</source>
+        <translation>%1 triángulos, antes %2</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Cortar</translation>
+    </message>
+    <message>
+        <source>one side of the plane is left</source>
+        <translation>queda un lado del plano</translation>
+    </message>
+    <message>
+        <source>closed by a face of %1 cm²</source>
+        <translation>cerrado con una cara de %1 cm²</translation>
+    </message>
+    <message>
+        <source>the cut is open, as the mesh was not closed</source>
+        <translation>el corte está abierto, porque la malla no estaba cerrada</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ExplorerMode</name>
@@ -1313,10 +1703,6 @@ Nota: %1</translation>
     <message>
         <source>Processing</source>
         <translation>Procesado</translation>
-    </message>
-    <message>
-        <source>Tools</source>
-        <translation>Herramientas</translation>
     </message>
     <message>
         <source>Compare</source>
@@ -1381,18 +1767,6 @@ Nota: %1</translation>
     <message>
         <source>Report page (*.html)</source>
         <translation>Página de informe (*.html)</translation>
-    </message>
-    <message>
-        <source>cut</source>
-        <translation>corte</translation>
-    </message>
-    <message>
-        <source>cut of %1</source>
-        <translation>corte de %1</translation>
-    </message>
-    <message>
-        <source>lasso</source>
-        <translation>lazo</translation>
     </message>
     <message>
         <source>Open %1</source>
@@ -1481,6 +1855,38 @@ Nota: %1</translation>
     <message>
         <source>reconstruct %1</source>
         <translation>reconstruir %1</translation>
+    </message>
+    <message>
+        <source>Inspection</source>
+        <translation>Inspección</translation>
+    </message>
+    <message>
+        <source>Deviations</source>
+        <translation>Desviaciones</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Medir</translation>
+    </message>
+    <message>
+        <source>Section</source>
+        <translation>Sección</translation>
+    </message>
+    <message>
+        <source>Editing</source>
+        <translation>Edición</translation>
+    </message>
+    <message>
+        <source>History</source>
+        <translation>Historial</translation>
+    </message>
+    <message>
+        <source>filter %1</source>
+        <translation>filtrar %1</translation>
+    </message>
+    <message>
+        <source>distances</source>
+        <translation>distancias</translation>
     </message>
 </context>
 <context>
@@ -1592,6 +1998,21 @@ Nota: %1</translation>
     <message>
         <source>STL keeps no colours.</source>
         <translation>STL no conserva colores.</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::HistoryPanel</name>
+    <message>
+        <source>History</source>
+        <translation>Historial</translation>
+    </message>
+    <message>
+        <source>A click goes back to that state, or forward again</source>
+        <translation>Un clic vuelve a ese estado, o avanza de nuevo</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Inicio</translation>
     </message>
 </context>
 <context>
@@ -1993,6 +2414,69 @@ Nota: %1</translation>
     </message>
 </context>
 <context>
+    <name>turnscan::studio::MeasurePanel</name>
+    <message>
+        <source>A plane is fitted to the surface within this distance of the click</source>
+        <translation>Se ajusta un plano a la superficie dentro de esta distancia del clic</translation>
+    </message>
+    <message>
+        <source>Radius of the patch that a plane is fitted to</source>
+        <translation>Radio de la zona a la que se ajusta un plano</translation>
+    </message>
+    <message>
+        <source>Plane within</source>
+        <translation>Plano dentro de</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>Mediciones</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Remove the chosen measurement</source>
+        <translation>Quitar la medición elegida</translation>
+    </message>
+    <message>
+        <source>Clear</source>
+        <translation>Vaciar</translation>
+    </message>
+    <message>
+        <source>Remove all measurements</source>
+        <translation>Quitar todas las mediciones</translation>
+    </message>
+    <message>
+        <source>Export CSV…</source>
+        <translation>Exportar CSV…</translation>
+    </message>
+    <message>
+        <source>All measurements as a table</source>
+        <translation>Todas las mediciones como tabla</translation>
+    </message>
+    <message>
+        <source>Place %1 of %2</source>
+        <translation>Lugar %1 de %2</translation>
+    </message>
+    <message>
+        <source>Export measurements</source>
+        <translation>Exportar las mediciones</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>Tabla (*.csv)</translation>
+    </message>
+    <message>
+        <source>Export %1</source>
+        <translation>Exportar %1</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
+    </message>
+</context>
+<context>
     <name>turnscan::studio::MessageLog</name>
     <message>
         <source>Error: </source>
@@ -2153,6 +2637,33 @@ Nota: %1</translation>
     <message>
         <source>&lt;br&gt;&lt;i&gt;Last run: %1, %2&lt;/i&gt;</source>
         <translation>&lt;br&gt;&lt;i&gt;Última vez: %1, %2&lt;/i&gt;</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::PlaneBox</name>
+    <message>
+        <source>Flip</source>
+        <translation>Invertir</translation>
+    </message>
+    <message>
+        <source>Keep the other side</source>
+        <translation>Conservar el otro lado</translation>
+    </message>
+    <message>
+        <source>The axis that the plane is square to</source>
+        <translation>El eje al que el plano es perpendicular</translation>
+    </message>
+    <message>
+        <source>Axis of the plane</source>
+        <translation>Eje del plano</translation>
+    </message>
+    <message>
+        <source>Where the plane meets the axis</source>
+        <translation>Dónde corta el plano al eje</translation>
+    </message>
+    <message>
+        <source>Place of the plane</source>
+        <translation>Lugar del plano</translation>
     </message>
 </context>
 <context>
@@ -2329,7 +2840,7 @@ Nota: %1</translation>
         <translation>Grabar otro lado</translation>
     </message>
     <message>
-        <source>The surface is shown once the object's motion is known, seconds after it begins to turn.</source>
+        <source>The surface is shown once the object&apos;s motion is known, seconds after it begins to turn.</source>
         <translation>La superficie aparece cuando se conoce el movimiento del objeto, segundos después de que empiece a girar.</translation>
     </message>
     <message>
@@ -2408,7 +2919,7 @@ Nota: %1</translation>
         <translation>Usar el movimiento</translation>
     </message>
     <message>
-        <source>Forget the calibration: the object's motion shows where the table is</source>
+        <source>Forget the calibration: the object&apos;s motion shows where the table is</source>
         <translation>Olvidar la calibración: el movimiento del objeto muestra dónde está la mesa</translation>
     </message>
     <message>
@@ -2488,7 +2999,7 @@ Nota: %1</translation>
         <translation>Marcar el borde</translation>
     </message>
     <message>
-        <source>Click at least 3 points on the platter's rim</source>
+        <source>Click at least 3 points on the platter&apos;s rim</source>
         <translation>Haga clic en al menos 3 puntos del borde del plato</translation>
     </message>
     <message>
@@ -2532,7 +3043,7 @@ Nota: %1</translation>
         <translation>%1 fotogramas promediados; ruido de un fotograma %2</translation>
     </message>
     <message>
-        <source>%1. Pick points on the platter's rim instead.</source>
+        <source>%1. Pick points on the platter&apos;s rim instead.</source>
         <translation>%1. Marque mejor puntos en el borde del plato.</translation>
     </message>
     <message>
@@ -2564,6 +3075,61 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>Device</source>
         <translation>Dispositivo</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::SectionPanel</name>
+    <message>
+        <source>Section</source>
+        <translation>Sección</translation>
+    </message>
+    <message>
+        <source>Cut all models open by a plane, and close the selected one</source>
+        <translation>Cortar todos los modelos por un plano y cerrar el seleccionado</translation>
+    </message>
+    <message>
+        <source>Export DXF…</source>
+        <translation>Exportar DXF…</translation>
+    </message>
+    <message>
+        <source>The contours as a drawing in millimetres</source>
+        <translation>Los contornos como dibujo en milímetros</translation>
+    </message>
+    <message>
+        <source>Export SVG…</source>
+        <translation>Exportar SVG…</translation>
+    </message>
+    <message>
+        <source>Drawing (*.dxf)</source>
+        <translation>Dibujo (*.dxf)</translation>
+    </message>
+    <message>
+        <source>Drawing (*.svg)</source>
+        <translation>Dibujo (*.svg)</translation>
+    </message>
+    <message>
+        <source>, %1 of them open: the mesh has holes there</source>
+        <translation>, %1 de ellos abiertos: la malla tiene agujeros ahí</translation>
+    </message>
+    <message>
+        <source>The plane does not meet the selected model</source>
+        <translation>El plano no corta el modelo seleccionado</translation>
+    </message>
+    <message>
+        <source>%1 contours%2, area %3 cm², length %4 mm</source>
+        <translation>%1 contornos%2, área %3 cm², longitud %4 mm</translation>
+    </message>
+    <message>
+        <source>Export the section</source>
+        <translation>Exportar la sección</translation>
+    </message>
+    <message>
+        <source>Export %1</source>
+        <translation>Exportar %1</translation>
+    </message>
+    <message>
+        <source>Wrote %1</source>
+        <translation>Se escribió %1</translation>
     </message>
 </context>
 <context>
@@ -2860,57 +3426,6 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>Run the stages up to this one; adds its cloud as a new model</source>
         <translation>Ejecutar las etapas hasta esta; añade su nube como modelo nuevo</translation>
-    </message>
-</context>
-<context>
-    <name>turnscan::studio::ToolPanel</name>
-    <message>
-        <source>Measure</source>
-        <translation>Medir</translation>
-    </message>
-    <message>
-        <source>Click two points; the distance is shown</source>
-        <translation>Haga clic en dos puntos; se muestra la distancia</translation>
-    </message>
-    <message>
-        <source>Cut</source>
-        <translation>Cortar</translation>
-    </message>
-    <message>
-        <source>Cut the selected model by a plane</source>
-        <translation>Cortar el modelo seleccionado con un plano</translation>
-    </message>
-    <message>
-        <source>Lasso</source>
-        <translation>Lazo</translation>
-    </message>
-    <message>
-        <source>Draw around a part of the selected model to delete it</source>
-        <translation>Rodee una parte del modelo seleccionado para eliminarla</translation>
-    </message>
-    <message>
-        <source>Flip</source>
-        <translation>Invertir</translation>
-    </message>
-    <message>
-        <source>Keep the other side</source>
-        <translation>Conservar el otro lado</translation>
-    </message>
-    <message>
-        <source>Add the part that is shown as a new model</source>
-        <translation>Añadir la parte que se muestra como modelo nuevo</translation>
-    </message>
-    <message>
-        <source>Draw around what is to go; Ctrl+Z brings it back</source>
-        <translation>Rodee lo que sobra; Ctrl+Z lo recupera</translation>
-    </message>
-    <message>
-        <source>Axis of the cut</source>
-        <translation>Eje del corte</translation>
-    </message>
-    <message>
-        <source>Place of the cut</source>
-        <translation>Posición del corte</translation>
     </message>
 </context>
 <context>
