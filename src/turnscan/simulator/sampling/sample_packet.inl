@@ -108,7 +108,9 @@ inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext&
   fill(body.origin, body.rotation, p.x, p.y, all(1.0f), p.z, hits.ray);
   store(hits.hit.geomID, all(-1));
   store(hits.hit.instID[0], all(-1));
-  store(active, valid);
+  // A pixel without a line of sight has no numbers, which some of Embree's instruction sets assert.
+  const F far = all(1e18f);
+  store(active, valid & (p.x > -far) & (p.x < far) & (p.y > -far) & (p.y < far));
   rtcIntersect16(active, body.scene, &context, &hits);
   alignas(64) int object[kLanes], triangle[kLanes];
   store(object, load<I>(hits.hit.geomID));
