@@ -23,7 +23,7 @@ struct Packet {
 };
 
 /// Rays from one point in the directions r * (x, y, z), up to `end`. Lanes that are not valid are
-/// left out by Embree, but it may look at them.
+/// left out by Embree, but with AVX2 it asserts that they hold numbers, too.
 inline void fill(const float* origin, const float* r, const F& x, const F& y, const F& z,
                  const F& end, RTCRay16& ray) {
   store(ray.org_x, all(origin[0]));
@@ -105,12 +105,11 @@ inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext&
                       Packet& p) {
   alignas(64) RTCRayHit16 hits;
   alignas(64) int active[kLanes];
-  fill(body.origin, body.rotation, p.x, p.y, all(1.0f), p.z, hits.ray);
+  const F x = valid ? p.x : F{}, y = valid ? p.y : F{};
+  fill(body.origin, body.rotation, x, y, all(1.0f), p.z, hits.ray);
   store(hits.hit.geomID, all(-1));
   store(hits.hit.instID[0], all(-1));
-  // A pixel without a line of sight has no numbers, which some of Embree's instruction sets assert.
-  const F far = all(1e18f);
-  store(active, valid & (p.x > -far) & (p.x < far) & (p.y > -far) & (p.y < far));
+  store(active, valid);
   rtcIntersect16(active, body.scene, &context, &hits);
   alignas(64) int object[kLanes], triangle[kLanes];
   store(object, load<I>(hits.hit.geomID));
@@ -154,7 +153,8 @@ inline I lit(const BodyView& body, const Target& target, const I& valid,
   alignas(64) RTCRay16 ray;
   alignas(64) int active[kLanes];
   const F end = all(1.0f);
-  fill(body.other, body.rotation, target.x, target.y, target.z, end, ray);
+  const F x = valid ? target.x : F{}, y = valid ? target.y : F{}, z = valid ? target.z : F{};
+  fill(body.other, body.rotation, x, y, z, end, ray);
   I left = valid;
   if (body.platter_radius_squared >= 0.0f)
     left &= meet_platter(ray, end, body.platter_radius_squared) == kInfinity;
