@@ -152,7 +152,7 @@ TEST(TextureMesh, SaysWhichViewEachPlaceCameFrom) {
   ASSERT_EQ(report.used.size(), report.views);
   const auto& squares = report.view_of_square;
   ASSERT_EQ(squares.width * report.square_px, report.size_px);
-  std::size_t named = 0, steep = 0, unseen = 0;
+  std::size_t named = 0, facing = 0, steep = 0, unseen = 0;
   for (std::size_t t = 0; t < made.mesh.triangles.size(); ++t) {
     const auto& v = made.mesh.triangles[t];
     const auto& corners = made.mesh.texture->corners[t];
@@ -168,16 +168,21 @@ TEST(TextureMesh, SaysWhichViewEachPlaceCameFrom) {
     }
     ASSERT_LT(view, report.used.size());
     ++named;
-    const Vec3f normal = (b - a).cross(c - a).normalized();
-    const Vec3f sight = (report.used[view].eye - (a + b + c) / 3.0f).normalized();
-    EXPECT_GT(normal.dot(sight), 0.0f);  // it looks at the front
-    steep += normal.dot(sight) < 0.5f ? 1 : 0;
+    const Vec3f normal = (b - a).cross(c - a).normalized(), middle_m = (a + b + c) / 3.0f;
+    const auto cosine = [&](const Vec3f& eye) { return normal.dot((eye - middle_m).normalized()); };
+    float best = 0.0f;
+    for (const auto& other : report.used) best = std::max(best, cosine(other.eye));
+    const float main = cosine(report.used[view].eye);
+    EXPECT_GT(main, 0.0f);         // it looks at the front
+    EXPECT_GT(main, best - 0.2f);  // and about as well as any
+    facing += best > 0.5f ? 1 : 0;
+    steep += best > 0.5f && main < 0.5f ? 1 : 0;
   }
   EXPECT_GT(unseen, 0u);
   EXPECT_GT(named, made.mesh.triangles.size() / 2);
-  // The main view is one that looks well: with 24 around, a minority from more than 60 degrees
-  // aside, at the top, which all see flat, and where charts share a square.
-  EXPECT_LT(double(steep) / double(named), 0.35);
+  // Of what can be seen from less than 60 degrees aside.
+  EXPECT_GT(facing, named / 2);
+  EXPECT_LT(double(steep) / double(facing), 0.03);
 }
 
 TEST(TextureMesh, TakesTheSizeThatWasAskedFor) {
