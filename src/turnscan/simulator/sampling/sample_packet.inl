@@ -24,8 +24,9 @@ struct Packet {
 
 /// Rays from one point in the directions r * (x, y, z), up to `end`. Lanes that are not valid are
 /// left out by Embree, but with AVX2 it asserts that they hold numbers, too.
-inline void fill(const float* origin, const float* r, const F& x, const F& y, const F& z,
-                 const F& end, RTCRay16& ray) {
+inline void fill(const float* origin, const float* r, const I& valid, F x, F y, F z, const F& end,
+                 RTCRay16& ray) {
+  x = valid ? x : F{}, y = valid ? y : F{}, z = valid ? z : F{};
   store(ray.org_x, all(origin[0]));
   store(ray.org_y, all(origin[1]));
   store(ray.org_z, all(origin[2]));
@@ -105,8 +106,7 @@ inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext&
                       Packet& p) {
   alignas(64) RTCRayHit16 hits;
   alignas(64) int active[kLanes];
-  const F x = valid ? p.x : F{}, y = valid ? p.y : F{};
-  fill(body.origin, body.rotation, x, y, all(1.0f), p.z, hits.ray);
+  fill(body.origin, body.rotation, valid, p.x, p.y, all(1.0f), p.z, hits.ray);
   store(hits.hit.geomID, all(-1));
   store(hits.hit.instID[0], all(-1));
   store(active, valid);
@@ -153,8 +153,7 @@ inline I lit(const BodyView& body, const Target& target, const I& valid,
   alignas(64) RTCRay16 ray;
   alignas(64) int active[kLanes];
   const F end = all(1.0f);
-  const F x = valid ? target.x : F{}, y = valid ? target.y : F{}, z = valid ? target.z : F{};
-  fill(body.other, body.rotation, x, y, z, end, ray);
+  fill(body.other, body.rotation, valid, target.x, target.y, target.z, end, ray);
   I left = valid;
   if (body.platter_radius_squared >= 0.0f)
     left &= meet_platter(ray, end, body.platter_radius_squared) == kInfinity;
