@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/recording/filled_depth.hpp>
 
 namespace turnscan {
@@ -89,14 +90,12 @@ BothSides strips_of(const DepthImage& depth, const SensorInfo& sensor, double ba
 
 /// Spread over the sequence.
 std::vector<std::size_t> chosen(const FrameSequence& sequence, std::uint32_t sensor) {
-  std::vector<std::size_t> all, out;
+  std::vector<std::size_t> all;
   for (std::size_t i = 0; i < sequence.frames().size(); ++i)
     if (const FrameInfo& info = sequence.frames()[i];
         info.sensor == sensor && info.status == FrameStatus::kOk)
       all.push_back(i);
-  const std::size_t n = std::min(kMostFrames, all.size());
-  for (std::size_t i = 0; i < n; ++i) out.push_back(all[i * all.size() / n]);
-  return out;
+  return evenly_spread(all, kMostFrames);
 }
 
 }  // namespace

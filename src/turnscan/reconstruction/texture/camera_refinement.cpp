@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/texture/camera_refinement.hpp>
 #include <turnscan/reconstruction/texture/refinement_parts.hpp>
@@ -260,9 +261,7 @@ Result<RefinedCamera> refine_camera(const FrameSequence& sequence, const Triangl
                                     const RunContext& context) {
   RefinedCamera out;
   out.T_color_sensor = T_color_sensor;
-  std::vector<ColorView> some;
-  const std::size_t n = std::min(views.size(), kViewsForPlace);
-  for (std::size_t i = 0; i < n; ++i) some.push_back(views[i * views.size() / n]);
+  std::vector<ColorView> some = evenly_spread(views, kViewsForPlace);
   if (some.size() < 3) return out;
   Refiner refiner(mesh, std::move(some), T_color_sensor, context);
   TURNSCAN_TRY(refiner.read(sequence));

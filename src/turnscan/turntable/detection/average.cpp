@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 
 namespace turnscan {
@@ -132,10 +133,7 @@ std::vector<std::size_t> spread_positions(const FrameSequence& sequence, std::ui
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].status == FrameStatus::kOk && frames[i].sensor == sensor) usable.push_back(i);
   }
-  if (usable.size() <= count) return usable;
-  std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < count; ++k) out.push_back(usable[k * usable.size() / count]);
-  return out;
+  return evenly_spread(usable, count);
 }
 
 FramePoints points_of(const AveragedScan& scan) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion/axis_search.hpp>
 
 namespace turnscan::motion {
@@ -29,13 +30,6 @@ struct ComparedPair {
   double turn_rad;
   std::vector<SurfaceSample> samples;
 };
-
-std::vector<SurfaceSample> every_few(const std::vector<SurfaceSample>& all, std::size_t most) {
-  const std::size_t n = std::min(most, all.size());
-  std::vector<SurfaceSample> out;
-  for (std::size_t k = 0; k < n; ++k) out.push_back(all[k * all.size() / n]);
-  return out;
-}
 
 class AxisSearch {
  public:
@@ -69,13 +63,13 @@ class AxisSearch {
     surfaces_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       const auto [from, to] = pairs[k * pairs.size() / n];
-      for (const SurfaceSample& s : every_few(data_.frames[to].samples, kMostSurfacePoints)) {
+      for (const SurfaceSample& s : evenly_spread(data_.frames[to].samples, kMostSurfacePoints)) {
         surfaces_[k].points.push_back(s.p);
         surfaces_[k].normals.push_back(s.n);
       }
       surfaces_[k].tree = KdTree(surfaces_[k].points);
       pairs_.push_back(
-          {k, angle_[to] - angle_[from], every_few(data_.frames[from].samples, kMostQueries)});
+          {k, angle_[to] - angle_[from], evenly_spread(data_.frames[from].samples, kMostQueries)});
     }
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
+#include <turnscan/reconstruction/frame_batch.hpp>
 #include <turnscan/reconstruction/passes/surface_colors.hpp>
 
 namespace turnscan {
@@ -14,12 +16,10 @@ constexpr std::size_t kMostFrames = 36;
 constexpr double kAround_m = 0.01;  // the space around the objects that is looked at
 
 std::vector<std::size_t> spread_frames(const FrameSequence& frames) {
-  std::vector<std::size_t> good, out;
+  std::vector<std::size_t> good;
   for (std::size_t i = 0; i < frames.frames().size(); ++i)
     if (frames.frames()[i].status == FrameStatus::kOk) good.push_back(i);
-  const std::size_t count = std::min(kMostFrames, good.size());
-  for (std::size_t k = 0; k < count; ++k) out.push_back(good[k * good.size() / count]);
-  return out;
+  return evenly_spread(good, kMostFrames);
 }
 
 Box box_around(const std::vector<passes::PassSurface>& objects) {
@@ -33,11 +33,8 @@ Box box_around(const std::vector<passes::PassSurface>& objects) {
 
 class ColoredViews {
  public:
-  ColoredViews(const FrameSequence& frames, const Box& box) : frames_(frames), box_(box) {
-    for (const SensorInfo& sensor : frames.header().sensors)
-      rays_.push_back(sensor.kind == SensorKind::kDepthCamera ? RayTable(sensor.intrinsics)
-                                                              : RayTable());
-  }
+  ColoredViews(const FrameSequence& frames, const Box& box)
+      : frames_(frames), box_(box), rays_(ray_tables(frames.header())) {}
 
   Result<std::vector<views::DepthView>> read(const RunContext& context) const {
     const std::vector<std::size_t> chosen = spread_frames(frames_);

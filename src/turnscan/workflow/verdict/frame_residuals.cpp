@@ -3,6 +3,7 @@
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/geometry/search/pseudo_normals.hpp>
@@ -122,10 +123,7 @@ Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& so
       if (infos[i].status == FrameStatus::kOk && (!source.pass || infos[i].pass == *source.pass))
         all.push_back({&source, i, poses.T_table_sensor[i]});
   }
-  if (all.size() <= kMostFrames) return all;
-  std::vector<ChosenFrame> out;
-  for (std::size_t i = 0; i < kMostFrames; ++i) out.push_back(all[i * all.size() / kMostFrames]);
-  return out;
+  return evenly_spread(all, kMostFrames);
 }
 
 std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/simulator/coverage/coverage.hpp>
 #include <turnscan/turntable/rotation.hpp>
@@ -31,14 +32,6 @@ Result<std::vector<CoverageView>> views_of_sources(const std::vector<MeshFrames>
   return out;
 }
 
-/// Every so many of them, so that few enough remain.
-std::vector<CoverageView> spread(const std::vector<CoverageView>& views) {
-  if (views.size() <= kMostViews) return views;
-  std::vector<CoverageView> out;
-  for (std::size_t i = 0; i < kMostViews; ++i) out.push_back(views[i * views.size() / kMostViews]);
-  return out;
-}
-
 }  // namespace
 
 Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<MeshFrames>& sources,
@@ -46,7 +39,7 @@ Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<M
   SeenVertices out;
   if (mesh.triangles.empty()) return out;
   TURNSCAN_ASSIGN(const std::vector<CoverageView> all, views_of_sources(sources));
-  const std::vector<CoverageView> views = spread(all);
+  const std::vector<CoverageView> views = evenly_spread(all, kMostViews);
   const double share = double(views.size()) / double(std::max<std::size_t>(1, all.size()));
   CoverageOptions options;
   options.enough =
