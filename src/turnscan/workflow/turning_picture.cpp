@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <turnscan/core/process/child_process.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/animated_png.hpp>
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/io/text/text_fields.hpp>
+#include <turnscan/workflow/installed_program.hpp>
 #include <turnscan/workflow/output_file.hpp>
 
 namespace turnscan {
@@ -19,27 +18,22 @@ constexpr double kLongestVideo_s = 3600.0;
 
 Result<std::string> ffmpeg(const std::vector<std::string>& arguments, std::string_view input,
                            const RunContext& context) {
-  std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error"};
+  std::vector<std::string> words{"-hide_banner", "-loglevel", "error"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  TURNSCAN_ASSIGN(process::ChildResult child,
-                  process::run_child("/usr/bin/env", words, kLongestVideo_s, context, input));
-  if (child.exit_code == 0) return std::move(child.output);
-  if (child.exit_code == 127)
-    return fail(ErrorCode::kMissingData,
-                "ffmpeg, which makes .mp4 files, is not installed; install it, or write a .png, "
-                "which moves, too");
-  const std::string why(text::trimmed(child.errors));
-  return fail(ErrorCode::kLibrary, "ffmpeg: {}", why.empty() ? "it failed" : why);
+  return run_installed("ffmpeg", words,
+                       "ffmpeg, which makes .mp4 files, is not installed; install it, or write a "
+                       ".png, which moves, too",
+                       kLongestVideo_s, context, input);
 }
 
 /// H.264 with the colours of sRGB's primaries, its index in front, sides even as it wants them. An
 /// MP4 file is not written front to back, which the file in memory behind /dev/stdout allows.
-Result<std::string> video_of(const std::vector<std::string>& pictures, const TurnOptions& turn,
+Result<std::string> video_of(const std::vector<std::string>& pictures, double duration_s,
                              const RunContext& context) {
   std::string input;
   for (const std::string& picture : pictures) input += picture;
-  const auto milliseconds = std::max(1L, std::lround(1000.0 * turn.time_s));
-  const std::string rate = fmt::format("{}/{}", 1000L * turn.frames, milliseconds);
+  const auto milliseconds = std::max(1L, std::lround(1000.0 * duration_s));
+  const std::string rate = fmt::format("{}/{}", 1000 * pictures.size(), milliseconds);
   return ffmpeg({"-f",
                  "image2pipe",
                  "-framerate",
@@ -84,6 +78,12 @@ Result<> check_turning_picture(const std::string& path, const RunContext& contex
   return {};
 }
 
+Result<> write_video(const std::string& path, const std::vector<std::string>& pictures,
+                     double duration_s, const RunContext& context) {
+  TURNSCAN_ASSIGN(const std::string bytes, video_of(pictures, duration_s, context));
+  return write_file_atomically(path, std::string_view(bytes));
+}
+
 Result<> write_turning_picture(const std::string& path, std::span<const TriangleMesh> meshes,
                                const PictureOptions& options, const TurnOptions& turn,
                                const RunContext& context) {
@@ -94,11 +94,10 @@ Result<> write_turning_picture(const std::string& path, std::span<const Triangle
     return {};
   };
   TURNSCAN_TRY(render_turn(meshes, options, turn, take, context));
+  if (ending_of(path) == ".mp4") return write_video(path, pictures, turn.time_s, context);
   const int each_ms =
       std::clamp(int(std::lround(1000.0 * turn.time_s / double(turn.frames))), 1, 65535);
-  TURNSCAN_ASSIGN(const std::string bytes, ending_of(path) == ".mp4"
-                                               ? video_of(pictures, turn, context)
-                                               : animated_png(pictures, each_ms));
+  TURNSCAN_ASSIGN(const std::string bytes, animated_png(pictures, each_ms));
   return write_file_atomically(path, std::string_view(bytes));
 }
 

@@ -1,11 +1,11 @@
 #include "explorer/looking/movie.hpp"
 
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
-#include <QProcess>
 #include <QStandardPaths>
 #include <numbers>
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/workflow/turning_picture.hpp>
 
 #include "app/jobs.hpp"
 #include "view/scene_view.hpp"
@@ -14,37 +14,16 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr int kFramesPerSecond = 24;
-constexpr int kLongest_ms = 600000;
+constexpr double kFramesPerSecond = 24.0;
 
-/// Runs ffmpeg into a file beside the film, which takes its place when it is whole.
-Result<> run_ffmpeg(const QString& pictures, const QString& film, const RunContext& context) {
-  const QFileInfo info(film);
-  const QString part = info.dir().filePath(".part-" + info.completeBaseName() + ".mp4");
-  QProcess ffmpeg;
-  ffmpeg.setProcessChannelMode(QProcess::MergedChannels);
-  // Players want even sides, and this layout of colours.
-  ffmpeg.start(
-      "ffmpeg",
-      {"-nostdin", "-loglevel", "error", "-y", "-framerate", QString::number(kFramesPerSecond),
-       "-i", QDir(pictures).filePath("%04d.png"), "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2",
-       "-pix_fmt", "yuv420p", "-movflags", "+faststart", part});
-  for (int waited = 0; !ffmpeg.waitForFinished(100) && waited < kLongest_ms; waited += 100) {
-    if (!context.cancelled() && ffmpeg.state() != QProcess::NotRunning) continue;
-    ffmpeg.kill();
-    ffmpeg.waitForFinished();
-    break;
+Result<> write_film(const QString& pictures, const QString& film, const RunContext& context) {
+  std::vector<std::string> all;
+  const QDir folder(pictures);
+  for (const QString& name : folder.entryList({"*.png"}, QDir::Files, QDir::Name)) {
+    TURNSCAN_ASSIGN(std::string bytes, read_file(folder.filePath(name).toStdString()));
+    all.push_back(std::move(bytes));
   }
-  const bool good = ffmpeg.exitStatus() == QProcess::NormalExit && ffmpeg.exitCode() == 0 &&
-                    QFileInfo(part).size() > 0;
-  if (good && !context.cancelled()) {
-    QFile::remove(film);
-    if (QFile::rename(part, film)) return {};
-  }
-  QFile::remove(part);
-  TURNSCAN_TRY(context.check());
-  return fail_at(film.toStdString(), ErrorCode::kIo, "ffmpeg made no film: {}",
-                 QString::fromLocal8Bit(ffmpeg.readAll()).trimmed().toStdString());
+  return write_video(film.toStdString(), all, double(all.size()) / kFramesPerSecond, context);
 }
 
 }  // namespace
@@ -101,7 +80,7 @@ void TurntableMovie::make_film() {
       title, this,
       [this, folder = folder_, path = path_](const RunContext& context) -> Result<Finish> {
         context.begin_phase("film", 0);
-        TURNSCAN_TRY(run_ffmpeg(folder->path(), path, context));
+        TURNSCAN_TRY(write_film(folder->path(), path, context));
         return Finish([this, path] {
           Q_EMIT done(path);
           deleteLater();

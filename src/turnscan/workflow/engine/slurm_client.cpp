@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <turnscan/core/process/child_process.hpp>
 #include <turnscan/io/text/text_fields.hpp>
+#include <turnscan/workflow/installed_program.hpp>
 
 namespace turnscan::engine {
 
@@ -27,18 +27,10 @@ std::uint64_t whole_number(std::string_view text) {
 Result<std::string> SlurmClient::call(const std::string& program,
                                       const std::vector<std::string>& arguments,
                                       std::string_view input) const {
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  TURNSCAN_ASSIGN(process::ChildResult child,
-                  process::run_child("/usr/bin/env", words, kLongestCall_s, context_, input));
-  if (child.exit_code == 0) return std::move(child.output);
-  if (child.exit_code == 127)
-    return fail(ErrorCode::kMissingData,
-                "{}: there is no such program; install Slurm's (slurm-client), or use --engine "
-                "local",
-                program);
-  const std::string why(text::trimmed(child.errors));
-  return fail(ErrorCode::kLibrary, "{}: {}", program, why.empty() ? "it failed" : why);
+  const std::string missing = fmt::format(
+      "{}: there is no such program; install Slurm's (slurm-client), or use --engine local",
+      program);
+  return run_installed(program, arguments, missing, kLongestCall_s, context_, input);
 }
 
 Result<std::map<SlurmElement, SlurmState>> SlurmClient::states(
