@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 
@@ -58,9 +58,8 @@ std::string alignment_text(const Alignment& a) {
       "Moved {:.3f} mm, turned {:.3f}°. Rms of all points {:.3f} mm, before {:.3f} mm; of the "
       "{:.0f} "
       "% nearest to their planes {:.3f} mm, after {} steps.",
-      1e3 * a.moved_m, a.turned_rad * 180.0 / std::numbers::pi, 1e3 * a.rms_after_m,
-      1e3 * a.rms_before_m, 100.0 * IcpOptions().keep * a.icp.overlap, 1e3 * a.icp.rms_m,
-      a.icp.iterations);
+      1e3 * a.moved_m, a.turned_rad * kDegreesPerRadian, 1e3 * a.rms_after_m, 1e3 * a.rms_before_m,
+      100.0 * IcpOptions().keep * a.icp.overlap, 1e3 * a.icp.rms_m, a.icp.iterations);
   if (a.icp.held_directions > 0)
     text += fmt::format(
         " {} of 6 directions are not determined by the shape; the model stayed where it was in "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <turnscan/core/disjoint_sets.hpp>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 
@@ -126,10 +127,7 @@ double usual_reach(std::span<const Vec3f> points) {
     float squared[2];
     if (tree.knn(points[i], 2, index, squared) == 2) nearest.push_back(squared[1]);
   }
-  if (nearest.empty()) return 0.0;
-  const auto middle = nearest.begin() + std::ptrdiff_t(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return 2.0 * std::sqrt(double(*middle));
+  return 2.0 * std::sqrt(median(nearest));
 }
 
 }  // namespace turnscan

@@ -141,10 +141,12 @@ class VolumetricReconstruction {
   /// How well it is known, what no frame measured, and how many points there are.
   Result<> measure(VolumetricPiece& piece) {
     measure_confidence(piece);
-    TURNSCAN_TRY(
-        timed("quality", [&] { return measure_quality(piece, input_, scale_.volume, context_); }));
-    measure_evidence(piece, scale_.volume);
-    TURNSCAN_TRY(measure_no_return(piece, input_.views, context_));
+    const auto quality = [&]() -> Result<> {
+      TURNSCAN_TRY(measure_quality(piece, input_, scale_.volume, context_));
+      measure_evidence(piece, scale_.volume);
+      return measure_no_return(piece, input_.views, context_);
+    };
+    TURNSCAN_TRY(timed("quality", quality));
     if (options_.mark_invented) mesh_refinement::paint_invented(piece.mesh, piece.evidence);
     Box box = bounds(piece.mesh.vertices);
     box.min.array() -= scale_.volume.truncation_m;
