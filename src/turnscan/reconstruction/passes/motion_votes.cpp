@@ -34,9 +34,15 @@ Vec3f bin_direction(int bin) {
   return n.normalized();
 }
 
-/// A point in cells of translation, and its colour.
-struct Place {
-  Vec3f cell, color;
+/// In cells of translation; the fourth number is padding, so that it is one vector register.
+using Cell = Eigen::Array4f;
+
+Cell cell_of(const Vec3f& v) { return {v.x(), v.y(), v.z(), 0.0f}; }
+
+/// Points and, where there are any, their colours.
+struct Places {
+  std::vector<Cell> cells;
+  std::vector<Vec3f> colors;
 };
 
 /// The points of a surface by the directions that their normals may have.
@@ -46,19 +52,18 @@ class NormalIndex {
     lists_.resize(6 * kFaceBins * kFaceBins);
     for (int bin = 0; bin < int(lists_.size()); ++bin) {
       const Vec3f direction = bin_direction(bin);
-      for (std::size_t i = 0; i < samples.size(); ++i)
-        if (samples.normals[i].dot(direction) > kVoteCos)
-          lists_[std::size_t(bin)].push_back(
-              {(samples.points[i] - center) * per_cell,
-               samples.colors.empty() ? Vec3f(Vec3f::Zero()) : samples.colors[i]});
+      Places& list = lists_[std::size_t(bin)];
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!(samples.normals[i].dot(direction) > kVoteCos)) continue;
+        list.cells.push_back(cell_of((samples.points[i] - center) * per_cell));
+        if (!samples.colors.empty()) list.colors.push_back(samples.colors[i]);
+      }
     }
   }
-  const std::vector<Place>& at(const Vec3f& normal) const {
-    return lists_[std::size_t(normal_bin(normal))];
-  }
+  const Places& at(const Vec3f& normal) const { return lists_[std::size_t(normal_bin(normal))]; }
 
  private:
-  std::vector<std::vector<Place>> lists_;
+  std::vector<Places> lists_;
 };
 
 struct Peak {
@@ -77,9 +82,11 @@ class VoteBox {
   VoteBox() : votes_(std::size_t(kSide) * kSide * kSide), blurred_(votes_.size()) {}
 
   void clear() { std::fill(votes_.begin(), votes_.end(), 0.0f); }
-  void add(const Vec3f& cell, float weight) {
-    const Eigen::Vector3i c = (cell.array() + 0.5f * kSide).floor().cast<int>();
-    if ((c.array() < 1).any() || (c.array() >= kSide - 1).any()) return;
+  void add(const Cell& cell, float weight) {
+    // Truncated, not rounded down: what is below 1 is left out either way.
+    const Eigen::Array4i c = (cell + 0.5f * kSide).cast<int>();
+    const auto inside = [](int i) { return unsigned(i - 1) < unsigned(kSide - 2); };
+    if (!inside(c.x()) || !inside(c.y()) || !inside(c.z())) return;
     votes_[std::size_t(c.x() + kSide * (c.y() + kSide * c.z()))] += weight;
   }
   /// Sums over neighbouring cells, and the two places with the largest.
@@ -155,14 +162,17 @@ Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b
          ++r) {
       box.clear();
       for (std::size_t i = 0; i < b.size(); ++i) {
-        const std::vector<Place>& partners = index.at(rotations[r] * b.normals[i]);
-        const Vec3f q = rotations[r] * ((b.points[i] - center_b) * per_cell);
+        const Places& partners = index.at(rotations[r] * b.normals[i]);
+        const Cell q = cell_of(rotations[r] * ((b.points[i] - center_b) * per_cell));
         // Of a plane all points are partners of each other.
-        const float weight = 1.0f / std::sqrt(1.0f + float(partners.size()));
-        for (const Place& p : partners)
-          box.add(p.cell - q, color_spread > 0.0f
-                                  ? weight * likeness(p.color, b.colors[i], color_spread)
-                                  : weight);
+        const float weight = 1.0f / std::sqrt(1.0f + float(partners.cells.size()));
+        if (color_spread > 0.0f && !a.colors.empty()) {
+          for (std::size_t k = 0; k < partners.cells.size(); ++k)
+            box.add(partners.cells[k] - q,
+                    weight * likeness(partners.colors[k], b.colors[i], color_spread));
+        } else {
+          for (const Cell& p : partners.cells) box.add(p - q, weight);
+        }
       }
       peaks[r] = box.peaks();
     }
