@@ -24,6 +24,7 @@ HANG_S = 300  # a run that takes longer hangs
 
 FAILED, USAGE, CANCELLED = 1, 2, 130
 FAST = ("--voxel-size", "6mm", "--poisson-depth", "5")  # where the mesh itself does not matter
+COARSE = ("--voxel-size", "2.5mm")  # where the mesh matters, but not its finest detail
 SMALL_PICTURE = ("--picture-size", "96")  # a large one takes longer than all else that a demo does
 
 

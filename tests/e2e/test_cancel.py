@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, HANG_S, ROOT, SMALL_PICTURE, ply_cube, shared_recording, start
+from harness import CANCELLED, COARSE, FAST, HANG_S, ROOT, SMALL_PICTURE, ply_cube, shared_recording, start
 
 STOP_S = 5.0  # a second is promised; the rest is for machines that are busy with other things
 
@@ -60,14 +60,14 @@ class Cancel(harness.TestCase):
 
     def test_reconstruct(self):
         self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--report", "r.json",
-                          "--save-stage", "fitted"), made=["m.3mf", "r.json", "m-fitted.ply"])
+                          *COARSE, "--save-stage", "fitted"), made=["m.3mf", "r.json", "m-fitted.ply"])
 
     def test_reconstruct_from_points(self):
         self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--method", "poisson",
-                          "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"])
+                          *FAST, "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"])
 
     def test_demo(self):
-        self.every_phase(("demo", "--object", "cylinder", "--frames", "60", *SMALL_PICTURE, "--out", "d"),
+        self.every_phase(("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out", "d"),
                          made=["d"])
 
     def test_render(self):

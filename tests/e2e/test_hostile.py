@@ -330,7 +330,7 @@ class Term(harness.TestCase):
     """SIGTERM at random moments: how much the program still works for it. FAULTS_FULL=1: 50 moments
     of each command. Processor time, so that other programs do not count."""
 
-    MOMENTS = 50 if os.environ.get("FAULTS_FULL") == "1" else 5
+    MOMENTS = 50 if os.environ.get("FAULTS_FULL") == "1" else 3
     MOST_S = 1.0
 
     def processor_seconds(self, pid):

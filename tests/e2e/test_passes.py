@@ -9,7 +9,7 @@ import re
 import signal
 
 import harness
-from harness import CANCELLED, FAILED, USAGE
+from harness import CANCELLED, COARSE, FAILED, USAGE
 
 
 def product(a, b):
@@ -60,7 +60,8 @@ class Passes(harness.TestCase):
         rows = [row.split() for row in (self.dir / "pose1.txt").read_text().splitlines()]
         rows[0][3] = str(float(rows[0][3]) + 0.003)
         (self.dir / "beside.txt").write_text("\n".join(" ".join(row) for row in rows))
-        wrong = self.ok("reconstruct", "rec", "--pass-pose", "1=beside.txt", "-o", "m.ply").stdout
+        wrong = self.ok("reconstruct", "rec", "--pass-pose", "1=beside.txt", "-o", "m.ply",
+                        *COARSE).stdout
         self.assertIn("pass 1 lies 3.0 mm from where its surface fits", wrong)
 
     def test_a_pose_that_is_about_right_is_refined_by_the_surfaces(self):
@@ -75,13 +76,13 @@ class Passes(harness.TestCase):
             (self.dir / f"{name}.txt").write_text(
                 "\n".join(" ".join(f"{x:.9g}" for x in row) for row in product(move, rows)))
         out = self.ok("reconstruct", "rec", "--pass-pose", "1=about.txt", "--refine-pass-poses",
-                      "-o", "m.ply", "--report", "m.json").stdout
+                      "-o", "m.ply", "--report", "m.json", *COARSE).stdout
         self.assertIn("2 passes in one mesh", out)
         found = json.loads((self.dir / "m.json").read_text())["passes"][1]["T_object_table"]
         for i in range(3):
             self.assertAlmostEqual(found[i][3], rows[i][3], delta=0.0007)
         self.refused(FAILED, "reconstruct", "rec", "--pass-pose", "1=away.txt",
-                     "--refine-pass-poses", "-o", "n.ply", says="as it was placed")
+                     "--refine-pass-poses", "-o", "n.ply", *COARSE, says="as it was placed")
         self.refused(USAGE, "reconstruct", "rec", "--refine-pass-poses", "-o", "n.ply",
                      says="--pass-pose")
 
@@ -114,9 +115,9 @@ class Passes(harness.TestCase):
         for name, tip, frames in (("rec", "0deg", 24), ("second", "90deg", 20)):
             self.ok("simulate", "builtin:skull", "--frames", frames, "--seed", 3, "--noise",
                     "gaussian:1mm", "--tip", tip, "--out", name, "--quiet")
-        out = self.ok("reconstruct", "rec", "second", "-o", "both.ply").stdout
+        out = self.ok("reconstruct", "rec", "second", "-o", "both.ply", *COARSE).stdout
         self.assertIn("pass 0 (rec) (24 frames), pass 1 (second) (20 frames)", out)
-        self.ok("reconstruct", "rec", "-o", "one.ply")
+        self.ok("reconstruct", "rec", "-o", "one.ply", *COARSE)
         self.assertGreater(self.f_score("both.ply"), self.f_score("one.ply") + 0.05)
         self.refused(USAGE, "reconstruct", "rec", "second", "--pass", "0", "-o", "m.ply",
                      says="--pass")
@@ -124,7 +125,8 @@ class Passes(harness.TestCase):
     def test_a_pass_whose_motion_its_shape_does_not_show_is_kept_beside(self):
         self.ok("simulate", "builtin:cylinder", "--frames", 24, "--noise", "gaussian:1mm",
                 "--next-pass", "tip=180deg", "--out", "rec", "--quiet")
-        self.refused(FAILED, "reconstruct", "rec", "-o", "whole.ply", says="pass 1 was not joined")
+        self.refused(FAILED, "reconstruct", "rec", "-o", "whole.ply", *COARSE,
+                     says="pass 1 was not joined")
         self.assertFalse((self.dir / "whole.ply").exists())
         for name in ("whole-pass0.ply", "whole-pass1.ply"):
             self.assertIn("watertight", self.ok("info", name).stdout)
@@ -163,7 +165,8 @@ class Passes(harness.TestCase):
                     "--noise", "gaussian:1mm", "--scan-colour", "--colour-width", 480,
                     "--colour-lamp", 0.6, "--colour-noise", 2, "--next-pass", "tip=90deg,yaw=40deg",
                     "--out", name, "--quiet")
-        out = self.ok("reconstruct", "painted", "-o", "m.ply", "--report", "m.json").stdout
+        out = self.ok("reconstruct", "painted", "-o", "m.ply", "--report", "m.json",
+                      *COARSE).stdout
         self.assertIn("pass 1 was joined by its colours", out)
         truth = json.loads((self.dir / "painted/truth/truth.json").read_text())
         true = product(truth["object"]["T_table_object"],
@@ -172,7 +175,8 @@ class Passes(harness.TestCase):
         for i in range(3):
             for j in range(4):
                 self.assertAlmostEqual(found[i][j], true[i][j], delta=0.02 if j < 3 else 0.0015)
-        self.refused(FAILED, "reconstruct", "plain", "-o", "n.ply", says="its shape does not tell")
+        self.refused(FAILED, "reconstruct", "plain", "-o", "n.ply", *COARSE,
+                     says="its shape does not tell")
 
     def test_poses_are_of_passes_of_this_recording(self):
         self.simulate("tip=90deg", "tip=180deg", frames=4)
@@ -210,7 +214,7 @@ class Passes(harness.TestCase):
 class ScanPasses(harness.TestCase):
     """turnscan scan goes on with another side; small images and few frames."""
     DEVICE = "virtual:{}?sensor=kinect-v2&fps=2&speed=12deg/s&noise=gaussian:1mm&calibration=true"
-    FAST = ("--min-free", "0", "--speed", "12deg/s")
+    FAST = ("--min-free", "0", "--speed", "12deg/s", *COARSE)
 
     def args(self, name, *more):
         return ("scan", "--device", self.DEVICE.format(name), "-o", "whole.ply", *self.FAST, *more)
@@ -224,9 +228,7 @@ class ScanPasses(harness.TestCase):
     def frames_of_passes(self):
         with open(self.dir / "whole.recording/frames.csv") as file:
             passes = [row["pass"] for row in csv.DictReader(file)]
-        return {
-p: passes.count(p) for p in passes
-}
+        return {p: passes.count(p) for p in passes}
 
     def f_score(self, mesh):
         if not (self.dir / "one").exists():
@@ -251,12 +253,13 @@ p: passes.count(p) for p in passes
         frames = self.frames_of_passes()
         self.assertEqual(set(frames), {"0", "1"})
         self.assertAlmostEqual(frames["0"], frames["1"], delta=3)
-#It is what the recording gives, and more than its first pass.
-        self.ok("reconstruct", "whole.recording", "-o", "again.ply", "--speed", "12deg/s")
+        # It is what the recording gives, and more than its first pass.
+        self.ok("reconstruct", "whole.recording", "-o", "again.ply", "--speed", "12deg/s",
+                *COARSE)
         self.assertEqual((self.dir / "whole.ply").read_bytes(),
                          (self.dir / "again.ply").read_bytes())
         self.ok("reconstruct", "whole.recording", "--pass", "0", "-o", "first.ply", "--report",
-                "first.json", "--speed", "12deg/s")
+                "first.json", "--speed", "12deg/s", *COARSE)
         first = json.loads((self.dir / "first.json").read_text())
         self.assertLess(whole["objects"][0]["invented_area_cm2"],
                         0.5 * first["objects"][0]["invented_area_cm2"])
@@ -265,7 +268,7 @@ p: passes.count(p) for p in passes
     def test_nothing_is_known_of_the_table(self):
         device = self.DEVICE.format("skull").replace("&calibration=true", "")
         out = self.ok("scan", "--device", device, "-o", "whole.ply", "--min-free", "0", "--passes",
-                      "2", "--quiet", env=self.environment()).stdout
+                      "2", *COARSE, "--quiet", env=self.environment()).stdout
         self.assertIn("pass 1 was joined by its surface", out)
         self.assertEqual(set(self.frames_of_passes()), {"0", "1"})
 
@@ -330,7 +333,8 @@ p: passes.count(p) for p in passes
         frames = self.frames_of_passes()
         self.assertGreater(frames["0"], 55)
         self.assertIn("1", frames)
-        self.ok("reconstruct", "whole.recording", "--pass", "0", "-o", "first.ply", "--quiet")
+        self.ok("reconstruct", "whole.recording", "--pass", "0", "-o", "first.ply", *COARSE,
+                "--quiet")
 
     def test_what_cannot_be_laid_another_way_has_one_pass(self):
         self.ok("simulate", "builtin:cylinder", "--frames", "8", "-o", "rec", "--quiet")
@@ -452,7 +456,7 @@ class ImportedPasses(harness.TestCase):
         self.foreign("second", "90deg")
         self.assertIn("2 passes", self.ok("import", "first/views.json", "second/views.json",
                                             "--out", "both").stdout)
-        out = self.ok("reconstruct", "both", "-o", "whole.ply").stdout
+        out = self.ok("reconstruct", "both", "-o", "whole.ply", *COARSE).stdout
         self.assertIn("2 passes in one mesh", out)
         self.assertIn("pass 1 was joined by its surface", out)
 

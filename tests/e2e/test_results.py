@@ -7,7 +7,7 @@ import struct
 import zipfile
 
 import harness
-from harness import FAILED, SMALL_PICTURE, USAGE, ply_cube, shared_demo, shared_recording
+from harness import COARSE, FAILED, SMALL_PICTURE, USAGE, ply_cube, shared_demo, shared_recording
 
 
 def stl_size_mm(path):
@@ -45,8 +45,8 @@ class Reconstruct(harness.TestCase):
             self.assertIn(word, report)
 
     def test_stl_and_3mf_are_in_millimetres(self):
-        self.ok("reconstruct", self.rec, "-o", "m.stl")
-        self.ok("reconstruct", self.rec, "-o", "m.3mf")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "m.3mf")
         for size, truth in zip(stl_size_mm(self.dir / "m.stl"), (80, 160, 80)):
             self.assertAlmostEqual(size, truth, delta=3)
         with zipfile.ZipFile(self.dir / "m.3mf") as package:
@@ -59,7 +59,7 @@ class Reconstruct(harness.TestCase):
     def test_every_format_holds_the_same_mesh(self):
         counts = set()
         for ending in ("ply", "obj", "stl", "3mf", "glb"):
-            self.ok("reconstruct", self.rec, "-o", f"m.{ending}")
+            self.ok("reconstruct", self.rec, *COARSE, "-o", f"m.{ending}")
             info = json.loads(self.ok("info", f"m.{ending}", "--json").stdout)["objects"][0]
             self.assertTrue(info["watertight"], ending)
             counts.add((info["triangles"], *(round(s, 5) for s in info["size_m"])))
@@ -67,8 +67,8 @@ class Reconstruct(harness.TestCase):
 
     def test_the_number_of_threads_does_not_change_a_byte(self):
         for threads in (1, 2):
-            self.ok("reconstruct", self.rec, "-o", f"v{threads}.ply", "--threads", threads)
-            self.ok("reconstruct", self.rec, "-o", f"m{threads}.ply", "--threads", threads,
+            self.ok("reconstruct", self.rec, *COARSE, "-o", f"v{threads}.ply", "--threads", threads)
+            self.ok("reconstruct", self.rec, *COARSE, "-o", f"m{threads}.ply", "--threads", threads,
                     "--method", "poisson", "--save-stage", f"candidates=c{threads}.ply")
         for name in ("v", "m", "c"):
             self.assertEqual((self.dir / f"{name}1.ply").read_bytes(),
@@ -126,11 +126,11 @@ class Reconstruct(harness.TestCase):
 
     def test_holes_are_left_open_or_closed_flat_as_asked(self):
         for method in ("volumetric", "poisson"):
-            self.ok("reconstruct", self.rec, "-o", "whole.ply", "--method", method)
-            done = self.ok("reconstruct", self.rec, "-o", "open.ply", "--holes", "open",
+            self.ok("reconstruct", self.rec, *COARSE, "-o", "whole.ply", "--method", method)
+            done = self.ok("reconstruct", self.rec, *COARSE, "-o", "open.ply", "--holes", "open",
                            "--method", method)
             self.assertIn("left open", done.stdout)
-            self.ok("reconstruct", self.rec, "-o", "flat.ply", "--holes", "flat",
+            self.ok("reconstruct", self.rec, *COARSE, "-o", "flat.ply", "--holes", "flat",
                     "--hole-size", "1mm", "--method", method)
             opened, flat, whole = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]
                                    for n in ("open.ply", "flat.ply", "whole.ply"))
@@ -175,8 +175,8 @@ class Reconstruct(harness.TestCase):
     def test_the_recordings_own_turntable_given_by_hand_changes_nothing(self):
         header = json.loads((shared_recording() / "recording.json").read_text())
         (self.dir / "t.json").write_text(json.dumps(header["turntable"]))
-        self.ok("reconstruct", self.rec, "-o", "a.ply")
-        self.ok("reconstruct", self.rec, "-o", "b.ply", "--turntable", "t.json")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "a.ply")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "b.ply", "--turntable", "t.json")
         a, b = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]["volume_m3"]
                 for n in ("a.ply", "b.ply"))
         self.assertAlmostEqual(a, b, delta=1e-6)
@@ -185,20 +185,20 @@ class Reconstruct(harness.TestCase):
 class SeveralObjects(harness.TestCase):
     def setUp(self):
         super().setUp()
-        self.rec = str(shared_demo("pair", 120) / "recording")
+        self.rec = str(shared_demo("pair", 48) / "recording")
 
     def test_several_objects_become_numbered_files(self):
-        out = self.ok("reconstruct", self.rec, "-o", "m.stl").stdout
+        out = self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl").stdout
         self.assertEqual(self.files(), ["m-1.stl", "m-2.stl"])
         self.assertIn("Wrote m-2.stl", out)
 
     def test_several_objects_go_into_one_3mf_and_one_glb(self):
         for name in ("m.3mf", "m.glb"):
-            self.ok("reconstruct", self.rec, "-o", name)
+            self.ok("reconstruct", self.rec, *COARSE, "-o", name)
             self.assertEqual(len(json.loads(self.ok("info", name, "--json").stdout)["objects"]), 2)
 
     def test_keep_largest_keeps_one(self):
-        self.ok("reconstruct", self.rec, "-o", "m.ply", "--keep", "largest")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "m.ply", "--keep", "largest")
         self.assertEqual(self.files(), ["m.ply"])
         self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--keep", "best", says="keep")
 

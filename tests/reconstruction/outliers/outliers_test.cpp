@@ -11,6 +11,7 @@
 
 #include "tests/reconstruction/outliers/depth_frames.hpp"
 #include "tests/reconstruction/outliers/pcl_outliers.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan::outliers {
 namespace {
@@ -181,6 +182,7 @@ TEST(OutliersLikePcl, ParallelRays) {
 }
 
 TEST(OutliersLikePcl, RealDepthImages) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const std::vector<NamedFrame> frames = testing::real_depth_frames(25);
   if (frames.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
   for (const NamedFrame& frame : frames) {
@@ -191,6 +193,7 @@ TEST(OutliersLikePcl, RealDepthImages) {
 }
 
 TEST(OutliersLikePcl, RealRangeScans) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const std::vector<NamedFrame> scans = testing::real_range_scans();
   if (scans.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
   for (const NamedFrame& scan : scans) {

@@ -9,6 +9,7 @@
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
 
 #include "tests/reconstruction/texture/painted_ellipsoid.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan::texture {
 namespace {
@@ -104,6 +105,7 @@ double shading_left(const TriangleMesh& mesh) {
 }
 
 TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   EllipsoidPictures pictures;
   pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
   // From the right and above.

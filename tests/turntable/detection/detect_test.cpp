@@ -7,6 +7,7 @@
 #include <turnscan/turntable/detection/detect.hpp>
 
 #include "tests/support/rig.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace turnscan {
 namespace {
@@ -32,6 +33,7 @@ Errors errors_of(const DetectedPlatter& p, const testing::RigOptions& options) {
 
 // The full set of 50 rigs is bench/calibration_rigs.
 TEST(DetectPlatter, FindsItInARoomWithClutter) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   for (const std::uint64_t seed : {2, 8, 14}) {
     testing::RigOptions options = testing::random_rig(seed);
     options.frames = 8;
@@ -101,6 +103,7 @@ TEST(DetectPlatter, RefusesWrongOptionsAndCancelling) {
 }
 
 TEST(EstimateDepthBias, FindsWhatWasTakenOffTheDepth) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   for (const double bias_m : {0.02, -0.03}) {
     testing::RigOptions options = testing::random_rig(5);
     options.frames = 4;

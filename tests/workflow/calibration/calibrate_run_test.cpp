@@ -8,6 +8,7 @@
 #include <turnscan/workflow/simulation/simulate.hpp>
 
 #include "tests/support/memory_sequence.hpp"
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
@@ -105,6 +106,7 @@ class MovedLetter : public FrameSequence {
 };
 
 TEST(CalibrationChoiceOf, AutoMovesFramesBackAndRecordedOnlySaysWhatHappened) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const MovedLetter sequence(60, 33);
   const auto choice = choose_calibration(sequence, {"auto", {}, false}, RunContext());
   ASSERT_TRUE(choice) << choice.error().text();
@@ -148,6 +150,7 @@ TEST(CalibrationChoiceOf, OnlyTheTurningIsTakenFromMotionWhereTheRecordingKnowsI
 }
 
 TEST(CalibrationChoiceOf, ATableThatStandsElsewhereIsNotKeptForWantOfASpeed) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const MovedLetter letter(60, 60);
   const auto choice =
       choose_calibration(without_turning(letter, 0.008), {"auto", {}, false}, RunContext());
