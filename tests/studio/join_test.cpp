@@ -41,7 +41,7 @@ class Joining : public ::testing::Test, FirstStart {
   Joining() : store(window.explorer().store()), view(window.explorer().view()) {
     show_window(window, {1366, 768});
     window.show_mode("explorer");
-    EXPECT_EQ(run_command_line({"simulate", "builtin:cylinder", "--frames", "24", "--next-pass",
+    EXPECT_EQ(run_command_line({"simulate", "builtin:cylinder", "--frames", "16", "--next-pass",
                                 "tip=180deg", "--out", folder.filePath("drum")}),
               0);
     window.open(folder.filePath("drum"));
@@ -120,7 +120,10 @@ TEST_F(Joining, ThreePairsSayWhereAPassLies) {
   const ModelData& joined = data(3);
   ASSERT_NE(joined.passes, nullptr);
   EXPECT_EQ(joined.passes->T_mesh_table.size(), 2u);
-  EXPECT_TRUE(joined.passes->T_mesh_table.at(1).isApprox(tipped(), 0.01));
+  // About the axis it is as exact as the clicks are: the shape leaves that open.
+  const Pose off = tipped().inverse() * joined.passes->T_mesh_table.at(1);
+  EXPECT_LT(off.translation().norm(), 1e-3);
+  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 3.0 * kRadiansPerDegree);
   EXPECT_TRUE(joined.report.contains("--pass-pose 1=")) << joined.report.toStdString();
   EXPECT_TRUE(check_mesh(joined.mesh).watertight());
   EXPECT_NEAR(bounds(joined.mesh.vertices).max.y(), bounds(data(1).mesh.vertices).max.y(), 5e-4);
@@ -144,7 +147,7 @@ TEST_F(Joining, ThreePairsSayWhereAPassLies) {
 TEST_F(Joining, PairsThatTheSurfacesContradictJoinNothing) {
   ASSERT_EQ(store.models().size(), 3u) << shown_error();
   press("Pick pairs");
-  click_pairs({place(-40, 0.35), place(40, 0.4), place(5, 0.9)}, tipped(-0.045));
+  click_pairs({place(-40, 0.2), place(40, 0.25), place(5, 0.6)}, tipped(-0.045));
   press("Join");
   EXPECT_EQ(store.models().size(), 3u);
   EXPECT_TRUE(store.models()[1].visible && store.models()[2].visible) << "kept beside each other";
