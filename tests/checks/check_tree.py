@@ -46,7 +46,8 @@ HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.e
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de", "learn.microsoft.com",
          "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com",
-         "wiki.ros.org", "docs.ros.org", "www.ros.org"}
+         "wiki.ros.org", "docs.ros.org", "www.ros.org", "docs.artec-group.com", "www.shining3d.com",
+         "docs.shining3d.com", "www.cloudcompare.org"}
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.
 MACHINE_PATH = re.compile(r"(?:^|[\s\"'`(=:,])((?:/(?:work|home|root|mnt|farm|tmp|Users)/\w"

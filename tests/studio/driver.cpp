@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QDateTime>
 #include <QDir>
+#include <QDirIterator>
 #include <QFile>
+#include <QFileInfo>
 #include <QLineEdit>
 #include <QProcess>
 #include <QPushButton>
@@ -139,6 +142,38 @@ int run_command_line(const QStringList& arguments, QByteArray* out) {
 QByteArray content(const QString& path) {
   QFile file(path);
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+QByteArray kill_in_the_middle(const QString& test, const QString& folder, int after_ms) {
+  QProcess process;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert(kKilledFolder, folder);
+  environment.insert("TMPDIR", folder);  // where its home is
+  process.setProcessEnvironment(environment);
+  process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  process.start("/proc/self/exe", {"--gtest_also_run_disabled_tests", "--gtest_filter=" + test});
+  QByteArray said;
+  while (!said.contains("begun") && process.waitForReadyRead(180000))
+    said += process.readAllStandardOutput();
+  EXPECT_TRUE(said.contains("begun")) << said.constData();
+  QTest::qSleep(std::max(1, after_ms));
+  process.kill();
+  process.waitForFinished();
+  EXPECT_EQ(process.exitStatus(), QProcess::CrashExit);
+  return said + process.readAllStandardOutput();
+}
+
+QString sessions_of_killed(const QString& folder) {
+  QString root;
+  for (QDirIterator at(folder, {"sessions"}, QDir::Dirs | QDir::Hidden | QDir::NoDotAndDotDot,
+                       QDirIterator::Subdirectories);
+       at.hasNext();) {
+    const QString found = at.next();
+    // Each has a home of its own.
+    if (root.isEmpty() || QFileInfo(found).lastModified() > QFileInfo(root).lastModified())
+      root = found;
+  }
+  return root;
 }
 
 void keep_picture(QWidget& window, const QString& name) {

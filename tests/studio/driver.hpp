@@ -68,7 +68,16 @@ bool type(QWidget* edit, const QString& text);
 int run_command_line(const QStringList& arguments, QByteArray* out = nullptr);
 QByteArray content(const QString& path);
 
-/// Writes the whole window as NAME.png into the folder TURNSCAN_SCREENSHOTS, if that is set.
+/// The folder that a test may use which runs to be killed: a variable of its environment.
+inline constexpr const char* kKilledFolder = "TURNSCAN_KILLED_FOLDER";
+/// Runs a disabled test as a process of its own, with its home in the folder, waits until it says
+/// "begun", and kills it after the pause. What it said.
+QByteArray kill_in_the_middle(const QString& test, const QString& folder, int after_ms);
+/// Where what was killed in that folder kept its sessions.
+QString sessions_of_killed(const QString& folder);
+
+/// Writes the whole window, or a dialog, as NAME.png into the folder TURNSCAN_SCREENSHOTS, if that
+/// is set.
 void keep_picture(QWidget& window, const QString& name);
 /// How far a picture is from pictures/NAME.png, both reduced to 96 x 72: the share of places whose
 /// colour differs clearly. Another renderer's edges and fonts stay below one in a hundred. 1 where

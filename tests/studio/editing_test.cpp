@@ -104,6 +104,9 @@ TEST_F(Editing, RectangleShowsWhatIsVisibleOrThroughBeforeItIsDeleted) {
   EXPECT_EQ(selected(), 0u);
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(mesh().triangles.size(), 2 * each);
+  EXPECT_EQ(selected(), each) << "as it was before";
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(selected(), front) << "each selection is a step, too";
 }
 
 TEST_F(Editing, SelectionsAreAddedSubtractedInvertedGrownAndFollowed) {
@@ -194,9 +197,9 @@ TEST_F(Editing, TheHistoryLeadsToEachStateAndBack) {
   press("edit_reduce");
   auto* list = qobject_cast<QListWidget*>(in_panel("history"));
   ASSERT_NE(list, nullptr);
-  ASSERT_EQ(list->count(), 4);  // start, open, smooth, reduce
-  EXPECT_EQ(list->currentRow(), 3);
-  EXPECT_EQ(list->item(3)->text(), "reduce");
+  ASSERT_EQ(list->count(), 5);  // start, open, select, smooth, reduce
+  EXPECT_EQ(list->currentRow(), 4);
+  EXPECT_EQ(list->item(4)->text(), "reduce");
   ASSERT_TRUE(click(list));
   keep_picture(window, "editing-history");
   const auto go = [&](int row) {
@@ -210,9 +213,11 @@ TEST_F(Editing, TheHistoryLeadsToEachStateAndBack) {
   EXPECT_EQ(mesh().triangles.size(), 2 * each);
   go(0);
   EXPECT_TRUE(store.models().empty());
-  go(3);
+  go(2);
+  EXPECT_EQ(selected(), 2 * each) << "what was selected is again";
+  go(4);
   EXPECT_LE(mesh().triangles.size(), 4000u);
-  EXPECT_EQ(list->count(), 4);
+  EXPECT_EQ(list->count(), 5);
 }
 
 TEST_F(Editing, PointsOfACloudAreSelectedAndDeleted) {

@@ -1,36 +1,37 @@
 // The window's process is killed (SIGKILL) at random moments: a recording opens with every frame
 // that its table listed, a mesh that was there is the old one or the new one, whole, and the next
-// start goes on. TURNSCAN_KILLS: how many times each, 3 unless it says otherwise.
+// start goes on with all models, steps and the view. TURNSCAN_KILLS: how many times each, 3 unless
+// it says otherwise.
 
 #include <gtest/gtest.h>
 
 #include <QDir>
-#include <QDirIterator>
 #include <QFile>
 #include <QFileInfo>
-#include <QProcess>
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <QTest>
+#include <array>
 #include <map>
 #include <turnscan/core/random.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 
 #include "driver.hpp"
+#include "explorer/editing/edits.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/session.hpp"
 #include "scanner/record_panel.hpp"
 #include "scanner/scanner.hpp"
+#include "tests/geometry/shapes.hpp"
 #include "tests/io/scarcity.hpp"
+#include "view/scene_view.hpp"
 #include "window/main_window.hpp"
 
 namespace turnscan::studio {
 namespace {
-
-constexpr const char* kFolder = "TURNSCAN_KILLED_FOLDER";
 
 int kills() {
   const int stated = qEnvironmentVariableIntValue("TURNSCAN_KILLS");
@@ -46,7 +47,7 @@ int pause_ms(int kill, int longest_ms) {
 class Victim : public ::testing::Test, FirstStart {
  protected:
   static QString path(const QString& name) {
-    return QDir(qEnvironmentVariable(kFolder)).filePath(name);
+    return QDir(qEnvironmentVariable(kKilledFolder)).filePath(name);
   }
   static void say(const char* text) {
     std::puts(text);
@@ -102,31 +103,94 @@ TEST_F(Victim, DISABLED_HasModels) {
   store.set_color(made, QColor("#336699"), false);
   store.set_visible(made, false);
   store.remove(store.add("removed", mesh_model(tetrahedron(), "a test")));
+  store.undo();
+  store.undo();  // it is neither added nor removed
+  const ModelDataPtr data = store.find(made)->data;
+  const Selection one{0, 1, 0, 0};
+  store.select_parts({data, std::make_shared<const Selection>(one), selection_drawable(*data, one)},
+                     "select");
+  window.explorer().list().select(made);
+  window.explorer().view().look(StandardView::kTop);
+  ASSERT_TRUE(wait_idle(window));
   window.explorer().session().flush();
   say("begun");
   run_for(60000);
 }
 
-/// Starts a test of Victim as a process of its own, waits until it says "begun", and kills it
-/// after the pause. What it said.
-QByteArray kill_in_the_middle(const QString& test, const QString& folder, int after_ms) {
-  QProcess process;
-  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  environment.insert(kFolder, folder);
-  environment.insert("TMPDIR", folder);  // where its home is
-  process.setProcessEnvironment(environment);
-  process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
-  process.start("/proc/self/exe",
-                {"--gtest_also_run_disabled_tests", "--gtest_filter=Victim.DISABLED_" + test});
-  QByteArray said;
-  while (!said.contains("begun") && process.waitForReadyRead(60000))
-    said += process.readAllStandardOutput();
-  EXPECT_TRUE(said.contains("begun")) << said.constData();
-  QTest::qSleep(std::max(1, after_ms));
-  process.kill();
-  process.waitForFinished();
-  EXPECT_EQ(process.exitStatus(), QProcess::CrashExit);
-  return said + process.readAllStandardOutput();
+/// What is at work when it is killed: by its place in here.
+constexpr std::array<const char*, 5> kWork{"RecordsWithModels", "Reconstructs", "Edits", "Saves",
+                                           "Autosaves"};
+
+/// A person's models, and one of the works of kWork, which never ends.
+class VictimAtWork : public Victim {
+ protected:
+  VictimAtWork() : store(window.explorer().store()) {
+    show_window(window, {1000, 700});
+    window.open(path("letter"));
+    EXPECT_TRUE(wait_idle(window));
+    ball = store.add("ball", mesh_model(test::sphere(0.05, 6), "a test"));
+    store.set_color(ball, QColor("#336699"), false);
+    window.explorer().list().select(ball);
+    window.explorer().view().look(StandardView::kTop);
+    EXPECT_TRUE(wait_idle(window));
+    window.explorer().session().flush();
+  }
+  void press(const QString& name) {
+    ASSERT_TRUE(click(named(window.explorer(), name))) << name.toStdString();
+    ASSERT_TRUE(wait_idle(window));
+  }
+
+  ModelStore& store;
+  int ball = 0;
+};
+
+TEST_F(VictimAtWork, DISABLED_RecordsWithModels) {
+  window.show_mode("scanner");
+  ScannerMode& mode = window.scanner();
+  mode.recording().set_folder(path("recording"));
+  mode.set_device("virtual:letter-a?sensor=kinect-v2&realtime=1");
+  ASSERT_TRUE(click(button_with(mode, "Play")));
+  QWidget* record = named(mode, "record");
+  ASSERT_TRUE(wait_for([&] { return record->isEnabled(); }));
+  ASSERT_TRUE(click(record));
+  say("begun");
+  run_for(60000);
+}
+
+TEST_F(VictimAtWork, DISABLED_Reconstructs) {
+  window.explorer().list().select(store.models().front().id);
+  for (;;) {
+    say("begun");
+    ASSERT_TRUE(click(button_with(window.explorer(), "Reconstruct")));
+    ASSERT_TRUE(wait_idle(window));
+    window.explorer().list().select(store.models().front().id);
+  }
+}
+
+TEST_F(VictimAtWork, DISABLED_Edits) {
+  say("begun");
+  for (;;) {
+    press("select_all");
+    press("edit_smooth");
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  }
+}
+
+TEST_F(VictimAtWork, DISABLED_Saves) {
+  say("begun");
+  for (;;) {
+    window.explorer().save_as(ball, path("mesh.ply"));
+    ASSERT_TRUE(wait_idle(window));
+  }
+}
+
+TEST_F(VictimAtWork, DISABLED_Autosaves) {
+  say("begun");
+  for (int i = 0;; ++i) {
+    store.add(QString("more %1").arg(i), mesh_model(test::sphere(0.05, 6), "a test"));
+    window.explorer().session().flush();
+  }
 }
 
 std::size_t lines_of(const QString& table) { return std::size_t(content(table).count('\n')); }
@@ -136,7 +200,7 @@ TEST(KilledStudio, ARecordingKeepsEveryFrameThatItsTableListed) {
   for (int kill = 0; kill < kills(); ++kill) {
     SCOPED_TRACE(kill);
     const QTemporaryDir folder;
-    (void)kill_in_the_middle("Records", folder.path(), pause_ms(kill, 2000));
+    (void)kill_in_the_middle("Victim.DISABLED_Records", folder.path(), pause_ms(kill, 2000));
     const QString recording = folder.filePath("recording");
     const std::size_t lines = lines_of(recording + "/frames.csv");
     const auto opened = Recording::open(recording.toStdString());
@@ -167,8 +231,8 @@ TEST(KilledStudio, AMeshIsTheOldOneOrTheNewOneAndTheRecordingIsAsItWas) {
   QByteArray mesh;  // the last one that was said to be saved
   for (int kill = 0; kill < kills(); ++kill) {
     SCOPED_TRACE(kill);
-    const QByteArray said = kill_in_the_middle("ReconstructsAndSavesAgainAndAgain", folder.path(),
-                                               pause_ms(kill, 3000));
+    const QByteArray said = kill_in_the_middle("Victim.DISABLED_ReconstructsAndSavesAgainAndAgain",
+                                               folder.path(), pause_ms(kill, 3000));
     EXPECT_EQ(files_of(folder.filePath("letter")), before);
     EXPECT_EQ(files_of(folder.filePath("letter/depth")), depth_before);
     const QByteArray now = content(folder.filePath("mesh.ply"));
@@ -185,20 +249,15 @@ TEST(KilledStudio, AMeshIsTheOldOneOrTheNewOneAndTheRecordingIsAsItWas) {
 
 TEST(KilledStudio, ItsModelsAreThereAgainAfterTheNextStart) {
   const QTemporaryDir folder;
-  (void)kill_in_the_middle("HasModels", folder.path(), 1);
-  QString root;
-  for (QDirIterator at(folder.path(), {"sessions"},
-                       QDir::Dirs | QDir::Hidden | QDir::NoDotAndDotDot,
-                       QDirIterator::Subdirectories);
-       at.hasNext();)
-    root = at.next();
+  (void)kill_in_the_middle("Victim.DISABLED_HasModels", folder.path(), 1);
+  const QString root = sessions_of_killed(folder.path());
   const auto lost = SessionKeeper::find_lost(root);
   ASSERT_TRUE(lost.has_value()) << root.toStdString();
   MainWindow window;
   show_window(window, {1000, 700});
   window.explorer().restore_session(*lost);
   ASSERT_TRUE(wait_idle(window));
-  const ModelStore& store = window.explorer().store();
+  ModelStore& store = window.explorer().store();
   ASSERT_EQ(store.models().size(), 2u);
   EXPECT_EQ(store.models()[0].name, "saved");
   EXPECT_EQ(store.file_of(*store.models()[0].data), folder.filePath("saved.stl"));
@@ -207,9 +266,64 @@ TEST(KilledStudio, ItsModelsAreThereAgainAfterTheNextStart) {
   EXPECT_FALSE(store.models()[1].visible);
   EXPECT_EQ(store.models()[1].data->mesh.triangles.size(), 4u);
   EXPECT_EQ(store.unsaved(), QStringList{"made"});
+  // What was done, and how it was looked at.
+  EXPECT_EQ(store.history(),
+            (QStringList{"open saved.stl", "add made", "colour", "hide", "select"}));
+  EXPECT_EQ(window.explorer().list().selected(), store.models()[1].id);
+  ASSERT_EQ(store.selected_parts().of, store.models()[1].data);
+  EXPECT_EQ(*store.selected_parts().parts, (Selection{0, 1, 0, 0}));
+  const CameraPlace camera = window.explorer().view().camera();
+  EXPECT_GT((camera.position - camera.focus).normalized().y(), 0.99) << "from above";
+  store.undo();
+  EXPECT_EQ(store.selected_parts().of, nullptr);
+  store.undo();
+  EXPECT_TRUE(store.models()[1].visible);
+  store.go_to(0);
+  EXPECT_TRUE(store.models().empty());
+  store.go_to(5);
+  EXPECT_EQ(store.models().size(), 2u);
+  EXPECT_EQ(*store.selected_parts().parts, (Selection{0, 1, 0, 0}));
   // Kept by this session now, so that the lost one may go.
   window.explorer().session().flush();
   EXPECT_FALSE(SessionKeeper::find_lost(root).has_value());
+}
+
+/// Whatever it does when it is killed: its models, its steps and its view are there again.
+TEST(KilledStudio, ASessionIsRestoredWhateverWasBeingDone) {
+  const QTemporaryDir folder;
+  ASSERT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", folder.filePath("letter"),
+                              "--frames", "12", "--scanner", "kinect-v2"}),
+            0);
+  const int count = std::max(kills(), int(kWork.size()));
+  for (int kill = 0; kill < count; ++kill) {
+    const char* work = kWork[std::size_t(kill) % kWork.size()];
+    SCOPED_TRACE(fmt::format("kill {}, {}", kill, work));
+    (void)kill_in_the_middle(QString("VictimAtWork.DISABLED_%1").arg(work), folder.path(),
+                             pause_ms(100 + kill, 1500));
+    if (QFileInfo::exists(folder.filePath("mesh.ply"))) {
+      EXPECT_TRUE(read_mesh(folder.filePath("mesh.ply").toStdString()).has_value());
+    }
+    QDir(folder.filePath("recording")).removeRecursively();
+    const auto lost = SessionKeeper::find_lost(sessions_of_killed(folder.path()));
+    ASSERT_TRUE(lost.has_value());
+    MainWindow window;
+    show_window(window, {1000, 700});
+    window.explorer().restore_session(*lost);
+    ASSERT_TRUE(wait_idle(window));
+    ModelStore& store = window.explorer().store();
+    ASSERT_GE(store.models().size(), 2u);
+    EXPECT_EQ(store.models()[0].data->kind, ModelKind::kRecording);
+    EXPECT_EQ(store.models()[1].name, "ball");
+    EXPECT_EQ(store.models()[1].color, QColor("#336699"));
+    EXPECT_EQ(store.models()[1].data->mesh.triangles.size(),
+              test::sphere(0.05, 6).triangles.size());
+    EXPECT_EQ(store.history().mid(0, 3), (QStringList{"open letter", "add ball", "colour"}));
+    const CameraPlace camera = window.explorer().view().camera();
+    EXPECT_GT((camera.position - camera.focus).normalized().y(), 0.99) << "from above";
+    while (store.can_undo()) store.undo();
+    EXPECT_TRUE(store.models().empty());
+    SessionKeeper::discard(*lost);
+  }
 }
 
 TEST(KilledStudio, WhatASessionLeftInPiecesIsRefusedOrReadInPart) {
@@ -224,7 +338,12 @@ TEST(KilledStudio, WhatASessionLeftInPiecesIsRefusedOrReadInPart) {
   put("2", "");
   EXPECT_FALSE(SessionKeeper::find_lost(root.path()).has_value());
   EXPECT_FALSE(QDir(root.filePath("1")).exists());
-  put("3", R"({"models": [{"name": "gone", "file": "9.ply"}, {"name": 4}]})");
+  put("3", R"({"states": [], "place": 0})");
+  put("4", R"({"states": [{"models": [{"name": "a", "file": "a.ply"}]}], "place": 7})");
+  EXPECT_FALSE(SessionKeeper::find_lost(root.path()).has_value());
+  put("5", R"({"states": [{"what": 3, "models": 4}, {"selected_model": 9, "selected": "&",
+      "models": [{"name": "gone", "file": "9.ply"}, {"name": 4, "place_in_file": -3}]}],
+      "place": 1, "camera": [[0, 0], 1, "x"]})");
   const auto lost = SessionKeeper::find_lost(root.path());
   ASSERT_TRUE(lost.has_value());
   MainWindow window;

@@ -17,6 +17,7 @@
 #include "explorer/loading.hpp"
 #include "explorer/looking/look_panel.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/passes/join_panel.hpp"
 #include "explorer/session.hpp"
 #include "explorer/side_panel.hpp"
 #include "explorer/stage_panel.hpp"
@@ -54,6 +55,14 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       parts, [this](const Model& model) { return deviations_->distance_of(model); }, this);
   section_ = new SectionPanel(parts, this);
   edits_ = new EditPanel(parts, this);
+  join_ = new JoinPanel(
+      parts,
+      [this]() -> Result<ReconstructOptions> {
+        const QString problem = stages_->first_error();
+        if (!problem.isEmpty()) return fail(ErrorCode::kInvalidOption, "{}", problem.toStdString());
+        return stages_->options();
+      },
+      this);
   add_sections();
   set_footer({stages_->error(), stages_->action()});
   view().set_empty_text(tr("Nothing loaded yet"),
@@ -75,9 +84,12 @@ void ExplorerMode::add_sections() {
   nested(deviations_, tr("Deviations"), true);
   nested(measure_, tr("Measure"), false);
   nested(section_, tr("Section"), false);
+  auto* side = section_with(side_, tr("Another side"), true, this);
+  join_section_ = new Section(tr("Join by points"), false, this, Section::kNested);
+  join_section_->body()->addWidget(join_);
+  side->body()->addWidget(join_section_);
   for (Section* each : {section_with(list_, tr("Models"), true, this),
-                        section_with(verdict_, tr("Verdict"), true, this),
-                        section_with(side_, tr("Another side"), true, this), inspection,
+                        section_with(verdict_, tr("Verdict"), true, this), side, inspection,
                         section_with(edits_, tr("Editing"), false, this),
                         section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
                         section_with(look_, tr("Looking"), false, this),
@@ -91,6 +103,9 @@ void ExplorerMode::connect_panels() {
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
   connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
   connect(session_, &SessionKeeper::failed, this, &Mode::status);
+  session_->set_look([this] { return std::pair(view().camera(), list_->selected()); });
+  connect(&view(), &SceneView::camera_changed, session_, &SessionKeeper::look_changed);
+  connect(list_, &ModelList::selection_changed, session_, &SessionKeeper::look_changed);
   connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
   connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
@@ -105,6 +120,8 @@ void ExplorerMode::connect_panels() {
   connect(measure_, &MeasurePanel::said, this, &Mode::status);
   connect(section_, &SectionPanel::said, this, &Mode::status);
   connect(edits_, &EditPanel::said, this, &Mode::status);
+  connect(join_, &JoinPanel::said, this, &Mode::status);
+  connect(join_, &JoinPanel::changed, this, &ExplorerMode::sync);
   connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
   connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
   connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
@@ -170,10 +187,8 @@ void ExplorerMode::sync() {
       it = shown_.erase(it);
     }
   }
-  const Model* left = store_->find(compare_->reference());
-  const Model* right = store_->find(compare_->compared());
-  view().set_split(compare_->way() == ComparePanel::kSideBySide && left && right,
-                   left ? left->name : QString(), right ? right->name : QString());
+  const auto [left, right] = side_by_side();
+  view().set_split(left && right, left ? left->name : QString(), right ? right->name : QString());
   for (const Model& model : store_->models()) {
     const ItemStyle style = style_of(model);
     Shown& shown = shown_[model.id];
@@ -189,6 +204,12 @@ void ExplorerMode::sync() {
   }
   draw_missing();
   draw_colored();
+}
+
+std::pair<const Model*, const Model*> ExplorerMode::side_by_side() const {
+  if (join_->is_picking()) return {join_->fixed(), join_->moved()};
+  if (compare_->way() != ComparePanel::kSideBySide) return {};
+  return {store_->find(compare_->reference()), store_->find(compare_->compared())};
 }
 
 /// In its own colours, or in those of its deviations.
@@ -245,6 +266,12 @@ ItemStyle ExplorerMode::style_of(const Model& model) const {
   style.color = model.color;
   style.own_colors = model.own_colors || deviations_->drawable_of(model);
   style.opacity = model.opacity;
+  if (join_->is_picking()) {
+    const auto [left, right] = side_by_side();
+    style.pane = right && model.id == right->id ? 1 : 0;
+    style.visible = style.pane == 1 || (left && model.id == left->id);
+    return style;
+  }
   if (deviations_->hides(model.id)) style.visible = false;
   if (look_->isolated() && model.id != list_->selected()) style.visible = false;
   if (compare_->way() == ComparePanel::kOff) return style;

@@ -15,9 +15,11 @@ namespace turnscan::studio {
 class ComparePanel;
 class DeviationPanel;
 class EditPanel;
+class JoinPanel;
 class LookPanel;
 class MeasurePanel;
 class ModelList;
+class Section;
 class SectionPanel;
 class SessionKeeper;
 class SidePanel;
@@ -62,7 +64,8 @@ class ExplorerMode : public Mode {
   void save_preset(const QString& path);
   /// The report page of the run that made a model.
   void export_report(int id, const QString& path);
-  /// Opens what a session before has left, as one step of undo.
+  /// Opens what a session before has left, with its steps of undo and its view; as one step beside
+  /// what is open already.
   void restore_session(const LostSession& lost);
 
   ModelStore& store() { return *store_; }
@@ -88,6 +91,8 @@ class ExplorerMode : public Mode {
   void run_comparison();
   void add_sections();
   void connect_panels();
+  /// Those of a split view, left and right; nullptr where it is not split.
+  std::pair<const Model*, const Model*> side_by_side() const;
   ItemStyle style_of(const Model& model) const;
   DrawablePtr drawable_of(const Model& model) const;
   void sync();
@@ -107,6 +112,8 @@ class ExplorerMode : public Mode {
   SectionPanel* section_;
   EditPanel* edits_;
   SidePanel* side_;
+  JoinPanel* join_;
+  Section* join_section_;
   VerdictPanel* verdict_;
   LookPanel* look_;
   SessionKeeper* session_;

@@ -18,6 +18,7 @@
 #include "explorer/stage_runs.hpp"
 #include "explorer/verdict_panel.hpp"
 #include "view/scene_view.hpp"
+#include "widgets/section.hpp"
 
 namespace turnscan::studio {
 
@@ -97,7 +98,11 @@ void ExplorerMode::run_stage(const QString& stage) {
           const auto ids = store_->add_instead(run.models, {id}, tr("reconstruct"));
           list_->select(ids.front());
           stages_->show_used(run.choices);
-          if (!run.not_joined.isEmpty()) stages_->show_error(run.not_joined);
+          if (!run.not_joined.isEmpty()) {
+            stages_->show_error(
+                tr("%1\nAnother side, Join by points shows how it lay.").arg(run.not_joined));
+            join_section_->set_open(true);
+          }
           view().fit_unless_moved();  // of a recording it has shown the table, too
         });
       },
@@ -208,11 +213,17 @@ void ExplorerMode::restore_session(const LostSession& lost) {
       [this, lost](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(RestoredModels made, restore(lost, context));
         return Finish([this, lost, made = std::move(made)] {
-          for (std::size_t i = 0; i < made.models.size(); ++i)
-            if (const QString& file = made.files[int(i)]; !file.isEmpty())
-              store_->set_file(made.models[i].data, file);
-          if (!made.models.empty())
-            list_->select(store_->add_models(made.models, tr("restore the session")).back());
+          for (const auto& [of, file] : made.files) store_->set_file(of, file);
+          const std::size_t place = lost.list.place;
+          const bool is_fresh = store_->models().empty() && store_->history().isEmpty();
+          if (is_fresh) {
+            store_->set_states(made.states, place);
+            list_->select(lost.list.chosen);
+          } else if (!made.states[place].models.empty()) {
+            list_->select(
+                store_->add_models(made.states[place].models, tr("restore the session")).back());
+          }
+          if (is_fresh && lost.list.camera) view().set_camera(*lost.list.camera);
           if (made.missing.isEmpty()) {
             session_->take_over(lost);
             return;

@@ -50,7 +50,7 @@ QString ModelStore::free_name(const QString& wanted) const {
 }
 
 void ModelStore::step(const QString& what) {
-  undo_.push_back({what, models_});
+  undo_.push_back({what, models_, selected_});
   if (undo_.size() > kModelUndoSteps) undo_.erase(undo_.begin());
   redo_.clear();
 }
@@ -144,6 +144,19 @@ void ModelStore::set_data(int id, ModelDataPtr data, const QString& what) {
   if (!find(id)) return;
   step(what);
   mutable_find(id)->data = std::move(data);
+  drop_stale_selection();
+  Q_EMIT changed();
+}
+
+void ModelStore::drop_stale_selection() {
+  const auto is_of = [&](const Model& model) { return model.data == selected_.of; };
+  if (std::none_of(models_.begin(), models_.end(), is_of)) selected_ = {};
+}
+
+void ModelStore::select_parts(SelectedParts selected, const QString& what) {
+  if (!selected.drawable && !selected_.drawable) return;
+  step(what);
+  selected_ = std::move(selected);
   Q_EMIT changed();
 }
 
@@ -163,6 +176,7 @@ void ModelStore::remove(int id) {
   if (!find(id)) return;
   step(tr("delete"));
   std::erase_if(models_, [&](const Model& m) { return m.id == id; });
+  drop_stale_selection();
   Q_EMIT changed();
 }
 
@@ -190,14 +204,16 @@ QStringList ModelStore::unsaved() const {
 }
 
 void ModelStore::step_back() {
-  redo_.push_back({undo_.back().what, models_});
+  redo_.push_back({undo_.back().what, std::move(models_), std::move(selected_)});
   models_ = std::move(undo_.back().models);
+  selected_ = std::move(undo_.back().selected);
   undo_.pop_back();
 }
 
 void ModelStore::step_forward() {
-  undo_.push_back({redo_.back().what, models_});
+  undo_.push_back({redo_.back().what, std::move(models_), std::move(selected_)});
   models_ = std::move(redo_.back().models);
+  selected_ = std::move(redo_.back().selected);
   redo_.pop_back();
 }
 
@@ -215,7 +231,7 @@ void ModelStore::redo() {
 
 QStringList ModelStore::history() const {
   QStringList out;
-  for (const State& state : undo_) out << state.what;
+  for (const ModelState& state : undo_) out << state.what;
   for (auto state = redo_.rbegin(); state != redo_.rend(); ++state) out << state->what;
   return out;
 }
@@ -225,6 +241,33 @@ void ModelStore::go_to(std::size_t place) {
   while (undo_.size() > place) step_back();
   while (undo_.size() < place && !redo_.empty()) step_forward();
   if (undo_.size() != before) Q_EMIT changed();
+}
+
+std::vector<ModelState> ModelStore::states() const {
+  std::vector<ModelState> out = undo_;
+  // A step of redo is named by what leads to it; a state, by what leads away from it.
+  QString next = redo_.empty() ? QString() : redo_.back().what;
+  out.push_back({next, models_, selected_});
+  for (auto state = redo_.rbegin(); state != redo_.rend(); ++state) {
+    next = state + 1 == redo_.rend() ? QString() : (state + 1)->what;
+    out.push_back({next, state->models, state->selected});
+  }
+  return out;
+}
+
+void ModelStore::set_states(std::vector<ModelState> states, std::size_t place) {
+  undo_.assign(states.begin(), states.begin() + std::ptrdiff_t(place));
+  redo_.clear();
+  for (std::size_t i = states.size() - 1; i > place; --i) {
+    states[i].what = states[i - 1].what;
+    redo_.push_back(std::move(states[i]));
+  }
+  models_ = std::move(states[place].models);
+  selected_ = std::move(states[place].selected);
+  for (const ModelState& state : this->states())
+    for (const Model& model : state.models) next_id_ = std::max(next_id_, model.id + 1);
+  next_color_ = next_id_ - 1;
+  Q_EMIT changed();
 }
 
 }  // namespace turnscan::studio

@@ -6,9 +6,11 @@
 #include <QString>
 #include <QStringList>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/geometry/selection/selection.hpp>
 #include <vector>
 
 #include "app/another_side.hpp"
@@ -16,6 +18,7 @@
 
 namespace turnscan::studio {
 
+struct ModelData;
 struct ScanQuality;
 
 enum class ModelKind { kMesh, kCloud, kRecording };
@@ -24,6 +27,12 @@ enum class ModelKind { kMesh, kCloud, kRecording };
 struct MissingSurface {
   AnotherSide side;
   DrawablePtr drawable;  ///< what no view saw; nullptr: nothing worth drawing
+};
+
+/// The passes of a recording that a mesh is made of.
+struct PassesOfMesh {
+  std::shared_ptr<const ModelData> recording;
+  std::map<std::uint32_t, Pose> T_mesh_table;  ///< where their tables lie, by the pass's number
 };
 
 /// Never changed once made: an edit makes new data, so that undo only swaps pointers.
@@ -37,6 +46,7 @@ struct ModelData {
   std::vector<std::string> recording_notes;        ///< what is missing in it
   std::shared_ptr<const MissingSurface> missing;   ///< of a mesh; nullptr: not known
   std::shared_ptr<const ScanQuality> quality;      ///< of a mesh as the scan made it, or nullptr
+  std::shared_ptr<const PassesOfMesh> passes;      ///< the same, of a recording with several passes
   std::optional<double> metres_per_unit;           ///< that its file was read with, if it was told
   QString source;                                  ///< file, or what was run to make it
   QString report;                                  ///< several lines for people
@@ -52,6 +62,20 @@ struct Model {
   QColor color;
   bool own_colors = true;
   double opacity = 1.0;
+};
+
+/// What an edit is about: triangles of a mesh, or points of a cloud.
+struct SelectedParts {
+  ModelDataPtr of;  ///< nullptr: nothing is selected
+  std::shared_ptr<const Selection> parts;
+  DrawablePtr drawable;  ///< how they are shown; nullptr: there are none
+};
+
+/// The models, what is selected of them, and what was done next.
+struct ModelState {
+  QString what;
+  std::vector<Model> models;
+  SelectedParts selected;
 };
 
 /// "24 686 triangles", "12 345 points" or "920 frames"
@@ -83,6 +107,10 @@ class ModelStore : public QObject {
   void set_data(int id, ModelDataPtr data, const QString& what);
   void duplicate(int id);
   void remove(int id);
+  /// A step of undo, too, unless nothing is selected and nothing was. It ends with the data that it
+  /// is of.
+  void select_parts(SelectedParts selected, const QString& what);
+  const SelectedParts& selected_parts() const { return selected_; }
 
   /// The data are in this file now: opened from there, or saved.
   void set_file(const ModelDataPtr& data, const QString& file);
@@ -103,16 +131,18 @@ class ModelStore : public QObject {
   std::size_t place_in_history() const { return undo_.size(); }
   /// Undoes or redoes until as many steps are done; more than there are: all.
   void go_to(std::size_t place);
+  /// What undo goes back to, oldest first; the models as they are; what redo brings back, the next
+  /// one first.
+  std::vector<ModelState> states() const;
+  /// Takes these in place of what there is, with `place` steps done. At least one more than that.
+  void set_states(std::vector<ModelState> states, std::size_t place);
 
  Q_SIGNALS:
   void changed();
 
  private:
-  struct State {
-    QString what;
-    std::vector<Model> models;
-  };
   void step(const QString& what);
+  void drop_stale_selection();
   void step_back();
   void step_forward();
   std::vector<int> append(std::vector<Model> models);
@@ -121,7 +151,8 @@ class ModelStore : public QObject {
   QString free_name(const QString& wanted) const;
 
   std::vector<Model> models_;
-  std::vector<State> undo_, redo_;
+  SelectedParts selected_;
+  std::vector<ModelState> undo_, redo_;
   std::vector<std::pair<std::weak_ptr<const ModelData>, QString>> files_;
   int next_id_ = 1, next_color_ = 0;
 };

@@ -5,63 +5,21 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QJsonArray>
-#include <QJsonDocument>
-#include <QJsonObject>
 #include <QStandardPaths>
 #include <algorithm>
+#include <tuple>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+
+#include "explorer/editing/edits.hpp"
 
 namespace turnscan::studio {
 
 namespace {
 
-constexpr int kPause_ms = 300;  // in which changes gather
-constexpr const char* kList = "session.json";
-
+constexpr int kPause_ms = 300;         // in which changes gather
+constexpr int kPauseOfLook_ms = 1500;  // the same, of what the camera does
 QString lock_of(const QString& folder) { return folder + ".lock"; }
-
-QByteArray list_text(const std::vector<KeptModel>& models) {
-  QJsonArray list;
-  for (const KeptModel& model : models) {
-    QJsonObject entry{{"name", model.name},
-                      {"file", model.file},
-                      {"in_own_file", model.in_own_file},
-                      {"visible", model.visible},
-                      {"own_colors", model.own_colors},
-                      {"color", model.color.name()},
-                      {"opacity", model.opacity}};
-    if (model.metres_per_unit) entry["metres_per_unit"] = *model.metres_per_unit;
-    list.append(entry);
-  }
-  return QJsonDocument(QJsonObject{{"models", list}}).toJson();
-}
-
-/// Empty where the list is damaged or missing.
-std::vector<KeptModel> read_list(const QString& folder) {
-  QFile file(QDir(folder).filePath(kList));
-  std::vector<KeptModel> out;
-  if (!file.open(QIODevice::ReadOnly)) return out;
-  for (const QJsonValue& value :
-       QJsonDocument::fromJson(file.readAll()).object().value("models").toArray()) {
-    const QJsonObject entry = value.toObject();
-    KeptModel model;
-    model.name = entry.value("name").toString();
-    model.file = entry.value("file").toString();
-    model.in_own_file = entry.value("in_own_file").toBool();
-    // The session's own files lie in its folder.
-    if (!model.in_own_file) model.file = QDir(folder).filePath(QFileInfo(model.file).fileName());
-    model.visible = entry.value("visible").toBool(true);
-    model.own_colors = entry.value("own_colors").toBool(true);
-    model.color = QColor(entry.value("color").toString());
-    model.opacity = std::clamp(entry.value("opacity").toDouble(1.0), 0.0, 1.0);
-    if (const double unit = entry.value("metres_per_unit").toDouble(); unit > 0.0)
-      model.metres_per_unit = unit;
-    out.push_back(model);
-  }
-  return out;
-}
 
 void remove_folder(const QString& folder) {
   QDir(folder).removeRecursively();
@@ -78,9 +36,8 @@ SessionKeeper::SessionKeeper(ModelStore& store, const QString& root, QObject* pa
                                       .arg(QCoreApplication::applicationPid()))) {
   writer_.setMaxThreadCount(1);
   timer_.setSingleShot(true);
-  timer_.setInterval(kPause_ms);
   connect(&timer_, &QTimer::timeout, this, &SessionKeeper::write);
-  connect(&store_, &ModelStore::changed, &timer_, QOverload<>::of(&QTimer::start));
+  connect(&store_, &ModelStore::changed, this, [this] { timer_.start(kPause_ms); });
 }
 
 SessionKeeper::~SessionKeeper() {
@@ -103,8 +60,8 @@ std::optional<LostSession> SessionKeeper::find_lost(const QString& root) {
     lock.setStaleLockTime(0);
     if (!lock.tryLock(0)) continue;  // of a process that lives
     lock.unlock();
-    lost.models = read_list(lost.folder);
-    if (!lost.models.empty()) return lost;
+    lost.list = read_list(lost.folder);
+    if (!lost.list.states.empty() && !lost.models().empty()) return lost;
     remove_folder(lost.folder);
   }
   return std::nullopt;
@@ -114,7 +71,7 @@ void SessionKeeper::discard(const LostSession& lost) { remove_folder(lost.folder
 
 void SessionKeeper::take_over(const LostSession& lost) {
   taken_over_ << lost.folder;
-  timer_.start();
+  timer_.start(kPause_ms);
 }
 
 void SessionKeeper::flush() {
@@ -130,57 +87,83 @@ void SessionKeeper::report(const QString& text) {
   Q_EMIT failed(text);
 }
 
+void SessionKeeper::look_changed() {
+  if (lock_ && !timer_.isActive()) timer_.start(kPauseOfLook_ms);
+}
+
+/// Locked before it is there: no other start takes it for a lost one.
+bool SessionKeeper::take_folder() {
+  if (lock_) return true;
+  QDir().mkpath(QFileInfo(folder_).path());
+  auto lock = std::make_unique<QLockFile>(lock_of(folder_));
+  lock->setStaleLockTime(0);
+  if (!lock->tryLock(0) || !QDir().mkpath(folder_)) {
+    report(tr("The session is not kept: %1 cannot be made").arg(folder_));
+    return false;
+  }
+  lock_ = std::move(lock);
+  return true;
+}
+
+KeptModel SessionKeeper::keep(const Model& model, Kept& kept, Files& files) {
+  const ModelDataPtr& data = model.data;
+  KeptModel entry{
+      model.id,      model.name,       store_.file_of(*data), true,          0,
+      model.visible, model.own_colors, model.color,           model.opacity, data->metres_per_unit};
+  if (!entry.file.isEmpty()) {
+    entry.file = QFileInfo(entry.file).absoluteFilePath();
+    return entry;
+  }
+  entry.in_own_file = false;
+  for (const Kept* of : {&kept, &kept_})
+    for (const auto& [file, known] : *of)
+      if (entry.file.isEmpty() && known.lock() == data) entry.file = file;
+  if (entry.file.isEmpty()) {
+    // PLY keeps the confidence of vertices, but no texture.
+    entry.file = QString("%1.%2").arg(next_file_++).arg(has_texture(data->mesh) ? "glb" : "ply");
+    files.emplace_back(entry.file, data);
+  }
+  kept.emplace(entry.file, data);
+  return entry;
+}
+
 void SessionKeeper::write() {
-  if (!lock_) {
-    if (store_.models().empty()) return;
-    // Locked before it is there: no other start takes it for a lost one.
-    QDir().mkpath(QFileInfo(folder_).path());
-    auto lock = std::make_unique<QLockFile>(lock_of(folder_));
-    lock->setStaleLockTime(0);
-    if (!lock->tryLock(0) || !QDir().mkpath(folder_)) {
-      report(tr("The session is not kept: %1 cannot be made").arg(folder_));
-      return;
+  const std::vector<ModelState> states = store_.states();
+  if (!lock_ && states.size() == 1 && states[0].models.empty()) return;
+  if (!take_folder()) return;
+  KeptList list;
+  Files files;
+  Kept kept;
+  std::map<QString, std::vector<const ModelData*>> in_file;
+  for (const ModelState& state : states) {
+    KeptState& entry = list.states.emplace_back();
+    entry.what = state.what;
+    for (const Model& model : state.models) {
+      KeptModel made = keep(model, kept, files);
+      // A file's models come in its order, all in one step.
+      auto& order = in_file[made.file];
+      const auto at = std::find(order.begin(), order.end(), model.data.get());
+      made.place_in_file = int(at - order.begin());
+      if (at == order.end()) order.push_back(model.data.get());
+      if (state.selected.drawable && model.data == state.selected.of)
+        entry.selected_model = int(entry.models.size());
+      entry.models.push_back(std::move(made));
     }
-    lock_ = std::move(lock);
+    if (entry.selected_model >= 0) entry.selected = *state.selected.parts;
   }
-  std::vector<KeptModel> list;
-  std::vector<std::pair<QString, ModelDataPtr>> files;
-  std::map<QString, std::weak_ptr<const ModelData>> kept;
-  for (const Model& model : store_.models()) {
-    KeptModel entry{model.name,
-                    store_.file_of(*model.data),
-                    true,
-                    model.visible,
-                    model.own_colors,
-                    model.color,
-                    model.opacity,
-                    model.data->metres_per_unit};
-    if (entry.file.isEmpty()) {
-      entry.in_own_file = false;
-      for (const auto& [file, data] : kept_)
-        if (data.lock() == model.data) entry.file = file;
-      if (entry.file.isEmpty()) {
-        // PLY keeps the confidence of vertices, but no texture.
-        entry.file =
-            QString("%1.%2").arg(next_file_++).arg(has_texture(model.data->mesh) ? "glb" : "ply");
-        files.emplace_back(entry.file, model.data);
-      }
-      kept.emplace(entry.file, model.data);
-    } else {
-      entry.file = QFileInfo(entry.file).absoluteFilePath();
-    }
-    list.push_back(std::move(entry));
-  }
+  list.place = store_.place_in_history();
+  if (look_) std::tie(list.camera, list.chosen) = look_();
   QStringList unused;
   for (const auto& [file, data] : kept_)
     if (kept.count(file) == 0) unused << QDir(folder_).filePath(file);
   kept_ = std::move(kept);
-  writer_.start([this, folder = folder_, files = std::move(files), text = list_text(list), unused,
+  writer_.start([this, folder = folder_, files = std::move(files), list = std::move(list), unused,
                  replaced = std::exchange(taken_over_, {})] {
     const auto write_all = [&]() -> Result<> {
       for (const auto& [file, data] : files)
         TURNSCAN_TRY(save_model(*data, QDir(folder).filePath(file).toStdString()));
-      return write_file_atomically(QDir(folder).filePath(kList).toStdString(), text.toStdString());
+      return write_file_atomically(QDir(folder).filePath(kSessionList).toStdString(),
+                                   list_text(list).toStdString());
     };
     if (const auto written = write_all(); !written) {
       const QString reason = QString::fromStdString(written.error().text());
@@ -199,27 +182,56 @@ void SessionKeeper::write() {
   });
 }
 
-Result<RestoredModels> restore(const LostSession& lost, const RunContext& context) {
-  RestoredModels out;
-  std::map<QString, NamedModels> opened;  // a file may hold several models
-  std::map<QString, std::size_t> used;
-  for (const KeptModel& entry : lost.models) {
-    TURNSCAN_TRY(context.check());
-    if (opened.count(entry.file) == 0) {
-      auto models = load_models(entry.file.toStdString(), context, entry.metres_per_unit);
+namespace {
+
+/// The models of files, each read once.
+class FileReader {
+ public:
+  explicit FileReader(const RunContext& context) : context_(context) {}
+
+  /// nullptr: it cannot be read. Fails with kCancelled.
+  Result<ModelDataPtr> read(const KeptModel& entry) {
+    TURNSCAN_TRY(context_.check());
+    auto known = opened_.find(entry.file);
+    if (known == opened_.end()) {
+      auto models = load_models(entry.file.toStdString(), context_, entry.metres_per_unit);
       if (!models && models.error().code == ErrorCode::kCancelled)
         return tl::unexpected<Error>(models.error());
-      opened[entry.file] = models ? std::move(*models) : NamedModels();
+      known = opened_.emplace(entry.file, models ? std::move(*models) : NamedModels()).first;
     }
-    const NamedModels& models = opened[entry.file];
-    const std::size_t next = used[entry.file]++;
-    if (next >= models.size()) {
-      out.missing << entry.name;
-      continue;
+    const NamedModels& models = known->second;
+    if (models.empty()) return nullptr;
+    // It may have been opened several times.
+    return models[std::size_t(entry.place_in_file) % models.size()].second;
+  }
+
+ private:
+  const RunContext& context_;
+  std::map<QString, NamedModels> opened_;
+};
+
+}  // namespace
+
+Result<RestoredModels> restore(const LostSession& lost, const RunContext& context) {
+  RestoredModels out;
+  FileReader files(context);
+  for (const KeptState& state : lost.list.states) {
+    ModelState& made = out.states.emplace_back();
+    made.what = state.what;
+    for (std::size_t i = 0; i < state.models.size(); ++i) {
+      const KeptModel& entry = state.models[i];
+      TURNSCAN_ASSIGN(const ModelDataPtr data, files.read(entry));
+      if (!data) {
+        if (&state == &lost.list.states[lost.list.place]) out.missing << entry.name;
+        continue;
+      }
+      if (entry.in_own_file) out.files[data] = entry.file;
+      made.models.push_back({entry.id, entry.name, data, entry.visible, entry.color,
+                             entry.own_colors, entry.opacity});
+      if (state.selected_model != int(i) || state.selected.size() != parts_of(*data)) continue;
+      made.selected = {data, std::make_shared<const Selection>(state.selected),
+                       selection_drawable(*data, state.selected)};
     }
-    out.models.push_back({0, entry.name, models[next].second, entry.visible, entry.color,
-                          entry.own_colors, entry.opacity});
-    out.files << (entry.in_own_file ? entry.file : QString());
   }
   return out;
 }

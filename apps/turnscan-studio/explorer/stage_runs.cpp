@@ -13,6 +13,7 @@
 
 #include "explorer/cloud_sequence.hpp"
 #include "explorer/editing/edits.hpp"
+#include "explorer/passes/pass_meshes.hpp"
 #include "explorer/reconstruct_until.hpp"
 #include "explorer/scan_quality.hpp"
 #include "widgets/text.hpp"
@@ -93,10 +94,16 @@ std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, cons
   return out;
 }
 
+/// What is known of meshes beside their shape.
+struct MeshOrigin {
+  std::shared_ptr<const PageInput> page;
+  std::size_t first_of_page = 0;
+  std::shared_ptr<const MissingSurface> missing;  // of the first
+  std::vector<PassesPtr> passes;                  // of each, or none
+};
+
 StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context,
-                  const std::shared_ptr<const PageInput>& page = nullptr,
-                  std::size_t first_of_page = 0,
-                  const std::shared_ptr<const MissingSurface>& missing = nullptr) {
+                  const MeshOrigin& origin = {}) {
   StageRun out;
   const QString report = QString::fromStdString(reconstruction_text(result));
   context.begin_phase("prepare the view", result.objects.size());
@@ -108,11 +115,12 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
     const ModelDataPtr made = mesh_model(std::move(object.mesh), source_of(kMeshStage, model),
                                          report, std::move(object.confidence));
     auto data = std::make_shared<ModelData>(*made);
-    if (out.models.empty()) data->missing = missing;
-    const std::size_t on_page = first_of_page + out.models.size();
-    if (page && object.verdict)
+    const std::size_t number = out.models.size();
+    if (number == 0) data->missing = origin.missing;
+    if (number < origin.passes.size()) data->passes = origin.passes[number];
+    if (origin.page && object.verdict)
       data->quality = std::make_shared<ScanQuality>(ScanQuality{
-          *object.verdict, page, on_page,
+          *object.verdict, origin.page, origin.first_of_page + number,
           object.texture ? std::make_shared<const TextureReport>(*object.texture) : nullptr});
     out.models.emplace_back(name, std::move(data));
     context.advance();
@@ -123,9 +131,10 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
 
 /// Meshes of a recording are those of the command line: its passes are joined.
 Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions& options,
-                                   const RunContext& context) {
+                                   const std::vector<PassPose>& poses, const RunContext& context) {
   ReconstructRequest request;
   request.options = options;
+  request.pass_poses = poses;
   request.allow_open = !options.surface.repair;
   TURNSCAN_ASSIGN(ReconstructRun made,
                   run_reconstruction(*model.data->recording, request, context));
@@ -133,12 +142,17 @@ Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions&
   const auto page =
       std::make_shared<const PageInput>(page_input(made, options, model.name.toStdString()));
   std::size_t on_page = made.reconstruction.objects.size();
-  const auto missing = any ? missing_of(made, model) : nullptr;
-  StageRun out = mesh_run(std::move(made.reconstruction), model, context, page, 0, missing);
+  std::optional<std::uint32_t> only;
+  if (options.merge.pass) only = std::uint32_t(*options.merge.pass);
+  const MeshOrigin origin{page, 0, any ? missing_of(made, model) : nullptr,
+                          passes_of_meshes(model.data, made.reconstruction, only)};
+  StageRun out = mesh_run(std::move(made.reconstruction), model, context, origin);
   QStringList reasons;
   for (PassApart& pass : made.apart) {
     const std::size_t objects = pass.reconstruction.objects.size();
-    StageRun apart = mesh_run(std::move(pass.reconstruction), model, context, page, on_page);
+    const auto passes = passes_of_meshes(model.data, pass.reconstruction, pass.number);
+    StageRun apart =
+        mesh_run(std::move(pass.reconstruction), model, context, {page, on_page, nullptr, passes});
     on_page += objects;
     for (auto& [name, data] : apart.models)
       out.models.emplace_back(QObject::tr("%1 of %2").arg(name, QString::fromStdString(pass.name)),
@@ -173,12 +187,18 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
   return mesh_run(std::move(result), model, context);
 }
 
+ModelDataPtr with_note(const ModelData& data, const QString& note) {
+  auto told = std::make_shared<ModelData>(data);
+  told->report += note;
+  return told;
+}
+
 Result<StageRun> run_recording(const Model& model, const std::string& stage,
                                const ReconstructOptions& options, const RunContext& context) {
   const FrameSequence& recording = *model.data->recording;
   StageRun run;
   if (stage == kMeshStage) {
-    TURNSCAN_ASSIGN(run, mesh_of_recording(model, options, context));
+    TURNSCAN_ASSIGN(run, mesh_of_recording(model, options, {}, context));
   } else {
     TURNSCAN_ASSIGN(CalibratedFrames calibrated,
                     calibrate_frames(recording, "auto", false, options, context));
@@ -190,11 +210,7 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
   QString notes;
   for (const std::string& note : model.data->recording_notes)
     notes += QObject::tr("\nNote: %1").arg(QString::fromStdString(note));
-  for (auto& [name, data] : run.models) {
-    auto told = std::make_shared<ModelData>(*data);
-    told->report += notes;
-    data = std::move(told);
-  }
+  for (auto& [name, data] : run.models) data = with_note(*data, notes);
   return run;
 }
 
@@ -227,6 +243,41 @@ Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
   }
   return fail(ErrorCode::kUnsupported, "'{}' is a mesh already; select a recording or a cloud",
               model.name.toStdString());
+}
+
+Result<StageRun> join_stated(const Model& recording, const std::vector<PassPose>& poses,
+                             const ReconstructOptions& options, const RunContext& context) {
+  TURNSCAN_ASSIGN(StageRun run, mesh_of_recording(recording, options, poses, context));
+  QString same;
+  for (const PassPose& pose : poses)
+    same += QString(" --pass-pose %1").arg(QString::fromStdString(pass_pose_text(pose)));
+  const QString note =
+      QObject::tr("\nThe command line makes it with%1 --refine-pass-poses").arg(same);
+  for (auto& [name, data] : run.models) data = with_note(*data, note);
+  return run;
+}
+
+Result<StageRun> mesh_each_pass(const Model& recording, const ReconstructOptions& options,
+                                const RunContext& context) {
+  StageRun out;
+  QStringList reasons;
+  for (const std::uint32_t pass : passes_of(*recording.data->recording)) {
+    ReconstructOptions of_one = options;
+    of_one.merge.pass = int(pass);
+    auto run = mesh_of_recording(recording, of_one, {}, context);
+    if (!run && run.error().code == ErrorCode::kCancelled)
+      return tl::unexpected<Error>(std::move(run).error());
+    if (!run) {
+      reasons
+          << QObject::tr("pass %1: %2").arg(pass).arg(QString::fromStdString(run.error().text()));
+      continue;
+    }
+    for (auto& [name, data] : run->models)
+      out.models.emplace_back(QObject::tr("%1 of pass %2").arg(name).arg(pass), std::move(data));
+  }
+  out.not_joined = reasons.join("\n");
+  if (out.models.empty()) return fail(ErrorCode::kTooFewPoints, "{}", out.not_joined.toStdString());
+  return out;
 }
 
 Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/workflow/passes/pass_pose.hpp>
 #include <vector>
 
 #include "explorer/loading.hpp"
@@ -23,6 +24,16 @@ struct StageRun {
 /// byte: its passes are joined. A mesh fails with kUnsupported, else as reconstruct() does.
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context);
+
+/// The mesh of all passes of a recording, of which these lie where they are stated, as
+/// `--pass-pose` and, where their `refine` says so, `--refine-pass-poses`. Fails as run_stage_of().
+Result<StageRun> join_stated(const Model& recording, const std::vector<PassPose>& poses,
+                             const ReconstructOptions& options, const RunContext& context);
+
+/// A mesh of each pass, joined with no other, in the frame of its own table. Fails when no pass
+/// gives one; not_joined names those that do not.
+Result<StageRun> mesh_each_pass(const Model& recording, const ReconstructOptions& options,
+                                const RunContext& context);
 
 /// The statistical filter on a cloud.
 Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,

@@ -1332,6 +1332,20 @@ Nota: %1</translation>
         <source>Click on the selected model</source>
         <translation>Haga clic en el modelo seleccionado</translation>
     </message>
+    <message>
+        <source>
+The command line makes it with%1 --refine-pass-poses</source>
+        <translation>
+La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
+    </message>
+    <message>
+        <source>pass %1: %2</source>
+        <translation>pasada %1: %2</translation>
+    </message>
+    <message>
+        <source>%1 of pass %2</source>
+        <translation>%1 de la pasada %2</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ComparePanel</name>
@@ -1693,6 +1707,14 @@ Nota: %1</translation>
         <source>the cut is open, as the mesh was not closed</source>
         <translation>el corte está abierto, porque la malla no estaba cerrada</translation>
     </message>
+    <message>
+        <source>select</source>
+        <translation>seleccionar</translation>
+    </message>
+    <message>
+        <source>%1; its texture does not fit any more</source>
+        <translation>%1; su textura ya no encaja</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ExplorerMode</name>
@@ -1888,6 +1910,16 @@ Nota: %1</translation>
         <source>distances</source>
         <translation>distancias</translation>
     </message>
+    <message>
+        <source>Join by points</source>
+        <translation>Unir por puntos</translation>
+    </message>
+    <message>
+        <source>%1
+Another side, Join by points shows how it lay.</source>
+        <translation>%1
+Otro lado, Unir por puntos muestra cómo estaba.</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ExportDialog</name>
@@ -2028,6 +2060,85 @@ Nota: %1</translation>
     <message>
         <source>Progress of the running job</source>
         <translation>Progreso de la tarea en curso</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::JoinPanel</name>
+    <message>
+        <source>Mesh so far</source>
+        <translation>Malla hasta ahora</translation>
+    </message>
+    <message>
+        <source>New pass</source>
+        <translation>Pasada nueva</translation>
+    </message>
+    <message>
+        <source>Pick pairs</source>
+        <translation>Marcar pares</translation>
+    </message>
+    <message>
+        <source>Click at least three places, each on both meshes</source>
+        <translation>Haga clic en al menos tres lugares, cada uno en ambas mallas</translation>
+    </message>
+    <message>
+        <source>Undo click</source>
+        <translation>Deshacer clic</translation>
+    </message>
+    <message>
+        <source>Take the last click back</source>
+        <translation>Retirar el último clic</translation>
+    </message>
+    <message>
+        <source>Join</source>
+        <translation>Unir</translation>
+    </message>
+    <message>
+        <source>Bring the new pass there, refine its place by the surfaces, and make one mesh of all passes; refused where the surfaces contradict it</source>
+        <translation>Llevar allí la pasada nueva, afinar su lugar con las superficies y hacer una malla de todas las pasadas; se rechaza si las superficies lo contradicen</translation>
+    </message>
+    <message>
+        <source>Each pass by itself</source>
+        <translation>Cada pasada por separado</translation>
+    </message>
+    <message>
+        <source>Make a mesh of each pass of the selected joined one, to join them anew</source>
+        <translation>Hacer una malla de cada pasada de la malla unida seleccionada, para unirlas de nuevo</translation>
+    </message>
+    <message>
+        <source>Where a pass was not joined, or wrongly, pairs of places on both meshes say how it lay.</source>
+        <translation>Si una pasada no se unió, o se unió mal, pares de lugares en ambas mallas dicen cómo estaba.</translation>
+    </message>
+    <message>
+        <source>Choose meshes of different passes of one recording.</source>
+        <translation>Elija mallas de pasadas distintas de una grabación.</translation>
+    </message>
+    <message>
+        <source>Pair %1: click the same place on both.</source>
+        <translation>Par %1: haga clic en el mismo lugar de ambas.</translation>
+    </message>
+    <message>
+        <source>Pair %1: click it on the right, too.</source>
+        <translation>Par %1: haga clic en él también a la derecha.</translation>
+    </message>
+    <message>
+        <source>Pair %1: click it on the left, too.</source>
+        <translation>Par %1: haga clic en él también a la izquierda.</translation>
+    </message>
+    <message>
+        <source>%1 pairs, which fit within %2 mm (rms). Join, or click more.</source>
+        <translation>%1 pares, que encajan con %2 mm (rms). Una, o marque más.</translation>
+    </message>
+    <message>
+        <source>join by points</source>
+        <translation>unir por puntos</translation>
+    </message>
+    <message>
+        <source>%1 and %2 are one mesh now</source>
+        <translation>%1 y %2 son ahora una sola malla</translation>
+    </message>
+    <message>
+        <source>passes by themselves</source>
+        <translation>pasadas por separado</translation>
     </message>
 </context>
 <context>

@@ -156,7 +156,25 @@ void SceneView::zoom(double factor) {
   camera_moved();
 }
 
+CameraPlace SceneView::camera() const {
+  CameraPlace place;
+  parts_->camera->GetPosition(place.position.data());
+  parts_->camera->GetFocalPoint(place.focus.data());
+  parts_->camera->GetViewUp(place.up.data());
+  return place;
+}
+
+void SceneView::set_camera(const CameraPlace& place) {
+  parts_->flight.stop();
+  parts_->camera->SetPosition(place.position.data());
+  parts_->camera->SetFocalPoint(place.focus.data());
+  parts_->camera->SetViewUp(place.up.data());
+  parts_->touched = true;
+  camera_moved();
+}
+
 void SceneView::camera_moved() {
+  Q_EMIT camera_changed();
   parts_->moving = true;
   parts_->rest.start(kRestAfterMs);
   parts_->more.stop();

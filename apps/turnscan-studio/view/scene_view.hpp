@@ -57,6 +57,11 @@ enum class SurfaceLook {
 
 enum class StandardView { kFront, kBack, kLeft, kRight, kTop, kBottom, kCorner };
 
+/// Where the camera is, what it turns about, and which way is up on the screen.
+struct CameraPlace {
+  Vec3d position, focus, up;
+};
+
 /// A bar of colours with texts beside it, low values first.
 struct Legend {
   QString title;
@@ -114,6 +119,9 @@ class SceneView : public QWidget {
   void set_ambient_occlusion(bool on);
 
   void reset_camera();
+  CameraPlace camera() const;
+  /// As if a person had moved it there.
+  void set_camera(const CameraPlace& place);
   /// Whether all of a box is seen, and no smaller than a twentieth of the view.
   bool sees(const Box& box) const;
   /// The camera moves until it does, if it does not yet.
@@ -149,6 +157,9 @@ class SceneView : public QWidget {
   /// As many points as this machine draws without a pause that shows.
   std::size_t points_at_once() const;
   double longest_frame_ms() const;
+
+ Q_SIGNALS:
+  void camera_changed();
 
  protected:
   void resizeEvent(QResizeEvent* event) override;

@@ -247,7 +247,7 @@ void MainWindow::offer_lost_session() {
   const auto lost = SessionKeeper::find_lost(SessionKeeper::default_root());
   if (!lost) return;
   QStringList names;
-  for (const KeptModel& model : lost->models) names << model.name;
+  for (const KeptModel& model : lost->models()) names << model.name;
   QMessageBox question(
       QMessageBox::Question, tr("Restore the last session?"),
       tr("The last session did not end well. It had these models:\n%1").arg(names.join(", ")),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 
@@ -43,6 +44,36 @@ TEST(EditSelected, DeletesWhatIsSelectedAndNothingElse) {
   const auto misfit = without_selected(ball, Selection(3, 1));
   ASSERT_FALSE(misfit);
   EXPECT_EQ(misfit.error().code, ErrorCode::kInvalidOption);
+}
+
+/// Every place shows the height of the vertex there.
+TriangleMesh painted_ball() {
+  TriangleMesh ball = sphere(0.03, 4);
+  auto texture = std::make_shared<MeshTexture>();
+  texture->image = ColorImage(4, 4, Rgb{1, 2, 3});
+  for (const auto& triangle : ball.triangles) {
+    auto& corners = texture->corners.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      corners[std::size_t(k)] = {0.5f, ball.vertices[triangle[std::size_t(k)]].y()};
+  }
+  ball.texture = std::move(texture);
+  return ball;
+}
+
+TEST(EditSelected, TheTextureStaysWhereTrianglesOnlyGoOrMove) {
+  const TriangleMesh ball = painted_ball();
+  const Selection top = beyond(ball, Vec3d::UnitY(), 0.01);
+  const auto rest = without_selected(ball, top);
+  ASSERT_TRUE(rest && has_texture(*rest));
+  for (std::size_t t = 0; t < rest->triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_EQ(rest->texture->corners[t][k].y(), rest->vertices[rest->triangles[t][k]].y());
+  EXPECT_EQ(rest->texture->image.width, 4);
+  const auto smoothed = smooth_selected(ball, top, 0.005, {});
+  ASSERT_TRUE(smoothed);
+  EXPECT_EQ(smoothed->texture, ball.texture);
+  EXPECT_EQ(smooth_selected(ball, {}, 0.005, {})->texture, ball.texture);
+  EXPECT_FALSE(has_texture(*reduce_selected(ball, {}, 100)));
 }
 
 TEST(EditSelected, FillsOnlyTheHoleBesideTheSelection) {

@@ -234,8 +234,8 @@ void EditPanel::show_count() {
   count_->setText(
       !model        ? tr("Choose a mesh or cloud above")
       : chosen == 0 ? tr("Nothing selected")
-      : mesh ? tr("%1 of %2 triangles selected").arg(grouped(chosen), grouped(selection_.size()))
-             : tr("%1 of %2 points selected").arg(grouped(chosen), grouped(selection_.size())));
+      : mesh ? tr("%1 of %2 triangles selected").arg(grouped(chosen), grouped(selection().size()))
+             : tr("%1 of %2 points selected").arg(grouped(chosen), grouped(selection().size())));
   for (QPushButton* each : of_any_) each->setEnabled(model != nullptr);
   for (QPushButton* each : of_mesh_) each->setEnabled(mesh);
   for (QPushButton* each : of_selection_) each->setEnabled(chosen > 0);

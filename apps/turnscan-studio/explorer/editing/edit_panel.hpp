@@ -7,6 +7,7 @@
 #include <turnscan/geometry/selection/screen_selection.hpp>
 #include <vector>
 
+#include "app/jobs.hpp"
 #include "explorer/inspection/explorer_parts.hpp"
 #include "explorer/models.hpp"
 
@@ -31,8 +32,9 @@ class EditPanel : public QWidget {
   explicit EditPanel(const ExplorerParts& parts, QWidget* parent = nullptr);
   ~EditPanel() override;
 
-  std::size_t selected() const { return count_selected(selection_); }
-  const Selection& selection() const { return selection_; }
+  std::size_t selected() const { return count_selected(selection()); }
+  /// Of the model that is chosen and shown; else empty.
+  const Selection& selection() const;
   /// Nothing, where nothing is selected: the model as a whole is deleted elsewhere.
   bool delete_selected();
 
@@ -55,8 +57,8 @@ class EditPanel : public QWidget {
   void add_tool(QPushButton* button, int shape);
   void pick(const ScreenRegion& region, std::optional<SelectHow> how);
   void change(const QString& what, const Change& made);
-  void take_selection(const ModelDataPtr& of, Selection made, DrawablePtr drawable);
-  void clear_selection();
+  Finish take_selection(const ModelDataPtr& of, Selection made);
+  void draw_selection();
   void follow_model();
   void show_count();
   void edit(const QString& what, const Edit& made);
@@ -81,9 +83,8 @@ class EditPanel : public QWidget {
   QWidget* plane_row_;
   MessageLabel* error_;
 
-  ModelDataPtr of_;  ///< that the selection belongs to
-  Selection selection_;
-  int item_ = 0;  ///< in the view
+  DrawablePtr drawn_;  ///< the selection, as
+  int item_ = 0;       ///< in the view
 };
 
 }  // namespace turnscan::studio

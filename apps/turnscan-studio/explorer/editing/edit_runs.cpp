@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QPushButton>
 #include <QSpinBox>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/clip.hpp>
 #include <turnscan/geometry/mesh/edit_selected.hpp>
 
@@ -26,40 +27,6 @@ namespace {
 
 const QColor kSelectedColor(0xff8a00);
 
-std::size_t parts_of(const ModelData& data) {
-  return data.kind == ModelKind::kMesh ? data.mesh.triangles.size() : data.cloud.size();
-}
-
-/// Of a mesh a little off it on both sides, so that it covers it.
-DrawablePtr selection_drawable(const ModelData& data, const Selection& selection) {
-  if (count_selected(selection) == 0) return nullptr;
-  if (data.kind == ModelKind::kCloud) {
-    PointCloud part;
-    for (std::size_t i = 0; i < selection.size(); ++i)
-      if (selection[i] != 0) part.points.push_back(data.cloud.points[i]);
-    return make_drawable(part);
-  }
-  const TriangleMesh& mesh = data.mesh;
-  const auto off = float(0.0006 * bounds(mesh.vertices).size().norm());
-  TriangleMesh part;
-  for (std::size_t t = 0; t < selection.size(); ++t) {
-    if (selection[t] == 0) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3f normal = (mesh.vertices[b] - mesh.vertices[a])
-                             .cross(mesh.vertices[c] - mesh.vertices[a])
-                             .normalized();
-    for (const float side : {off, -off}) {
-      const auto first = std::uint32_t(part.vertices.size());
-      for (const std::uint32_t v : {a, b, c}) {
-        part.vertices.push_back(mesh.vertices[v] + side * normal);
-        part.normals.push_back(normal);
-      }
-      part.triangles.push_back({first, first + 1, first + 2});
-    }
-  }
-  return make_drawable(part);
-}
-
 }  // namespace
 
 void EditPanel::pick(const ScreenRegion& region, std::optional<SelectHow> keys) {
@@ -69,8 +36,7 @@ void EditPanel::pick(const ScreenRegion& region, std::optional<SelectHow> keys) 
   error_->show_text({});
   parts_.jobs.start(
       tr("Select"), this,
-      [this, data = model->data, before = of_ == model->data ? selection_ : Selection(), region,
-       how, screen = screen_of(parts_.view),
+      [this, data = model->data, before = selection(), region, how, screen = screen_of(parts_.view),
        visible = !through_->isChecked()](const RunContext& context) -> Result<Finish> {
         context.begin_phase("select", 0);
         TURNSCAN_ASSIGN(
@@ -80,9 +46,7 @@ void EditPanel::pick(const ScreenRegion& region, std::optional<SelectHow> keys) 
                 : select_on_screen(data->cloud.points, region, screen, visible, context));
         Selection made = before;
         change_selection(made, picked, how);
-        return Finish([this, data, made, shown = selection_drawable(*data, made)] {
-          take_selection(data, made, shown);
-        });
+        return take_selection(data, std::move(made));
       },
       [this](const QString& text) { error_->show_text(text); });
 }
@@ -94,43 +58,50 @@ void EditPanel::change(const QString& what, const Change& made) {
   parts_.jobs.start(
       what, this,
       [this, data = model->data, made,
-       before = of_ == model->data ? selection_ : Selection(parts_of(*model->data), 0)](
-          const RunContext& context) -> Result<Finish> {
+       before = selection().empty() ? Selection(parts_of(*model->data), 0)
+                                    : selection()](const RunContext& context) -> Result<Finish> {
         context.begin_phase("select", 0);
-        const Selection now = made(*data, before);
-        return Finish([this, data, now, shown = selection_drawable(*data, now)] {
-          take_selection(data, now, shown);
-        });
+        return take_selection(data, made(*data, before));
       },
       [this](const QString& text) { error_->show_text(text); });
 }
 
-void EditPanel::take_selection(const ModelDataPtr& of, Selection made, DrawablePtr drawable) {
-  const Model* model = target();
-  if (!model || model->data != of) return;  // another one is selected by now
-  clear_selection();
-  of_ = of;
-  selection_ = std::move(made);
-  if (drawable) {
-    ItemStyle style;
-    style.color = kSelectedColor;
-    style.own_colors = style.in_view = false;
-    style.point_scale = 1.6;
-    item_ = parts_.view.add(drawable, style);
-  }
-  show_count();
+Finish EditPanel::take_selection(const ModelDataPtr& of, Selection made) {
+  SelectedParts selected{of, nullptr, selection_drawable(*of, made)};
+  selected.parts = std::make_shared<const Selection>(std::move(made));
+  return [this, selected] {
+    const Model* model = target();
+    if (!model || model->data != selected.of) return;  // another one is selected by now
+    parts_.store.select_parts(selected, tr("select"));
+  };
 }
 
-void EditPanel::clear_selection() {
+const Selection& EditPanel::selection() const {
+  static const Selection nothing;
+  const SelectedParts& selected = parts_.store.selected_parts();
+  const Model* model = target();
+  return selected.parts && model && model->data == selected.of && model->visible ? *selected.parts
+                                                                                 : nothing;
+}
+
+/// What is selected is shown while its model is.
+void EditPanel::draw_selection() {
+  const DrawablePtr wanted = selection().empty() ? nullptr : parts_.store.selected_parts().drawable;
+  if (wanted == drawn_) return;
   if (item_ != 0) parts_.view.remove(item_);
   item_ = 0;
-  of_.reset();
-  selection_.clear();
+  drawn_ = wanted;
+  if (!wanted) return;
+  ItemStyle style;
+  style.color = kSelectedColor;
+  style.own_colors = style.in_view = false;
+  style.point_scale = 1.6;
+  item_ = parts_.view.add(wanted, style);
 }
 
 void EditPanel::follow_model() {
   const Model* model = target();
-  if (of_ && (!model || model->data != of_ || !model->visible)) clear_selection();
+  draw_selection();
   plane_->set_box(model ? box_of(*model->data->drawable) : Box());
   if (!model) parts_.tools.stop();
   if (cut_on_->isChecked()) show_plane(true);
@@ -144,8 +115,8 @@ void EditPanel::edit(const QString& what, const Edit& made) {
   error_->show_text({});
   parts_.jobs.start(
       what, this,
-      [this, what, made, model = *model, selection = of_ == model->data ? selection_ : Selection()](
-          const RunContext& context) -> Result<Finish> {
+      [this, what, made, model = *model,
+       selection = selection()](const RunContext& context) -> Result<Finish> {
         context.begin_phase(what.toStdString(), 0);
         TURNSCAN_ASSIGN(const Edited edited, made(*model.data, selection, context));
         if (parts_of(*edited.data) == 0) {
@@ -153,9 +124,13 @@ void EditPanel::edit(const QString& what, const Edit& made) {
                       "{}: nothing would be left of '{}'; delete it instead", what.toStdString(),
                       model.name.toStdString());
         }
-        return Finish([this, what, id = model.id, edited] {
+        const bool loses_texture = has_texture(model.data->mesh) && !has_texture(edited.data->mesh);
+        return Finish([this, what, id = model.id, edited, loses_texture] {
           parts_.store.set_data(id, edited.data, what.toLower());
-          Q_EMIT said(QString("%1: %2").arg(what, edited.text));
+          const QString text = loses_texture
+                                   ? tr("%1; its texture does not fit any more").arg(edited.text)
+                                   : edited.text;
+          Q_EMIT said(QString("%1: %2").arg(what, text));
         });
       },
       [this](const QString& text) { error_->show_text(text); });

@@ -20,4 +20,38 @@ PointCloud cut(const PointCloud& cloud, const Vec3d& normal, double offset) {
       cloud, [&](std::size_t i) { return normal.dot(cloud.points[i].cast<double>()) >= offset; });
 }
 
+std::size_t parts_of(const ModelData& data) {
+  return data.kind == ModelKind::kMesh ? data.mesh.triangles.size() : data.cloud.size();
+}
+
+/// Of a mesh a little off it on both sides, so that it covers it.
+DrawablePtr selection_drawable(const ModelData& data, const Selection& selection) {
+  if (count_selected(selection) == 0) return nullptr;
+  if (data.kind == ModelKind::kCloud) {
+    PointCloud part;
+    for (std::size_t i = 0; i < selection.size(); ++i)
+      if (selection[i] != 0) part.points.push_back(data.cloud.points[i]);
+    return make_drawable(part);
+  }
+  const TriangleMesh& mesh = data.mesh;
+  const auto off = float(0.0006 * bounds(mesh.vertices).size().norm());
+  TriangleMesh part;
+  for (std::size_t t = 0; t < selection.size(); ++t) {
+    if (selection[t] == 0) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3f normal = (mesh.vertices[b] - mesh.vertices[a])
+                             .cross(mesh.vertices[c] - mesh.vertices[a])
+                             .normalized();
+    for (const float side : {off, -off}) {
+      const auto first = std::uint32_t(part.vertices.size());
+      for (const std::uint32_t v : {a, b, c}) {
+        part.vertices.push_back(mesh.vertices[v] + side * normal);
+        part.normals.push_back(normal);
+      }
+      part.triangles.push_back({first, first + 1, first + 2});
+    }
+  }
+  return make_drawable(part);
+}
+
 }  // namespace turnscan::studio

@@ -1,6 +1,7 @@
 #include <turnscan/geometry/mesh/edit_selected.hpp>
 
 #include <turnscan/core/disjoint_sets.hpp>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/low_pass.hpp>
 #include <turnscan/geometry/mesh/mesh_edit.hpp>
@@ -24,13 +25,27 @@ TriangleMesh untextured(TriangleMesh mesh) {
   return mesh;
 }
 
+/// Of a mesh with a texture, that of the triangles that stay.
+std::shared_ptr<const MeshTexture> texture_of_rest(const TriangleMesh& mesh,
+                                                   const Selection& dropped) {
+  if (!has_texture(mesh)) return nullptr;
+  auto out = std::make_shared<MeshTexture>();
+  out->image = mesh.texture->image;
+  for (std::size_t t = 0; t < dropped.size(); ++t)
+    if (dropped[t] == 0) out->corners.push_back(mesh.texture->corners[t]);
+  return out;
+}
+
 }  // namespace
 
 Result<TriangleMesh> without_selected(const TriangleMesh& mesh, const Selection& selection) {
   TURNSCAN_TRY(check_input(mesh, selection));
   TriangleMesh out = untextured(mesh);
-  mesh::drop_triangles(out, selection.empty() ? Selection(mesh.triangles.size(), 1) : selection);
+  const Selection all(selection.empty() ? mesh.triangles.size() : 0, 1);
+  const Selection& dropped = selection.empty() ? all : selection;
+  mesh::drop_triangles(out, dropped);
   mesh::compact_vertices(out);
+  out.texture = texture_of_rest(mesh, dropped);
   return out;
 }
 
@@ -78,7 +93,11 @@ Result<TriangleMesh> smooth_selected(const TriangleMesh& mesh, const Selection& 
                 "smooth: a wavelength of {} mm is not allowed; give one above 0",
                 1e3 * wavelength_m);
   }
-  if (selection.empty()) return low_pass(untextured(mesh), wavelength_m, context);
+  if (selection.empty()) {
+    TURNSCAN_ASSIGN(TriangleMesh all, low_pass(untextured(mesh), wavelength_m, context));
+    all.texture = mesh.texture;
+    return all;
+  }
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
   for (std::uint32_t t = 0; t < selection.size(); ++t) {
@@ -88,7 +107,7 @@ Result<TriangleMesh> smooth_selected(const TriangleMesh& mesh, const Selection& 
   }
   TURNSCAN_ASSIGN(const TriangleMesh part,
                   low_pass(mesh::extract(mesh, triangles), wavelength_m, context));
-  TriangleMesh out = untextured(mesh);
+  TriangleMesh out = mesh;
   // The part has its vertices in the order of the mesh.
   for (std::size_t v = 0, next = 0; v < used.size(); ++v)
     if (used[v] != 0) out.vertices[v] = part.vertices[next++];

@@ -1,7 +1,8 @@
 #pragma once
 // Edits of a selected part of a mesh. A selection has one flag a triangle (else kInvalidOption; an
 // empty one stands for the whole mesh); all fail with kFormat as validate_mesh(), and with
-// kCancelled. Results have no texture: its corners would no longer fit.
+// kCancelled. Results keep a texture where triangles only go or move; of others its corners would
+// no longer fit.
 
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
