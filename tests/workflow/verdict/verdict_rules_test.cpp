@@ -38,6 +38,8 @@ TEST(TurnSeen, CountsTheHeadingsBesideWhichAFrameLooks) {
   ASSERT_TRUE(some);
   EXPECT_NEAR(some->share, (180.0 + 40.0) / 360.0, 1e-6);
   EXPECT_NEAR(some->turns, 0.5, 1e-6);
+  EXPECT_NEAR(all->widest_gap_rad, 10.0 * kRadiansPerDegree, 1e-6);
+  EXPECT_NEAR(some->widest_gap_rad, 180.0 * kRadiansPerDegree, 1e-6);
 }
 
 TEST(TurnSeen, IsNotKnownWhereNothingSaysWhereTheFramesWere) {
@@ -159,6 +161,25 @@ TEST(JudgeObjects, SayWhichFramesDisagree) {
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "apart"), nullptr);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kGood);
+}
+
+TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
+  Reconstruction run = sheet();
+  ObjectResult& object = run.objects[0];
+  object.check.closed = object.check.manifold = true;
+  object.check.oriented = object.check.outward = true;
+  ScanKnowledge known;
+  const auto said = [&](double turned_deg) {
+    std::vector<double> headings;
+    for (double heading = 0.0; heading <= turned_deg; heading += 2.0) headings.push_back(heading);
+    known.turn = turn_seen(looking_from(headings), {});
+    judge_objects(run, known);
+    return sentence(*object.verdict, "mesh")->text;
+  };
+  EXPECT_EQ(said(358.0), "it is watertight and can be printed");
+  EXPECT_EQ(said(250.0), "it is watertight and can be printed");
+  EXPECT_EQ(said(0.4 * 360.0).find("can be printed"), std::string::npos) << "nothing else is wrong";
+  EXPECT_EQ(object.verdict->colour(), "amber");
 }
 
 TEST(JudgeObjects, SayHowMuchASecondPassWouldShow) {

@@ -25,6 +25,9 @@ constexpr double kWholeTurn = 0.95;
 constexpr double kFewFrames = 6.0;
 /// Frames that see a place; more do not help as much as a nearer sensor.
 constexpr int kManyFrames = 40;
+/// An upright side in the middle of a wider gap is seen at 60 degrees from its normal at best: what
+/// was closed there may be as deep as the object, and its area says nothing of that.
+constexpr double kSideGap_rad = 120.0 * kRadiansPerDegree;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
@@ -294,11 +297,17 @@ class Judge {
       say("mesh", Level::kGood, "it was left open, as asked for");
       return;
     }
-    const bool printable = watertight && out_.level() != Level::kBad;
-    say("mesh", watertight ? Level::kGood : Level::kBad,
-        printable    ? "it is watertight and can be printed"
-        : watertight ? "it is watertight, but much of it is not what stood on the table"
-                     : fmt::format("it is not watertight ({})", object_.check.text()));
+    const bool all_sides = !known_.turn || known_.turn->widest_gap_rad <= kSideGap_rad;
+    if (!watertight)
+      say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
+    else if (out_.level() == Level::kBad)
+      say("mesh", Level::kGood, "it is watertight, but much of it is not what stood on the table");
+    else if (!all_sides)
+      say("mesh", Level::kGood,
+          "it is watertight, but to one side of it no frame looks: how deep it is there is a "
+          "guess");
+    else
+      say("mesh", Level::kGood, "it is watertight and can be printed");
   }
 
   /// What another pass would show; nullptr where there is no advice worth the work.
