@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
@@ -108,7 +109,7 @@ TEST(JudgeObjects, CallsUncorrectedDisturbancesAndOpenMeshesBad) {
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance")->level, Level::kGood);
 }
 
-/// A square sheet; half of it hidden.
+/// An upright square sheet.
 Reconstruction sheet() {
   Reconstruction run;
   ObjectResult& object = run.objects.emplace_back();
@@ -142,6 +143,30 @@ FrameResidual residual(std::uint32_t frame, double off_m) {
   out.shift_m.x() = off_m;
   out.spread_m = 0.0005;
   return out;
+}
+
+TEST(JudgeObjects, ExpectAWrongAxisToMoveWhatStandsUprightAndNotWhatLiesFlat) {
+  Reconstruction run = sheet();
+  CalibrationChoice choice;
+  choice.calibration.emplace();
+  choice.calibration->axis_sigma_rad = 0.0;
+  choice.calibration->center_sigma_m = 0.001;
+  ScanKnowledge known;
+  known.choice = &choice;
+  judge_objects(run, known);
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, std::hypot(0.001 / std::sqrt(2.0), 1e-4),
+              1e-6);
+  run = sheet();
+  for (Vec3f& p : run.objects[0].mesh.vertices) std::swap(p.y(), p.z());
+  judge_objects(run, known);
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, 1e-4, 1e-6);
+}
+
+TEST(JudgeObjects, DoNotCallAScanBadForDroppedFramesAlone) {
+  Reconstruction run = sheet();
+  run.frames = 30, run.dropped_frames = 30;
+  judge_objects(run, {});
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "frames")->level, Level::kFair);
 }
 
 TEST(JudgeObjects, SayWhichFramesDisagree) {
@@ -231,9 +256,9 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
                         0),
       0u)
       << said().text;
-  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, std::hypot(0.003, 0.005 * std::sqrt(0.5)),
-              1e-4)
-      << "half of it may be the platter's";
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m,
+              std::hypot(0.003, 0.005 * 0.5) / std::numbers::sqrt2, 1e-4)
+      << "half of it may be the platter's, one of its two directions is towards the sensor";
 }
 
 TEST(VerdictText, SaysTheColourAndASentenceALine) {
