@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
@@ -38,6 +39,8 @@ TEST(TurnSeen, CountsTheHeadingsBesideWhichAFrameLooks) {
   ASSERT_TRUE(some);
   EXPECT_NEAR(some->share, (180.0 + 40.0) / 360.0, 1e-6);
   EXPECT_NEAR(some->turns, 0.5, 1e-6);
+  EXPECT_NEAR(all->widest_gap_rad, 10.0 * kRadiansPerDegree, 1e-6);
+  EXPECT_NEAR(some->widest_gap_rad, 180.0 * kRadiansPerDegree, 1e-6);
 }
 
 TEST(TurnSeen, IsNotKnownWhereNothingSaysWhereTheFramesWere) {
@@ -107,7 +110,7 @@ TEST(JudgeObjects, CallsUncorrectedDisturbancesAndOpenMeshesBad) {
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance")->level, Level::kGood);
 }
 
-/// A square sheet; half of it hidden.
+/// An upright square sheet.
 Reconstruction sheet() {
   Reconstruction run;
   ObjectResult& object = run.objects.emplace_back();
@@ -143,6 +146,30 @@ FrameResidual residual(std::uint32_t frame, double off_m) {
   return out;
 }
 
+TEST(JudgeObjects, ExpectAWrongAxisToMoveWhatStandsUprightAndNotWhatLiesFlat) {
+  Reconstruction run = sheet();
+  CalibrationChoice choice;
+  choice.calibration.emplace();
+  choice.calibration->axis_sigma_rad = 0.0;
+  choice.calibration->center_sigma_m = 0.001;
+  ScanKnowledge known;
+  known.choice = &choice;
+  judge_objects(run, known);
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, std::hypot(0.001 / std::sqrt(2.0), 1e-4),
+              1e-6);
+  run = sheet();
+  for (Vec3f& p : run.objects[0].mesh.vertices) std::swap(p.y(), p.z());
+  judge_objects(run, known);
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, 1e-4, 1e-6);
+}
+
+TEST(JudgeObjects, DoNotCallAScanBadForDroppedFramesAlone) {
+  Reconstruction run = sheet();
+  run.frames = 30, run.dropped_frames = 30;
+  judge_objects(run, {});
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "frames")->level, Level::kFair);
+}
+
 TEST(JudgeObjects, SayWhichFramesDisagree) {
   Reconstruction run = sheet();
   ScanKnowledge known;
@@ -160,6 +187,25 @@ TEST(JudgeObjects, SayWhichFramesDisagree) {
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "apart"), nullptr);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kGood);
+}
+
+TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
+  Reconstruction run = sheet();
+  ObjectResult& object = run.objects[0];
+  object.check.closed = object.check.manifold = true;
+  object.check.oriented = object.check.outward = true;
+  ScanKnowledge known;
+  const auto said = [&](double turned_deg) {
+    std::vector<double> headings;
+    for (double heading = 0.0; heading <= turned_deg; heading += 2.0) headings.push_back(heading);
+    known.turn = turn_seen(looking_from(headings), {});
+    judge_objects(run, known);
+    return sentence(*object.verdict, "mesh")->text;
+  };
+  EXPECT_EQ(said(358.0), "it is watertight and can be printed");
+  EXPECT_EQ(said(250.0), "it is watertight and can be printed");
+  EXPECT_EQ(said(0.4 * 360.0).find("can be printed"), std::string::npos) << "nothing else is wrong";
+  EXPECT_EQ(object.verdict->colour(), "amber");
 }
 
 TEST(JudgeObjects, SayHowMuchASecondPassWouldShow) {
@@ -211,9 +257,9 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
                         0),
       0u)
       << said().text;
-  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m, std::hypot(0.003, 0.005 * std::sqrt(0.5)),
-              1e-4)
-      << "half of it may be the platter's";
+  EXPECT_NEAR(run.objects[0].quality[0].expected_error_m,
+              std::hypot(0.003, 0.005 * 0.5) / std::numbers::sqrt2, 1e-4)
+      << "half of it may be the platter's, one of its two directions is towards the sensor";
 }
 
 TEST(VerdictText, SaysTheColourAndASentenceALine) {

@@ -8,7 +8,7 @@ namespace turnscan::workflow {
 namespace {
 
 constexpr double kWholeTurn = 0.95, kHalfTurn = 0.5;
-constexpr double kFewDropped = 0.02, kManyDropped = 0.2;
+constexpr double kFewDropped = 0.02;
 /// Frames that disagree by more, beyond what their noise explains, blur the mesh.
 constexpr double kAgreed_m = 0.001;
 constexpr double kFewApart = 0.02;
@@ -136,7 +136,9 @@ void say_dropped(const Reconstruction& run, Sentences& out) {
   const std::size_t all = run.frames + run.dropped_frames;
   if (run.dropped_frames == 0 || all == 0) return;
   const double share = double(run.dropped_frames) / double(all);
-  out.push_back({"frames", level_of(-share, -kFewDropped, -kManyDropped),
+  // Whatever their share: what they would have shown is missing elsewhere, in turn and surface
+  // seen.
+  out.push_back({"frames", share > kFewDropped ? Level::kFair : Level::kGood,
                  fmt::format("{} of {} frames were dropped", run.dropped_frames, all),
                  100.0 * share, "%"});
 }

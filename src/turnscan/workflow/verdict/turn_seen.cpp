@@ -31,7 +31,9 @@ std::optional<TurnSeen> turn_seen(const FrameSequence& frames, std::optional<dou
   double unseen = 0.0;
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const double next = i + 1 < headings.size() ? headings[i + 1] : headings[0] + kTurn;
-    unseen += std::max(0.0, next - headings[i] - 2.0 * kHeadingReach_rad);
+    const double gap = next - headings[i];
+    unseen += std::max(0.0, gap - 2.0 * kHeadingReach_rad);
+    out.widest_gap_rad = std::max(out.widest_gap_rad, gap);
   }
   out.share = 1.0 - unseen / kTurn;
   return out;

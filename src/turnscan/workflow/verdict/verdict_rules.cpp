@@ -9,6 +9,7 @@
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/verdict/error_shares.hpp>
 #include <turnscan/workflow/verdict/frame_agreement.hpp>
+#include <turnscan/workflow/verdict/pose_error.hpp>
 #include <turnscan/workflow/verdict/scan_sentences.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
 
@@ -25,6 +26,9 @@ constexpr double kWholeTurn = 0.95;
 constexpr double kFewFrames = 6.0;
 /// Frames that see a place; more do not help as much as a nearer sensor.
 constexpr int kManyFrames = 40;
+/// An upright side in the middle of a wider gap is seen at 60 degrees from its normal at best: what
+/// was closed there may be as deep as the object, and its area says nothing of that.
+constexpr double kSideGap_rad = 120.0 * kRadiansPerDegree;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
@@ -33,35 +37,6 @@ constexpr double kPoseMatters_m = 0.0005;
 /// (bench/expected_error).
 constexpr double kOffNoise = 0.1, kSharedOff = 0.7;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
-
-/// How far the poses of the frames may be off, as a shift of what they saw.
-struct PoseError {
-  double shift_m = 0.0;   ///< across the axis
-  double tilt_rad = 0.0;  ///< of the axis
-};
-
-PoseError pose_error(const ScanKnowledge& known) {
-  PoseError out;
-  const CalibrationChoice* choice = known.choice;
-  if (choice == nullptr) return out;
-  if (choice->calibration) {
-    const Calibration& found = *choice->calibration;
-    if (std::isfinite(found.center_sigma_m)) out.shift_m = found.center_sigma_m;
-    if (std::isfinite(found.axis_sigma_rad)) out.tilt_rad = found.axis_sigma_rad;
-  } else if (const auto& offset = choice->checks.axis_offset) {
-    // What is found beside the recorded axis may be either's error.
-    out.shift_m = std::max(offset->shift_sigma_m, 0.5 * offset->shift_m);
-    out.tilt_rad = std::max(offset->tilt_sigma_rad, 0.5 * offset->tilt_rad);
-  } else if (known.platter && known.platter->moved) {
-    out.shift_m = 0.5 * known.platter->shift_m;
-    out.tilt_rad = 0.5 * known.platter->tilt_rad;
-  }
-  if (const auto& closure = choice->checks.closure)
-    out.shift_m = std::max(out.shift_m,
-                           0.5 * std::sqrt(std::max(0.0, closure->shift_m * closure->shift_m -
-                                                             closure->noise_m * closure->noise_m)));
-  return out;
-}
 
 /// How far frames lie off each other beyond what the spread of their points explains.
 double disagreement_m(const std::vector<FrameResidual>& residuals) {
@@ -128,21 +103,17 @@ class Judge {
     out_.sentences.push_back({std::move(topic), level, std::move(text), value, std::move(unit)});
   }
 
-  /// A shift of the frames moves what faces that way; a tilt moves it by its distance from the
-  /// middle; where frames disagree the surface lies between them.
+  /// What the calibration leaves open; and where frames disagree the surface lies between them.
   void add_pose_errors() {
     if (object_.quality.empty()) return;
     const PoseError error = pose_error(known_);
     const double shared_m = residuals_ != nullptr ? kSharedOff * disagreement_m(*residuals_) : 0.0;
     const Vec3d middle = bounds(object_.mesh.vertices).center();
     for (std::size_t v = 0; v < object_.quality.size(); ++v) {
-      const Vec3d n = normals_[v].cast<double>();
-      const double across = std::hypot(n.x(), n.z());
-      const double lever = (object_.mesh.vertices[v].cast<double>() - middle).norm();
+      const Vec3d arm = object_.mesh.vertices[v].cast<double>() - middle;
       float& expected = object_.quality[v].expected_error_m;
-      expected = float(std::sqrt(double(expected) * double(expected) + shared_m * shared_m +
-                                 std::pow(error.shift_m * across, 2) +
-                                 std::pow(error.tilt_rad * lever, 2)));
+      expected = float(std::hypot(double(expected), shared_m,
+                                  error.along_normal_m(arm, normals_[v].cast<double>())));
     }
   }
 
@@ -294,11 +265,17 @@ class Judge {
       say("mesh", Level::kGood, "it was left open, as asked for");
       return;
     }
-    const bool printable = watertight && out_.level() != Level::kBad;
-    say("mesh", watertight ? Level::kGood : Level::kBad,
-        printable    ? "it is watertight and can be printed"
-        : watertight ? "it is watertight, but much of it is not what stood on the table"
-                     : fmt::format("it is not watertight ({})", object_.check.text()));
+    const bool all_sides = !known_.turn || known_.turn->widest_gap_rad <= kSideGap_rad;
+    if (!watertight)
+      say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
+    else if (out_.level() == Level::kBad)
+      say("mesh", Level::kGood, "it is watertight, but much of it is not what stood on the table");
+    else if (!all_sides)
+      say("mesh", Level::kGood,
+          "it is watertight, but to one side of it no frame looks: how deep it is there is a "
+          "guess");
+    else
+      say("mesh", Level::kGood, "it is watertight and can be printed");
   }
 
   /// What another pass would show; nullptr where there is no advice worth the work.
