@@ -9,7 +9,6 @@
 #include <turnscan/evaluation/robust_fit.hpp>
 
 #include "tests/geometry/shapes.hpp"
-#include "tests/support/sanitizers.hpp"
 
 namespace turnscan {
 namespace {
@@ -100,7 +99,6 @@ TEST(Artefact, WhatIsBeyondTheBandIsLeftOutAndCounted) {
 }
 
 TEST(Artefact, TheUndersideOfAMeshOfABallIsNotUsed) {
-  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   // Below -35 deg the mesh is 1 mm too large, as where nothing was seen.
   TriangleMesh mesh = test::sphere(0.03, 6);
   for (Vec3f& v : mesh.vertices) {
@@ -116,7 +114,6 @@ TEST(Artefact, TheUndersideOfAMeshOfABallIsNotUsed) {
 }
 
 TEST(Artefact, TheSpacingOfABallBarIsThatOfItsCentres) {
-  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   PointCloud cloud;
   add_ball(cloud, {-0.0751, 0.0, 0.3}, 0.02, 5e-5, 8000, 1);
   add_ball(cloud, {0.0751, 0.0, 0.3}, 0.02, 5e-5, 8000, 2);
