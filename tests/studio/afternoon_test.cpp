@@ -93,6 +93,7 @@ class Afternoon : public ::testing::Test, FirstStart {
     auto* dialog = window.findChild<QDialog*>("messages");
     const bool found = dialog && dialog->findChild<QPlainTextEdit*>()->toPlainText().contains(text);
     if (dialog) dialog->close();
+    QApplication::setActiveWindow(&window);
     return found;
   }
   void play(const QString& uri, const QString& recording) {
@@ -189,6 +190,7 @@ void Afternoon::restore_what_was_killed() {
   answer.start();
   window.offer_lost_session();
   EXPECT_TRUE(asked);
+  QApplication::setActiveWindow(&window);  // there is no window manager to do it
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(store.models().size(), 4u);
   EXPECT_GT(store.models().back().data->mesh.triangles.size(), 1000u);
