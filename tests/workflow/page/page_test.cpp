@@ -7,6 +7,7 @@
 #include <turnscan/workflow/page/encoding.hpp>
 #include <turnscan/workflow/page/page.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/page/page_plots.hpp>
 #include <turnscan/workflow/page/report_facts.hpp>
 #include <turnscan/workflow/page/svg_plot.hpp>
 
@@ -170,6 +171,21 @@ TEST(Page, PlotsWhatIsKnownOfEachVertexAndOfTheTurn) {
         "Expected error around the axis", "Seen by: share of the surface", "Speed over the turn"})
     EXPECT_THAT(html, Holds(title));
   EXPECT_THAT(html, Not(Holds("Deviation")));
+}
+
+TEST(Page, ScalesExpectedErrorsByWhatWasMeasured) {
+  PageInput input = ball_input();
+  PageObject& ball = input.objects[0];
+  for (const Vec3f& v : ball.mesh.vertices) {
+    ball.invented.push_back(v.y() > 0.0f ? 0 : 1);
+    ball.expected_error_m.push_back(v.y() > 0.0f ? 1e-4f : 0.05f);
+  }
+  const auto fields = page::fields_of(input.objects);
+  ASSERT_EQ(fields.at(0).id, "expected_error");
+  EXPECT_NEAR(fields[0].to, 0.1, 1e-6) << "mm";
+  const auto plots = page::plots_of(input, fields, {});
+  for (const double error_mm : plots.at(1).series.at(1).y)
+    EXPECT_TRUE(std::isnan(error_mm) || error_mm < 0.11) << error_mm;
 }
 
 TEST(Page, OfAComparisonHasSignedDeviations) {

@@ -221,6 +221,11 @@ TEST(JudgeObjects, SayHowMuchASecondPassWouldShow) {
   EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text,
             "a second pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
             "--passes 2)");
+  run.passes.resize(2);
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text,
+            "another pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
+            "--passes 3)");
 }
 
 TEST(JudgeObjects, AdviseToTurnSlowerWhereFewFramesSawItAndToStandNearerElse) {

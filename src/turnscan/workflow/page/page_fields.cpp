@@ -20,8 +20,9 @@ double quantile_of_magnitude(const std::vector<PageObject>& objects, const Field
                              double share) {
   std::vector<float> all;
   for (const PageObject& object : objects) {
-    for (const float v : field.values(object))
-      if (std::isfinite(v)) all.push_back(std::abs(v));
+    const std::vector<float> values = field.values(object);
+    for (std::size_t v = 0; v < values.size(); ++v)
+      if (std::isfinite(values[v]) && counts(field, object, v)) all.push_back(std::abs(values[v]));
   }
   if (all.empty()) return 0.0;
   const auto at = static_cast<std::ptrdiff_t>(share * double(all.size() - 1));
@@ -46,6 +47,7 @@ Field expected_error() {
   field.help = "How far each point may be off (standard deviation)";
   field.unit = "mm";
   field.map = "viridis";
+  field.of_measured = true;
   field.values = [](const PageObject& o) { return scaled(o.expected_error_m, 1e3); };
   return field;
 }

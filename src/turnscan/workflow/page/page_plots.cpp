@@ -32,11 +32,15 @@ std::vector<Sample> samples_of(const std::vector<PageObject>& objects, const Fie
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (const std::uint32_t v : mesh.triangles[t]) area[v] += triangle_area(mesh, t) / 3.0;
     for (std::size_t v = 0; v < values.size(); ++v) {
-      if (std::isfinite(values[v]) && area[v] > 0.0)
+      if (std::isfinite(values[v]) && area[v] > 0.0 && counts(field, object, v))
         samples.push_back({mesh.vertices[v].cast<double>(), area[v], double(values[v])});
     }
   }
   return samples;
+}
+
+const char* surface_of(const Field& field) {
+  return field.of_measured ? "what was measured" : "the surface";
 }
 
 std::vector<double> middles(double low, double high, std::size_t bins) {
@@ -55,8 +59,9 @@ Plot histogram(const std::vector<Sample>& samples, const Field& field) {
   Plot plot;
   plot.kind = Plot::Kind::kBars;
   plot.title = field.label + ": share of the surface";
-  plot.description = fmt::format(
-      "Share of the surface by {}; what is beyond the ends is counted at the ends.", field.noun);
+  plot.description =
+      fmt::format("Share of {} by {}; what is beyond the ends is counted at the ends.",
+                  surface_of(field), field.noun);
   plot.x_label = fmt::format("{} in {}", field.label, field.unit);
   plot.y_label = "Share of the surface in %";
   plot.x = middles(field.from, field.to, kHistogramBins);
@@ -111,7 +116,8 @@ Plot over_height(const std::vector<Sample>& samples, const Field& field) {
   Plot plot = along(samples, field, low * 1e3, top * 1e3, kHeightBins,
                     [](const Sample& s) { return s.position.y() * 1e3; });
   plot.title = field.label + " over the height";
-  plot.description = fmt::format("Size of the {} at each height of the object.", field.noun);
+  plot.description = fmt::format("Size of the {} at each height of {}.", field.noun,
+                                 field.of_measured ? surface_of(field) : "the object");
   plot.x_label = "Height in mm";
   return plot;
 }
@@ -122,7 +128,8 @@ Plot over_direction(const std::vector<Sample>& samples, const Field& field) {
   });
   plot.title = field.label + " around the axis";
   plot.description = fmt::format(
-      "Size of the {} in each direction from the turntable's axis, 0 being the front.", field.noun);
+      "Size of the {}{} in each direction from the turntable's axis, 0 being the front.",
+      field.noun, field.of_measured ? " of what was measured" : "");
   plot.x_label = "Direction in degrees";
   return plot;
 }

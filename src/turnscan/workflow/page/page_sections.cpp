@@ -28,15 +28,25 @@ std::string section(const std::string& id, const std::string& title, const std::
 /// Rows of a table, the first of them its head; cells are escaped.
 class HtmlTable {
  public:
-  explicit HtmlTable(const std::vector<std::string>& head) {
-    html_ = "<div class=\"table\" tabindex=\"0\"><table><thead><tr>";
-    for (const std::string& cell : head)
+  /// Of the layout kStacked a row becomes a list on a narrow screen, each value after its column's
+  /// name.
+  enum class Layout { kColumns, kStacked };
+
+  explicit HtmlTable(std::vector<std::string> head, Layout layout = Layout::kColumns)
+      : head_(std::move(head)), layout_(layout) {
+    html_ = fmt::format("<div class=\"table{}\" tabindex=\"0\"><table><thead><tr>",
+                        layout_ == Layout::kStacked ? " stacked" : "");
+    for (const std::string& cell : head_)
       html_ += fmt::format("<th scope=\"col\">{}</th>", escaped(cell));
     html_ += "</tr></thead><tbody>\n";
   }
   HtmlTable& add(const std::string& head, const std::vector<std::string>& cells) {
     html_ += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(head));
-    for (const std::string& cell : cells) html_ += fmt::format("<td>{}</td>", escaped(cell));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      html_ += layout_ == Layout::kStacked
+                   ? fmt::format("<td data-name=\"{}\">{}</td>", escaped(head_.at(i + 1)),
+                                 escaped(cells[i]))
+                   : fmt::format("<td>{}</td>", escaped(cells[i]));
     html_ += "</tr>\n";
     rows_ = true;
     return *this;
@@ -44,6 +54,8 @@ class HtmlTable {
   std::string text() const { return rows_ ? html_ + "</tbody></table></div>\n" : ""; }
 
  private:
+  std::vector<std::string> head_;
+  Layout layout_;
   std::string html_;
   bool rows_ = false;
 };
@@ -177,7 +189,8 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
 }
 
 std::string dimensions_section(const PageInput& input) {
-  HtmlTable table({"Object", "Width x height x depth", "Area", "Volume", "Triangles", "Mesh"});
+  HtmlTable table({"Object", "Width x height x depth", "Area", "Volume", "Triangles", "Mesh"},
+                  HtmlTable::Layout::kStacked);
   for (std::size_t i = 0; i < input.objects.size(); ++i) {
     const TriangleMesh& mesh = input.objects[i].mesh;
     const MeshReport check = check_mesh(mesh);

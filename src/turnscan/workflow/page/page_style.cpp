@@ -77,6 +77,11 @@ footer { margin-top: 2.5rem; padding-bottom: 2rem; border-top: 1px solid var(--l
     border-bottom: 1px solid var(--line); }
   .verdict th, .verdict td { border: 0; padding: 0.1rem 0.7rem 0.1rem 0; }
   .verdict td:nth-child(3) { grid-column: 1 / -1; grid-row: 2; }
+  .stacked thead { position: absolute; left: -100rem; }
+  .stacked table, .stacked tbody, .stacked tr, .stacked th, .stacked td { display: block; }
+  .stacked th, .stacked td { padding-right: 0; }
+  .stacked td { display: flex; justify-content: space-between; gap: 1rem; }
+  .stacked td::before { content: attr(data-name); color: var(--soft); }
   .plot svg text { font-size: 18px; }
   .pictures { grid-template-columns: repeat(2, 1fr); }
 }

@@ -309,8 +309,7 @@ class ScanRun {
       return false;
     }
     const NextPose& pose = out_.next_pass->poses.front();
-    out_.notes.push_back(
-        fmt::format("before pass {}: {}", pass, pose_text(pose, out_.next_pass->pass)));
+    out_.notes.push_back(fmt::format("before pass {}: {}", pass, next_pass_text(*out_.next_pass)));
     TURNSCAN_TRY(source.lay_object(turn_seen_by_sensor(pose, seen_from_), seen_from_.first_time_s));
     return true;
   }

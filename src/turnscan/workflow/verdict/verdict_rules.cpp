@@ -269,9 +269,9 @@ class Judge {
     if (!watertight)
       say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
     else if (out_.level() == Level::kBad)
-      say("mesh", Level::kGood, "it is watertight, but much of it is not what stood on the table");
+      say("mesh", Level::kFair, "it is watertight, but much of it is not what stood on the table");
     else if (!all_sides)
-      say("mesh", Level::kGood,
+      say("mesh", Level::kFair,
           "it is watertight, but to one side of it no frame looks: how deep it is there is a "
           "guess");
     else
@@ -285,18 +285,27 @@ class Judge {
     return best.shows_m2 > kShownWorth * surface_area(object_.mesh) ? &best : nullptr;
   }
 
+  /// Passes that made the largest object.
+  std::size_t passes() const {
+    const auto made = std::count_if(run_.passes.begin(), run_.passes.end(),
+                                    [](const FusedPass& pass) { return pass.object <= 0; });
+    return std::max<std::size_t>(1, std::size_t(made));
+  }
+
   void say_help() {
+    const char* further = passes() == 1 ? "a second pass" : "another pass";
+    const std::string how = fmt::format("(turnscan scan --passes {})", passes() + 1);
     if (known_.turn && known_.turn->share < kWholeTurn)
       say("help", Level::kGood, "a whole turn would show the other sides");
     else if (const NextPose* pose = best_pose())
       say("help", Level::kGood,
-          fmt::format("a second pass would show {:.0f} cm2 more: {} (turnscan scan --passes 2)",
-                      pose->shows_m2 * 1e4, deed_text(*pose)),
+          fmt::format("{} would show {:.0f} cm2 more: {} {}", further, pose->shows_m2 * 1e4,
+                      deed_text(*pose), how),
           pose->shows_m2 * 1e4, "cm2");
     else if (hidden_ > 0.5 * kGoodHidden)
       say("help", Level::kGood,
-          "a second pass, the object laid another way, would show what none saw (turnscan scan "
-          "--passes 2)");
+          fmt::format("{}, the object laid another way, would show what none saw {}", further,
+                      how));
     say_what_helps_accuracy();
   }
 
