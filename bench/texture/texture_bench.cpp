@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/mesh_texture.hpp>
@@ -247,21 +248,23 @@ Result<> run_case(const Settings& settings, const std::string& name, const Trian
   texture.texture = true;
   texture.albedo = albedo;
   if (settings.size > 0) texture.size_px = settings.size;
-  const auto begun = std::chrono::steady_clock::now();
+  const std::clock_t begun = std::clock();  // of all threads
   TURNSCAN_ASSIGN(const TextureReport report,
                   texture::texture_mesh(recording, views, texture, mesh, RunContext()));
-  const double textured = seconds_since(begun);
+  const double textured = double(std::clock() - begun) / CLOCKS_PER_SEC;
   TURNSCAN_TRY(compare(settings, name + "-texture", mesh, truth));
   fmt::print(
       "    {} triangles, {} charts, stretch {:.2f}, {} px of {:.3f} mm, filled {:.1f} %, one "
-      "view {:.1f} %, views {}, off by {:.2f} px; simulated {:.1f} s, textured {:.1f} s\n",
+      "view {:.1f} %, views {}, off by {:.2f} px; simulated {:.1f} s, textured {:.1f} s of "
+      "processor\n",
       mesh.triangles.size(), report.charts, report.stretch, report.size_px, report.texel_m * 1e3,
       report.filled_share * 100, report.one_view_share * 100, report.views, report.disagreement_px,
       scanned, textured);
   for (const auto& camera : report.cameras)
-    fmt::print("    camera of sensor {}: {} by {:.2f} px, {:.2f} mm, {:.3f} deg\n", camera.sensor,
-               camera.refined ? "moved" : "left", camera.misplaced_px, camera.moved_m * 1e3,
-               camera.turned_rad * 57.29578);
+    fmt::print(
+        "    camera of sensor {}: {} by {:.2f} px (deviation {:.2f}), {:.2f} mm, {:.3f} deg\n",
+        camera.sensor, camera.refined ? "moved" : "left", camera.misplaced_px, camera.deviation_px,
+        camera.moved_m * 1e3, camera.turned_rad * 57.29578);
   if (!settings.pictures.empty())
     TURNSCAN_TRY(write_color_png(fmt::format("{}/{}-atlas.png", settings.pictures, name),
                                  mesh.texture->image));

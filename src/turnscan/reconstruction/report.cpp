@@ -48,6 +48,7 @@ Json texture_json(const TextureReport& texture) {
     cameras.push_back({{"sensor", camera.sensor},
                        {"refined", camera.refined},
                        {"misplaced_px", camera.misplaced_px},
+                       {"deviation_px", camera.deviation_px},
                        {"moved_mm", camera.moved_m * 1e3},
                        {"turned_deg", camera.turned_rad * kDegreesPerRadian}});
   return {{"size_px", texture.size_px},

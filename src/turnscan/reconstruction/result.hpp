@@ -59,10 +59,11 @@ struct TextureReport {
   /// Per view, by which its red, green and blue were multiplied (linear light); mean 1.
   std::vector<Vec3f> gains;
   /// Per sensor with colours that are not registered to depth: by how many pixels its camera was
-  /// misplaced (rms over the surface), and by how many the images still disagree.
+  /// misplaced (rms over the surface), and the standard deviation of that.
   struct Camera {
     std::uint32_t sensor = 0;
     double misplaced_px = 0.0, moved_m = 0.0, turned_rad = 0.0;
+    double deviation_px = 0.0;
     bool refined = false;  ///< false: left as it was
   };
   std::vector<Camera> cameras;

@@ -5,7 +5,7 @@
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/texture/camera_refinement.hpp>
-#include <turnscan/reconstruction/texture/refinement_parts.hpp>
+#include <turnscan/reconstruction/texture/motion_evidence.hpp>
 #include <turnscan/reconstruction/texture/texel_samples.hpp>
 
 namespace turnscan::texture {
@@ -21,6 +21,17 @@ constexpr double kTurnSigma_rad = 0.02, kShiftSigma_m = 0.01;
 /// One outline point is worth this much of another's evidence: neighbours err alike.
 constexpr double kOutlineShare = 0.02;
 constexpr double kOutlineSigma_px = 0.7;
+/// Edges that the reconstruction has rounded, or a foot that stands on the platter, are misplaced
+/// alike all around the object: outlines of one height share an error that no number of views
+/// averages out.
+constexpr double kShapeSigma_px = 1.0;
+
+Motion motion_of(const Pose& T) {
+  const Eigen::AngleAxisd turned(T.linear());
+  Motion out;
+  out << turned.angle() * turned.axis(), T.translation();
+  return out;
+}
 
 /// What is kept of an image.
 GreyWindow grey_window(const ColorImage& image, const DrawnMesh& drawn) {
@@ -68,6 +79,8 @@ class Refiner {
           const RunContext& context)
       : mesh_(mesh), views_(std::move(views)), start_(start), T_(start), context_(context) {
     const std::vector<Vec3f> normals = vertex_normals(mesh);
+    const auto box = bounds(mesh.vertices);
+    bands_ = {box.min.y(), box.size().y()};
     const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kPoints);
     for (std::size_t v = 0; v < mesh.vertices.size(); v += step) {
       points_.push_back(mesh.vertices[v]);
@@ -105,7 +118,7 @@ class Refiner {
       draw();
       const std::vector<GreyWindow> grey = all_blurred(sigma);
       for (int round = 0; round < 3; ++round) {
-        const MotionEquations outline = outlines(soft, 3.0);
+        const OutlineEquations outline = outlines(soft, 3.0);
         const MotionEquations pattern = pattern_equations(views_, drawn_, grey, points_, normals_);
         TURNSCAN_TRY(step(outline, &pattern));
       }
@@ -128,6 +141,16 @@ class Refiner {
     const double a = count > 0.0 ? strength / count : 0.0;
     const double b = pattern.weight > 0.0 ? pattern.error / pattern.weight : 0.0;
     return std::sqrt(b) - a;
+  }
+
+  /// Takes back what the evidence does not determine. Returns the deviation, pixels.
+  double keep_what_is_determined() {
+    if (points_.empty()) return 0.0;
+    evidence_.image = image_movement();
+    const DeterminedMotion part = determined_part(evidence_, motion_of(T_ * start_.inverse()));
+    T_ = part.directions == 0 ? start_ : pose_of(-part.open) * T_;
+    place();
+    return part.deviation_px;
   }
 
   const Pose& pose() const { return T_; }
@@ -203,44 +226,58 @@ class Refiner {
     return out;
   }
 
-  MotionEquations outlines(const std::vector<GreyWindow>& soft, double reach) const {
-    std::vector<MotionEquations> parts(views_.size());
+  OutlineEquations outlines(const std::vector<GreyWindow>& soft, double reach) const {
+    std::vector<OutlineEquations> parts(views_.size());
     parallel_for(views_.size(), 1, [&](std::size_t k) {
       if (!soft[k].light.empty())
-        parts[k] = outline_equations(views_[k], outlines_[k], soft[k], reach);
+        parts[k] = outline_equations(views_[k], outlines_[k], soft[k], bands_, reach);
     });
-    MotionEquations all;
-    for (const MotionEquations& part : parts) all.add(part);
+    OutlineEquations all;
+    for (const OutlineEquations& part : parts) all.add(part);
     return all;
   }
 
   /// One Gauss-Newton step. What the evidence does not determine stays as it was at the start: a
   /// turn counts as known to a degree, a shift to a centimetre.
-  Result<> step(const MotionEquations& outline, const MotionEquations* pattern) {
+  Result<> step(const OutlineEquations& outline, const MotionEquations* pattern) {
     TURNSCAN_TRY(context_.check());
-    MotionEquations sum;
     const double per_outline = kOutlineShare / (kOutlineSigma_px * kOutlineSigma_px);
-    sum.matrix = per_outline * outline.matrix;
-    sum.right = per_outline * outline.right;
+    evidence_.information = per_outline * outline.matrix;
+    Motion right = per_outline * outline.right;
+    const Eigen::Matrix<double, 6, HeightBands::kCount> per_band =
+        kShapeSigma_px * per_outline * outline.per_band;
+    evidence_.shared = per_band * per_band.transpose();
     if (pattern != nullptr && pattern->weight > 0.0) {
       const double variance = std::max(1.0, pattern->error / pattern->weight);
-      sum.matrix += kOutlineShare / variance * pattern->matrix;
-      sum.right += kOutlineShare / variance * pattern->right;
+      evidence_.information += kOutlineShare / variance * pattern->matrix;
+      right += kOutlineShare / variance * pattern->right;
     }
-    const Pose so_far = T_ * start_.inverse();
-    const Eigen::AngleAxisd turned(so_far.linear());
-    Motion from_start;
-    from_start << turned.angle() * turned.axis(), so_far.translation();
+    const Motion from_start = motion_of(T_ * start_.inverse());
     for (int i = 0; i < 6; ++i) {
       const double sigma = i < 3 ? kTurnSigma_rad : kShiftSigma_m;
-      sum.matrix(i, i) += 1.0 / (sigma * sigma);
-      sum.right[i] -= from_start[i] / (sigma * sigma);
+      evidence_.information(i, i) += 1.0 / (sigma * sigma);
+      right[i] -= from_start[i] / (sigma * sigma);
     }
-    const Motion motion = sum.matrix.ldlt().solve(sum.right);
+    const Motion motion = evidence_.information.ldlt().solve(right);
     if (!motion.allFinite()) return {};
     T_ = pose_of(motion) * T_;
     place();
     return {};
+  }
+
+  /// Mean square of image_motion() over the surface.
+  MotionMatrix image_movement() const {
+    MotionMatrix sum = MotionMatrix::Zero();
+    double count = 0.0;
+    for (const ColorView& view : views_)
+      for (std::size_t i = 0; i < points_.size(); i += 16) {
+        const Vec3f p = view.rotation * points_[i] + view.translation;
+        if (!(p.z() > 0.0f)) continue;
+        const auto moved = image_motion(p, view.camera);
+        sum += moved.transpose() * moved;
+        count += 1.0;
+      }
+    return sum / std::max(1.0, count);
   }
 
   const TriangleMesh& mesh_;
@@ -248,6 +285,8 @@ class Refiner {
   const Pose start_;
   Pose T_;
   const RunContext& context_;
+  HeightBands bands_;
+  MotionEvidence evidence_;  // of the last step
   std::vector<Vec3f> points_, normals_;
   std::vector<DrawnMesh> drawn_;
   std::vector<std::vector<OutlinePoint>> outlines_;  // as drawn
@@ -266,6 +305,7 @@ Result<RefinedCamera> refine_camera(const FrameSequence& sequence, const Triangl
   Refiner refiner(mesh, std::move(some), T_color_sensor, context);
   TURNSCAN_TRY(refiner.read(sequence));
   TURNSCAN_TRY(refiner.run());
+  out.deviation_px = refiner.keep_what_is_determined();
   const Pose found = refiner.pose();
   const double after = refiner.misfit(found), before = refiner.misfit(T_color_sensor);
   if (!(after < before)) return out;

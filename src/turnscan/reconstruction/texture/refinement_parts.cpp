@@ -164,9 +164,20 @@ double edge_strength(const ColorView& view, const std::vector<OutlinePoint>& out
   return sum;
 }
 
-MotionEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
-                                  const GreyWindow& grey, double reach_px) {
-  MotionEquations out;
+int HeightBands::of(const Vec3f& p_object) const {
+  const double share = (double(p_object.y()) - lowest_m) / std::max(height_m, 1e-9);
+  return std::clamp(int(share * kCount), 0, kCount - 1);
+}
+
+void OutlineEquations::add(const OutlineEquations& other) {
+  MotionEquations::add(other);
+  per_band += other.per_band;
+}
+
+OutlineEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
+                                   const GreyWindow& grey, const HeightBands& bands,
+                                   double reach_px) {
+  OutlineEquations out;
   const double scale = std::max(0.7, 0.25 * reach_px);
   for (const OutlinePoint& point : outline) {
     const Projection q = view.project(point.p_object);
@@ -178,7 +189,9 @@ MotionEquations outline_equations(const ColorView& view, const std::vector<Outli
     const Motion along =
         (point.normal.cast<double>().transpose() * image_motion(p, view.camera)).transpose();
     const double r = offset / scale;
-    out.add(along, offset, 1.0 / ((1.0 + r * r) * (1.0 + r * r)));
+    const double w = 1.0 / ((1.0 + r * r) * (1.0 + r * r));
+    out.add(along, offset, w);
+    out.per_band.col(bands.of(point.p_object)) += w * along;
   }
   return out;
 }

@@ -44,9 +44,25 @@ std::vector<OutlinePoint> outline_of(const ColorView& view, const DrawnMesh& dra
 double edge_strength(const ColorView& view, const std::vector<OutlinePoint>& outline,
                      const GreyWindow& grey, const Eigen::Vector2f& shift_px);
 
+/// Heights of an object along the turntable's axis, in equal bands.
+struct HeightBands {
+  static constexpr int kCount = 16;
+  double lowest_m = 0.0, height_m = 0.0;
+  int of(const Vec3f& p_object) const;
+};
+
+struct OutlineEquations : MotionEquations {
+  /// What one pixel more of offset all along a band's outline adds to `right`.
+  Eigen::Matrix<double, 6, HeightBands::kCount> per_band =
+      Eigen::Matrix<double, 6, HeightBands::kCount>::Zero();
+  using MotionEquations::add;
+  void add(const OutlineEquations& other);
+};
+
 /// Of one view: the outline against edges of the image, up to reach_px away.
-MotionEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
-                                  const GreyWindow& grey, double reach_px);
+OutlineEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
+                                   const GreyWindow& grey, const HeightBands& bands,
+                                   double reach_px);
 
 /// Of all views: points that several see. error: variance of the colours of a place, levels
 /// squared.

@@ -126,7 +126,7 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
     report.cameras.push_back(
         {sensor, found.misplaced_px,
          (found.T_color_sensor.inverse().translation() - before.inverse().translation()).norm(),
-         Eigen::AngleAxisd(motion.linear()).angle(), found.refined});
+         Eigen::AngleAxisd(motion.linear()).angle(), found.deviation_px, found.refined});
     for (ColorView& view : views)
       if (view.sensor == sensor) view.set_pose(found.T_color_sensor);
   }

@@ -65,11 +65,14 @@ std::string texture_text(const Reconstruction& r) {
     for (const TextureReport::Camera& camera : texture->cameras)
       text += camera.refined
                   ? fmt::format(
-                        "Colour camera of sensor {}: misplaced by {:.1f} pixels, {:.1f} mm "
-                        "and {:.2f} deg; corrected for the texture\n",
-                        camera.sensor, camera.misplaced_px, camera.moved_m * 1e3,
-                        camera.turned_rad * kDegreesPerRadian)
-                  : fmt::format("Colour camera of sensor {}: taken as it is\n", camera.sensor);
+                        "Colour camera of sensor {}: misplaced by {:.1f} pixels (standard "
+                        "deviation {:.1f}), {:.1f} mm and {:.2f} deg; corrected for the texture\n",
+                        camera.sensor, camera.misplaced_px, camera.deviation_px,
+                        camera.moved_m * 1e3, camera.turned_rad * kDegreesPerRadian)
+                  : fmt::format(
+                        "Colour camera of sensor {}: taken as it is; the images leave {:.1f} "
+                        "pixels open\n",
+                        camera.sensor, camera.deviation_px);
   }
   return text;
 }
