@@ -26,6 +26,9 @@ constexpr double kOutlineSigma_px = 0.7;
 /// averages out.
 constexpr double kShapeSigma_px = 1.0;
 
+/// Rounds of averaging over neighbours, for the normals.
+constexpr int kNormalRounds = 30;
+
 Motion motion_of(const Pose& T) {
   const Eigen::AngleAxisd turned(T.linear());
   Motion out;
@@ -73,12 +76,28 @@ void level(std::vector<GreyWindow>& windows, const std::vector<DrawnMesh>& drawn
   }
 }
 
+/// Vertex normals without the noise of the surface: a wall whose normals stray seems to show how
+/// high the camera stands.
+std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3f> normals = vertex_normals(mesh);
+  for (int round = 0; round < kNormalRounds; ++round) {
+    std::vector<Vec3f> sums(normals.size(), Vec3f::Zero());
+    for (const auto& t : mesh.triangles) {
+      const Vec3f sum = normals[t[0]] + normals[t[1]] + normals[t[2]];
+      for (const auto v : t) sums[v] += sum;
+    }
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      if (sums[v].squaredNorm() > 0.0f) normals[v] = sums[v].normalized();
+  }
+  return normals;
+}
+
 class Refiner {
  public:
   Refiner(const TriangleMesh& mesh, std::vector<ColorView> views, const Pose& start,
           const RunContext& context)
       : mesh_(mesh), views_(std::move(views)), start_(start), T_(start), context_(context) {
-    const std::vector<Vec3f> normals = vertex_normals(mesh);
+    const std::vector<Vec3f> normals = smooth_normals(mesh);
     const auto box = bounds(mesh.vertices);
     bands_ = {box.min.y(), box.size().y()};
     const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kPoints);

@@ -196,6 +196,72 @@ OutlineEquations outline_equations(const ColorView& view, const std::vector<Outl
   return out;
 }
 
+namespace {
+
+/// What one view shows of a point on the surface.
+struct PatternView {
+  double value = 0.0;
+  Eigen::RowVector2d slope;                ///< of the image, per pixel
+  Eigen::Matrix<double, 2, 6> per_motion;  ///< pixels per motion of the camera
+  Eigen::Matrix2d per_tangent;             ///< pixels per metre along the surface's tangents
+};
+
+/// Two unit vectors at right angles to n and to each other.
+Eigen::Matrix<double, 3, 2> tangents(const Vec3f& n) {
+  const Vec3d normal = n.cast<double>();
+  Eigen::Matrix<double, 3, 2> out;
+  out.col(0) = normal.unitOrthogonal();
+  out.col(1) = normal.cross(out.col(0));
+  return out;
+}
+
+void find_pattern_views(const std::vector<ColorView>& views, const std::vector<DrawnMesh>& drawn,
+                        const std::vector<GreyWindow>& grey, const Vec3f& point,
+                        const Vec3f& normal, std::vector<PatternView>& out) {
+  out.clear();
+  const Eigen::Matrix<double, 3, 2> tangent = tangents(normal);
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const Vec3f to_eye = (views[k].eye() - point).normalized();
+    if (!(normal.dot(to_eye) > kFacing)) continue;
+    const Projection q = views[k].project(point);
+    if (drawn[k].shows(q) != Shown::kWell) continue;
+    float value = 0.0f;
+    Eigen::Vector2f slope;
+    if (!grey[k].at(q.u, q.v, value, slope)) continue;
+    PatternView& view = out.emplace_back();
+    view.value = double(value);
+    view.slope = slope.cast<double>().transpose();
+    view.per_motion =
+        image_motion(views[k].rotation * point + views[k].translation, views[k].camera);
+    view.per_tangent =
+        view.per_motion.rightCols<3>() * (views[k].rotation.cast<double>() * tangent);
+  }
+}
+
+/// The pattern has one slope along the surface, the mean of what the views show. With a slope for
+/// each view noise would pass for evidence in directions in which all views see the pattern move
+/// alike, as along the turntable's axis.
+void add_pattern(const std::vector<PatternView>& seen, MotionEquations& out) {
+  const double share = 1.0 / double(seen.size());
+  double mean = 0.0;
+  Eigen::RowVector2d slope = Eigen::RowVector2d::Zero();
+  for (const PatternView& view : seen) {
+    mean += share * view.value;
+    slope += share * view.slope * view.per_tangent;
+  }
+  const auto gradient_of = [&](const PatternView& view) -> Motion {
+    return (slope * (view.per_tangent.inverse() * view.per_motion)).transpose();
+  };
+  Motion mean_gradient = Motion::Zero();
+  for (const PatternView& view : seen) mean_gradient += share * gradient_of(view);
+  for (const PatternView& view : seen) {
+    const double residual = mean - view.value, r = residual / kPatternScale;
+    out.add(gradient_of(view) - mean_gradient, residual, 1.0 / ((1.0 + r * r) * (1.0 + r * r)));
+  }
+}
+
+}  // namespace
+
 MotionEquations pattern_equations(const std::vector<ColorView>& views,
                                   const std::vector<DrawnMesh>& drawn,
                                   const std::vector<GreyWindow>& grey,
@@ -204,35 +270,10 @@ MotionEquations pattern_equations(const std::vector<ColorView>& views,
   const auto parts =
       parallel_chunks<MotionEquations>(points.size(), 512, [&](std::size_t begin, std::size_t end) {
         MotionEquations part;
-        std::vector<Motion> gradients;
-        std::vector<double> values;
+        std::vector<PatternView> seen;
         for (std::size_t i = begin; i < end; ++i) {
-          gradients.clear();
-          values.clear();
-          Motion mean_gradient = Motion::Zero();
-          double mean = 0.0;
-          for (std::size_t k = 0; k < views.size(); ++k) {
-            const Vec3f to_eye = (views[k].eye() - points[i]).normalized();
-            if (!(normals[i].dot(to_eye) > kFacing)) continue;
-            const Projection q = views[k].project(points[i]);
-            if (drawn[k].shows(q) != Shown::kWell) continue;
-            float value = 0.0f;
-            Eigen::Vector2f slope;
-            if (!grey[k].at(q.u, q.v, value, slope)) continue;
-            const Vec3f p = views[k].rotation * points[i] + views[k].translation;
-            gradients.emplace_back(
-                (slope.cast<double>().transpose() * image_motion(p, views[k].camera)).transpose());
-            values.push_back(double(value));
-            mean_gradient += gradients.back();
-            mean += values.back();
-          }
-          if (values.size() < kLeastSeen) continue;
-          mean /= double(values.size());
-          mean_gradient /= double(values.size());
-          for (std::size_t k = 0; k < values.size(); ++k) {
-            const double residual = mean - values[k], r = residual / kPatternScale;
-            part.add(gradients[k] - mean_gradient, residual, 1.0 / ((1.0 + r * r) * (1.0 + r * r)));
-          }
+          find_pattern_views(views, drawn, grey, points[i], normals[i], seen);
+          if (seen.size() >= kLeastSeen) add_pattern(seen, part);
         }
         return part;
       });
