@@ -293,8 +293,9 @@ TEST_F(Afternoon, NothingIsLostAndEverythingIsSaid) {
   ASSERT_NO_FATAL_FAILURE(edit());
   ASSERT_NO_FATAL_FAILURE(compare_report_and_export());
 
-  for (const char* text : {"lost", "no-room", "Delete selected: ", "Fill holes: ", "Smooth: ",
-                           "Wrote ~/scans/scorpion.html", "Wrote ~/scans/doll (2) mesh.3mf"})
+  for (const char* text :
+       {"stopped answering", "no-room", "Delete selected: ", "Fill holes: ", "Smooth: ",
+        "Wrote ~/scans/scorpion.html", "Wrote ~/scans/doll (2) mesh.3mf"})
     EXPECT_TRUE(was_said(text)) << text;
   for (const char* name : {"skull", "doll", "scorpion"}) {
     const auto recording = Recording::open(path(name).toStdString());

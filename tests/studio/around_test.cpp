@@ -25,6 +25,7 @@
 #include <QTableWidget>
 #include <QTest>
 #include <QTextBrowser>
+#include <algorithm>
 #include <set>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
@@ -37,6 +38,7 @@
 #include "explorer/model_list.hpp"
 #include "explorer/output/queue_dialog.hpp"
 #include "explorer/session.hpp"
+#include "explorer/session_list.hpp"
 #include "scanner/scanner.hpp"
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
@@ -110,9 +112,14 @@ TEST_F(Around, AFileOfDoubtfulUnitAsksAndAPlausibleOneDoesNot) {
   // The session opens the person's own files again: with the same units.
   window.explorer().session().flush();
   const QDir root(SessionKeeper::default_root());
-  const QByteArray kept = content(
-      root.filePath(root.entryList(QDir::Dirs | QDir::NoDotAndDotDot).front() + "/session.json"));
-  EXPECT_EQ(kept.count("metres_per_unit"), 4);
+  const KeptList kept =
+      read_list(root.filePath(root.entryList(QDir::Dirs | QDir::NoDotAndDotDot).front()));
+  ASSERT_FALSE(kept.states.empty());
+  const std::vector<KeptModel>& models = kept.states[kept.place].models;
+  EXPECT_EQ(models.size(), 5u);
+  EXPECT_EQ(std::count_if(models.begin(), models.end(),
+                          [](const KeptModel& model) { return model.metres_per_unit.has_value(); }),
+            4);
 }
 
 TEST_F(Around, AnOpenedModelIsFramedWhereverTheCameraIs) {

@@ -155,5 +155,20 @@ TEST_F(Joining, PairsThatTheSurfacesContradictJoinNothing) {
       << shown_error();
 }
 
+TEST_F(Joining, AnEditedMeshIsNoPassAnyMore) {
+  ASSERT_EQ(store.models().size(), 3u) << shown_error();
+  press("Pick pairs");
+  click_pairs({place(-40, 0.2), place(40, 0.3), place(5, 0.85)}, tipped());
+  EXPECT_TRUE(named(window.explorer(), "join_run")->isEnabled());
+  window.explorer().list().select(store.models()[1].id);
+  ASSERT_TRUE(click(named(window.explorer(), "edit_smooth")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(data(1).passes, nullptr);
+  EXPECT_FALSE(named(window.explorer(), "join_run")->isEnabled());
+  EXPECT_FALSE(named(window.explorer(), "join_pick")->isEnabled());
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(named(window.explorer(), "join_pick")->isEnabled());
+}
+
 }  // namespace
 }  // namespace turnscan::studio

@@ -47,7 +47,7 @@ QString shown_language() {
 void install_language(QCoreApplication& app, const QString& code) {
   for (QTranslator* old : app.findChildren<QTranslator*>("studio_language")) delete old;
   if (code == "en") return;
-  const auto install = [&app](QTranslator* translator, bool loaded) {
+  const auto install = [](QTranslator* translator, bool loaded) {
     translator->setObjectName("studio_language");
     if (loaded) {
       QCoreApplication::installTranslator(translator);

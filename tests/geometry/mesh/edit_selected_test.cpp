@@ -94,6 +94,26 @@ TEST(EditSelected, FillsOnlyTheHoleBesideTheSelection) {
   EXPECT_EQ(none->mesh.triangles, open.triangles);
 }
 
+TEST(EditSelected, HolesThatTouchEachOtherAtAVertexAreFilled) {
+  const TriangleMesh ball = sphere(0.03, 4);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Selection some(ball.triangles.size());
+    for (std::size_t t = 0; t < some.size(); ++t) some[t] = random_value(seed, t) > 0.4 ? 1 : 0;
+    const auto torn = without_selected(ball, some);
+    ASSERT_TRUE(torn);
+    ASSERT_FALSE(check_mesh(*torn).manifold);
+    const auto filled = fill_selected_holes(*torn, {}, {});
+    ASSERT_TRUE(filled) << filled.error().text();
+    const MeshReport report = check_mesh(filled->mesh);
+    EXPECT_TRUE(report.closed && report.manifold) << report.text();
+    // Those beside a selection, of which the triangles are as they were.
+    const auto part = fill_selected_holes(*torn, beyond(*torn, Vec3d::UnitY(), 0.01), {});
+    ASSERT_TRUE(part) << part.error().text();
+    EXPECT_GT(part->holes, 0u);
+    EXPECT_LT(part->holes, filled->holes);
+  }
+}
+
 TEST(EditSelected, SmoothsWithinTheSelectionAndLeavesItsRimAndTheRest) {
   TriangleMesh rough = sphere(0.03, 5);
   for (std::size_t v = 0; v < rough.vertices.size(); ++v)

@@ -129,9 +129,15 @@ QWidget* JoinPanel::make_buttons() {
   return box;
 }
 
-const Model* JoinPanel::fixed() const { return parts_.store.find(fixed_->currentData().toInt()); }
+const Model* JoinPanel::chosen(const QComboBox* box) const {
+  const Model* model = parts_.store.find(box->currentData().toInt());
+  // An edit takes the passes from a mesh before the boxes are filled anew.
+  return model && model->data->passes ? model : nullptr;
+}
 
-const Model* JoinPanel::moved() const { return parts_.store.find(moved_->currentData().toInt()); }
+const Model* JoinPanel::fixed() const { return chosen(fixed_); }
+
+const Model* JoinPanel::moved() const { return chosen(moved_); }
 
 bool JoinPanel::is_picking() const { return pick_->isChecked(); }
 
@@ -178,7 +184,7 @@ void JoinPanel::show_pairs() {
   pick_->setEnabled(is_pair());
   undo_->setEnabled(!tool_->empty());
   fit_.reset();
-  if (!is_picking()) {
+  if (!is_picking() || !is_pair()) {
     text_->setText(is_pair()
                        ? tr("Where a pass was not joined, or wrongly, pairs of places on both "
                             "meshes say how it lay.")

@@ -35,6 +35,7 @@ class JoinPanel : public QWidget {
   ~JoinPanel() override;
 
   bool is_picking() const;
+  const Model* chosen(const QComboBox* box) const;
   const Model* fixed() const;  ///< on the left while pairs are picked
   const Model* moved() const;  ///< on the right
 

@@ -4,6 +4,7 @@
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/low_pass.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_edit.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/simplify.hpp>
@@ -36,6 +37,15 @@ std::shared_ptr<const MeshTexture> texture_of_rest(const TriangleMesh& mesh,
   return out;
 }
 
+/// Deleting leaves surfaces that touch at a vertex: cut apart there, each has holes of its own. The
+/// triangles stay in their order, or the mesh as it is.
+Result<TriangleMesh> cut_where_touching(const TriangleMesh& mesh) {
+  TriangleMesh plain = untextured(mesh);
+  if (check_mesh(plain).manifold) return plain;
+  TURNSCAN_ASSIGN(TriangleMesh cut, make_manifold(plain));
+  return cut.triangles.size() == plain.triangles.size() ? cut : plain;
+}
+
 }  // namespace
 
 Result<TriangleMesh> without_selected(const TriangleMesh& mesh, const Selection& selection) {
@@ -52,7 +62,8 @@ Result<TriangleMesh> without_selected(const TriangleMesh& mesh, const Selection&
 Result<HolesFilled> fill_selected_holes(const TriangleMesh& mesh, const Selection& selection,
                                         const RunContext& context) {
   TURNSCAN_TRY(check_input(mesh, selection));
-  TURNSCAN_ASSIGN(FilledMesh made, fill_holes(untextured(mesh), {}, context));
+  TURNSCAN_ASSIGN(const TriangleMesh apart, cut_where_touching(mesh));
+  TURNSCAN_ASSIGN(FilledMesh made, fill_holes(apart, {}, context));
   if (selection.empty()) return HolesFilled{std::move(made.mesh), made.holes};
   // A patch is what hangs together by edges; it stays when one of its edges is a selected
   // triangle's. fill_holes() keeps the triangles that there were, in front.

@@ -19,7 +19,8 @@ struct HolesFilled {
   std::size_t holes = 0;  ///< that were closed
 };
 /// Closes the holes at whose edge a selected triangle lies, as fill_holes() does; the others stay
-/// as they are. Fails as that does.
+/// as they are. Surfaces that touch at a vertex or an edge are cut apart there by make_manifold().
+/// Fails as fill_holes() does.
 Result<HolesFilled> fill_selected_holes(const TriangleMesh& mesh, const Selection& selection,
                                         const RunContext& context);
 
