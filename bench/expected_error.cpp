@@ -2,9 +2,9 @@
 // bad (random_rigs/recipe.hpp, and what vary() changes: sensors that are better, thin objects,
 // scans that break off, dropped frames), reconstructed as the command does, judged by the truth.
 // Usage: expected_error MESHES [FIRST_SEED] [COUNT] [MOST_FRAMES]
-//        expected_error --table MOST_FRAMES
+//        expected_error --table MOST_FRAMES [METRES]
 // The second prints a table of the errors alone: objects, noise and numbers of frames, with the
-// poses known.
+// poses known, METRES (0.9) from the sensor.
 
 #include <fmt/format.h>
 
@@ -163,11 +163,11 @@ void judge(int seed, const Scan& scan, Tally& tally) {
 }
 
 /// A line of the table: one whole turn, of which the recording knows all.
-void print_row(const char* object, const char* noise, int frames) {
+void print_row(const char* object, const char* noise, int frames, double distance_m) {
   SceneDescription scene;
   scene.object = object;
   scene.object_placement.height_m = 0.18;
-  scene.placement.distance_m = 0.9;
+  scene.placement.distance_m = distance_m;
   scene.motion.frames = frames;
   scene.motion.turns = 1.0;
   scene.measure.noise = noise;
@@ -187,27 +187,27 @@ void print_row(const char* object, const char* noise, int frames) {
   std::fflush(stdout);
 }
 
-void print_table(int most_frames) {
+void print_table(int most_frames, double distance_m) {
   fmt::print("| object | noise | frames | expected, median, mm | 68 % | 95 % |\n");
   for (const int frames : {36, 120, 400, 920}) {
     if (frames > most_frames) break;
     for (const char* object : {"builtin:letter-a", "builtin:scorpion", "builtin:doll"})
-      for (const char* noise : {"gaussian:1.5mm", "model", "physics"})
-        print_row(object, noise, frames);
+      for (const char* noise : {"gaussian:0.4mm", "gaussian:1.5mm", "model", "physics"})
+        print_row(object, noise, frames, distance_m);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string_view(argv[1]) == "--table") {
-    print_table(std::stoi(argv[2]));
+  if ((argc == 3 || argc == 4) && std::string_view(argv[1]) == "--table") {
+    print_table(std::stoi(argv[2]), argc == 4 ? std::stod(argv[3]) : 0.9);
     return 0;
   }
   if (argc < 2 || argc > 5) {
     fmt::print(stderr,
                "usage: expected_error MESHES [FIRST_SEED] [COUNT] [MOST_FRAMES]\n"
-               "       expected_error --table MOST_FRAMES\n");
+               "       expected_error --table MOST_FRAMES [METRES]\n");
     return 2;
   }
   const auto number = [&](int k, int fallback) { return argc > k ? std::stoi(argv[k]) : fallback; };

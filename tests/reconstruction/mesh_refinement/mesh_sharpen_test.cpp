@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/random.hpp>
@@ -198,33 +199,97 @@ std::vector<views::DepthView> noisy_views(double share, double sigma_m, double t
   return views;
 }
 
+/// A ball of 40 mm with waves of 1.5 mm.
+TriangleMesh wavy_ball() {
+  TriangleMesh mesh;
+  constexpr std::uint32_t columns = 120, rows = 60;
+  for (std::uint32_t j = 0; j <= rows; ++j) {
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const double a = kTurn * i / columns, b = 0.5 * kTurn * (double(j) / rows - 0.5);
+      const double r = 0.04 + 0.0015 * std::sin(5.0 * a) * std::cos(6.0 * b);
+      mesh.vertices.push_back(
+          (r * Vec3d(std::cos(b) * std::sin(a), std::sin(b), std::cos(b) * std::cos(a)))
+              .cast<float>());
+      if (j == 0) continue;
+      const std::uint32_t right = (i + 1) % columns, low = (j - 1) * columns, up = j * columns;
+      mesh.triangles.push_back({low + i, low + right, up + right});
+      mesh.triangles.push_back({low + i, up + right, up + i});
+    }
+  }
+  return mesh;
+}
+
+/// The ball from all sides, with noise that was averaged over neighbours along the rows.
+std::vector<views::DepthView> noisy_views_of(const TriangleMesh& mesh, double share,
+                                             double sigma_m) {
+  std::vector<views::DepthView> views;
+  for (int v = 0; v < 24; ++v) {
+    views::DepthView view = camera(0.26 * v);
+    const views::ViewDrawing drawing(view, mesh);
+    const auto noise = [&](int x, int y) {
+      return sigma_m *
+             standard_normal(hash_key(2, std::uint64_t(v), std::uint64_t(x + 5), std::uint64_t(y)));
+    };
+    for (int y = 1; y < 59; ++y) {
+      for (int x = 1; x < 79; ++x) {
+        const auto received = drawing.received(x, y);
+        if (!(received.light > 0.0f)) continue;
+        const double z = double(received.mean()) + share * noise(x - 1, y) +
+                         (1.0 - 2.0 * share) * noise(x, y) + share * noise(x + 1, y);
+        view.pixels[std::size_t(80 * y + x)] =
+            views::DepthView::pack(std::uint32_t(std::lround(z * 1e4)), false, 0);
+      }
+    }
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
 TEST(ShareOfNeighbours, IsThatOfTheFilter) {
-  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.0, 0.0015, 0.005), 0.0015), 0.0);
-  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(0.2, 0.003, 0.005), 0.0015), 0.2, 0.03);
-  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(0.25, 0.003, 0.005), 0.0015), 0.25, 0.03);
-  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(1.0 / 3.0, 0.003, 0.005), 0.0015),
-              1.0 / 3.0, 0.03);
+  const auto found = [](double share, double sigma_m) {
+    return estimation::share_of_neighbours(noisy_views(share, sigma_m, 0.005), 0.0015).value();
+  };
+  EXPECT_EQ(found(0.0, 0.0015), 0.0);
+  EXPECT_NEAR(found(0.2, 0.003), 0.2, 0.03);
+  EXPECT_NEAR(found(0.25, 0.003), 0.25, 0.03);
+  EXPECT_NEAR(found(1.0 / 3.0, 0.003), 1.0 / 3.0, 0.03);
 }
 
 TEST(ShareOfNeighbours, IsThatOfTheFilterWhereEveryViewIsFromAnotherSide) {
-  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.0, 0.0015, 0.1), 0.0015), 0.0);
-  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(0.25, 0.003, 0.1), 0.0015), 0.25, 0.04);
-  EXPECT_NEAR(estimation::share_of_neighbours(noisy_views(1.0 / 3.0, 0.003, 0.1), 0.0015),
-              1.0 / 3.0, 0.04);
-  // What bends is the surface.
-  EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.0, 0.0002, 0.1), 0.0015), 0.0);
+  const TriangleMesh ball = wavy_ball();
+  TriangleMesh rough = ball;  // as noise leaves it
+  for (std::size_t v = 0; v < rough.vertices.size(); ++v)
+    rough.vertices[v] *= 1.0f + 0.005f * float(standard_normal(hash_key(3, v)));
+  for (const TriangleMesh& mesh : {ball, rough}) {
+    for (const double share : {0.0, 0.2, 0.25, 1.0 / 3.0}) {
+      const auto views = noisy_views_of(ball, share, 0.002);
+      EXPECT_FALSE(estimation::share_of_neighbours(views, 0.0015));
+      EXPECT_NEAR(estimation::share_of_neighbours(views, mesh, 0.0015), share, 0.04);
+    }
+  }
 }
 
 TEST(ShareOfNeighbours, IsZeroWhereNothingTells) {
-  EXPECT_EQ(estimation::share_of_neighbours({}, 0.001), 0.0);
+  EXPECT_FALSE(estimation::share_of_neighbours({}, 0.001));
+  EXPECT_EQ(estimation::share_of_neighbours({}, plate(), 0.001), 0.0);
   // Without noise.
   EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.3, 0.0, 0.005), 3e-5), 0.0);
   // What differs is the surface, which turned.
   EXPECT_EQ(estimation::share_of_neighbours(noisy_views(0.3, 0.0001, 0.02), 3e-5), 0.0);
+  // The mesh is of something else, or none of it is there.
+  const auto views = noisy_views_of(wavy_ball(), 0.3, 0.002);
+  EXPECT_EQ(estimation::share_of_neighbours(views, plate(), 0.0015), 0.0);
+  EXPECT_EQ(estimation::share_of_neighbours(views, TriangleMesh(), 0.0015), 0.0);
+  // What the mesh lacks bends.
+  TriangleMesh smooth = wavy_ball();
+  for (Vec3f& p : smooth.vertices) p *= 0.04f / p.norm();
+  EXPECT_EQ(
+      estimation::share_of_neighbours(noisy_views_of(wavy_ball(), 0.0, 0.0002), smooth, 0.0015),
+      0.0);
   // Rays of another kind.
   std::vector<views::DepthView> parallel = noisy_views(0.3, 0.003, 0.005);
   for (views::DepthView& view : parallel) view.parallel = true;
-  EXPECT_EQ(estimation::share_of_neighbours(parallel, 0.0015), 0.0);
+  EXPECT_FALSE(estimation::share_of_neighbours(parallel, 0.0015));
 }
 
 TEST(ViewDrawing, HoldsTheNearestSurfaceAndItsLight) {

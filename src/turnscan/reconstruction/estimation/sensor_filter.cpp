@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
+#include <turnscan/reconstruction/views/view_drawing.hpp>
 
 namespace turnscan::estimation {
 
@@ -16,11 +18,13 @@ constexpr std::size_t kFewest = 2000;  // differences that an estimate needs
 constexpr double kNoiseSlack = 3.0;
 /// Below, what neighbours have in common moves no edge that matters.
 constexpr double kLeastShare = 0.1;
-/// Of the ratios of variances, within one view: what a surface that bends adds fits no filter.
+/// Of the ratios of variances, beside a mesh: what it lacks of the surface fits no filter.
 constexpr double kMostMiss = 0.08;
+constexpr std::size_t kMostDrawn = 24;  // views beside which a mesh is drawn
+/// Of the noise: what lies farther off the mesh is not its surface.
+constexpr double kFarthestOff = 8.0;
 
-/// Absolute differences over 1, 2 and 3 pixels along rows: second ones of the difference of two
-/// views, or third ones of one view.
+/// Absolute second differences over 1, 2 and 3 pixels along the rows of what two images differ by.
 struct Differences {
   std::array<std::vector<double>, kApart> over;
   void append(const Differences& other) {
@@ -36,51 +40,63 @@ bool nearly_same_place(const views::DepthView& a, const views::DepthView& b) {
          a.fy == b.fy && a.unit_m == b.unit_m && !a.parallel && !b.parallel;
 }
 
+using Row = std::vector<std::optional<float>>;
+
+void append_row(const Row& row, Differences& out) {
+  for (std::size_t x = kApart; x + kApart < row.size(); ++x) {
+    const auto around = row.begin() + std::ptrdiff_t(x);
+    if (!std::all_of(around - kApart, around + kApart + 1,
+                     [](const auto& d) { return d.has_value(); }))
+      continue;
+    for (std::size_t n = 1; n <= kApart; ++n)
+      out.over[n - 1].push_back(std::abs(*row[x - n] - 2.0f * *row[x] + *row[x + n]));
+  }
+}
+
+/// 0 outside the image, and where nothing was measured.
+std::uint32_t pixel_at(const views::DepthView& view, int x, int y) {
+  return x < 0 || y < 0 || x >= view.width || y >= view.height
+             ? 0u
+             : view.pixels[std::size_t(y) * std::size_t(view.width) + std::size_t(x)];
+}
+
+bool measured_off_edges(std::uint32_t pixel) {
+  return (pixel & 0xffffu) != 0 && (pixel & views::DepthView::kEdge) == 0;
+}
+
 Differences differences(const views::DepthView& a, const views::DepthView& b) {
   Differences out;
   const int du = int(std::lround(b.cx - a.cx)), dv = int(std::lround(b.cy - a.cy));
-  const auto at = [](const views::DepthView& view, int x, int y) {
-    return x < 0 || y < 0 || x >= view.width || y >= view.height
-               ? 0u
-               : view.pixels[std::size_t(y) * std::size_t(view.width) + std::size_t(x)];
-  };
-  std::vector<std::optional<int>> row(std::size_t(a.width));
+  Row row(std::size_t(a.width));
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
-      const std::uint32_t p = at(a, x, y), q = at(b, x + du, y + dv);
-      const bool good =
-          (p & 0xffffu) != 0 && (q & 0xffffu) != 0 && ((p | q) & views::DepthView::kEdge) == 0;
-      row[std::size_t(x)] =
-          good ? std::optional(int(p & 0xffffu) - int(q & 0xffffu)) : std::nullopt;
+      const std::uint32_t p = pixel_at(a, x, y), q = pixel_at(b, x + du, y + dv);
+      row[std::size_t(x)] = measured_off_edges(p) && measured_off_edges(q)
+                                ? std::optional(float(p & 0xffffu) - float(q & 0xffffu))
+                                : std::nullopt;
     }
-    for (std::size_t x = kApart; x + kApart < row.size(); ++x) {
-      const auto around = row.begin() + std::ptrdiff_t(x);
-      if (!std::all_of(around - kApart, around + kApart + 1,
-                       [](const auto& d) { return d.has_value(); }))
-        continue;
-      for (std::size_t n = 1; n <= kApart; ++n)
-        out.over[n - 1].push_back(std::abs(*row[x - n] - 2 * *row[x] + *row[x + n]));
-    }
+    append_row(row, out);
   }
   return out;
 }
 
-/// Third differences, which smooth surfaces hardly have.
-Differences differences(const views::DepthView& view) {
+/// Of a view and the mesh as it would see it, in units of the view.
+Differences differences(const views::DepthView& view, const TriangleMesh& mesh, double noise_m) {
   Differences out;
-  constexpr int kReach = 3 * kApart;
+  const views::ViewDrawing drawing(view, mesh);
+  const float most = float(kFarthestOff * noise_m) / view.unit_m;
+  Row row(std::size_t(view.width));
   for (int y = 0; y < view.height; ++y) {
-    const auto row = view.pixels.begin() + std::ptrdiff_t(y) * view.width;
-    for (int x = 0; x + kReach < view.width; ++x) {
-      if (!std::all_of(row + x, row + x + kReach + 1, [](std::uint32_t p) {
-            return (p & 0xffffu) != 0 && (p & views::DepthView::kEdge) == 0;
-          }))
-        continue;
-      for (int n = 1; n <= kApart; ++n) {
-        const auto at = [&](int k) { return int(row[x + k * n] & 0xffffu); };
-        out.over[std::size_t(n - 1)].push_back(std::abs(at(3) - 3 * at(2) + 3 * at(1) - at(0)));
-      }
+    for (int x = 0; x < view.width; ++x) {
+      row[std::size_t(x)].reset();
+      const std::uint32_t p = pixel_at(view, x, y);
+      if (!measured_off_edges(p)) continue;
+      const auto drawn = drawing.received(x, y);
+      if (!(drawn.light > 0.0f)) continue;
+      const float off = float(p & 0xffffu) - (drawn.mean() - view.bias_m) / view.unit_m;
+      if (std::abs(off) < most) row[std::size_t(x)] = off;
     }
+    append_row(row, out);
   }
   return out;
 }
@@ -107,17 +123,11 @@ std::array<double, 2> expected_of_second(double share) {
   return {1.0 - (8.0 * one - 2.0 * two) / (6.0 * none), 1.0 - 8.0 * two / (6.0 * none)};
 }
 
-/// The same of third differences.
-std::array<double, 2> expected_of_third(double share) {
-  const auto [none, one, two] = covariances(share);
-  return {1.0 - (30.0 * one - 12.0 * two) / (20.0 * none), 1.0 - 30.0 * two / (20.0 * none)};
-}
-
 /// The share whose ratios are nearest to those of the differences. variances: of a difference of
 /// independent values. 0 where there are too few, where rounding or the surface makes them, or
 /// where no share misses the ratios by less than most_miss.
-double share_from(Differences& all, double variances, std::array<double, 2> (*expected)(double),
-                  double most_miss, double unit_m, double noise_m) {
+double share_from(Differences& all, double variances, double most_miss, double unit_m,
+                  double noise_m) {
   if (all.over[0].size() < kFewest) return 0.0;
   std::array<double, kApart> deviation{};
   for (std::size_t n = 0; n < deviation.size(); ++n)
@@ -129,36 +139,43 @@ double share_from(Differences& all, double variances, std::array<double, 2> (*ex
   double best = 0.0, least = 1e30;
   for (int step = 0; step <= 100; ++step) {
     const double share = step / 300.0;
-    const auto [first, second] = expected(share);
+    const auto [first, second] = expected_of_second(share);
     const double miss = std::hypot(one - first, two - second);
     if (miss < least) least = miss, best = share;
   }
   return best < kLeastShare || least > most_miss ? 0.0 : best;
 }
 
+Differences joined(const std::vector<Differences>& parts) {
+  Differences all;
+  for (const Differences& one : parts) all.append(one);
+  return all;
+}
+
 }  // namespace
 
-double share_of_neighbours(std::span<const views::DepthView> views, double noise_m) {
-  if (views.empty()) return 0.0;
-  const double unit_m = double(views[0].unit_m);
+std::optional<double> share_of_neighbours(std::span<const views::DepthView> views, double noise_m) {
+  if (views.empty()) return std::nullopt;
   std::vector<Differences> own(views.size());
   parallel_for(own.size() - 1, 1, [&](std::size_t v) {
     if (nearly_same_place(views[v], views[v + 1])) own[v] = differences(views[v], views[v + 1]);
   });
-  const auto joined = [&] {
-    Differences all;
-    for (const Differences& one : own) all.append(one);
-    return all;
-  };
-  Differences between = joined();
-  if (between.over[0].size() >= kFewest)
-    return share_from(between, 12.0, expected_of_second, 1e30, unit_m, noise_m);
-  // Few frames a turn: no two from nearly the same place.
-  parallel_for(own.size(), 1, [&](std::size_t v) {
-    if (!views[v].parallel && views[v].unit_m == views[0].unit_m) own[v] = differences(views[v]);
+  Differences all = joined(own);
+  if (all.over[0].size() < kFewest) return std::nullopt;
+  return share_from(all, 12.0, 1e30, double(views[0].unit_m), noise_m);
+}
+
+double share_of_neighbours(std::span<const views::DepthView> views, const TriangleMesh& mesh,
+                           double noise_m) {
+  if (views.empty()) return 0.0;
+  const float unit_m = views[0].unit_m;
+  std::vector<Differences> own(std::min(views.size(), kMostDrawn));
+  parallel_for(own.size(), 1, [&](std::size_t i) {
+    const views::DepthView& view = views[i * views.size() / own.size()];
+    if (!view.parallel && view.unit_m == unit_m) own[i] = differences(view, mesh, noise_m);
   });
-  Differences within = joined();
-  return share_from(within, 20.0, expected_of_third, kMostMiss, unit_m, noise_m);
+  Differences all = joined(own);
+  return share_from(all, 6.0, kMostMiss, double(unit_m), noise_m);
 }
 
 }  // namespace turnscan::estimation

@@ -15,7 +15,7 @@ namespace {
 
 /// Fitted to simulated scans (bench/expected_error).
 constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
-constexpr double kBlurShare = 0.2, kFilteredBlur = 3.0;  // the second is a factor
+constexpr double kBlurShare = 0.3, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.55;
 /// Behind a filter, of the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
@@ -65,12 +65,16 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const double typical = mesh_refinement::typical_support(support);
   std::optional<ThinWalls> walls;
   if (scale.filtered) walls.emplace(mesh, normals);
+  // Pixels of many frames fall between each other's, so that less noise shows finer detail; what
+  // the sensor itself has averaged over pixels, they do not show.
+  const double window_m2 =
+      scale.filtered ? kFilteredBlur * scale.spacing_m * scale.spacing_m
+                     : kBlurShare * std::pow(scale.spacing_m, 1.5) * std::sqrt(scale.noise_m);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
     const double noise = kNoiseShare * scale.noise_m / std::sqrt(1.0 + double(support[v]));
-    const double window = kBlurShare * (scale.filtered ? kFilteredBlur : 1.0);
-    const double blur = window * bend * scale.spacing_m * scale.spacing_m;
+    const double blur = window_m2 * bend;
     const double floor = kFloorShare * scale.noise_m;
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
     const double mixed = scale.filtered ? kMixedShare * scale.noise_m * lacking : 0.0;

@@ -30,12 +30,12 @@ void measure_confidence(VolumetricPiece& piece) {
 }
 
 Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
-                         const VolumeScale& scale, const RunContext& context) {
+                         const VolumeScale& scale, bool filtered, const RunContext& context) {
   const double tolerance_m = 3.0 * input.noise_m + scale.cell_m;
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
-  const auto expected = quality::expected_errors(
-      piece.mesh, piece.support, {input.noise_m, input.spacing_m, input.filter_share > 0.0});
+  const auto expected = quality::expected_errors(piece.mesh, piece.support,
+                                                 {input.noise_m, input.spacing_m, filtered});
   piece.quality.resize(expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};

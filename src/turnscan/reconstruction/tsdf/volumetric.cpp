@@ -2,6 +2,7 @@
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/simplify.hpp>
+#include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
@@ -28,7 +29,11 @@ class VolumetricReconstruction {
  public:
   VolumetricReconstruction(const VolumetricInput& input, const VolumetricScale& scale,
                            const VolumetricOptions& options, const RunContext& context)
-      : input_(input), scale_(scale), options_(options), context_(context) {}
+      : input_(input),
+        scale_(scale),
+        options_(options),
+        context_(context),
+        filter_share_(input.filter_share) {}
 
   Result<VolumetricResult> run(const Integrator& integrator, double min_share) {
     const Box box = measured_box(input_);
@@ -49,6 +54,7 @@ class VolumetricReconstruction {
       TURNSCAN_TRY(color(piece));
       TURNSCAN_TRY(measure(piece));
     }
+    out_.filter_share = filter_share_.value_or(0.0);
     return std::move(out_);
   }
 
@@ -82,10 +88,10 @@ class VolumetricReconstruction {
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
-      if (options_.sharpen && input_.filter_share > 0.0)
+      const double share = filter_share(fitted.mesh);
+      if (options_.sharpen && share > 0.0)
         TURNSCAN_TRY(timed("sharpen", [&] {
-          return sharpen_mesh(fitted.mesh, input_.views, input_.filter_share, fit_scale(),
-                              context_);
+          return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
       if (options_.fit)
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface.unseen); }));
@@ -98,6 +104,15 @@ class VolumetricReconstruction {
     piece.mesh = refined.size() == 1 ? std::move(refined[0]) : join_meshes(refined);
     out_.pieces.push_back(std::move(piece));
     return {};
+  }
+
+  /// mesh: the first one decides where views alone do not tell.
+  double filter_share(const TriangleMesh& mesh) {
+    if (!filter_share_)
+      timed("sensor filter", [&] {
+        filter_share_ = estimation::share_of_neighbours(input_.views, mesh, input_.noise_m);
+      });
+    return *filter_share_;
   }
 
   Result<> close_unseen(MeshFit& fitted, const UnseenSpace& unseen) const {
@@ -142,7 +157,7 @@ class VolumetricReconstruction {
   Result<> measure(VolumetricPiece& piece) {
     measure_confidence(piece);
     const auto quality = [&]() -> Result<> {
-      TURNSCAN_TRY(measure_quality(piece, input_, scale_.volume, context_));
+      TURNSCAN_TRY(measure_quality(piece, input_, scale_.volume, filter_share_ > 0.0, context_));
       measure_evidence(piece, scale_.volume);
       return measure_no_return(piece, input_.views, context_);
     };
@@ -172,6 +187,7 @@ class VolumetricReconstruction {
   const VolumetricScale& scale_;
   const VolumetricOptions& options_;
   const RunContext& context_;
+  std::optional<double> filter_share_;
   VolumetricResult out_;
 };
 

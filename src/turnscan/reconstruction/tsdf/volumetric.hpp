@@ -17,13 +17,14 @@ struct VolumetricInput {
   /// Distance between samples over spacing_m. A camera's many frames fall between each other's
   /// pixels; a few range scans do not.
   double cells_of_spacing = 0.42;
-  double filter_share = 0.0;     ///< of a pixel's neighbours in its depth, see sensor_filter.hpp
-  bool profiles = false;         ///< of a line scanner: views are parts of one long scan
-  bool colored = false;          ///< the mesh gets the views' colours
-  std::optional<double> cell_m;  ///< distance between samples; nullopt: from the spacing
-  std::optional<int> grid;       ///< or: samples along the longest side
-  int keep = 0;                  ///< largest pieces that are kept; 0: all
-  double gap_m = 0.0;            ///< components closer than this are one piece
+  /// Of a pixel's neighbours in its depth, see sensor_filter.hpp; nullopt: from the first mesh.
+  std::optional<double> filter_share = 0.0;
+  bool profiles = false;             ///< of a line scanner: views are parts of one long scan
+  bool colored = false;              ///< the mesh gets the views' colours
+  std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
+  std::optional<int> grid;           ///< or: samples along the longest side
+  int keep = 0;                      ///< largest pieces that are kept; 0: all
+  double gap_m = 0.0;                ///< components closer than this are one piece
   std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
   std::vector<Platter> platters;     ///< instead, of several passes
 };
@@ -43,6 +44,7 @@ struct VolumetricPiece {
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
+  double filter_share = 0.0;            ///< as was told, or was found
   std::vector<StageTime> stages;
 };
 

@@ -367,11 +367,6 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
     TURNSCAN_TRY(integrate_pending(true, context));
   }
   TURNSCAN_TRY(context.check());
-  if (options_.volumetric.sharpen && input_.filter_share > 0.0)
-    out.notes.push_back(fmt::format(
-        "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
-        "edges are sharpened",
-        200.0 * input_.filter_share));
   input_.views = kept_.take();
   input_.platters = scale_.volume.platters = platters_;
   {
@@ -382,6 +377,11 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
   TURNSCAN_ASSIGN(VolumetricResult result,
                   reconstruct_volume(input_, scale_, integrator_, options_.volumetric,
                                      options_.components.min_share, context));
+  if (options_.volumetric.sharpen && result.filter_share > 0.0)
+    out.notes.push_back(fmt::format(
+        "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
+        "edges are sharpened",
+        200.0 * result.filter_share));
   out.choices.insert(out.choices.end(), scale_.choices.begin(), scale_.choices.end());
   out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
   const StageTimer timer(out.stages, "check");
