@@ -33,8 +33,8 @@ Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames
 /// Gives every object its verdict, and its expected errors the part of the calibration.
 ///
 /// green: the share of the surface that frames could see which is expected within 1 mm of the truth
-/// is 0.97 or more, and hardly a frame could see at most 0.10 of the surface (the base on the
-/// platter apart). red: less than 0.85, or more than 0.25; or the mesh is not closed without having
+/// is 0.96 or more, and hardly a frame could see at most 0.10 of the surface (the base on the
+/// platter apart). red: less than 0.84, or more than 0.25; or the mesh is not closed without having
 /// been asked for; or what disturbed the recording was not corrected. amber: else. Objects without
 /// expected errors (methods from points) are amber at best. docs/report.md has the sentences and
 /// how they were judged.
