@@ -129,6 +129,22 @@ bool type(QWidget* edit, const QString& text) {
   return true;
 }
 
+std::string crowded(QWidget& in) {
+  std::string found;
+  for (const QLabel* label : in.findChildren<QLabel*>()) {
+    if (!label->isVisible() || label->text().isEmpty()) continue;
+    const std::string text = label->text().left(40).toStdString();
+    if (label->wordWrap() && label->height() < label->heightForWidth(label->width()))
+      found += "'" + text + "' is cut; ";
+    const QObject* box = label->parent();
+    for (const QWidget* other : label->parentWidget()->findChildren<QWidget*>())
+      if (other != label && other->parent() == box && other->isVisible() &&
+          other->geometry().intersects(label->geometry()))
+        found += "'" + text + "' and " + other->metaObject()->className() + " overlap; ";
+  }
+  return found;
+}
+
 int run_command_line(const QStringList& arguments, QByteArray* out) {
   QProcess process;
   process.start(qEnvironmentVariable("TURNSCAN_BIN"), arguments);

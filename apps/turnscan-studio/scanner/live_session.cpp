@@ -141,6 +141,7 @@ void LiveFeed::Session::begin_seen(const CaptureOptions& options) {
   motion_.reset();
   seen_.reset();
   mesh_ = {};
+  surfaces_ = 0;
   speed_rad_s_ = options.speed_rad_s;
   if (!speed_rad_s_ && header_.turntable) speed_rad_s_ = header_.turntable->speed_rad_s;
   table_given_ = header_.turntable.has_value();
@@ -204,7 +205,11 @@ void LiveFeed::Session::show_seen(double turned_rad) {
   summary.area_m2 = seen_->area_m2();
   summary.share_well = seen_->share_well();
   summary.sides = seen_->sides();
-  if (auto update = surface_->take()) mesh_ = std::move(update->mesh);
+  if (auto update = surface_->take()) {
+    mesh_ = std::move(update->mesh);
+    ++surfaces_;
+  }
+  summary.surfaces = surfaces_;
   const Pose T_sensor_table =
       sensor_pose(header_, 0)->inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
   summary.is_surface = !mesh_.empty();

@@ -97,6 +97,12 @@ void SceneView::Parts::warm_up() {
   cloud.colors = mesh.colors;
   things.push_back(make_drawable(mesh));
   things.push_back(make_drawable(cloud));
+  mesh.colors.clear();
+  auto texture = std::make_shared<MeshTexture>();
+  texture->image = ColorImage(4, 4, Rgb{200, 200, 200});
+  texture->corners.resize(1, {Eigen::Vector2f(0, 0), Eigen::Vector2f(1, 0), Eigen::Vector2f(0, 1)});
+  mesh.texture = std::move(texture);
+  things.push_back(make_drawable(mesh));
   std::vector<vtkSmartPointer<vtkActor>> actors;
   for (const DrawablePtr& thing : things) {
     vtkNew<vtkPolyDataMapper> mapper;
@@ -104,6 +110,7 @@ void SceneView::Parts::warm_up() {
     mapper->SetScalarVisibility(thing->colored);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
+    actor->SetTexture(texture_of(*thing));
     actor->GetProperty()->SetLighting(thing->kind == DrawableKind::kMesh);
     actor->GetProperty()->SetInterpolationToPhong();
     renderers[0]->AddActor(actor);

@@ -49,6 +49,8 @@ void look_of_surface(SurfaceLook look, vtkActor& actor, vtkPolyDataMapper& mappe
   mapper.ScalarVisibilityOn();
 }
 
+}  // namespace
+
 vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable) {
   if (!drawable.picture) return nullptr;
   auto out = vtkSmartPointer<vtkTexture>::New();
@@ -60,8 +62,6 @@ vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable) {
   out->RepeatOn();
   return out;
 }
-
-}  // namespace
 
 int SceneView::add(DrawablePtr drawable, const ItemStyle& style) {
   Parts& p = *parts_;

@@ -126,7 +126,10 @@ void SceneView::set_empty_text(const QString& title, const QString& text) {
 }
 
 void SceneView::set_empty_actions(const std::vector<Action>& actions) {
-  delete parts_->empty_actions;
+  if (parts_->empty_actions) {
+    parts_->empty_actions->hide();
+    parts_->empty_actions->deleteLater();  // it may be one of them that was clicked
+  }
   auto* row = new QWidget(this);
   auto* layout = new QHBoxLayout(row);
   layout->setSpacing(10);

@@ -117,5 +117,7 @@ struct SceneView::Parts {
 };
 
 Segments box_segments(const Box& box);
+/// nullptr where it has none.
+vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable);
 
 }  // namespace turnscan::studio
