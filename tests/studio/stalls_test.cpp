@@ -61,10 +61,13 @@ TEST_F(Stalls, ASensorOf30FramesASecondIsRecordedWhileTheSurfaceGrows) {
   for (QCheckBox* box : mode.findChildren<QCheckBox*>())
     if (box->text() == "Make the mesh when it is done") box->setChecked(false);
   ASSERT_TRUE(type(named(mode, "option:speed"), "45"));  // a turn in 240 frames of 30 a second
+  watch.reset();
   ASSERT_TRUE(click(button_with(mode, "Play")));
   QWidget* record = named(mode, "record");
   ASSERT_TRUE(wait_for([&] { return record->isEnabled(); }, 180.0));
   run_for(500);
+  note("opening the sensor");
+  run_for(1000);
   note("playing");
   ASSERT_TRUE(click(record));
   ASSERT_TRUE(wait_for([&] { return mode.is_recording(); }));

@@ -5,6 +5,7 @@
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/stopwatch.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 #include <turnscan/workflow/scan/capture_outcome.hpp>
@@ -207,6 +208,8 @@ void LiveFeed::Session::show_seen(double turned_rad) {
   summary.sides = seen_->sides();
   if (auto update = surface_->take()) {
     mesh_ = std::move(update->mesh);
+    // Once a surface: what draws it would look for creases otherwise, each time.
+    if (mesh_.normals.empty()) mesh_.normals = vertex_normals(mesh_);
     ++surfaces_;
   }
   summary.surfaces = surfaces_;

@@ -229,6 +229,7 @@ void ScannerMode::toggle_play() {
   play_->setText(tr("Stop"));
   live_text_->setText(tr("Opening %1").arg(device_->currentText()));
   feed_->start(played_uri_.toStdString());
+  view().set_live(true);
   show_empty_text();
   poll_->start();
 }
@@ -260,6 +261,7 @@ void ScannerMode::ended() {
   averaging_ = false;
   play_->setText(tr("Play"));
   play_->setEnabled(true);
+  view().set_live(false);
   show_empty_text();
   live_text_->setText(tr("Not playing"));
   average_->setEnabled(false);

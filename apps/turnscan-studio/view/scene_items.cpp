@@ -93,7 +93,7 @@ vtkActor* SceneView::actor_of(Item& item, std::size_t chunk) {
   mapper->StaticOn();
   if (parts_->clip_planes->GetNumberOfItems() > 0 && item.style.boxed)
     mapper->SetClippingPlanes(parts_->clip_planes);
-  if (!item.texture) item.texture = texture_of(*item.drawable);
+  if (!item.texture && item.drawable->picture) parts_->give_texture(item);
   actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   style_actor(item, actor);

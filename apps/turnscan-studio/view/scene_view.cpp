@@ -114,6 +114,12 @@ void SceneView::set_split(bool on, const QString& left, const QString& right) {
   request_render();
 }
 
+void SceneView::set_live(bool live) {
+  if (live == parts_->live) return;
+  parts_->live = live;
+  request_render();
+}
+
 void SceneView::set_legend(const Legend& legend) {
   parts_->legend = legend;
   update_overlay();
