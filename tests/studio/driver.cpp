@@ -124,6 +124,7 @@ bool type(QWidget* edit, const QString& text) {
   if (!line) return false;
   if (!click(line)) return false;
   line->selectAll();
+  QTest::keyClick(line, Qt::Key_Delete);
   QTest::keyClicks(line, text);
   QApplication::processEvents();
   return true;
