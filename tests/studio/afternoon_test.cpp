@@ -244,6 +244,10 @@ void Afternoon::fill_the_disk() {
 void Afternoon::edit() {
   const std::size_t triangles = model("doll (2) mesh").data->mesh.triangles.size();
   const auto now = [&] { return model("doll (2) mesh").data->mesh.triangles.size(); };
+  // What came last is shown alone.
+  EXPECT_FALSE(model("doll (2) mesh").visible);
+  store.set_visible(model("scorpion (2) mesh").id, false);
+  store.set_visible(model("doll (2) mesh").id, true);
   window.explorer().list().select(model("doll (2) mesh").id);
   view.look(StandardView::kFront);
   ASSERT_TRUE(wait_idle(window));

@@ -1745,6 +1745,10 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
             <numerusform>; quedan %n trozos pequeños, véase Trozos pequeños</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 is hidden: show it in the list first</source>
+        <translation>%1 está oculto: muéstrelo primero en la lista</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ExplorerMode</name>

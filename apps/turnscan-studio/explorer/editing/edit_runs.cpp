@@ -40,7 +40,9 @@ void EditPanel::pick(const ScreenRegion& region, std::optional<SelectHow> keys) 
   const Model* model = target();
   if (!model) return;
   const auto how = keys.value_or(static_cast<SelectHow>(how_->currentIndex()));
-  error_->show_text({});
+  error_->show_text(
+      model->visible ? QString() : tr("%1 is hidden: show it in the list first").arg(model->name));
+  if (!model->visible) return;
   parts_.jobs.start(
       tr("Select"), this,
       [this, data = model->data, before = selection(), region, how, screen = screen_of(parts_.view),
