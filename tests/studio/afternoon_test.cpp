@@ -17,6 +17,7 @@
 #include <QPushButton>
 #include <QTest>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/geometry/selection/selection.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 
@@ -67,6 +68,8 @@ class Afternoon : public ::testing::Test, FirstStart {
     return killed.isEmpty() ? folder.filePath(name) : QDir(killed).filePath(name);
   }
   void picture(const QString& name) {
+    run_for(60);
+    EXPECT_EQ(crowded(window), "") << name.toStdString();
     keep_picture(window, QString("%1-%2").arg(++pictures, 2, 10, QChar('0')).arg(name));
   }
   void press(QWidget* widget, const char* what) {
@@ -132,6 +135,15 @@ class Afternoon : public ::testing::Test, FirstStart {
     EXPECT_TRUE(check_mesh(made.data->mesh).watertight());
     picture(object + "-joined");
   }
+  /// As many turns are recorded while this lives.
+  struct Turns {
+    Turns(Afternoon& of, const char* count) : test(of) {
+      test.window.show_mode("scanner");
+      EXPECT_TRUE(type(named(test.window.scanner(), "option:turns"), count));
+    }
+    ~Turns() { EXPECT_TRUE(type(named(test.window.scanner(), "option:turns"), "")); }
+    Afternoon& test;
+  };
   void drag(const std::vector<QPoint>& way) {
     QWidget* canvas = view.childAt(view.rect().center());
     QTest::mousePress(canvas, Qt::LeftButton, {}, way.front());
@@ -200,17 +212,21 @@ void Afternoon::restore_what_was_killed() {
 }
 
 void Afternoon::lose_the_device() {
-  play(device("doll", "&realtime=1&fault=lost@3s"), "unplugged");
+  const Turns many(*this, "100");  // the device goes before they are done
+  play(device("doll", "&realtime=1&fault=lost@4s"), "unplugged");
   press(named(window.scanner(), "record"), "record");
   ASSERT_TRUE(wait_for([&] { return button_with(window.scanner(), "Play") != nullptr; }));
   picture("unplugged");
   const auto kept = Recording::open(path("unplugged").toStdString());
   ASSERT_TRUE(kept.has_value());
   EXPECT_GT(kept->frames().size(), 10u);
+  // The reason stands where the person is.
+  EXPECT_EQ(&window.mode(), &window.scanner());
   EXPECT_FALSE(errors(window.scanner()).isEmpty());
 }
 
 void Afternoon::fill_the_disk() {
+  const Turns many(*this, "100");
   play(device("scorpion", "&realtime=1"), "no-room");
   press(named(window.scanner(), "record"), "record");
   ASSERT_TRUE(wait_for([&] { return QDir(path("no-room/depth")).count() > 6; }));
@@ -218,6 +234,7 @@ void Afternoon::fill_the_disk() {
     const turnscan::testing::FullDisk full(5000);
     ASSERT_TRUE(wait_for([&] { return errors(window.scanner()).contains("no-room"); }));
   }
+  EXPECT_EQ(&window.mode(), &window.scanner());
   picture("disk-full");
   const auto kept = Recording::open(path("no-room").toStdString());
   ASSERT_TRUE(kept.has_value());
@@ -227,6 +244,10 @@ void Afternoon::fill_the_disk() {
 void Afternoon::edit() {
   const std::size_t triangles = model("doll (2) mesh").data->mesh.triangles.size();
   const auto now = [&] { return model("doll (2) mesh").data->mesh.triangles.size(); };
+  // What came last is shown alone.
+  EXPECT_FALSE(model("doll (2) mesh").visible);
+  store.set_visible(model("scorpion (2) mesh").id, false);
+  store.set_visible(model("doll (2) mesh").id, true);
   window.explorer().list().select(model("doll (2) mesh").id);
   view.look(StandardView::kFront);
   ASSERT_TRUE(wait_idle(window));
@@ -239,6 +260,14 @@ void Afternoon::edit() {
   ASSERT_TRUE(wait_idle(window));
   EXPECT_LT(now(), triangles);
   picture("deleted");
+  if (small_pieces(model("doll (2) mesh").data->mesh, 0.05).pieces > 0) {
+    ASSERT_NO_FATAL_FAILURE(press_named("select_small"));
+    QTest::keyClick(&window, Qt::Key_Delete);
+    ASSERT_TRUE(wait_idle(window));
+    EXPECT_EQ(small_pieces(model("doll (2) mesh").data->mesh, 0.05).pieces, 0u);
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  }
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(now(), triangles);
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);

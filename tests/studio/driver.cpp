@@ -124,9 +124,26 @@ bool type(QWidget* edit, const QString& text) {
   if (!line) return false;
   if (!click(line)) return false;
   line->selectAll();
+  QTest::keyClick(line, Qt::Key_Delete);
   QTest::keyClicks(line, text);
   QApplication::processEvents();
   return true;
+}
+
+std::string crowded(QWidget& in) {
+  std::string found;
+  for (const QLabel* label : in.findChildren<QLabel*>()) {
+    if (!label->isVisible() || label->text().isEmpty()) continue;
+    const std::string text = label->text().left(40).toStdString();
+    if (label->wordWrap() && label->height() < label->heightForWidth(label->width()))
+      found += "'" + text + "' is cut; ";
+    const QObject* box = label->parent();
+    for (const QWidget* other : label->parentWidget()->findChildren<QWidget*>())
+      if (other != label && other->parent() == box && other->isVisible() &&
+          other->geometry().intersects(label->geometry()))
+        found += "'" + text + "' and " + other->metaObject()->className() + " overlap; ";
+  }
+  return found;
 }
 
 int run_command_line(const QStringList& arguments, QByteArray* out) {

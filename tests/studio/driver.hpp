@@ -64,6 +64,9 @@ bool click(QWidget* widget);
 /// Types a text into a line edit in place of what is there.
 bool type(QWidget* edit, const QString& text);
 
+/// Texts of a window that lie over each other or have less room than their lines need; empty: none.
+std::string crowded(QWidget& in);
+
 /// Runs `turnscan` with the arguments; its exit code.
 int run_command_line(const QStringList& arguments, QByteArray* out = nullptr);
 QByteArray content(const QString& path);

@@ -20,6 +20,7 @@
 #include "driver.hpp"
 #include "explorer/editing/edit_panel.hpp"
 #include "explorer/explorer.hpp"
+#include "explorer/loading.hpp"
 #include "explorer/model_list.hpp"
 #include "tests/geometry/shapes.hpp"
 #include "view/scene_view.hpp"
@@ -79,6 +80,27 @@ class Editing : public ::testing::Test, FirstStart {
   SceneView& view;
   std::size_t each = 0;
 };
+
+TEST_F(Editing, SmallPiecesAreSelectedAndTheirDeletionLeavesTheRest) {
+  press("select_small");
+  EXPECT_NE(shown_error().find("there are none"), std::string::npos) << shown_error();
+  TriangleMesh crumbs = mesh();
+  for (int i = 0; i < 3; ++i)
+    test::append(crumbs, test::sphere(0.002, 1, Vec3d(0.02 * i - 0.02, 0.12, 0)));
+  store.set_data(1, mesh_model(crumbs, "a test"), "crumbs");
+  press("select_small");
+  EXPECT_EQ(selected(), crumbs.triangles.size() - 2 * each);
+  press("edit_delete");
+  EXPECT_EQ(mesh().triangles.size(), 2 * each);
+}
+
+TEST_F(Editing, AHiddenModelSaysSoWhenSomebodySelectsOnTheScreen) {
+  store.set_visible(1, false);
+  press("select_rectangle");
+  drag({{-0.08, 0.09}, {-0.005, 0.01}});
+  EXPECT_EQ(selected(), 0u);
+  EXPECT_NE(shown_error().find("is hidden"), std::string::npos) << shown_error();
+}
 
 TEST_F(Editing, RectangleShowsWhatIsVisibleOrThroughBeforeItIsDeleted) {
   const QImage plain = view.screenshot();

@@ -88,6 +88,32 @@ TEST_F(Layout, EveryModeIsUsableOnASmallScreenAndOnALargeOne) {
   }
 }
 
+TEST_F(Layout, TextsThatGrowAndShrinkGetTheRoomThatTheyNeed) {
+  window.resize(1366, 768);
+  window.show_mode("explorer");
+  ASSERT_TRUE(settled());
+  for (const char* name : {"advice", "verdict_sentences"}) {
+    auto* label = static_cast<ParagraphLabel*>(named(window.explorer(), name));
+    QWidget* below = label;  // the part of the panel that it is in
+    while (below->parentWidget() && below->parentWidget()->objectName() != "panel_body")
+      below = below->parentWidget();
+    std::vector<int> heights;
+    for (const int lines : {3, 9, 4, 12, 2}) {
+      label->show_text(QString("a line of words that is as long as it is. ").repeated(lines));
+      // At once: not even one picture is drawn with texts over each other.
+      EXPECT_EQ(crowded(window.explorer()), "") << name << " " << lines;
+      heights.push_back(below->height() - label->height());
+    }
+    EXPECT_EQ(heights, std::vector<int>(heights.size(), heights[0])) << name;
+    // While another mode is shown, too.
+    window.show_mode("simulator");
+    label->show_text(QString("a line of words that is as long as it is. ").repeated(20));
+    run_for(20);
+    window.show_mode("explorer");
+    EXPECT_EQ(crowded(window.explorer()), "") << name;
+  }
+}
+
 TEST_F(Layout, TheDarkThemeReachesEveryMode) {
   window.settings().set_dark(true);
   for (const char* name : {"scanner", "explorer", "simulator"}) {

@@ -271,6 +271,7 @@ TEST_F(Scanner, AnotherSideIsScannedAndJoined) {
   EXPECT_TRUE(models[3].data->report.contains("2 passes in one mesh"));
   EXPECT_FALSE(models[1].visible);  // the mesh of the first pass alone
   EXPECT_TRUE(models[3].visible);
+  EXPECT_EQ(crowded(window), "");
   keep_picture(window, "explorer-joined");
   window.explorer().save_as(models[3].id, folder.filePath("mesh.ply"));
   ASSERT_TRUE(wait_idle(window));

@@ -51,6 +51,8 @@ class Mode : public QWidget {
   void mode_wanted(const QString& name);
   /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
   void recording_made(const QString& folder, bool reconstruct);
+  /// One that a fault has ended: the Explorer has it, but the reason stands in this mode.
+  void recording_broken_off(const QString& folder);
   /// The Scanner is to add a pass to a recording.
   void another_side_wanted(const AnotherSide& side);
 

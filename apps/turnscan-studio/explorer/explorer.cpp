@@ -29,6 +29,15 @@ namespace turnscan::studio {
 
 namespace {
 
+const QColor kMissingColor(0xff0090);
+
+Legend missing_legend() {
+  Legend legend;
+  legend.title = QObject::tr("Not measured");
+  legend.entries = {{kMissingColor, QObject::tr("no view saw it")}};
+  return legend;
+}
+
 Section* section_with(QWidget* content, const QString& title, bool open, QWidget* parent) {
   auto* section = new Section(title, open, parent);
   section->body()->addWidget(content);
@@ -122,7 +131,10 @@ void ExplorerMode::connect_panels() {
   connect(edits_, &EditPanel::said, this, &Mode::status);
   connect(join_, &JoinPanel::said, this, &Mode::status);
   connect(join_, &JoinPanel::changed, this, &ExplorerMode::sync);
-  connect(side_, &SidePanel::drawn_changed, this, &ExplorerMode::draw_missing);
+  connect(side_, &SidePanel::drawn_changed, this, [this] {
+    draw_missing();
+    draw_colored();
+  });
   connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
   connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
   connect(look_, &LookPanel::isolation_changed, this, &ExplorerMode::sync);
@@ -243,6 +255,7 @@ void ExplorerMode::draw_colored() {
   view().set_legend(wanted && style_of(*model).visible ? colored_.legend
                     : deviations                       ? *deviations
                     : of_comparison                    ? legend_
+                    : missing_.item != 0               ? missing_legend()
                                                        : Legend());
 }
 
@@ -295,7 +308,7 @@ void ExplorerMode::draw_missing() {
   }
   if (!wanted || missing_.item != 0) return;
   ItemStyle style = style_of(*model);
-  style.color = QColor(0xff0090);
+  style.color = kMissingColor;
   style.boxed = style.in_view = false;
   missing_ = {view().add(model->data->missing->drawable, style), model->data, nullptr};
 }

@@ -84,8 +84,10 @@ class ExplorerMode : public Mode {
   void file_opened(const QString& path);
 
  private:
+  enum Beside { kOthers, kAlone };  ///< whether what was shown before stays
   void load(const QString& path, const std::function<void()>& then,
-            std::optional<double> metres_per_unit = std::nullopt);
+            std::optional<double> metres_per_unit = std::nullopt, Beside beside = kOthers);
+  std::vector<int> visible_models() const;
   void movie_dialog();
   void run_filter();
   void run_comparison();

@@ -42,20 +42,22 @@ Legend distance_legend(const QString& reference, const Comparison& made) {
 }  // namespace
 
 void ExplorerMode::load(const QString& path, const std::function<void()>& then,
-                        std::optional<double> metres_per_unit) {
+                        std::optional<double> metres_per_unit, Beside beside) {
   stages_->show_error({});
   jobs().start(
       tr("Open %1").arg(QFileInfo(path).fileName()), this,
-      [this, path, then, metres_per_unit](const RunContext& context) -> Result<Finish> {
+      [this, path, then, metres_per_unit, beside](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(NamedModels models,
                         load_models(path.toStdString(), context, metres_per_unit));
-        return Finish([this, path, then, metres_per_unit, models = std::move(models)] {
+        return Finish([this, path, then, metres_per_unit, beside, models = std::move(models)] {
           if (const auto doubt = doubtful_unit(path, models); doubt && !metres_per_unit) {
             const double unit = ask_unit_(*doubt);
-            if (unit != doubt->metres_per_unit) return load(path, then, unit);
+            if (unit != doubt->metres_per_unit) return load(path, then, unit, beside);
           }
           for (const auto& model : models) store_->set_file(model.second, path);
-          const auto ids = store_->add_all(models, tr("open %1").arg(QFileInfo(path).fileName()));
+          const auto ids =
+              store_->add_instead(models, beside == kAlone ? visible_models() : std::vector<int>(),
+                                  tr("open %1").arg(QFileInfo(path).fileName()));
           list_->select(ids.back());
           Box box;
           for (const auto& [name, made] : models) {
@@ -73,15 +75,20 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then,
 }
 
 void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
-  load(folder, [this, folder, reconstruct] {
-    // What was made of it before it got another pass.
-    std::vector<int> before;
-    for (const Model& model : store_->models())
-      if (model.visible && model.data->missing && model.data->missing->side.recording == folder)
-        before.push_back(model.id);
-    for (const int id : before) store_->set_visible(id, false);
-    if (reconstruct) run_stage(QString::fromStdString(kMeshStage));
-  });
+  // All recordings lie on the same table: what was made before would stand in the new object.
+  load(
+      folder,
+      [this, reconstruct] {
+        if (reconstruct) run_stage(QString::fromStdString(kMeshStage));
+      },
+      {}, kAlone);
+}
+
+std::vector<int> ExplorerMode::visible_models() const {
+  std::vector<int> ids;
+  for (const Model& model : store_->models())
+    if (model.visible) ids.push_back(model.id);
+  return ids;
 }
 
 void ExplorerMode::run_stage(const QString& stage) {
@@ -141,10 +148,13 @@ void ExplorerMode::run_comparison() {
         TURNSCAN_ASSIGN(Comparison made, compare(*a.data, *b.data, options, 0.0, context));
         return Finish([this, a, b, made = std::move(made)] {
           const QString pair = tr("%1 to %2").arg(a.name, b.name);
+          // Alone, for others may lie before it.
           const int id =
-              store_->add_instead({{pair, made.colored}}, {a.id, b.id}, tr("distances")).front();
+              store_->add_instead({{pair, made.colored}}, visible_models(), tr("distances"))
+                  .front();
           list_->select(id);
           compare_->show_figures(pair, made.figures);
+          reveal(compare_);
           legend_model_ = id;
           legend_ = distance_legend(b.name, made);
           sync();

@@ -13,6 +13,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <QVariant>
+#include <algorithm>
 
 #include "explorer/models.hpp"
 #include "widgets/section.hpp"
@@ -22,6 +23,7 @@ namespace turnscan::studio {
 namespace {
 
 constexpr int kIdRole = Qt::UserRole;
+constexpr int kFewestRows = 3, kMostRows = 8;  // that are seen at once
 
 QIcon swatch(const Model& model) {
   QPixmap picture(28, 28);
@@ -55,14 +57,13 @@ ModelList::ModelList(ModelStore& store, QWidget* parent)
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
   tree_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
-  tree_->setMinimumHeight(130);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   properties_->setObjectName("model_properties");
   properties_->setAccessibleName(tr("Properties of the selected model"));
   properties_->setReadOnly(true);
   properties_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  properties_->setLineWrapMode(QPlainTextEdit::NoWrap);
-  properties_->setFixedHeight(130);
+  properties_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
+  properties_->setFixedHeight(112);
   properties_->setPlaceholderText(tr("Properties of the selected model"));
   layout->addWidget(make_buttons());
   layout->addWidget(tree_);
@@ -161,8 +162,17 @@ void ModelList::fill() {
   if (!tree_->currentItem() && tree_->topLevelItemCount() > 0)
     tree_->setCurrentItem(tree_->topLevelItem(tree_->topLevelItemCount() - 1));
   filling_ = false;
+  fit_height();
   show_properties();
   Q_EMIT selection_changed(selected());
+}
+
+/// As high as what is in it: the verdict below is what people look for.
+void ModelList::fit_height() {
+  const int rows = std::clamp(tree_->topLevelItemCount(), kFewestRows, kMostRows);
+  const int row =
+      tree_->topLevelItemCount() > 0 ? tree_->visualItemRect(tree_->topLevelItem(0)).height() : 24;
+  tree_->setFixedHeight(rows * row + 2 * tree_->contentsMargins().top());
 }
 
 void ModelList::on_item_changed(QTreeWidgetItem* item, int column) {

@@ -28,6 +28,7 @@ class ModelList : public QWidget {
 
  private:
   void fill();
+  void fit_height();
   void on_item_changed(QTreeWidgetItem* item, int column);
   void choose_color();
   void show_properties();

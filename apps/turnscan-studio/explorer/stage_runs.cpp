@@ -83,7 +83,7 @@ std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, cons
   const bool is_recording = QFileInfo(QDir(model.data->source).filePath("recording.json")).exists();
   if (is_recording) out->side.recording = model.data->source;
   if (!run.next_pass) {
-    out->side.advice = QObject::tr("Hardly anything of it was not seen.");
+    out->side.advice = QObject::tr("Nearly all of its surface was seen.");
     return out;
   }
   out->side.advice = QString::fromStdString(next_pass_text(*run.next_pass)).replace("cm2", "cm²");

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
@@ -20,10 +21,16 @@ QString light_text(const Verdict& verdict) {
   return QString("%1  %2").arg(sign_of(verdict.level()), colour.toUpper());
 }
 
+/// As a person reads it who does not use the command line.
+QString shown_sentence(const VerdictSentence& sentence) {
+  static const QRegularExpression command(R"( \(turnscan [^)]*\))");
+  return QString::fromStdString(sentence.text).remove(command).replace("cm2", "cm²");
+}
+
 QString sentence_html(const VerdictSentence& sentence) {
   return QString("<p style=\"margin:3px 0\"><span style=\"color:%1\">%2</span>&nbsp;%3</p>")
       .arg(color_of(sentence.level).name(), sign_of(sentence.level),
-           QString::fromStdString(sentence.text).toHtmlEscaped());
+           shown_sentence(sentence).toHtmlEscaped());
 }
 
 }  // namespace
@@ -75,7 +82,8 @@ void VerdictPanel::show_quality(const std::shared_ptr<const ScanQuality>& qualit
   if (!quality) {
     sentences_->show_text(
         tr("Select a mesh that was made from a recording: how good it is, and why, stands here. "
-           "An edited mesh has no verdict."));
+           "One that was edited, opened from a file or restored has no verdict; reconstruct its "
+           "recording for one."));
     return;
   }
   light_->setText(light_text(quality->verdict));

@@ -1083,10 +1083,6 @@ Textura de %1 × %2 téxeles</translation>
         <translation>%1 de %2</translation>
     </message>
     <message>
-        <source>Hardly anything of it was not seen.</source>
-        <translation>Casi no queda nada del objeto sin ver.</translation>
-    </message>
-    <message>
         <source>%1 mesh</source>
         <translation>malla de %1</translation>
     </message>
@@ -1345,6 +1341,18 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
     <message>
         <source>%1 of pass %2</source>
         <translation>%1 de la pasada %2</translation>
+    </message>
+    <message>
+        <source>Not measured</source>
+        <translation>Sin medir</translation>
+    </message>
+    <message>
+        <source>no view saw it</source>
+        <translation>ninguna vista lo vio</translation>
+    </message>
+    <message>
+        <source>Nearly all of its surface was seen.</source>
+        <translation>Se vio casi toda su superficie.</translation>
     </message>
 </context>
 <context>
@@ -1714,6 +1722,32 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
     <message>
         <source>%1; its texture does not fit any more</source>
         <translation>%1; su textura ya no encaja</translation>
+    </message>
+    <message>
+        <source>Small pieces</source>
+        <translation>Trozos pequeños</translation>
+    </message>
+    <message>
+        <source>Select every piece that hangs together with nothing large: below a twentieth of the largest piece</source>
+        <translation>Seleccionar todo trozo que no está unido a nada grande: por debajo de una veinteava parte del mayor</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n small piece(s) selected</source>
+        <translation>
+            <numerusform>%n trozo pequeño seleccionado</numerusform>
+            <numerusform>%n trozos pequeños seleccionados</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>; %n small piece(s) left, see Small pieces</source>
+        <translation>
+            <numerusform>; queda %n trozo pequeño, véase Trozos pequeños</numerusform>
+            <numerusform>; quedan %n trozos pequeños, véase Trozos pequeños</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1 is hidden: show it in the list first</source>
+        <translation>%1 está oculto: muéstrelo primero en la lista</translation>
     </message>
 </context>
 <context>
@@ -3187,6 +3221,14 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <source>Device</source>
         <translation>Dispositivo</translation>
     </message>
+    <message>
+        <source>Waiting for the first picture</source>
+        <translation>Esperando la primera imagen</translation>
+    </message>
+    <message>
+        <source>The device says itself where its table stands.</source>
+        <translation>El propio dispositivo dice dónde está su mesa.</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::SectionPanel</name>
@@ -3585,8 +3627,8 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <translation>Colores propios</translation>
     </message>
     <message>
-        <source>Select a mesh that was made from a recording: how good it is, and why, stands here. An edited mesh has no verdict.</source>
-        <translation>Seleccione una malla hecha a partir de una grabación: aquí se indica cómo de buena es y por qué. Una malla editada no tiene veredicto.</translation>
+        <source>Select a mesh that was made from a recording: how good it is, and why, stands here. One that was edited, opened from a file or restored has no verdict; reconstruct its recording for one.</source>
+        <translation>Seleccione una malla hecha de una grabación: aquí se dice cómo es de buena y por qué. Una que se editó, se abrió de un archivo o se restauró no tiene veredicto; reconstruya su grabación para tenerlo.</translation>
     </message>
 </context>
 <context>

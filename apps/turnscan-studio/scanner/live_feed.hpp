@@ -24,8 +24,9 @@ struct CoverageSummary {
   /// Of the surface, as it would be closed now, that no frame has seen; nullopt: not known yet.
   std::optional<double> share_missing;
   int sides = 0;
-  bool is_surface = false;  ///< the picture is a mesh, else points
-  DrawablePtr picture;      ///< sensor frame, as the table stands now; nullptr once taken
+  std::size_t surfaces = 0;  ///< how many there have been
+  bool is_surface = false;   ///< the picture is a mesh, else points
+  DrawablePtr picture;       ///< sensor frame, as the table stands now; nullptr once taken
 };
 
 /// What is shown of a sensor. Copied out as a whole.

@@ -5,6 +5,7 @@
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/stopwatch.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 #include <turnscan/workflow/scan/capture_outcome.hpp>
@@ -141,6 +142,7 @@ void LiveFeed::Session::begin_seen(const CaptureOptions& options) {
   motion_.reset();
   seen_.reset();
   mesh_ = {};
+  surfaces_ = 0;
   speed_rad_s_ = options.speed_rad_s;
   if (!speed_rad_s_ && header_.turntable) speed_rad_s_ = header_.turntable->speed_rad_s;
   table_given_ = header_.turntable.has_value();
@@ -204,7 +206,13 @@ void LiveFeed::Session::show_seen(double turned_rad) {
   summary.area_m2 = seen_->area_m2();
   summary.share_well = seen_->share_well();
   summary.sides = seen_->sides();
-  if (auto update = surface_->take()) mesh_ = std::move(update->mesh);
+  if (auto update = surface_->take()) {
+    mesh_ = std::move(update->mesh);
+    // Once a surface: what draws it would look for creases otherwise, each time.
+    if (mesh_.normals.empty()) mesh_.normals = vertex_normals(mesh_);
+    ++surfaces_;
+  }
+  summary.surfaces = surfaces_;
   const Pose T_sensor_table =
       sensor_pose(header_, 0)->inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
   summary.is_surface = !mesh_.empty();

@@ -63,6 +63,7 @@ struct LiveFeed::Session {
   std::optional<LiveCoverage> seen_;
   std::unique_ptr<LiveSurface> surface_;
   TriangleMesh mesh_;  ///< the newest of surface_, table frame
+  std::size_t surfaces_ = 0;
   /// Of the last frame of each sensor, the table turned back; where that is known.
   std::vector<std::optional<Pose>> T_turned_sensor_;
 };

@@ -176,6 +176,11 @@ std::optional<RecordingRequest> RecordPanel::request() {
 
 void RecordPanel::show_error(const QString& text) { error_->show_text(text); }
 
+void RecordPanel::forget_last() {
+  error_->show_text({});
+  for (QLabel* label : {text_, seen_}) label->setVisible(false);
+}
+
 QString RecordPanel::progress_text(const LiveState& state) const {
   const CaptureProgress& p = state.progress;
   const QString turns = p.turned_rad ? tr("turn %1").arg(*p.turned_rad / kTurn, 0, 'f', 2)

@@ -37,6 +37,8 @@ class RecordPanel : public QWidget {
   /// What is to be recorded; nullopt: something is wrong, and it is shown.
   std::optional<RecordingRequest> request();
   void show_error(const QString& text);
+  /// What is said of the recording before does not belong to what plays now.
+  void forget_last();
   /// open: a sensor is there to be recorded.
   void show_state(const LiveState& state, bool open);
   MotorPanel& motor() { return *motor_; }

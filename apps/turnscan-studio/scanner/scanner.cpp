@@ -54,12 +54,7 @@ ScannerMode::ScannerMode(const Services& services, QWidget* parent)
   build_recording();
   panel()->addStretch();
   view().set_up(-Vec3d::UnitY());
-  view().set_empty_text(tr("No picture yet"),
-                        tr("Choose a device on the right and press Play. The virtual sensors need "
-                           "no hardware."));
-  view().set_empty_actions({{tr("Play now"), [this] {
-                               if (!feed_->running()) toggle_play();
-                             }}});
+  show_empty_text();
   poll_->setInterval(50);
   connect(poll_, &QTimer::timeout, this, &ScannerMode::poll);
 }
@@ -67,6 +62,21 @@ ScannerMode::ScannerMode(const Services& services, QWidget* parent)
 ScannerMode::~ScannerMode() {
   view().set_tool(nullptr);
   delete quick_;
+}
+
+/// What to do, or that there is nothing to do but wait.
+void ScannerMode::show_empty_text() {
+  if (feed_->running()) {
+    view().set_empty_text(tr("Waiting for the first picture"), {});
+    view().set_empty_actions({});
+    return;
+  }
+  view().set_empty_text(tr("No picture yet"),
+                        tr("Choose a device on the right and press Play. The virtual sensors need "
+                           "no hardware."));
+  view().set_empty_actions({{tr("Play now"), [this] {
+                               if (!feed_->running()) toggle_play();
+                             }}});
 }
 
 void ScannerMode::build_device() {
@@ -213,11 +223,14 @@ void ScannerMode::toggle_play() {
   }
   take_device(chosen_uri());
   kept_is_outdated_ = false;
+  record_->forget_last();
   set_still(false);
   framed_ = false;
   play_->setText(tr("Stop"));
   live_text_->setText(tr("Opening %1").arg(device_->currentText()));
   feed_->start(played_uri_.toStdString());
+  view().set_live(true);
+  show_empty_text();
   poll_->start();
 }
 
@@ -233,8 +246,11 @@ void ScannerMode::poll() {
     const QString folder = QString::fromStdString(state.finished);
     record_->set_next_pass({}, {});
     Q_EMIT status(tr("Wrote %1").arg(shown_path(folder)));
-    // What a fault has ended is for a person to look at first.
-    Q_EMIT recording_made(folder, record_->reconstruct() && state.record_error.empty());
+    if (state.record_error.empty()) {
+      Q_EMIT recording_made(folder, record_->reconstruct());
+    } else {
+      Q_EMIT recording_broken_off(folder);
+    }
   }
   if (end) ended();
 }
@@ -245,6 +261,8 @@ void ScannerMode::ended() {
   averaging_ = false;
   play_->setText(tr("Play"));
   play_->setEnabled(true);
+  view().set_live(false);
+  show_empty_text();
   live_text_->setText(tr("Not playing"));
   average_->setEnabled(false);
   record_->show_state({}, false);
@@ -264,6 +282,7 @@ void ScannerMode::show_state(const LiveState& state) {
                             .arg(state.fps, 0, 'f', 1)
                             .arg(grouped(state.points))
                             .arg(qulonglong(state.dropped)));
+  if (state.table_known && !calibration_) note_known_table();
   if (averaging_)
     calibration_text_->setText(
         tr("Averaging: %1 of %2 frames").arg(state.averaged).arg(options_->average.frames));
@@ -272,6 +291,7 @@ void ScannerMode::show_state(const LiveState& state) {
 
 void ScannerMode::show_picture(const LiveState& state) {
   if (!state.picture || still_) return;
+  ++updates_.pictures;
   const ItemStyle style = picture_style(true);
   if (live_item_ == 0) {
     live_item_ = view().add(state.picture, style);
@@ -289,8 +309,11 @@ void ScannerMode::show_seen(const LiveState& state) {
     seen_item_ = 0;
     view().set_legend({});
   }
+  if (!recording_ && state.recording) updates_ = {};
   recording_ = state.recording;
   if (!recording_ || !state.seen || !state.seen->picture) return;
+  ++updates_.coverages;
+  updates_.surfaces = state.seen->surfaces;
   if (seen_item_ == 0) {
     ItemStyle style;
     style.boxed = style.in_view = false;

@@ -30,6 +30,11 @@ class PickTool;
 class RecordPanel;
 struct LiveState;
 
+/// How often something new was shown since the recording began.
+struct LiveUpdates {
+  std::size_t pictures = 0, coverages = 0, surfaces = 0;
+};
+
 class ScannerMode : public Mode {
   Q_OBJECT
  public:
@@ -45,6 +50,7 @@ class ScannerMode : public Mode {
   void set_device(const QString& uri);
   RecordPanel& recording() { return *record_; }
   bool is_recording() const { return recording_; }
+  const LiveUpdates& updates() const { return updates_; }
   const Calibration* calibration() const { return calibration_.get(); }
   void load_calibration(const QString& path);
   void save_calibration(const QString& path);
@@ -68,6 +74,7 @@ class ScannerMode : public Mode {
   void build_recording();
   QWidget* make_banner();
   void show_rig(const std::optional<RigCheck>& rig);
+  void show_empty_text();
   void list_devices();
   QString chosen_uri() const;
   /// A table and its speed are those of one device: what is known of another's is put away.
@@ -89,6 +96,7 @@ class ScannerMode : public Mode {
   void show_calibration(std::shared_ptr<const Calibration> calibration, bool kept = false);
   void draw_calibration();
   void drop_kept_calibration();
+  void note_known_table();
   void toggle_record();
   void set_still(bool still);
 
@@ -113,6 +121,7 @@ class ScannerMode : public Mode {
   QWidget* banner_;
   MessageLabel* banner_text_;
   std::optional<RigCheck> rig_;
+  LiveUpdates updates_;
   OptionForm *average_form_, *detect_form_;
   MessageLabel *device_error_, *calibration_error_;
   int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0, seen_item_ = 0;

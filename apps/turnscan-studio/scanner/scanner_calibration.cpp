@@ -106,6 +106,12 @@ QLayout* ScannerMode::make_calibration_files(QWidget* parent) {
   return row;
 }
 
+/// In place of what to do first, which such a device does not need.
+void ScannerMode::note_known_table() {
+  if (calibration_text_->text() == first_steps())
+    calibration_text_->setText(tr("The device says itself where its table stands."));
+}
+
 void ScannerMode::start_average() {
   calibration_error_->show_text(average_form_->first_error());
   if (!average_form_->valid()) return;

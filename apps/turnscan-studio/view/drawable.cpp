@@ -18,6 +18,7 @@
 
 #include "view/creases.hpp"
 #include "view/drawable_parts.hpp"
+#include "view/large_texture.hpp"
 
 namespace turnscan::studio {
 
@@ -186,7 +187,13 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading, Texels texe
   if (textured) {
     if (made.normals.empty()) made.normals = vertex_normals(made);
     out->texture = mesh.texture;
-    out->picture = make_picture(mesh.texture->image);
+    const ColorImage& image = mesh.texture->image;
+    if (image.pixels.size() > kPictureAtOnce && texels == Texels::kBlended)
+      out->halves = halves_of(image);
+    const auto small = std::find_if(out->halves.begin(), out->halves.end(), [](const auto& half) {
+      return half.pixels.size() <= kPictureAtOnce;
+    });
+    out->picture = make_picture(small == out->halves.end() ? image : *small);
     out->texels = texels;
     out->chunks.push_back(make_textured(made));
   } else {

@@ -25,9 +25,11 @@ struct Drawable {
   std::size_t points = 0;
   double spacing_m = 0.0;  ///< of a cloud whose points are to touch; else 0
   bool colored = false;
-  /// The texture's picture, whose pixels are those of `texture`; nullptr: none.
+  /// The texture's picture, whose pixels are those of `texture`, or of a large one those of one of
+  /// its halves; nullptr: none.
   vtkSmartPointer<vtkImageData> picture;
   std::shared_ptr<const MeshTexture> texture;
+  std::vector<ColorImage> halves;  ///< of a large one: halves_of() it
   Texels texels = Texels::kBlended;
 
   bool has_colors() const { return colored || picture; }

@@ -37,17 +37,17 @@ void SceneView::draw_coarse() {
   for (auto& renderer : p.renderers) {
     renderer->PreserveColorBufferOff();
     renderer->PreserveDepthBufferOff();
-    renderer->SetUseFXAA(!p.moving && p.pending.empty());
+    renderer->SetUseFXAA(!p.live && !p.moving && p.pending.empty());
   }
   p.set_up_passes(scene_box().size().norm());
   QElapsedTimer clock;
   clock.start();
   p.window->Render();
   const double ms = 1e-6 * double(clock.nsecsElapsed());
-  p.complete = !p.moving && p.pending.empty();
+  p.complete = !p.moving && p.pending.empty() && !p.waits_for_texture();
   if (p.moving) p.longest_ms = std::max(p.longest_ms, ms);
   p.learn_from(ms);
-  if (!p.moving && !p.pending.empty()) p.more.start(0);
+  if (!p.moving && !p.complete) p.more.start(0);
   update_overlay();
 }
 
@@ -97,6 +97,12 @@ void SceneView::Parts::warm_up() {
   cloud.colors = mesh.colors;
   things.push_back(make_drawable(mesh));
   things.push_back(make_drawable(cloud));
+  mesh.colors.clear();
+  auto texture = std::make_shared<MeshTexture>();
+  texture->image = ColorImage(4, 4, Rgb{200, 200, 200});
+  texture->corners.resize(1, {Eigen::Vector2f(0, 0), Eigen::Vector2f(1, 0), Eigen::Vector2f(0, 1)});
+  mesh.texture = std::move(texture);
+  things.push_back(make_drawable(mesh));
   std::vector<vtkSmartPointer<vtkActor>> actors;
   for (const DrawablePtr& thing : things) {
     vtkNew<vtkPolyDataMapper> mapper;
@@ -104,6 +110,7 @@ void SceneView::Parts::warm_up() {
     mapper->SetScalarVisibility(thing->colored);
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
+    actor->SetTexture(texture_of(*thing));
     actor->GetProperty()->SetLighting(thing->kind == DrawableKind::kMesh);
     actor->GetProperty()->SetInterpolationToPhong();
     renderers[0]->AddActor(actor);
@@ -148,7 +155,8 @@ void SceneView::show_first(bool moving_now) {
 /// Adds some of the pending points to the picture that is there.
 void SceneView::draw_rest() {
   Parts& p = *parts_;
-  if (p.moving || p.pending.empty() || !isVisible()) return;
+  if (p.moving || !isVisible()) return;
+  if (p.pending.empty()) return bring_textures();
   for (auto& [id, item] : p.items) {
     for (const auto& actor : item.actors)
       if (actor) actor->VisibilityOff();
@@ -172,8 +180,27 @@ void SceneView::draw_rest() {
   const double ms = 1e-6 * double(clock.nsecsElapsed());
   if (ms < 0.5 * kPieceGoalMs) p.chunks_a_frame = std::min<std::size_t>(p.chunks_a_frame + 1, 16);
   if (ms > kPieceGoalMs) p.chunks_a_frame = std::max<std::size_t>(p.chunks_a_frame / 2, 1);
-  p.complete = p.pending.empty();
+  p.complete = p.pending.empty() && !p.waits_for_texture();
   if (!p.complete) p.more.start(0);
+}
+
+/// A piece of the first large texture that is still drawn by a smaller picture.
+void SceneView::bring_textures() {
+  Parts& p = *parts_;
+  for (auto& [id, item] : p.items) {
+    if (!item.waits_for_texture()) continue;
+    p.window->MakeCurrent();
+    if (!item.large)
+      item.large = std::make_unique<LargeTexture>(item.drawable->texture->image,
+                                                  item.drawable->halves, p.window);
+    if (!item.large->upload_piece()) break;
+    item.large_is_there = true;
+    item.texture = item.large->texture();
+    apply_style(item);
+    draw_coarse();
+    return;
+  }
+  if (p.waits_for_texture()) p.more.start(0);
 }
 
 bool SceneView::settled() const {
@@ -189,7 +216,8 @@ double SceneView::longest_frame_ms() const { return parts_->longest_ms; }
 
 QImage SceneView::screenshot() {
   draw_coarse();
-  while (!parts_->pending.empty() && !parts_->moving) draw_rest();
+  while (!parts_->complete && !parts_->moving && isVisible() && parts_->canvas->isValid())
+    draw_rest();
   return grab().toImage();
 }
 

@@ -49,6 +49,8 @@ void look_of_surface(SurfaceLook look, vtkActor& actor, vtkPolyDataMapper& mappe
   mapper.ScalarVisibilityOn();
 }
 
+}  // namespace
+
 vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable) {
   if (!drawable.picture) return nullptr;
   auto out = vtkSmartPointer<vtkTexture>::New();
@@ -60,8 +62,6 @@ vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable) {
   out->RepeatOn();
   return out;
 }
-
-}  // namespace
 
 int SceneView::add(DrawablePtr drawable, const ItemStyle& style) {
   Parts& p = *parts_;
@@ -93,7 +93,7 @@ vtkActor* SceneView::actor_of(Item& item, std::size_t chunk) {
   mapper->StaticOn();
   if (parts_->clip_planes->GetNumberOfItems() > 0 && item.style.boxed)
     mapper->SetClippingPlanes(parts_->clip_planes);
-  if (!item.texture) item.texture = texture_of(*item.drawable);
+  if (!item.texture && item.drawable->picture) parts_->give_texture(item);
   actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   style_actor(item, actor);

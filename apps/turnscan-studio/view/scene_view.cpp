@@ -114,6 +114,12 @@ void SceneView::set_split(bool on, const QString& left, const QString& right) {
   request_render();
 }
 
+void SceneView::set_live(bool live) {
+  if (live == parts_->live) return;
+  parts_->live = live;
+  request_render();
+}
+
 void SceneView::set_legend(const Legend& legend) {
   parts_->legend = legend;
   update_overlay();
@@ -126,7 +132,10 @@ void SceneView::set_empty_text(const QString& title, const QString& text) {
 }
 
 void SceneView::set_empty_actions(const std::vector<Action>& actions) {
-  delete parts_->empty_actions;
+  if (parts_->empty_actions) {
+    parts_->empty_actions->hide();
+    parts_->empty_actions->deleteLater();  // it may be one of them that was clicked
+  }
   auto* row = new QWidget(this);
   auto* layout = new QHBoxLayout(row);
   layout->setSpacing(10);

@@ -92,6 +92,9 @@ class SceneView : public QWidget {
   void set_camera_speed(double factor);
   void set_boxes(bool on);
   void set_split(bool on, const QString& left = {}, const QString& right = {});
+  /// What it shows comes many times a second: edges are not smoothed, which costs a software
+  /// renderer as much as all else.
+  void set_live(bool live);
   void set_legend(const Legend& legend);
   /// Shown in the middle while nothing is drawn.
   void set_empty_text(const QString& title, const QString& text);
@@ -186,6 +189,7 @@ class SceneView : public QWidget {
   vtkActor* actor_of(Item& item, std::size_t chunk);
   void style_actor(const Item& item, vtkActor* actor);
   void draw_rest();
+  void bring_textures();
   void apply_style(Item& item);
   void update_box(Item& item);
   void update_clip();

@@ -14,10 +14,12 @@
 #include <QPainter>
 #include <QTimer>
 #include <QVariantAnimation>
+#include <algorithm>
 #include <array>
 #include <map>
 
 #include "view/drawable_parts.hpp"
+#include "view/large_texture.hpp"
 #include "view/scene_view.hpp"
 #include "widgets/theme.hpp"
 
@@ -41,6 +43,9 @@ class VtkCanvas : public QVTKOpenGLNativeWidget {
 
 class ViewOverlay;
 
+/// nullptr where it has none.
+vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable);
+
 struct SceneView::Item {
   DrawablePtr drawable;
   ItemStyle style;
@@ -48,6 +53,13 @@ struct SceneView::Item {
   std::vector<vtkSmartPointer<vtkActor>> actors;
   vtkSmartPointer<vtkActor> coarse, box;
   vtkSmartPointer<vtkTexture> texture;  ///< made with the first actor
+  std::unique_ptr<LargeTexture> large;  ///< on its way, or `texture` already
+  bool large_is_there = false;
+
+  bool waits_for_texture() const {
+    return !large_is_there && texture && style.visible && style.own_colors &&
+           !drawable->halves.empty();
+  }
 };
 
 struct SceneView::Parts {
@@ -65,10 +77,13 @@ struct SceneView::Parts {
   ClipPlane tool_clip, view_clip;
   std::map<int, Item> items;
   int next_item = 1;
+  /// Of the last item that was dropped: an edit, or undoing it, mostly keeps the texture.
+  std::unique_ptr<LargeTexture> spare;
+  std::shared_ptr<const MeshTexture> spare_of;
 
   const Theme* theme = nullptr;
   double point_size = kPointSize, speed = 1.0;
-  bool boxes = false, split = false, occlusion = false;
+  bool boxes = false, split = false, occlusion = false, live = false;
   SurfaceLook look = SurfaceLook::kShaded;
   std::array<QString, 2> pane_titles;
   Legend legend;
@@ -96,6 +111,20 @@ struct SceneView::Parts {
   bool tool_active = false;
   bool touched = false;  ///< somebody has moved the camera
 
+  bool waits_for_texture() const {
+    return std::any_of(items.begin(), items.end(),
+                       [](const auto& entry) { return entry.second.waits_for_texture(); });
+  }
+  /// The small picture for now, or the one that is there already.
+  void give_texture(Item& item) {
+    if (spare && spare_of == item.drawable->texture) {
+      item.large = std::move(spare);
+      item.large_is_there = true;
+      item.texture = item.large->texture();
+    } else {
+      item.texture = texture_of(*item.drawable);
+    }
+  }
   void fly(double share);
   void aim(const Vec3d& center, double size_m, const Vec3d& from, const QSize& pixels);
   void warm_up();
@@ -111,7 +140,13 @@ struct SceneView::Parts {
     }
     item.actors.clear();
     item.coarse = item.box = nullptr;
+    if (item.large_is_there) {
+      spare = std::move(item.large);
+      spare_of = item.drawable->texture;
+    }
     item.texture = nullptr;
+    item.large = nullptr;
+    item.large_is_there = false;
     pending.clear();
   }
 };

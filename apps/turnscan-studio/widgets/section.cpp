@@ -1,6 +1,7 @@
 #include "widgets/section.hpp"
 #include "widgets/message_log.hpp"
 
+#include <QCoreApplication>
 #include <QFrame>
 #include <QPushButton>
 #include <QScrollArea>
@@ -75,6 +76,12 @@ ParagraphLabel::ParagraphLabel(QWidget* parent) : QLabel(parent) {
 void ParagraphLabel::show_text(const QString& text) {
   setText(text);
   fit();
+  make_room();
+}
+
+void ParagraphLabel::showEvent(QShowEvent* event) {
+  QLabel::showEvent(event);
+  make_room();
 }
 
 void ParagraphLabel::resizeEvent(QResizeEvent* event) {
@@ -86,6 +93,14 @@ void ParagraphLabel::resizeEvent(QResizeEvent* event) {
 void ParagraphLabel::fit() {
   setMinimumHeight(0);  // which a label counts as needed
   setMinimumHeight(std::max(0, heightForWidth(width())));
+}
+
+// Each layout asks the one around it for room by an event, one round of the loop after the other:
+// until the last has answered the text lies over what is below it.
+void ParagraphLabel::make_room() {
+  for (QWidget* around = parentWidget(); around && !around->isWindow() && around->isVisible();
+       around = around->parentWidget())
+    QCoreApplication::sendPostedEvents(around, QEvent::LayoutRequest);
 }
 
 QLabel* quiet_label(const QString& text, QWidget* parent) {

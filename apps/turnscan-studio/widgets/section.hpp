@@ -45,9 +45,11 @@ class ParagraphLabel : public QLabel {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   void fit();
+  void make_room();
 };
 
 /// Text that explains; wraps and stays in the background.

@@ -57,7 +57,8 @@ QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent
 QCheckBox::indicator:disabled { border-color: %line; background: %panel; }
 QListWidget, QTreeWidget { padding: 3px; outline: none; }
 QTableWidget::item { padding: 0 5px; }
-QListWidget::item, QTreeWidget::item { min-height: 24px; border-radius: 4px; }
+QListWidget::item, QTreeWidget::item { min-height: 24px; }
+QListWidget::item { border-radius: 4px; }
 QListWidget::item { padding-left: 5px; }
 QListWidget::item:selected, QTreeWidget::item:selected { background: %accent;
   color: %accent_text; }

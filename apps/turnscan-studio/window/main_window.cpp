@@ -71,8 +71,6 @@ MainWindow::MainWindow()
   auto* job_bar = new JobBar(*jobs_, this);
   statusBar()->addPermanentWidget(job_bar);
   statusBar()->setSizeGripEnabled(false);
-  // As high without a job: the view is not to jump when one begins.
-  statusBar()->setMinimumHeight(job_bar->sizeHint().height() + 6);
   scanner_ = new ScannerMode({*jobs_, *settings_}, stack_);
   add_mode("scanner", tr("3D Scanner"), tr("Calibrate and record with a sensor (F1)"), scanner_);
   explorer_ = new ExplorerMode({*jobs_, *settings_}, stack_);
@@ -90,6 +88,11 @@ MainWindow::MainWindow()
   connect(menu_.recent, &QMenu::aboutToShow, this, &MainWindow::fill_recent);
   connect(settings_, &ViewSettings::changed, this, &MainWindow::apply_settings);
   apply_settings();
+  // As high without a job: the view is not to jump when one begins. With the style, whose edges
+  // count.
+  job_bar->ensurePolished();
+  for (QWidget* part : job_bar->findChildren<QWidget*>()) part->ensurePolished();
+  statusBar()->setMinimumHeight(job_bar->sizeHint().height() + 6);
   restore_window();
 }
 
@@ -138,6 +141,8 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
     show_mode("explorer");
     explorer_->take_recording(folder, reconstruct);
   });
+  connect(mode, &Mode::recording_broken_off, this,
+          [this](const QString& folder) { explorer_->take_recording(folder, false); });
 }
 
 void MainWindow::show_mode(const QString& name) {

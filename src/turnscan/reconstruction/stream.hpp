@@ -36,7 +36,7 @@ class ReconstructionStream {
   Result<> add(const std::vector<Frame>& frames, const RunContext& context = RunContext());
 
   /// A rough closed mesh of what was added so far, in the table's or the object's frame, in bounded
-  /// time (some 4,000 bricks of samples whatever the scan) and without waiting for more than the 16
+  /// time (some 1,500 bricks of samples whatever the scan) and without waiting for more than the 16
   /// frames that are being summed. From any thread, while another one adds; not while it finishes.
   /// An empty mesh until the scale is known. Volumetric method only: kInvalidOption with others;
   /// kCancelled.

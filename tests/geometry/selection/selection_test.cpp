@@ -82,6 +82,34 @@ TEST(SelectionConnected, TakesWholePiecesAndNoOthers) {
   EXPECT_EQ(count_selected(connected(three, Selection(3 * each, 0))), 0u);
 }
 
+TEST(SelectionSmallPieces, AreThoseBelowTheShareOfTheLargest) {
+  TriangleMesh mesh = sphere(0.05, 3);
+  const std::size_t large = mesh.triangles.size();
+  append(mesh, sphere(0.01, 2, Vec3d(0.10, 0, 0)));  // 4 % of the area
+  append(mesh, sphere(0.02, 1, Vec3d(0, 0.10, 0)));  // 16 %
+  append(mesh, sphere(0.002, 1, Vec3d(0, 0, 0.10)));
+  const std::size_t second = large + sphere(0.01, 2).triangles.size();
+  const std::size_t third = second + sphere(0.02, 1).triangles.size();
+  const auto found = small_pieces(mesh, 0.05);
+  EXPECT_EQ(found.pieces, 2u);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    EXPECT_EQ(found.parts[t] != 0, (t >= large && t < second) || t >= third) << t;
+  EXPECT_EQ(small_pieces(mesh, 0.2).pieces, 3u);
+  EXPECT_EQ(small_pieces(TriangleMesh(), 0.05).pieces, 0u);
+}
+
+TEST(SelectionSmallPieces, OfPointsAreCountedByTheirNumber) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 100; ++i) points.emplace_back(0.001f * float(i), 0.0f, 0.0f);
+  for (int i = 0; i < 4; ++i) points.emplace_back(0.001f * float(i), 0.1f, 0.0f);
+  for (int i = 0; i < 30; ++i) points.emplace_back(0.001f * float(i), 0.2f, 0.0f);
+  const auto found = small_pieces(points, 0.05, 0.0015);
+  EXPECT_EQ(found.pieces, 1u);
+  EXPECT_EQ(count_selected(found.parts), 4u);
+  EXPECT_TRUE(found.parts[100] != 0 && found.parts[103] != 0);
+  EXPECT_EQ(small_pieces(points, 0.05, 1.0).pieces, 0u) << "one piece";
+}
+
 TEST(SelectionConnected, IsWhatGrowingForeverGives) {
   TriangleMesh two = torus(0.05, 0.02, 12, 8);
   append(two, sphere(0.01, 1, Vec3d(1, 0, 0)));

@@ -147,6 +147,13 @@ QWidget* EditPanel::make_changes() {
         return of.kind == ModelKind::kMesh ? connected(of.mesh, s)
                                            : connected(of.cloud.points, s, reach(of));
       }));
+  auto* small = named_button("select_small", tr("Small pieces"),
+                             tr("Select every piece that hangs together with nothing large: below "
+                                "a twentieth of the largest piece"),
+                             box);
+  grid->addWidget(small, 2, 0, 1, 3);
+  of_any_.push_back(small);
+  connect(small, &QPushButton::clicked, this, &EditPanel::select_small_pieces);
   return box;
 }
 

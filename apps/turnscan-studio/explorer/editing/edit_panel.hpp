@@ -57,6 +57,7 @@ class EditPanel : public QWidget {
   void add_tool(QPushButton* button, int shape);
   void pick(const ScreenRegion& region, std::optional<SelectHow> how);
   void change(const QString& what, const Change& made);
+  void select_small_pieces();
   Finish take_selection(const ModelDataPtr& of, Selection made);
   void draw_selection();
   void follow_model();

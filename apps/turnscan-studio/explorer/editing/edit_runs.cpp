@@ -26,6 +26,13 @@ namespace turnscan::studio {
 namespace {
 
 const QColor kSelectedColor(0xff8a00);
+constexpr double kSmall = 0.05;  // of the largest piece
+
+SmallPieces small_pieces_of(const ModelData& data) {
+  return data.kind == ModelKind::kMesh
+             ? small_pieces(data.mesh, kSmall)
+             : small_pieces(data.cloud.points, kSmall, usual_reach(data.cloud.points));
+}
 
 }  // namespace
 
@@ -33,7 +40,9 @@ void EditPanel::pick(const ScreenRegion& region, std::optional<SelectHow> keys) 
   const Model* model = target();
   if (!model) return;
   const auto how = keys.value_or(static_cast<SelectHow>(how_->currentIndex()));
-  error_->show_text({});
+  error_->show_text(
+      model->visible ? QString() : tr("%1 is hidden: show it in the list first").arg(model->name));
+  if (!model->visible) return;
   parts_.jobs.start(
       tr("Select"), this,
       [this, data = model->data, before = selection(), region, how, screen = screen_of(parts_.view),
@@ -62,6 +71,26 @@ void EditPanel::change(const QString& what, const Change& made) {
                                     : selection()](const RunContext& context) -> Result<Finish> {
         context.begin_phase("select", 0);
         return take_selection(data, made(*data, before));
+      },
+      [this](const QString& text) { error_->show_text(text); });
+}
+
+void EditPanel::select_small_pieces() {
+  const Model* model = target();
+  if (!model) return;
+  error_->show_text({});
+  parts_.jobs.start(
+      tr("Small pieces"), this,
+      [this, data = model->data](const RunContext& context) -> Result<Finish> {
+        context.begin_phase("select", 0);
+        SmallPieces found = small_pieces_of(*data);
+        if (found.pieces == 0)
+          return fail(ErrorCode::kTooFewPoints, "small pieces: there are none");
+        return Finish([this, pieces = int(found.pieces),
+                       take = take_selection(data, std::move(found.parts))] {
+          take();
+          Q_EMIT said(tr("%n small piece(s) selected", nullptr, pieces));
+        });
       },
       [this](const QString& text) { error_->show_text(text); });
 }
@@ -144,7 +173,13 @@ bool EditPanel::delete_selected() {
              tr("%1 of %2").arg(grouped(count_selected(selection)), grouped(selection.size()));
          if (from.kind == ModelKind::kMesh) {
            TURNSCAN_ASSIGN(TriangleMesh rest, without_selected(from.mesh, selection));
-           return Edited{mesh_model(std::move(rest), from.source), text};
+           // Mostly crumbs behind what was selected, which nobody sees from here.
+           const auto before = small_pieces(from.mesh, kSmall).pieces;
+           const auto after = small_pieces(rest, kSmall).pieces;
+           const QString left = after > before ? tr("; %n small piece(s) left, see Small pieces",
+                                                    nullptr, int(after - before))
+                                               : QString();
+           return Edited{mesh_model(std::move(rest), from.source), text + left};
          }
          return Edited{
              cloud_model(points_where(from.cloud, [&](std::size_t i) { return selection[i] == 0; }),

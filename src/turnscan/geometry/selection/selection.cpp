@@ -7,6 +7,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
+#include <unordered_map>
 
 namespace turnscan {
 
@@ -15,6 +16,31 @@ namespace {
 void must_fit(const Selection& selection, std::size_t count) {
   if (selection.size() != count)
     throw std::invalid_argument("a selection has one flag a triangle or point");
+}
+
+/// Of parts that are each in the piece `piece_of` and count as `weight_of`.
+SmallPieces small_pieces(const std::vector<std::uint32_t>& piece_of,
+                         const std::vector<double>& weight_of, double share) {
+  std::unordered_map<std::uint32_t, double> weights;
+  for (std::size_t i = 0; i < piece_of.size(); ++i) weights[piece_of[i]] += weight_of[i];
+  double largest = 0.0;
+  for (const auto& [piece, weight] : weights) largest = std::max(largest, weight);
+  SmallPieces out;
+  out.parts.resize(piece_of.size());
+  const auto small = [&](double weight) { return weight < share * largest; };
+  for (const auto& [piece, weight] : weights) out.pieces += small(weight) ? 1 : 0;
+  for (std::size_t i = 0; i < piece_of.size(); ++i)
+    out.parts[i] = small(weights[piece_of[i]]) ? 1 : 0;
+  return out;
+}
+
+DisjointSets pieces_of(const TriangleMesh& mesh) {
+  DisjointSets pieces(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    pieces.join(a, b);
+    pieces.join(b, c);
+  }
+  return pieces;
 }
 
 }  // namespace
@@ -61,17 +87,25 @@ Selection shrunk(const TriangleMesh& mesh, const Selection& selection) {
 
 Selection connected(const TriangleMesh& mesh, const Selection& selection) {
   must_fit(selection, mesh.triangles.size());
-  DisjointSets pieces(mesh.vertices.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    pieces.join(a, b);
-    pieces.join(b, c);
-  }
+  DisjointSets pieces = pieces_of(mesh);
   std::vector<std::uint8_t> chosen(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < selection.size(); ++t)
     if (selection[t] != 0) chosen[pieces.root(mesh.triangles[t][0])] = 1;
   Selection out(selection.size());
   for (std::size_t t = 0; t < out.size(); ++t) out[t] = chosen[pieces.root(mesh.triangles[t][0])];
   return out;
+}
+
+SmallPieces small_pieces(const TriangleMesh& mesh, double share) {
+  DisjointSets pieces = pieces_of(mesh);
+  std::vector<std::uint32_t> piece_of;
+  std::vector<double> areas;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3f& p = mesh.vertices[a];
+    piece_of.push_back(std::uint32_t(pieces.root(a)));
+    areas.push_back(0.5 * double((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).norm()));
+  }
+  return small_pieces(piece_of, areas, share);
 }
 
 Selection grown(std::span<const Vec3f> points, const Selection& selection, double reach_m) {
@@ -115,6 +149,19 @@ Selection connected(std::span<const Vec3f> points, const Selection& selection, d
     }
   }
   return out;
+}
+
+SmallPieces small_pieces(std::span<const Vec3f> points, double share, double reach_m) {
+  const KdTree tree(points);
+  DisjointSets pieces(points.size());
+  std::vector<std::pair<std::uint32_t, float>> near;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    tree.radius(points[i], float(reach_m), near);
+    for (const auto& [other, distance] : near) pieces.join(std::uint32_t(i), other);
+  }
+  std::vector<std::uint32_t> piece_of(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) piece_of[i] = std::uint32_t(pieces.root(i));
+  return small_pieces(piece_of, std::vector<double>(points.size(), 1.0), share);
 }
 
 double usual_reach(std::span<const Vec3f> points) {

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kViewsAtOnce = 16;
 /// At the end the noise may turn out to be so much larger than at first sight.
 constexpr double kNoiseSlack = 1.3;
-constexpr std::size_t kPreviewBricks = 4000;
+constexpr std::size_t kPreviewBricks = 1500;
 
 /// Platters that differ by less are one: cosine of 1.8 degrees, and metres.
 constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kAtOnce = 8;
+constexpr std::size_t kAtOnce = 4;
 /// A place that was found from a small part of a turn, by which a surface would be smeared.
 constexpr double kMostCenterSigma_m = 0.004, kMostAxisSigma_rad = 0.02;
 

@@ -298,7 +298,7 @@ class ScanRun {
         return fail(ErrorCode::kInvalidOption,
                     "passes: there is nobody who could lay the object another way; leave it out");
       const std::string advice =
-          out_.next_pass ? next_pass_text(*out_.next_pass) : "Hardly anything of it was not seen.";
+          out_.next_pass ? next_pass_text(*out_.next_pass) : "Nearly all of its surface was seen.";
       TURNSCAN_ASSIGN(const bool laid, with_hint(hooks_.another_side(advice, pass)));
       if (!laid) return false;
     }

@@ -1,0 +1,101 @@
+#include "view/large_texture.hpp"
+
+#include <vtkOpenGLRenderWindow.h>
+
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <algorithm>
+#include <turnscan/core/parallel.hpp>
+
+namespace turnscan::studio {
+
+namespace {
+
+constexpr int kPiecePixels = 700000;  // some 8 ms of a software renderer
+
+ColorImage half_of(const ColorImage& picture) {
+  ColorImage out(std::max(1, picture.width / 2), std::max(1, picture.height / 2), Rgb{});
+  parallel_for(std::size_t(out.height), 64, [&](std::size_t row) {
+    const int y = int(row), below = std::min(2 * y + 1, picture.height - 1);
+    for (int x = 0; x < out.width; ++x) {
+      const int beside = std::min(2 * x + 1, picture.width - 1);
+      const Rgb &a = picture.at(2 * x, 2 * y), &b = picture.at(beside, 2 * y),
+                &c = picture.at(2 * x, below), &d = picture.at(beside, below);
+      const auto mean = [](int sum) { return static_cast<std::uint8_t>((sum + 2) / 4); };
+      out.at(x, y) = {mean(a.r + b.r + c.r + d.r), mean(a.g + b.g + c.g + d.g),
+                      mean(a.b + b.b + c.b + d.b)};
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<ColorImage> halves_of(const ColorImage& picture) {
+  std::vector<ColorImage> out;
+  for (const ColorImage* last = &picture; last->width > 1 || last->height > 1; last = &out.back())
+    out.push_back(half_of(*last));
+  return out;
+}
+
+LargeTexture::LargeTexture(const ColorImage& picture, const std::vector<ColorImage>& halves,
+                           vtkOpenGLRenderWindow* window)
+    : levels_{&picture} {
+  for (const ColorImage& half : halves) levels_.push_back(&half);
+  object_->SetContext(window);
+}
+
+void LargeTexture::allocate() {
+  allocated_ = true;
+  object_->SetWrapS(vtkTextureObject::Repeat);
+  object_->SetWrapT(vtkTextureObject::Repeat);
+  object_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
+  object_->SetMagnificationFilter(vtkTextureObject::Linear);
+  object_->SetMaxLevel(int(levels_.size()) - 1);
+  object_->Allocate2D(unsigned(levels_[0]->width), unsigned(levels_[0]->height), 3,
+                      VTK_UNSIGNED_CHAR);
+  QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
+  object_->Bind();
+  // All levels are known before the first has its pixels: a driver that had to guess would move
+  // them when the others come.
+  gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(levels_.size()) - 1);
+  const auto format = GLint(object_->GetInternalFormat(VTK_UNSIGNED_CHAR, 3, false));
+  for (std::size_t level = 0; level < levels_.size(); ++level)
+    gl.glTexImage2D(GL_TEXTURE_2D, GLint(level), format, levels_[level]->width,
+                    levels_[level]->height, 0, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
+}
+
+bool LargeTexture::upload_piece() {
+  QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
+  if (!allocated_) allocate();
+  object_->Bind();
+  GLint alignment = 4;
+  gl.glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
+  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  for (int left = kPiecePixels; left > 0 && level_ < levels_.size();) {
+    const ColorImage& from = *levels_[level_];
+    const int rows = std::clamp(left / from.width, 1, from.height - row_);
+    gl.glTexSubImage2D(GL_TEXTURE_2D, GLint(level_), 0, row_, from.width, rows, GL_RGB,
+                       GL_UNSIGNED_BYTE, &from.at(0, row_));
+    left -= rows * from.width;
+    row_ += rows;
+    if (row_ < from.height) continue;
+    row_ = 0;
+    ++level_;
+  }
+  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
+  gl.glBindTexture(GL_TEXTURE_2D, 0);
+  return level_ == levels_.size();
+}
+
+vtkSmartPointer<vtkTexture> LargeTexture::texture() const {
+  auto out = vtkSmartPointer<vtkOpenGLTexture>::New();
+  out->SetTextureObject(object_);
+  out->InterpolateOn();
+  out->MipmapOn();
+  out->RepeatOn();
+  return out;
+}
+
+}  // namespace turnscan::studio
