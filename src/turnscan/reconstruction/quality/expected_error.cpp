@@ -15,7 +15,7 @@ namespace {
 
 /// Fitted to simulated scans (bench/expected_error).
 constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
-constexpr double kBlurShare = 0.3, kFilteredBlur = 0.5;
+constexpr double kBlurShare = 0.3, kFilteredBlur = 0.45;
 constexpr double kMixedShare = 0.55;
 /// Behind a filter, of the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
