@@ -22,6 +22,7 @@
 #include "scanner/record_panel.hpp"
 #include "scanner/scanner.hpp"
 #include "tests/geometry/shapes.hpp"
+#include "view/picture_halves.hpp"
 #include "view/scene_view.hpp"
 #include "window/main_window.hpp"
 
@@ -110,8 +111,22 @@ TriangleMesh painted_ball(int pixels) {
   return mesh;
 }
 
+TEST(PictureHalves, AreTheMeansOfWhatEachPixelStandsFor) {
+  ColorImage picture(9, 4, Rgb{});
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 9; ++x) picture.at(x, y) = {std::uint8_t(20 * x), std::uint8_t(40 * y), 77};
+  const std::vector<ColorImage> halves = halves_of(picture);
+  std::vector<std::pair<int, int>> sizes;
+  for (const ColorImage& half : halves) sizes.emplace_back(half.width, half.height);
+  EXPECT_EQ(sizes, (std::vector<std::pair<int, int>>{{4, 2}, {2, 1}, {1, 1}}));
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; ++x)
+      EXPECT_EQ(halves[0].at(x, y),
+                (Rgb{std::uint8_t(40 * x + 10), std::uint8_t(80 * y + 20), 77}));
+}
+
 TEST_F(Stalls, ALargeTextureIsOpenedAndEdited) {
-  const int pixels = stated("TURNSCAN_TEXTURE_PIXELS", 1024);
+  const int pixels = stated("TURNSCAN_TEXTURE_PIXELS", 2048);
   const QString file = folder.filePath("ball.glb");
   ASSERT_TRUE(write_mesh(file.toStdString(), painted_ball(pixels)));
   window.show_mode("explorer");

@@ -19,6 +19,7 @@
 #include "view/creases.hpp"
 #include "view/drawable_parts.hpp"
 #include "view/large_texture.hpp"
+#include "view/picture_halves.hpp"
 
 namespace turnscan::studio {
 

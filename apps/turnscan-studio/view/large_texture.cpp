@@ -5,7 +5,6 @@
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 #include <algorithm>
-#include <turnscan/core/parallel.hpp>
 
 namespace turnscan::studio {
 
@@ -13,30 +12,7 @@ namespace {
 
 constexpr int kPiecePixels = 700000;  // some 8 ms of a software renderer
 
-ColorImage half_of(const ColorImage& picture) {
-  ColorImage out(std::max(1, picture.width / 2), std::max(1, picture.height / 2), Rgb{});
-  parallel_for(std::size_t(out.height), 64, [&](std::size_t row) {
-    const int y = int(row), below = std::min(2 * y + 1, picture.height - 1);
-    for (int x = 0; x < out.width; ++x) {
-      const int beside = std::min(2 * x + 1, picture.width - 1);
-      const Rgb &a = picture.at(2 * x, 2 * y), &b = picture.at(beside, 2 * y),
-                &c = picture.at(2 * x, below), &d = picture.at(beside, below);
-      const auto mean = [](int sum) { return static_cast<std::uint8_t>((sum + 2) / 4); };
-      out.at(x, y) = {mean(a.r + b.r + c.r + d.r), mean(a.g + b.g + c.g + d.g),
-                      mean(a.b + b.b + c.b + d.b)};
-    }
-  });
-  return out;
-}
-
 }  // namespace
-
-std::vector<ColorImage> halves_of(const ColorImage& picture) {
-  std::vector<ColorImage> out;
-  for (const ColorImage* last = &picture; last->width > 1 || last->height > 1; last = &out.back())
-    out.push_back(half_of(*last));
-  return out;
-}
 
 LargeTexture::LargeTexture(const ColorImage& picture, const std::vector<ColorImage>& halves,
                            vtkOpenGLRenderWindow* window)
@@ -56,24 +32,24 @@ void LargeTexture::allocate() {
                       VTK_UNSIGNED_CHAR);
   QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
   object_->Bind();
-  // All levels are known before the first has its pixels: a driver that had to guess would move
-  // them when the others come.
+  // All levels, of which Allocate2D() has made the first, are known before that has its pixels: a
+  // driver that had to guess would move them when the others come.
   gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(levels_.size()) - 1);
   const auto format = GLint(object_->GetInternalFormat(VTK_UNSIGNED_CHAR, 3, false));
-  for (std::size_t level = 0; level < levels_.size(); ++level)
+  for (std::size_t level = 1; level < levels_.size(); ++level)
     gl.glTexImage2D(GL_TEXTURE_2D, GLint(level), format, levels_[level]->width,
                     levels_[level]->height, 0, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
 }
 
-bool LargeTexture::upload_piece() {
+void LargeTexture::upload_piece() {
   QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
   if (!allocated_) allocate();
   object_->Bind();
   GLint alignment = 4;
   gl.glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
   gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  for (int left = kPiecePixels; left > 0 && level_ < levels_.size();) {
+  for (int left = kPiecePixels; left > 0 && !complete();) {
     const ColorImage& from = *levels_[level_];
     const int rows = std::clamp(left / from.width, 1, from.height - row_);
     gl.glTexSubImage2D(GL_TEXTURE_2D, GLint(level_), 0, row_, from.width, rows, GL_RGB,
@@ -86,7 +62,6 @@ bool LargeTexture::upload_piece() {
   }
   gl.glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
   gl.glBindTexture(GL_TEXTURE_2D, 0);
-  return level_ == levels_.size();
 }
 
 vtkSmartPointer<vtkTexture> LargeTexture::texture() const {

@@ -16,19 +16,16 @@ namespace turnscan::studio {
 /// Pictures of more pixels are brought there in pieces.
 inline constexpr std::size_t kPictureAtOnce = 1200000;
 
-/// Halves of a picture, their halves, and so on, down to one pixel. Each pixel is the mean of those
-/// that it stands for.
-std::vector<ColorImage> halves_of(const ColorImage& picture);
-
 class LargeTexture {
  public:
   /// The picture and halves_of() it, which have to live as long.
   LargeTexture(const ColorImage& picture, const std::vector<ColorImage>& halves,
                vtkOpenGLRenderWindow* window);
 
-  /// One piece more; true when all is there. The window's context must be current.
-  bool upload_piece();
-  /// Once all is there.
+  /// One piece more, until it is complete. The window's context must be current.
+  void upload_piece();
+  bool complete() const { return level_ == levels_.size(); }
+  /// Once it is complete.
   vtkSmartPointer<vtkTexture> texture() const;
 
  private:

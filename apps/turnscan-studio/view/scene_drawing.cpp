@@ -193,8 +193,8 @@ void SceneView::bring_textures() {
     if (!item.large)
       item.large = std::make_unique<LargeTexture>(item.drawable->texture->image,
                                                   item.drawable->halves, p.window);
-    if (!item.large->upload_piece()) break;
-    item.large_is_there = true;
+    item.large->upload_piece();
+    if (!item.large->complete()) break;
     item.texture = item.large->texture();
     apply_style(item);
     draw_coarse();

@@ -53,11 +53,11 @@ struct SceneView::Item {
   std::vector<vtkSmartPointer<vtkActor>> actors;
   vtkSmartPointer<vtkActor> coarse, box;
   vtkSmartPointer<vtkTexture> texture;  ///< made with the first actor
-  std::unique_ptr<LargeTexture> large;  ///< on its way, or `texture` already
-  bool large_is_there = false;
+  std::unique_ptr<LargeTexture> large;  ///< on its way, or complete and `texture` already
 
+  bool has_large_texture() const { return large && large->complete(); }
   bool waits_for_texture() const {
-    return !large_is_there && texture && style.visible && style.own_colors &&
+    return !has_large_texture() && texture && style.visible && style.own_colors &&
            !drawable->halves.empty();
   }
 };
@@ -119,7 +119,6 @@ struct SceneView::Parts {
   void give_texture(Item& item) {
     if (spare && spare_of == item.drawable->texture) {
       item.large = std::move(spare);
-      item.large_is_there = true;
       item.texture = item.large->texture();
     } else {
       item.texture = texture_of(*item.drawable);
@@ -140,13 +139,12 @@ struct SceneView::Parts {
     }
     item.actors.clear();
     item.coarse = item.box = nullptr;
-    if (item.large_is_there) {
+    if (item.has_large_texture()) {
       spare = std::move(item.large);
       spare_of = item.drawable->texture;
     }
     item.texture = nullptr;
     item.large = nullptr;
-    item.large_is_there = false;
     pending.clear();
   }
 };

@@ -98,12 +98,13 @@ Selection connected(const TriangleMesh& mesh, const Selection& selection) {
 
 SmallPieces small_pieces(const TriangleMesh& mesh, double share) {
   DisjointSets pieces = pieces_of(mesh);
-  std::vector<std::uint32_t> piece_of;
-  std::vector<double> areas;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  std::vector<std::uint32_t> piece_of(mesh.triangles.size());
+  std::vector<double> areas(piece_of.size());
+  for (std::size_t t = 0; t < piece_of.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
     const Vec3f& p = mesh.vertices[a];
-    piece_of.push_back(std::uint32_t(pieces.root(a)));
-    areas.push_back(0.5 * double((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).norm()));
+    piece_of[t] = pieces.root(a);
+    areas[t] = 0.5 * double((mesh.vertices[b] - p).cross(mesh.vertices[c] - p).norm());
   }
   return small_pieces(piece_of, areas, share);
 }
@@ -155,12 +156,12 @@ SmallPieces small_pieces(std::span<const Vec3f> points, double share, double rea
   const KdTree tree(points);
   DisjointSets pieces(points.size());
   std::vector<std::pair<std::uint32_t, float>> near;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
     tree.radius(points[i], float(reach_m), near);
-    for (const auto& [other, distance] : near) pieces.join(std::uint32_t(i), other);
+    for (const auto& [other, distance] : near) pieces.join(i, other);
   }
   std::vector<std::uint32_t> piece_of(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) piece_of[i] = std::uint32_t(pieces.root(i));
+  for (std::uint32_t i = 0; i < piece_of.size(); ++i) piece_of[i] = pieces.root(i);
   return small_pieces(piece_of, std::vector<double>(points.size(), 1.0), share);
 }
 

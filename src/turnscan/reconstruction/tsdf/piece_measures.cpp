@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 #include <turnscan/reconstruction/quality/expected_error.hpp>
@@ -11,6 +12,9 @@
 namespace turnscan::tsdf {
 
 namespace {
+
+/// Less invented surface without a return than this is not worth a note: rims have some.
+constexpr double kLeastNoReturn_m2 = 2e-4;
 
 /// Whether vertices that no pass saw lie in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
@@ -91,6 +95,33 @@ std::size_t count_points(const VolumetricInput& input, const Box& box) {
     });
   });
   return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+}
+
+ObjectResult object_of(VolumetricPiece& piece, bool color_wanted) {
+  ObjectResult object;
+  object.mesh = std::move(piece.mesh);
+  object.check = check_mesh(object.mesh);
+  object.points = piece.points;
+  object.invented_area_m2 = piece.invented_area_m2;
+  object.confidence = std::move(piece.confidence);
+  object.quality = std::move(piece.quality);
+  object.evidence = std::move(piece.evidence);
+  if (color_wanted && object.mesh.colors.empty())
+    object.notes.emplace_back("the recording has no colour");
+  if (piece.base_area_m2 > 0.0)
+    object.notes.push_back(
+        fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+  if (piece.no_return_area_m2 >= kLeastNoReturn_m2)
+    object.notes.push_back(fmt::format(
+        "{:.1f} cm^2 of its invented surface face sensors that had no return from there: "
+        "too dark, too shiny or transparent",
+        piece.no_return_area_m2 * 1e4));
+  if (piece.detached > 0)
+    object.notes.push_back(fmt::format(
+        "{} part{} of it hang{} in the air: no frame shows what "
+        "connects them to the rest",
+        piece.detached, piece.detached == 1 ? "" : "s", piece.detached == 1 ? "s" : ""));
+  return object;
 }
 
 }  // namespace turnscan::tsdf

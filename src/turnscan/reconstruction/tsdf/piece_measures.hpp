@@ -1,5 +1,5 @@
 #pragma once
-// How much of a reconstructed piece was measured.
+// How much of a reconstructed piece was measured, and what its user is told of it.
 
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 
@@ -23,5 +23,9 @@ Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthV
 
 /// Points in a box that the input's views measured.
 std::size_t count_points(const VolumetricInput& input, const Box& box);
+
+/// The piece as an object, with notes; its name is the caller's. Takes mesh and qualities out of
+/// the piece, but not its support. color_wanted: a mesh without colours gets a note.
+ObjectResult object_of(VolumetricPiece& piece, bool color_wanted);
 
 }  // namespace turnscan::tsdf

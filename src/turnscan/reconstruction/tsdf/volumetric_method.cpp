@@ -7,6 +7,7 @@
 #include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
+#include <turnscan/reconstruction/tsdf/piece_measures.hpp>
 #include <turnscan/reconstruction/tsdf/view_store.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
@@ -25,9 +26,6 @@ constexpr std::size_t kPreviewBricks = 1500;
 
 /// Platters that differ by less are one: cosine of 1.8 degrees, and metres.
 constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
-
-/// Less invented surface without a return than this is not worth a note: rims have some.
-constexpr double kLeastNoReturn_m2 = 2e-4;
 
 /// Fewer points than this make no object.
 constexpr std::uint64_t kFewestPoints = 100;
@@ -94,7 +92,6 @@ class VolumetricMethod final : public Method {
   Result<> integrate_pending(bool all, const RunContext& context);
   Result<> correct_noise(Reconstruction& out, const RunContext& context);
   std::shared_ptr<const SeenSpace> seen_space() const;
-  ObjectResult object_of(VolumetricPiece& piece) const;
 
   const SequenceHeader& header_;
   const ReconstructOptions& options_;
@@ -326,33 +323,6 @@ std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space() const {
   return seen;
 }
 
-ObjectResult VolumetricMethod::object_of(VolumetricPiece& piece) const {
-  ObjectResult object;
-  object.mesh = std::move(piece.mesh);
-  object.check = check_mesh(object.mesh);
-  object.points = piece.points;
-  object.invented_area_m2 = piece.invented_area_m2;
-  object.confidence = std::move(piece.confidence);
-  object.quality = std::move(piece.quality);
-  object.evidence = std::move(piece.evidence);
-  if (options_.color && object.mesh.colors.empty())
-    object.notes.emplace_back("the recording has no colour");
-  if (piece.base_area_m2 > 0.0)
-    object.notes.push_back(
-        fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
-  if (piece.no_return_area_m2 >= kLeastNoReturn_m2)
-    object.notes.push_back(fmt::format(
-        "{:.1f} cm^2 of its invented surface face sensors that had no return from there: "
-        "too dark, too shiny or transparent",
-        piece.no_return_area_m2 * 1e4));
-  if (piece.detached > 0)
-    object.notes.push_back(fmt::format(
-        "{} part{} of it hang{} in the air: no frame shows what "
-        "connects them to the rest",
-        piece.detached, piece.detached == 1 ? "" : "s", piece.detached == 1 ? "s" : ""));
-  return object;
-}
-
 Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& context,
                                   Reconstruction& out) {
   TURNSCAN_TRY(flush_profiles(context));
@@ -387,7 +357,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
   const StageTimer timer(out.stages, "check");
   PointCloud fitted;
   for (VolumetricPiece& piece : result.pieces) {
-    ObjectResult& object = out.objects.emplace_back(object_of(piece));
+    ObjectResult& object = out.objects.emplace_back(object_of(piece, options_.color));
     object.mesh.name = fmt::format("object {}", out.objects.size());
     fitted.points.insert(fitted.points.end(), object.mesh.vertices.begin(),
                          object.mesh.vertices.end());

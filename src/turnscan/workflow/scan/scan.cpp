@@ -13,7 +13,6 @@
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/recording/unfinished.hpp>
 
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_picture.hpp>
@@ -263,23 +262,9 @@ class ScanRun {
       TURNSCAN_TRY(write_file_atomically(request_.report, report));
       out_.files.push_back(request_.report);
     }
-    return request_.page.empty() ? Result<>() : with_hint(write_report_page(report));
-  }
-
-  Result<> write_report_page(const std::string& report) {
-    PageInput input;
-    input.title = page_title(request_.mesh);
-    input.objects = page_objects(out_.reconstruction);
-    input.report = report;
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
-    const auto& found = choice_.calibration;
-    if (found && found->angles_rad.size() == recording.frames().size()) {
-      TURNSCAN_ASSIGN(const auto placed, with_calibration(recording, *found));
-      input.turn = turn_of(*placed);
-    } else {
-      input.turn = turn_of(recording);
-    }
-    TURNSCAN_TRY(write_page(request_.page, input, context_));
+    if (request_.page.empty()) return {};
+    TURNSCAN_TRY(with_hint(
+        workflow::write_scan_page(request_, out_, report, choice_.calibration, context_)));
     out_.files.push_back(request_.page);
     return {};
   }
@@ -403,27 +388,6 @@ class ScanRun {
 };
 
 }  // namespace
-
-OptionTable describe(AheadOptions& options) {
-  OptionTable table;
-  table.number("ahead", options.share, Quantity::kNone, {0.5, 0.98},
-               "Where nothing is known of the turntable: begin to calibrate from motion and to "
-               "reconstruct when this share of the recording is there. auto: at its end");
-  return table;
-}
-
-std::string recording_of(const ScanRequest& request) {
-  if (!request.recording.empty()) return request.recording;
-  const std::string& mesh = request.mesh;
-  const std::string stem = mesh.substr(0, mesh.size() - ending_of(mesh).size());
-  std::string name = stem + ".recording";
-  std::error_code error;
-  for (int i = 2; fs::exists(name, error); ++i) {
-    if (request.overwrite_unfinished && is_unfinished_recording(name)) break;
-    name = fmt::format("{}-{}.recording", stem, i);
-  }
-  return name;
-}
 
 Result<ScanOutcome> run_scan(ScanRequest request, const ScanHooks& hooks,
                              const RunContext& context) {

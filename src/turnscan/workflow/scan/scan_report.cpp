@@ -3,9 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/reconstruction/report.hpp>
+#include <turnscan/recording/recording.hpp>
 
 #include <turnscan/workflow/next_pass/next_pass_json.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
+#include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/scan/capture_json.hpp>
 #include <turnscan/workflow/text/capture_text.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
@@ -52,6 +54,25 @@ std::string workflow::scan_report(const ScanRequest& request, const ScanOutcome&
   put_frame_residuals(outcome.frame_residuals, out["reconstruction"]);
   out["next_pass"] = outcome.next_pass ? next_pass_json(*outcome.next_pass) : nullptr;
   return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Result<> workflow::write_scan_page(const ScanRequest& request, const ScanOutcome& outcome,
+                                   const std::string& report,
+                                   const std::optional<Calibration>& found,
+                                   const RunContext& context) {
+  PageInput input;
+  input.title = page_title(request.mesh);
+  input.objects = page_objects(outcome.reconstruction);
+  input.report = report;
+  TURNSCAN_ASSIGN(const Recording recording, Recording::open(outcome.recording));
+  if (found && found->angles_rad.size() == recording.frames().size()) {
+    TURNSCAN_ASSIGN(const auto placed, with_calibration(recording, *found));
+    input.turn = turn_of(*placed);
+  } else {
+    input.turn = turn_of(recording);
+  }
+  TURNSCAN_TRY(write_page(request.page, input, context));
+  return {};
 }
 
 std::string scan_text(const ScanOutcome& outcome) {

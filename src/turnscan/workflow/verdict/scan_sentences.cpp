@@ -7,7 +7,7 @@ namespace turnscan::workflow {
 
 namespace {
 
-constexpr double kWholeTurn = 0.90, kHalfTurn = 0.5;
+constexpr double kHalfTurn = 0.5;
 constexpr double kFewDropped = 0.25;
 /// Frames that disagree by more, beyond what their noise explains, blur the mesh.
 constexpr double kAgreed_m = 0.001;

@@ -10,6 +10,9 @@ namespace turnscan::workflow {
 
 using Sentences = std::vector<VerdictSentence>;
 
+/// Of a turn, as TurnSeen::share: with less, sides are missing.
+inline constexpr double kWholeTurn = 0.90;
+
 /// good: at least `good`; fair: at least `fair`.
 Level level_of(double value, double good, double fair);
 

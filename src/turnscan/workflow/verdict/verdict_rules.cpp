@@ -23,7 +23,6 @@ constexpr double kGoodShare = 0.96, kFairShare = 0.84;
 /// Of the surface, that hardly a frame could see. Where that is not known what was not measured
 /// counts, which is 4 % more on average.
 constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04;
-constexpr double kWholeTurn = 0.90;
 constexpr double kFewFrames = 6.0;
 /// Frames that see a place; more do not help as much as a nearer sensor.
 constexpr int kManyFrames = 40;
@@ -296,7 +295,7 @@ class Judge {
   void say_help() {
     const char* further = passes() == 1 ? "a second pass" : "another pass";
     const std::string how = fmt::format("(turnscan scan --passes {})", passes() + 1);
-    if (known_.turn && known_.turn->share < kWholeTurn)
+    if (known_.turn && known_.turn->share < workflow::kWholeTurn)
       say("help", Level::kGood, "a whole turn would show the other sides");
     else if (const NextPose* pose = best_pose())
       say("help", Level::kGood,
