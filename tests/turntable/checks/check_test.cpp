@@ -116,5 +116,12 @@ TEST(MeasureClosure, WhatNoiseAloneShowsCondemnsNoCalibration) {
   EXPECT_TRUE(closure.bad());
 }
 
+TEST(MeasureClosure, SaysWhenTheNoiseWasNotMeasured) {
+  ClosureError closure{.shift_m = 0.0027, .noise_m = 0.0024, .pairs = 2};
+  EXPECT_EQ(closure.noise_text(), "noise alone makes 2.40 mm");
+  closure.noise_m = 0.0;
+  EXPECT_NE(closure.noise_text().find("is not known"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -64,8 +64,8 @@ class RecordingCheck {
                                  : std::string();
     say(!e.bad(),
         "Closure: one turn later the object lies {:.2f} mm{} from where it was ({} pairs "
-        "of frames; noise alone shows {:.2f} mm).{}",
-        e.shift_m * 1e3, turn, e.pairs, e.noise_m * 1e3,
+        "of frames; {}).{}",
+        e.shift_m * 1e3, turn, e.pairs, e.noise_text(),
         e.bad() ? " Axis, centre or speed of the recording are wrong." : "");
     return {};
   }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
@@ -156,6 +158,11 @@ bool ClosureError::bad() const {
   const double squared = shift_m * shift_m - noise_m * noise_m;
   return squared > 0.0015 * 0.0015 ||
          (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegreesPerRadian > 1.0);
+}
+
+std::string ClosureError::noise_text() const {
+  return noise_m > 0.0 ? fmt::format("noise alone makes {:.2f} mm", noise_m * 1e3)
+                       : "how much of it is noise is not known: no frames are near enough";
 }
 
 Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequence,

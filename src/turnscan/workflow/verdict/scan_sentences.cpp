@@ -95,9 +95,8 @@ void say_calibration(const ScanKnowledge& known, Sentences& out) {
     say_recorded(known, out);
   if (const auto& closure = choice.checks.closure; closure && !choice.calibration)
     out.push_back({"closure", closure->bad() ? Level::kBad : Level::kGood,
-                   fmt::format("one turn later the object lies {:.2f} mm from where it was, noise "
-                               "alone makes {:.2f} mm",
-                               closure->shift_m * 1e3, closure->noise_m * 1e3),
+                   fmt::format("one turn later the object lies {:.2f} mm from where it was; {}",
+                               closure->shift_m * 1e3, closure->noise_text()),
                    closure->shift_m * 1e3, "mm"});
 }
 
