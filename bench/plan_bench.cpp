@@ -171,7 +171,7 @@ int run_model(const std::string& meshes, std::uint64_t first, int count, bool re
     const auto parts = median_parts(*field, rig);
     fmt::print(
         "{} {} {} {}x{} {:.0f} {:.0f} | {:.2f} {:.2f} | {:.3f} {:.3f} | {:.3f} {:.3f} {:.3f} "
-        "{:.3f} {}\n",
+        "{:.3f} {:.3f} {}\n",
         seed, object.name.substr(object.name.find_last_of("/:") + 1), scanner, rig.places.size(),
         rig.poses[0].size(), 1e3 * rig.places[0].placement.distance_m,
         57.3 * rig.places[0].placement.elevation_rad, 100.0 * score.covered, 100.0 * trial.covered,

@@ -32,7 +32,9 @@ struct ReconstructOptions {
   /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
   /// methods from points keep sums only, and the sink gets the later stages.
   bool keep_points = false;
-  bool keep_views = false;  ///< the result gets its SeenSpace; volumetric method only
+  /// Only what another pass is laid against: the result gets its SeenSpace, and neither a quality
+  /// nor a smooth surface where no frame measured one; volumetric method only.
+  bool for_placing = false;
 };
 
 /// A group for each stage, e.g. "voxels": for the command line, a TOML file and the manual.

@@ -13,7 +13,9 @@ struct MeshFitScale {
   double noise_m = 0.001;   ///< of a depth along its ray
   double reach_m = 0.0013;  ///< measurements farther across the normal do not count
   double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
-  double stiffness = 15.0;  ///< of the surface against bending, relative to the measurements
+  /// Of the surface against bending otherwise than around, relative to the measurements; more where
+  /// few and noisy ones leave more noise.
+  double stiffness = 15.0;
   /// Curvature, averaged with the neighbours', in deviations of the noise, at which the weight of
   /// the bending term falls to a quarter: larger ones are creases.
   double crease_sigmas = 0.1;
@@ -35,6 +37,10 @@ struct MeshFit {
 float typical_support(const std::vector<float>& support);
 /// Share of the typical support below which a vertex counts as seen by no view.
 inline constexpr float kUnseenShare = 0.02f;
+
+/// How many times MeshFitScale::stiffness the fit takes, 1 or more: what noise leaves of the
+/// measurements falls with their number, and what a surface bends does not.
+double stiffening(double noise_m, double reach_m, float typical_support);
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a

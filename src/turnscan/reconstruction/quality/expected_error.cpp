@@ -63,6 +63,9 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
+  // A stiffer surface averages over waves as long as the fourth root, which is over an area.
+  const double stiffer = mesh_refinement::stiffening(scale.noise_m, scale.reach_m, float(typical));
+  const double noise_share = kNoiseShare / std::pow(stiffer, 0.25);
   std::optional<ThinWalls> walls;
   if (scale.filtered) walls.emplace(mesh, normals);
   // Pixels of many frames fall between each other's, so that less noise shows finer detail; what
@@ -73,7 +76,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
-    const double noise = kNoiseShare * scale.noise_m / std::sqrt(1.0 + double(support[v]));
+    const double noise = noise_share * scale.noise_m / std::sqrt(1.0 + double(support[v]));
     const double blur = window_m2 * bend;
     const double floor = kFloorShare * scale.noise_m;
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);

@@ -14,7 +14,7 @@ namespace turnscan::tsdf {
 namespace {
 
 /// Less invented surface without a return than this is not worth a note: rims have some.
-constexpr double kLeastNoReturn_m2 = 2e-4;
+constexpr double kLeastNoReturn_m2 = 3e-4;
 
 /// Whether vertices that no pass saw lie in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
@@ -34,12 +34,12 @@ void measure_confidence(VolumetricPiece& piece) {
 }
 
 Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
-                         const VolumeScale& scale, bool filtered, const RunContext& context) {
-  const double tolerance_m = 3.0 * input.noise_m + scale.cell_m;
+                         const VolumetricScale& scale, bool filtered, const RunContext& context) {
+  const double tolerance_m = 3.0 * input.noise_m + scale.volume.cell_m;
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
   const auto expected = quality::expected_errors(piece.mesh, piece.support,
-                                                 {input.noise_m, input.spacing_m, filtered});
+                                                 {input.noise_m, input.spacing_m, scale.fit_reach_m, filtered});
   piece.quality.resize(expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};

@@ -11,7 +11,7 @@ void measure_confidence(VolumetricPiece& piece);
 /// Sets the quality from the support and from the input's views. filtered: the sensor averages over
 /// neighbouring pixels. Fails with kCancelled.
 Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
-                         const VolumeScale& scale, bool filtered, const RunContext& context);
+                         const VolumetricScale& scale, bool filtered, const RunContext& context);
 
 /// Sets the evidence, and the areas that no frame measured: of the base on the platter, and of what
 /// was invented. Needs the confidence.

@@ -93,7 +93,7 @@ class VolumetricReconstruction {
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
-      if (options_.fit)
+      if (options_.fit && !input_.measured_only)
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface.unseen); }));
       if (!encloses_volume(fitted.mesh)) continue;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
@@ -157,8 +157,9 @@ class VolumetricReconstruction {
   Result<> measure(VolumetricPiece& piece) {
     measure_confidence(piece);
     const auto quality = [&]() -> Result<> {
-      TURNSCAN_TRY(measure_quality(piece, input_, scale_.volume, filter_share_ > 0.0, context_));
       measure_evidence(piece, scale_.volume);
+      if (input_.measured_only) return {};
+      TURNSCAN_TRY(measure_quality(piece, input_, scale_, filter_share_ > 0.0, context_));
       return measure_no_return(piece, input_.views, context_);
     };
     TURNSCAN_TRY(timed("quality", quality));

@@ -21,6 +21,7 @@ struct VolumetricInput {
   std::optional<double> filter_share = 0.0;
   bool profiles = false;             ///< of a line scanner: views are parts of one long scan
   bool colored = false;              ///< the mesh gets the views' colours
+  bool measured_only = false;        ///< see ReconstructOptions::for_placing
   std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
   std::optional<int> grid;           ///< or: samples along the longest side
   int keep = 0;                      ///< largest pieces that are kept; 0: all

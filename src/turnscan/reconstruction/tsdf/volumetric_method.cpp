@@ -139,6 +139,7 @@ Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) 
   method->view_scale_ = {std::max(8.0 * noise, 4.0 * input.spacing_m), input.spacing_m,
                          in.options.color, in.T_object_table.has_value()};
   input.colored = in.options.color;
+  input.measured_only = in.options.for_placing;
   return method;
 }
 
@@ -363,7 +364,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                          object.mesh.vertices.end());
     fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());
   }
-  if (options_.keep_views) out.seen = seen_space();
+  if (options_.for_placing) out.seen = seen_space();
   return sink ? sink("fitted", fitted) : Result<>();
 }
 

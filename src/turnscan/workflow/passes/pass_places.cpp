@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
 #include <turnscan/reconstruction/passes/motion_refinement.hpp>
@@ -27,6 +28,10 @@ constexpr double kCrumbShare = 0.1;
 /// deviations of what they show.
 constexpr double kDoubt_m = 0.001, kDoubtSigmas = 5.0;
 
+/// So many images a sensor place a pass as well as all of them do: the fusion, which follows, takes
+/// all. Beyond them every second one, third one, ... is left out.
+constexpr std::size_t kPlacingImages = 300;
+
 /// Where a pass lies needs nothing but its surface.
 ReconstructOptions for_surface(const ReconstructOptions& options) {
   ReconstructOptions out = options;
@@ -39,7 +44,7 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
   out.volumetric.max_error_m.reset();
   out.volumetric.mark_invented = false;
   out.color = out.keep_points = false;
-  out.keep_views = true;
+  out.for_placing = true;
   return out;
 }
 
@@ -48,6 +53,23 @@ struct MeasuredTable {
   std::vector<PassSurface> objects;  ///< largest first
   std::optional<TableShare> share;   ///< of several
 };
+
+std::vector<std::size_t> images_for_placing(const FrameSequence& frames) {
+  std::vector<std::size_t> seen(frames.header().sensors.size(), 0);
+  for (const FrameInfo& info : frames.frames()) ++seen.at(info.sensor);
+  std::vector<std::size_t> strides;
+  for (std::size_t s = 0; s < seen.size(); ++s) {
+    const bool images = frames.header().sensors[s].kind == SensorKind::kDepthCamera;
+    strides.push_back(images ? 1 + seen[s] / (kPlacingImages + 1) : 1);
+  }
+  seen.assign(seen.size(), 0);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < frames.frames().size(); ++i) {
+    const std::size_t sensor = frames.frames()[i].sensor;
+    if (seen[sensor]++ % strides[sensor] == 0) out.push_back(i);
+  }
+  return out;
+}
 
 PassSurface united(std::vector<PassSurface>& pieces) {
   if (pieces.empty()) return {};
@@ -64,7 +86,8 @@ PassSurface united(std::vector<PassSurface>& pieces) {
 
 Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOptions& options,
                                     const RunContext& context) {
-  TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass.frames}));
+  TURNSCAN_ASSIGN(const JoinedFrames all, JoinedFrames::create({pass.frames}));
+  const SequenceView frames(all, images_for_placing(all));
   TURNSCAN_ASSIGN(const Reconstruction r, reconstruct(frames, for_surface(options), {}, context));
   const passes::SharedViews views(r.seen, &r.seen->views);
   MeasuredTable out;

@@ -86,7 +86,10 @@ Result<std::vector<PlanTrial>> TrialRunner::run_here(const std::vector<TrialScen
                           request.judge = false;
                           TURNSCAN_ASSIGN(ReconstructRun run,
                                           run_reconstruction(simulation.scan, request, context));
-                          return run.reconstruction.objects.front().mesh;
+                          if (!run.reconstruction.objects.empty())
+                            return run.reconstruction.objects.front().mesh;
+                          TURNSCAN_TRY(check_joined(run.apart));  // passes, each a mesh apart
+                          return fail(ErrorCode::kMissingData, "no object was found");
                         },
                         context));
     out.push_back(std::move(trial));
