@@ -75,24 +75,30 @@ std::vector<Vec3f> block_normals(const TexelBlocks& blocks) {
   return out;
 }
 
-/// Light on each block in each of its views.
-std::vector<std::array<float, kSlots>> shading_of(const FixedLight& light,
-                                                  const ChosenViews& chosen,
-                                                  const std::vector<Vec3f>& normals,
-                                                  const std::vector<Eigen::Matrix3f>& rotation) {
-  std::vector<std::array<float, kSlots>> out(normals.size());
+/// What takes the light off each block in each of its views.
+BlockLevels without_light(const FixedLight& light, const ChosenViews& chosen,
+                          const std::vector<Vec3f>& normals,
+                          const std::vector<Eigen::Matrix3f>& rotation) {
+  BlockLevels out(normals.size());
   for (std::size_t b = 0; b < out.size(); ++b) {
-    out[b].fill(1.0f);
+    out[b].fill(Vec3f::Ones());
     for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
-      out[b][k] = std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
+      out[b][k] /= std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
   }
   return out;
 }
 
-BlockMeans without_shading(BlockMeans means,
-                           const std::vector<std::array<float, kSlots>>& shading) {
+BlockMeans with_levels(BlockMeans means, const BlockLevels& levels) {
   for (std::size_t b = 0; b < means.size(); ++b)
-    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] /= shading[b][k];
+    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] = means[b][k].cwiseProduct(levels[b][k]);
+  return means;
+}
+
+BlockMeans with_gains(BlockMeans means, const ChosenViews& chosen,
+                      const std::vector<Vec3f>& gains) {
+  for (std::size_t b = 0; b < means.size(); ++b)
+    for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
+      means[b][k] = means[b][k].cwiseProduct(gains[chosen.view[b][k]]);
   return means;
 }
 
@@ -105,10 +111,23 @@ Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
   out.gains.assign(rotation.size(), Vec3f::Ones());
   for (int round = 0; round < kLightRounds; ++round) {
     const FixedLight light = solve_light(chosen, means, out.gains, normals, rotation);
-    out.shading = shading_of(light, chosen, normals, rotation);
-    out.gains = solve_gains(chosen, without_shading(means, out.shading), rotation.size());
+    out.levels = without_light(light, chosen, normals, rotation);
+    out.gains = solve_gains(chosen, with_levels(means, out.levels), rotation.size());
   }
   return out;
+}
+
+Correction without_drift(const ChosenViews& chosen, const BlockMeans& means, std::size_t views) {
+  Correction out;
+  out.gains = solve_gains(chosen, means, views);
+  out.levels.resize(means.size());
+  for (auto& slots : out.levels) slots.fill(Vec3f::Ones());
+  return out;
+}
+
+void multiply(BlockLevels& levels, const BlockLevels& by) {
+  for (std::size_t b = 0; b < levels.size(); ++b)
+    for (std::size_t k = 0; k < kSlots; ++k) levels[b][k] = levels[b][k].cwiseProduct(by[b][k]);
 }
 
 /// Finds the colour cameras of all sensors that have their own, and puts the views there.
@@ -179,13 +198,16 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
   TURNSCAN_ASSIGN(const TexelSamples samples,
                   sample_views(sequence, mesh, blocks, views, chosen, context));
-  const BlockMeans means = block_means(blocks, chosen, samples);
+  BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
   if (options.albedo)
     correction = without_lamp(chosen, means, block_normals(blocks), rig_rotations(sequence, views));
   else
-    correction.gains = solve_gains(chosen, means, views.size());
+    correction = without_drift(chosen, means, views.size());
   report.albedo = options.albedo;
+  means = with_levels(std::move(means), correction.levels);
+  means = with_gains(std::move(means), chosen, correction.gains);
+  multiply(correction.levels, seam_levels(blocks, chosen, means, views.size()));
   TURNSCAN_ASSIGN(const Blended blended,
                   blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
   auto texture = std::make_shared<MeshTexture>();
