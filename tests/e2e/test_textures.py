@@ -1,5 +1,6 @@
 """A scan with a colour camera of its own becomes a mesh with a texture, in every format that has one."""
 
+import base64
 import json
 import os
 import shutil
@@ -8,6 +9,7 @@ import subprocess
 import unittest
 import zlib
 
+import browser
 import harness
 from harness import FAILED, ROOT, USAGE
 
@@ -15,6 +17,7 @@ SCAN = ("simulate", "builtin:doll", "--height", "100mm", "--frames", "10", "--di
         "--noise", "none", "--platter-radius", "80mm", "--scan-colour")
 CAMERA = ("--colour-width", "320", "--colour-fov", "20deg", "--colour-drift", "0.2")
 COARSE = ("--voxel-size", "3mm")
+LOADERS = ROOT / "web" / "node_modules" / "three" / "examples" / "jsm" / "loaders"
 VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
 TURN = ("render", "m.obj", "--picture-width", "61", "--picture-height", "47", "--picture-samples", "1")
 
@@ -66,6 +69,32 @@ class Textures(harness.TestCase):
         self.assertEqual((found.returncode, found.stderr), (0, ""), found.stdout)
         self.assertIn("1 images", found.stdout)
         self.assertEqual(validated("damaged.glb").returncode, 1)
+
+    @unittest.skipUnless(shutil.which("node") and LOADERS.is_dir() and browser.find(),
+                         "three.js or a browser is not installed (scripts/setup page test)")
+    def test_three_js_loads_what_is_written(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--colour", "-o", "colours.glb")
+        for name in ("texture.glb", "texture.3mf"):
+            self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", name)
+        subprocess.run(["node", str(ROOT / "web" / "bundle.mjs"), "load.bundle.js", "load.js"], cwd=self.dir,
+                       check=True, timeout=60)
+        (self.dir / "load.html").write_text('<!doctype html><script src="load.bundle.js"></script>\n')
+        with browser.Browser() as program:
+            page = program.open(self.dir / "load.html")
+
+            def loaded(name):
+                data = base64.b64encode((self.dir / name).read_bytes()).decode()
+                meshes = page.evaluate(f"load({name.rpartition('.')[2]!r}, {data!r})")
+                self.assertEqual(page.complaints(), [], name)
+                self.assertEqual(len(meshes), 1, name)
+                mesh = json.loads(self.ok("info", name, "--json").stdout)["objects"][0]
+                self.assertEqual(meshes[0]["triangles"], mesh["triangles"], name)
+                return meshes[0]
+            colours = loaded("colours.glb")
+            self.assertEqual((colours["colours"], colours["picture"]), (True, None))
+            for name in ("texture.glb", "texture.3mf"):
+                self.assertEqual(loaded(name)["picture"], [256, 256, "srgb"], name)
 
     def test_what_cannot_have_a_texture_is_refused(self):
         self.ok(*SCAN[:-1], "--out", "rec")
