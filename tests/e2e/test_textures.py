@@ -22,6 +22,30 @@ VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
 TURN = ("render", "m.obj", "--picture-width", "61", "--picture-height", "47", "--picture-samples", "1")
 
 
+# Cells, whether they have places in a picture, pictures, and what VTK says of the file.
+VTK_READS = """
+import sys
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkIOGeometry import vtkGLTFReader
+window = vtkStringOutputWindow()
+vtkOutputWindow.SetInstance(window)
+reader = vtkGLTFReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+mesh = reader.GetOutput()
+while hasattr(mesh, "GetBlock"):
+    mesh = mesh.GetBlock(0)
+print(mesh.GetNumberOfCells(), mesh.GetPointData().GetTCoords() is not None, reader.GetNumberOfTextures(),
+      window.GetOutput())
+"""
+
+
+def has_vtk():
+    """Debian's module (python3-vtk9) is one of the system's Python."""
+    return subprocess.run(["/usr/bin/python3", "-c", "import vtkmodules.vtkIOGeometry"],
+                          capture_output=True).returncode == 0
+
+
 def gltf_of(path):
     data = path.read_bytes()
     return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
@@ -95,6 +119,28 @@ class Textures(harness.TestCase):
             self.assertEqual((colours["colours"], colours["picture"]), (True, None))
             for name in ("texture.glb", "texture.3mf"):
                 self.assertEqual(loaded(name)["picture"], [256, 256, "srgb"], name)
+
+    @unittest.skipUnless(has_vtk(), "VTK for Python is not installed")
+    def test_vtk_reads_a_textured_glb_without_a_word(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.glb")
+        read = subprocess.run(["/usr/bin/python3", "-c", VTK_READS, "m.glb"], cwd=self.dir, text=True,
+                              capture_output=True, timeout=60)
+        triangles = json.loads(self.ok("info", "m.glb", "--json").stdout)["objects"][0]["triangles"]
+        self.assertEqual((read.stdout.strip(), read.stderr), (f"{triangles} True 1", ""))
+
+    @unittest.skipUnless(shutil.which("prusa-slicer"), "prusa-slicer is not installed")
+    def test_a_slicer_takes_a_textured_3mf(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.3mf")
+        said = subprocess.run(["prusa-slicer", "--info", "m.3mf"], cwd=self.dir, text=True, capture_output=True,
+                              timeout=120)
+        lines = [line.split("=") for line in said.stdout.splitlines() if line.count("=") == 1]
+        facts = {name.strip(): value.strip() for name, value in lines}
+        triangles = json.loads(self.ok("info", "m.3mf", "--json").stdout)["objects"][0]["triangles"]
+        self.assertEqual((said.returncode, facts.get("manifold"), facts.get("number_of_parts")), (0, "yes", "1"),
+                         said.stdout + said.stderr)
+        self.assertEqual(facts["number_of_facets"], str(triangles))
 
     def test_what_cannot_have_a_texture_is_refused(self):
         self.ok(*SCAN[:-1], "--out", "rec")

@@ -12,13 +12,16 @@ namespace {
 
 constexpr std::size_t kChannels = 3;
 
+/// a where `first` is 1, b where it is 0.
+int either(int first, int a, int b) { return b ^ ((a ^ b) & -first); }
+
 /// PNG (second edition, ISO/IEC 15948), 9.4: of left, above and corner that which is nearest to
-/// left + above - corner.
+/// left + above - corner. Without branches: with noise they are guessed wrong half of the time.
 unsigned char paeth_of(int left, int above, int corner) {
   const int a = std::abs(above - corner), b = std::abs(left - corner);
   const int c = std::abs(left + above - 2 * corner);
-  const int nearer = b <= c ? above : corner;
-  return static_cast<unsigned char>(a <= b && a <= c ? left : nearer);
+  const int nearer = either(int(b <= c), above, corner);
+  return static_cast<unsigned char>(either(int(a <= b) & int(a <= c), left, nearer));
 }
 
 /// The three channels wait for nothing of each other.

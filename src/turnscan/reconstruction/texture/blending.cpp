@@ -98,11 +98,12 @@ using BlockShifts = std::array<ShiftSums, kSlots>;
 class Blender {
  public:
   Blender(const TexelBlocks& blocks, const ChosenViews& chosen, const TexelSamples& samples,
-          const Corrector& corrected, const RunContext& context)
+          const Corrector& corrected, float darker_says, const RunContext& context)
       : blocks_(blocks),
         chosen_(chosen),
         samples_(samples),
         corrected_(corrected),
+        darker_says_(darker_says),
         context_(context) {}
 
   void measure_shifts() {
@@ -180,8 +181,8 @@ class Blender {
   /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
   /// the surface from view to view: where several views have one, they do not agree with each
   /// other. Weights become what they were in the mean.
-  static Vec3f robust_mean(const std::array<Vec3f, kSlots>& color,
-                           std::array<float, kSlots>& weight, std::size_t n) {
+  Vec3f robust_mean(const std::array<Vec3f, kSlots>& color, std::array<float, kSlots>& weight,
+                    std::size_t n) const {
     if (n == 1) return color[0];
     constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
     const auto nearness = [&](std::size_t j, std::size_t k) {
@@ -199,7 +200,7 @@ class Blender {
       for (std::size_t j = 0; j < n; ++j) {
         const float near = nearness(j, k);
         support += vote[j] * near;
-        if (color[j].sum() < color[k].sum()) support -= kDarkerSays * vote[j] * (1.0f - near);
+        if (color[j].sum() < color[k].sum()) support -= darker_says_ * vote[j] * (1.0f - near);
       }
       if (support > most) most = support, usual = k;
     }
@@ -272,6 +273,7 @@ class Blender {
   const ChosenViews& chosen_;
   const TexelSamples& samples_;
   const Corrector& corrected_;
+  const float darker_says_;
   const RunContext& context_;
   std::vector<BlockShifts> shifts_;
 };
@@ -282,7 +284,8 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
                       const TexelSamples& samples, const Correction& correction,
                       double texels_per_m, const RunContext& context) {
   const Corrector corrected(correction);
-  Blender blender(blocks, chosen, samples, corrected, context);
+  const float darker_says = correction.lamp_taken_out ? 0.0f : kDarkerSays;
+  Blender blender(blocks, chosen, samples, corrected, darker_says, context);
   blender.measure_shifts();
   TURNSCAN_TRY(context.check());
   Blended out;

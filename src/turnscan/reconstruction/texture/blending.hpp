@@ -9,6 +9,8 @@ namespace turnscan::texture {
 struct Correction {
   std::vector<Vec3f> gains;  ///< per view
   BlockLevels levels;        ///< beside the gains
+  /// What is darker than usual is then as likely a shadow as what is brighter is a highlight.
+  bool lamp_taken_out = false;
 };
 
 struct Blended {

@@ -108,6 +108,7 @@ Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
                         const std::vector<Vec3f>& normals,
                         const std::vector<Eigen::Matrix3f>& rotation) {
   Correction out;
+  out.lamp_taken_out = true;
   out.gains.assign(rotation.size(), Vec3f::Ones());
   for (int round = 0; round < kLightRounds; ++round) {
     const FixedLight light = solve_light(chosen, means, out.gains, normals, rotation);
@@ -115,19 +116,6 @@ Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
     out.gains = solve_gains(chosen, with_levels(means, out.levels), rotation.size());
   }
   return out;
-}
-
-Correction without_drift(const ChosenViews& chosen, const BlockMeans& means, std::size_t views) {
-  Correction out;
-  out.gains = solve_gains(chosen, means, views);
-  out.levels.resize(means.size());
-  for (auto& slots : out.levels) slots.fill(Vec3f::Ones());
-  return out;
-}
-
-void multiply(BlockLevels& levels, const BlockLevels& by) {
-  for (std::size_t b = 0; b < levels.size(); ++b)
-    for (std::size_t k = 0; k < kSlots; ++k) levels[b][k] = levels[b][k].cwiseProduct(by[b][k]);
 }
 
 /// Finds the colour cameras of all sensors that have their own, and puts the views there.
@@ -203,11 +191,12 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   if (options.albedo)
     correction = without_lamp(chosen, means, block_normals(blocks), rig_rotations(sequence, views));
   else
-    correction = without_drift(chosen, means, views.size());
+    correction.gains = solve_gains(chosen, means, views.size());
   report.albedo = options.albedo;
-  means = with_levels(std::move(means), correction.levels);
-  means = with_gains(std::move(means), chosen, correction.gains);
-  multiply(correction.levels, seam_levels(blocks, chosen, means, views.size()));
+  // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
+  if (!options.albedo)
+    correction.levels = seam_levels(
+        blocks, chosen, with_gains(std::move(means), chosen, correction.gains), views.size());
   TURNSCAN_ASSIGN(const Blended blended,
                   blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
   auto texture = std::make_shared<MeshTexture>();
