@@ -1,4 +1,5 @@
-// node bundle.mjs OUT: writes the viewer and the licences of what is in it as one classic script.
+// node bundle.mjs OUT [SCRIPT]: writes the viewer, or another script of this folder, and the licences of what is in it
+// as one classic script.
 
 import {readFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
@@ -13,7 +14,7 @@ const banner = `/*! three.js ${three.version}\n${licence}\n*/
 MIT licence, whose text is the same as that of three.js above. */`;
 
 await build({
-  entryPoints: [join(here, 'viewer.js')],
+  entryPoints: [join(here, process.argv[3] ?? 'viewer.js')],
   outfile: process.argv[2],
   bundle: true,
   minify: true,

@@ -1,5 +1,6 @@
 """A scan with a colour camera of its own becomes a mesh with a texture, in every format that has one."""
 
+import base64
 import json
 import os
 import shutil
@@ -8,6 +9,7 @@ import subprocess
 import unittest
 import zlib
 
+import browser
 import harness
 from harness import FAILED, ROOT, USAGE
 
@@ -15,8 +17,33 @@ SCAN = ("simulate", "builtin:doll", "--height", "100mm", "--frames", "10", "--di
         "--noise", "none", "--platter-radius", "80mm", "--scan-colour")
 CAMERA = ("--colour-width", "320", "--colour-fov", "20deg", "--colour-drift", "0.2")
 COARSE = ("--voxel-size", "3mm")
+LOADERS = ROOT / "web" / "node_modules" / "three" / "examples" / "jsm" / "loaders"
 VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
 TURN = ("render", "m.obj", "--picture-width", "61", "--picture-height", "47", "--picture-samples", "1")
+
+
+# Cells, whether they have places in a picture, pictures, and what VTK says of the file.
+VTK_READS = """
+import sys
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkIOGeometry import vtkGLTFReader
+window = vtkStringOutputWindow()
+vtkOutputWindow.SetInstance(window)
+reader = vtkGLTFReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+mesh = reader.GetOutput()
+while hasattr(mesh, "GetBlock"):
+    mesh = mesh.GetBlock(0)
+print(mesh.GetNumberOfCells(), mesh.GetPointData().GetTCoords() is not None, reader.GetNumberOfTextures(),
+      window.GetOutput())
+"""
+
+
+def has_vtk():
+    """Debian's module (python3-vtk9) is one of the system's Python."""
+    return subprocess.run(["/usr/bin/python3", "-c", "import vtkmodules.vtkIOGeometry"],
+                          capture_output=True).returncode == 0
 
 
 def gltf_of(path):
@@ -66,6 +93,54 @@ class Textures(harness.TestCase):
         self.assertEqual((found.returncode, found.stderr), (0, ""), found.stdout)
         self.assertIn("1 images", found.stdout)
         self.assertEqual(validated("damaged.glb").returncode, 1)
+
+    @unittest.skipUnless(shutil.which("node") and LOADERS.is_dir() and browser.find(),
+                         "three.js or a browser is not installed (scripts/setup page test)")
+    def test_three_js_loads_what_is_written(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--colour", "-o", "colours.glb")
+        for name in ("texture.glb", "texture.3mf"):
+            self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", name)
+        subprocess.run(["node", str(ROOT / "web" / "bundle.mjs"), "load.bundle.js", "load.js"], cwd=self.dir,
+                       check=True, timeout=60)
+        (self.dir / "load.html").write_text('<!doctype html><script src="load.bundle.js"></script>\n')
+        with browser.Browser() as program:
+            page = program.open(self.dir / "load.html")
+
+            def loaded(name):
+                data = base64.b64encode((self.dir / name).read_bytes()).decode()
+                meshes = page.evaluate(f"load({name.rpartition('.')[2]!r}, {data!r})")
+                self.assertEqual(page.complaints(), [], name)
+                self.assertEqual(len(meshes), 1, name)
+                mesh = json.loads(self.ok("info", name, "--json").stdout)["objects"][0]
+                self.assertEqual(meshes[0]["triangles"], mesh["triangles"], name)
+                return meshes[0]
+            colours = loaded("colours.glb")
+            self.assertEqual((colours["colours"], colours["picture"]), (True, None))
+            for name in ("texture.glb", "texture.3mf"):
+                self.assertEqual(loaded(name)["picture"], [256, 256, "srgb"], name)
+
+    @unittest.skipUnless(has_vtk(), "VTK for Python is not installed")
+    def test_vtk_reads_a_textured_glb_without_a_word(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.glb")
+        read = subprocess.run(["/usr/bin/python3", "-c", VTK_READS, "m.glb"], cwd=self.dir, text=True,
+                              capture_output=True, timeout=60)
+        triangles = json.loads(self.ok("info", "m.glb", "--json").stdout)["objects"][0]["triangles"]
+        self.assertEqual((read.stdout.strip(), read.stderr), (f"{triangles} True 1", ""))
+
+    @unittest.skipUnless(shutil.which("prusa-slicer"), "prusa-slicer is not installed")
+    def test_a_slicer_takes_a_textured_3mf(self):
+        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.3mf")
+        said = subprocess.run(["prusa-slicer", "--info", "m.3mf"], cwd=self.dir, text=True, capture_output=True,
+                              timeout=120)
+        lines = [line.split("=") for line in said.stdout.splitlines() if line.count("=") == 1]
+        facts = {name.strip(): value.strip() for name, value in lines}
+        triangles = json.loads(self.ok("info", "m.3mf", "--json").stdout)["objects"][0]["triangles"]
+        self.assertEqual((said.returncode, facts.get("manifold"), facts.get("number_of_parts")), (0, "yes", "1"),
+                         said.stdout + said.stderr)
+        self.assertEqual(facts["number_of_facets"], str(triangles))
 
     def test_what_cannot_have_a_texture_is_refused(self):
         self.ok(*SCAN[:-1], "--out", "rec")

@@ -253,6 +253,21 @@ TEST(ColorPng, ReadsEveryKindOfPng) {
   }
 }
 
+TEST(ColorPng, ReadsEveryFilterOfLibpngInAnyNumberOfChunks) {
+  const ColorImage image = some_color(61, 47);
+  const std::string pixels(reinterpret_cast<const char*>(image.pixels.data()),
+                           image.pixels.size() * sizeof(Rgb));
+  for (const int filters : {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
+                            PNG_FILTER_PAETH, PNG_ALL_FILTERS}) {
+    for (const std::size_t chunk : {std::size_t(6), std::size_t(1000), std::size_t(1) << 20}) {
+      const auto back =
+          decode_color(png_of(61, 47, 8, PNG_COLOR_TYPE_RGB, pixels, false, filters, chunk));
+      ASSERT_TRUE(back) << filters << ", " << chunk << ": " << back.error().text();
+      EXPECT_EQ(back->pixels, image.pixels) << filters << ", " << chunk;
+    }
+  }
+}
+
 TEST(ColorJpeg, StaysNearThePixels) {
   const TempFolder folder;
   const ColorImage image = some_color(40, 30);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/core/parallel.hpp>
@@ -122,6 +123,51 @@ TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
   // Nor is there any in a lamp's place where no lamp is.
   pictures.lamp = [](const Vec3d&) { return 1.0f; };
   EXPECT_LT(shading_left(texture_of(pictures, options).mesh), 0.02);
+}
+
+/// Differences of light between triangles beside each other that were seen, in shares: what 99 of
+/// 100 stay below.
+double steps_left(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> beside;
+  std::vector<double> steps;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    if (mesh.vertices[v[0]].y() < -0.015f) continue;
+    const double light = std::pow(double(texture_at(mesh, t, 1.0f / 3, 1.0f / 3).y()) / 255.0, 2.2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = std::minmax(v[i], v[(i + 1) % 3]);
+      const auto [other, is_new] = beside.emplace(edge, light);
+      if (!is_new) steps.push_back(std::abs(light / other->second - 1.0));
+    }
+  }
+  std::sort(steps.begin(), steps.end());
+  return steps[steps.size() * 99 / 100];
+}
+
+TEST(TextureMesh, ShowsFewStepsWhereViewsOfALampMeet) {
+  EllipsoidPictures pictures;
+  pictures.frames = 7;
+  pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
+  // From the right: the left side of each picture is darker than the same place in the next one.
+  pictures.lamp = [](const Vec3d& normal) {
+    const Vec3d to_lamp = Vec3d(0.9, -0.2, -0.4).normalized();
+    return 0.5f + 0.5f * float(std::max(0.0, normal.dot(to_lamp)));
+  };
+  TextureOptions options;
+  options.refine_camera = false;  // nothing to find it by
+  const Textured made = texture_of(pictures, options);
+  EXPECT_LT(steps_left(made.mesh), 0.06);
+  for (const Vec3f& gain : made.report.gains) EXPECT_NEAR(gain.y(), 1.0f, 0.1f);
+}
+
+TEST(TextureMesh, LeavesLittleOfAHighlightAsWideAsTheViewsAreApart) {
+  EllipsoidPictures pictures;
+  pictures.frames = 40;
+  pictures.gloss = [](const Vec3d& normal, const Vec3d& to_eye) {
+    const Vec3d half = (to_eye + Vec3d(0.0, -0.7, -0.7).normalized()).normalized();
+    return 120.0f * float(std::pow(std::max(0.0, normal.dot(half)), 40.0));
+  };
+  EXPECT_LT(error_of(texture_of(pictures).mesh), 10.0);
 }
 
 TEST(TextureMesh, FindsAColourCameraThatIsNotWhereItWasSaidToBe) {

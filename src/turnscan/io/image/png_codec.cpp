@@ -138,6 +138,8 @@ Result<PngInfo> read_png_info(std::string_view bytes) {
 Result<> decode_png(std::string_view bytes, const PngInfo& info, PngPixels kind,
                     unsigned char* pixels) {
   if (kind == PngPixels::kDepth16 && decode_plain_depth(bytes, info, pixels)) return {};
+  const bool rgb = info.color_type == 2 && info.bit_depth == 8;
+  if (kind == PngPixels::kRgb8 && rgb && decode_rgb(bytes, info, pixels)) return {};
   const std::size_t row_bytes = info.width * bytes_per_pixel(kind);
   std::vector<png_bytep> rows(info.height);
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = pixels + row * row_bytes;

@@ -1,5 +1,7 @@
+#include <array>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <turnscan/io/image/png_color.hpp>
 #include <turnscan/io/image/png_depth.hpp>
 #include <vector>
@@ -8,19 +10,74 @@ namespace turnscan::image {
 
 namespace {
 
-constexpr unsigned char kUpFilter = 2, kPaethFilter = 4;
 constexpr std::size_t kChannels = 3;
 
+/// a where `first` is 1, b where it is 0.
+int either(int first, int a, int b) { return b ^ ((a ^ b) & -first); }
+
 /// PNG (second edition, ISO/IEC 15948), 9.4: of left, above and corner that which is nearest to
-/// left + above - corner.
+/// left + above - corner. Without branches: with noise they are guessed wrong half of the time.
 unsigned char paeth_of(int left, int above, int corner) {
   const int a = std::abs(above - corner), b = std::abs(left - corner);
   const int c = std::abs(left + above - 2 * corner);
-  const int nearer = b <= c ? above : corner;
-  return static_cast<unsigned char>(a <= b && a <= c ? left : nearer);
+  const int nearer = either(int(b <= c), above, corner);
+  return static_cast<unsigned char>(either(int(a <= b) & int(a <= c), left, nearer));
+}
+
+/// The three channels wait for nothing of each other.
+void undo_paeth_rgb(unsigned char* row, const unsigned char* above, std::size_t size) {
+  std::array<int, kChannels> left{}, corner{};
+  for (std::size_t i = 0; i < size; i += kChannels)
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      const int up = above[i + c];
+      left[c] = (row[i + c] + paeth_of(left[c], up, corner[c])) & 255;
+      row[i + c] = static_cast<unsigned char>(left[c]);
+      corner[c] = up;
+    }
+}
+
+bool undo_filter_rgb(int filter, unsigned char* row, const unsigned char* above, std::size_t size) {
+  const auto add = [&](std::size_t i, int predicted) {
+    row[i] = static_cast<unsigned char>(row[i] + predicted);
+  };
+  switch (filter) {
+    case kNone:
+      return true;
+    case kSub:
+      for (std::size_t i = kChannels; i < size; ++i) add(i, row[i - kChannels]);
+      return true;
+    case kUp:
+      for (std::size_t i = 0; i < size; ++i) add(i, above[i]);
+      return true;
+    case kAverage:
+      for (std::size_t i = 0; i < size; ++i)
+        add(i, ((i < kChannels ? 0 : row[i - kChannels]) + above[i]) / 2);
+      return true;
+    case kPaeth:
+      undo_paeth_rgb(row, above, size);
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace
+
+bool decode_rgb(std::string_view bytes, const PngInfo& info, unsigned char* pixels) try {
+  const std::span<unsigned char> rows = unpack_plain(bytes, info, kChannels);
+  if (rows.empty()) return false;
+  const std::size_t row_bytes = kChannels * info.width;
+  const unsigned char* above = rows.data();
+  for (std::size_t y = 0; y < info.height; ++y) {
+    unsigned char* row = rows.data() + row_bytes + y * (row_bytes + 1);
+    if (!undo_filter_rgb(row[0], row + 1, above, row_bytes)) return false;
+    std::memcpy(pixels + y * row_bytes, row + 1, row_bytes);
+    above = row + 1;
+  }
+  return true;
+} catch (const std::bad_alloc&) {
+  return false;
+}
 
 std::string encode_rgb(const unsigned char* pixels, std::uint32_t width, std::uint32_t height) {
   const std::size_t row_bytes = kChannels * width;
@@ -31,10 +88,10 @@ std::string encode_rgb(const unsigned char* pixels, std::uint32_t width, std::ui
   for (std::size_t y = 0; y < height; ++y) {
     const unsigned char* row = pixels + y * row_bytes;
     unsigned char* out = filtered.data() + y * (row_bytes + 1);
-    *out++ = kPaethFilter;
+    *out++ = kPaeth;
     // Of a copied row nothing is left.
     if (y > 0 && std::memcmp(row, above, row_bytes) == 0) {
-      out[-1] = kUpFilter;
+      out[-1] = kUp;
       std::memset(out, 0, row_bytes);
       continue;
     }

@@ -38,8 +38,6 @@ Scratch& scratch_of_this_thread() {
   return scratch;
 }
 
-enum Filter { kNone, kSub, kUp, kAverage, kPaeth };
-
 struct Chunk {
   std::string_view type;
   std::string_view content;
@@ -83,7 +81,7 @@ std::string_view image_data(std::string_view bytes, std::vector<unsigned char>& 
     }
     after_image = in_image;
     const bool critical = (chunk.type[0] & 0x20) == 0;
-    if (critical && chunk.type != "IHDR") return {};
+    if ((critical && chunk.type != "IHDR") || chunk.type == "tRNS") return {};
   }
   return {};
 }
@@ -151,11 +149,9 @@ void to_machine_order(const unsigned char* row, std::size_t values, unsigned cha
   }
 }
 
-bool unfilter(std::vector<unsigned char>& filtered, const PngInfo& info, unsigned char* pixels) {
+bool unfilter(std::span<unsigned char> filtered, const PngInfo& info, unsigned char* pixels) {
   const std::size_t row_bytes = std::size_t(info.width) * 2, stride = row_bytes + 1;
-  // One row of zeros stands before the first.
-  unsigned char* above = filtered.data();
-  std::memset(above, 0, row_bytes);
+  const unsigned char* above = filtered.data();
   for (std::size_t y = 0; y < info.height; ++y) {
     unsigned char* row = filtered.data() + row_bytes + y * stride;
     if (!undo_filter(row[0], row + 1, above, row_bytes)) return false;
@@ -209,20 +205,28 @@ void filter_up(const unsigned char* pixels, std::size_t width, std::size_t heigh
 
 }  // namespace
 
-bool decode_plain_depth(std::string_view bytes, const PngInfo& info, unsigned char* pixels) try {
+std::span<unsigned char> unpack_plain(std::string_view bytes, const PngInfo& info,
+                                      std::size_t bytes_per_pixel) {
   constexpr std::size_t kHeader = 33;  // signature and IHDR
   // Compression and filter methods, interlacing.
-  if (bytes.size() < kHeader || bytes.substr(26, 3) != std::string_view("\0\0\0", 3)) return false;
+  if (bytes.size() < kHeader || bytes.substr(26, 3) != std::string_view("\0\0\0", 3)) return {};
   Scratch& scratch = scratch_of_this_thread();
   const std::string_view data = image_data(bytes, scratch.packed);
-  if (data.empty()) return false;
-  const std::size_t row_bytes = std::size_t(info.width) * 2;
+  if (data.empty()) return {};
+  const std::size_t row_bytes = info.width * bytes_per_pixel;
   const std::size_t size = (row_bytes + 1) * info.height;
   scratch.filtered.resize(row_bytes + size);
-  return libdeflate_zlib_decompress(scratch.decompressor.get(), data.data(), data.size(),
-                                    scratch.filtered.data() + row_bytes, size,
-                                    nullptr) == LIBDEFLATE_SUCCESS &&
-         unfilter(scratch.filtered, info, pixels);
+  std::memset(scratch.filtered.data(), 0, row_bytes);
+  if (libdeflate_zlib_decompress(scratch.decompressor.get(), data.data(), data.size(),
+                                 scratch.filtered.data() + row_bytes, size,
+                                 nullptr) != LIBDEFLATE_SUCCESS)
+    return {};
+  return scratch.filtered;
+}
+
+bool decode_plain_depth(std::string_view bytes, const PngInfo& info, unsigned char* pixels) try {
+  const std::span<unsigned char> rows = unpack_plain(bytes, info, 2);
+  return !rows.empty() && unfilter(rows, info, pixels);
 } catch (const std::bad_alloc&) {
   return false;
 }

@@ -15,6 +15,14 @@ namespace turnscan::image {
 /// @param info of this image: 16 bit, grey.
 bool decode_plain_depth(std::string_view bytes, const PngInfo& info, unsigned char* pixels);
 
+/// The rows of an image without interlacing, each after the number of its filter, behind a row of
+/// zeros. Empty where the image is interlaced, has a palette or transparency, or is damaged. Throws
+/// std::bad_alloc. Holds until the next call on this thread.
+std::span<unsigned char> unpack_plain(std::string_view bytes, const PngInfo& info,
+                                      std::size_t bytes_per_pixel);
+
+enum Filter { kNone, kSub, kUp, kAverage, kPaeth };
+
 /// @param pixels width * height values (std::uint16_t in the machine's byte order).
 std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
                                std::uint32_t height);

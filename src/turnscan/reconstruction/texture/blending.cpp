@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/texture/blending.hpp>
@@ -12,6 +13,7 @@ namespace turnscan::texture {
 namespace {
 
 constexpr float kOutlier = 10.0f;     // levels of 255 from what is usual: counts a quarter
+constexpr float kDarkerSays = 0.5f;   // against a colour, of what an equal one says for it
 constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
 constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
@@ -23,26 +25,33 @@ constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
 /// A view's colours as floats of 255, after its correction.
 class Corrector {
  public:
-  explicit Corrector(const Correction& correction) : correction_(correction) {
+  explicit Corrector(const Correction& correction) : levels_(correction.levels) {
     tables_.resize(correction.gains.size());
     for (std::size_t view = 0; view < tables_.size(); ++view)
       for (int c = 0; c < 3; ++c)
         for (int i = 0; i < 256; ++i)
           tables_[view][std::size_t(c * 256 + i)] =
               srgb_of(linear_of(float(i)) * correction.gains[view][c]);
+    for (auto& slots : levels_)
+      for (Vec3f& level : slots) level = level.array().pow(1.0f / 2.4f).matrix();
   }
 
   Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s) const {
     const auto& table = tables_[view];
-    const Vec3f color(table[s.r], table[256u + s.g], table[512u + s.b]);
-    if (correction_.shading.empty()) return color;
-    const float light = 1.0f / correction_.shading[block][slot];
-    return {srgb_of(linear_of(color.x()) * light), srgb_of(linear_of(color.y()) * light),
-            srgb_of(linear_of(color.z()) * light)};
+    const Vec3f& level = levels_[block][slot];
+    return {scaled(table[s.r], level.x()), scaled(table[256u + s.g], level.y()),
+            scaled(table[512u + s.b], level.z())};
   }
 
  private:
-  const Correction& correction_;
+  /// Multiplies linear light by factor^2.4. sRGB plus an offset is a power of it but where it is
+  /// darkest; there the offset vanishes with it.
+  static float scaled(float srgb, float factor) {
+    constexpr float kOffset = 0.055f * 255.0f, kDark = 0.04045f * 255.0f;
+    return srgb + (factor - 1.0f) * (srgb + kOffset * std::min(1.0f, srgb / kDark));
+  }
+
+  BlockLevels levels_;
   std::vector<std::array<float, 768>> tables_;
 };
 
@@ -89,11 +98,12 @@ using BlockShifts = std::array<ShiftSums, kSlots>;
 class Blender {
  public:
   Blender(const TexelBlocks& blocks, const ChosenViews& chosen, const TexelSamples& samples,
-          const Corrector& corrected, const RunContext& context)
+          const Corrector& corrected, float darker_says, const RunContext& context)
       : blocks_(blocks),
         chosen_(chosen),
         samples_(samples),
         corrected_(corrected),
+        darker_says_(darker_says),
         context_(context) {}
 
   void measure_shifts() {
@@ -171,22 +181,27 @@ class Blender {
   /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
   /// the surface from view to view: where several views have one, they do not agree with each
   /// other. Weights become what they were in the mean.
-  static Vec3f robust_mean(const std::array<Vec3f, kSlots>& color,
-                           std::array<float, kSlots>& weight, std::size_t n) {
+  Vec3f robust_mean(const std::array<Vec3f, kSlots>& color, std::array<float, kSlots>& weight,
+                    std::size_t n) const {
     if (n == 1) return color[0];
     constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
     const auto nearness = [&](std::size_t j, std::size_t k) {
       const float r = 1.0f + kPerLevel * (color[j] - color[k]).squaredNorm();
       return 1.0f / (r * r);
     };
-    // A highlight is where the best views look: the others have a say in what is usual.
+    // A highlight is where the best views look: the others have a say in what is usual. It adds
+    // light, so that darker views speak against a colour, and brighter ones do not.
     std::array<float, kSlots> vote{};
     for (std::size_t k = 0; k < n; ++k) vote[k] = std::sqrt(std::sqrt(weight[k]));
     std::size_t usual = 0;
-    float most = -1.0f;
+    float most = -std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < n; ++k) {
       float support = 0.0f;
-      for (std::size_t j = 0; j < n; ++j) support += vote[j] * nearness(j, k);
+      for (std::size_t j = 0; j < n; ++j) {
+        const float near = nearness(j, k);
+        support += vote[j] * near;
+        if (color[j].sum() < color[k].sum()) support -= darker_says_ * vote[j] * (1.0f - near);
+      }
       if (support > most) most = support, usual = k;
     }
     Vec3f sum = Vec3f::Zero();
@@ -258,6 +273,7 @@ class Blender {
   const ChosenViews& chosen_;
   const TexelSamples& samples_;
   const Corrector& corrected_;
+  const float darker_says_;
   const RunContext& context_;
   std::vector<BlockShifts> shifts_;
 };
@@ -268,7 +284,8 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
                       const TexelSamples& samples, const Correction& correction,
                       double texels_per_m, const RunContext& context) {
   const Corrector corrected(correction);
-  Blender blender(blocks, chosen, samples, corrected, context);
+  const float darker_says = correction.lamp_taken_out ? 0.0f : kDarkerSays;
+  Blender blender(blocks, chosen, samples, corrected, darker_says, context);
   blender.measure_shifts();
   TURNSCAN_TRY(context.check());
   Blended out;

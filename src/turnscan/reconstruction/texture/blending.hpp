@@ -1,14 +1,16 @@
 #pragma once
 // One colour per texel out of those of several views.
 
-#include <turnscan/reconstruction/texture/exposure.hpp>
+#include <turnscan/reconstruction/texture/seam_levels.hpp>
 
 namespace turnscan::texture {
 
-/// What is done to a view's colours before they are compared: gain, and the shading of each block.
+/// What the linear light of views is multiplied by before they are compared.
 struct Correction {
-  std::vector<Vec3f> gains;                        ///< per view
-  std::vector<std::array<float, kSlots>> shading;  ///< per block and slot; empty: none
+  std::vector<Vec3f> gains;  ///< per view
+  BlockLevels levels;        ///< beside the gains
+  /// What is darker than usual is then as likely a shadow as what is brighter is a highlight.
+  bool lamp_taken_out = false;
 };
 
 struct Blended {

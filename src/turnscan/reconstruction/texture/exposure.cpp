@@ -14,7 +14,10 @@ namespace {
 constexpr float kDarkest = 0.004f, kBrightest = 0.96f;  // linear light that tells of exposure
 constexpr int kGainRounds = 4;
 constexpr double kGainScale = 0.08;  // log ratios beyond are taken for something else than exposure
-constexpr double kStayWeight = 1e-4;  // of a gain of 1, in pairs of blocks
+constexpr double kEnoughBlocks = 20.0;    // that compare two views
+constexpr double kUsualGain = 0.15;       // log of how far gains are from 1
+constexpr double kLeastPairError = 0.01;  // log
+constexpr int kStayRounds = 3;
 constexpr std::size_t kGainChunks = 32;
 constexpr std::size_t kLightBlocks = 4000;  // that the lamp is looked for in
 
@@ -24,61 +27,80 @@ std::array<float, 256> linear_table() {
   return out;
 }
 
-bool tells(const Vec3f& mean) { return mean.minCoeff() > kDarkest && mean.maxCoeff() < kBrightest; }
-
-/// Of one channel: normal equations of the differences of log gains.
-struct GainSums {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
+/// Of one channel, for each two views: weights and weighted sums of what the gain of the first has
+/// more than that of the second, as logarithms.
+struct PairSums {
+  Eigen::MatrixXd weight, sum;
 };
 
-GainSums add_pairs(const ChosenViews& chosen, const BlockMeans& means, int channel,
-                   const Eigen::VectorXd& gains, double scale, std::size_t begin, std::size_t end) {
-  const auto n = gains.size();
-  GainSums sums{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+PairSums add_pairs(const ChosenViews& chosen, const BlockMeans& means, int channel,
+                   const Eigen::MatrixXd& usual, double scale, std::size_t begin, std::size_t end) {
+  PairSums sums{Eigen::MatrixXd::Zero(usual.rows(), usual.cols()),
+                Eigen::MatrixXd::Zero(usual.rows(), usual.cols())};
   for (std::size_t b = begin; b < end; ++b) {
     for (std::size_t k = 0; k < kSlots; ++k) {
-      if (!tells(means[b][k])) continue;
+      if (!tells_of_exposure(means[b][k])) continue;
       const auto i = Eigen::Index(chosen.view[b][k]);
       const double own = std::log(double(means[b][k][channel]));
       for (std::size_t l = k + 1; l < kSlots; ++l) {
-        if (!tells(means[b][l])) continue;
+        if (!tells_of_exposure(means[b][l])) continue;
         const auto j = Eigen::Index(chosen.view[b][l]);
-        // gains[i] + own = gains[j] + other
         const double difference = std::log(double(means[b][l][channel])) - own;
-        const double r = (gains[i] - gains[j] - difference) / scale;
+        const double r = (difference - usual(i, j)) / scale;
         const double w = 1.0 / ((1.0 + r * r) * (1.0 + r * r));
-        sums.matrix(i, i) += w, sums.matrix(j, j) += w;
-        sums.matrix(i, j) -= w, sums.matrix(j, i) -= w;
-        sums.right[i] += w * difference, sums.right[j] -= w * difference;
+        sums.weight(i, j) += w, sums.weight(j, i) += w;
+        sums.sum(i, j) += w * difference, sums.sum(j, i) -= w * difference;
       }
     }
   }
   return sums;
 }
 
+/// Logarithms of the gains that fit the pairs' ratios best. How much these contradict each other
+/// says how much they are worth beside that exposures are usually alike.
+Eigen::VectorXd balanced(const Eigen::MatrixXd& weight, const Eigen::MatrixXd& ratio) {
+  const Eigen::Index n = weight.rows();
+  Eigen::MatrixXd matrix = -weight;
+  matrix.diagonal() += weight.rowwise().sum();
+  const Eigen::VectorXd right = weight.cwiseProduct(ratio).rowwise().sum();
+  Eigen::VectorXd gains = Eigen::VectorXd::Zero(n);
+  double error = kLeastPairError;
+  for (int round = 0; round < kStayRounds; ++round) {
+    Eigen::MatrixXd stayed = matrix;
+    stayed.diagonal().array() += error * error / (kUsualGain * kUsualGain);
+    gains = stayed.ldlt().solve(right);
+    const Eigen::MatrixXd fitted = gains.replicate(1, n) - gains.transpose().replicate(n, 1);
+    const double squared = weight.cwiseProduct((ratio - fitted).cwiseAbs2()).sum();
+    error = std::max(kLeastPairError, std::sqrt(squared / std::max(weight.sum(), 1e-9)));
+  }
+  return gains;
+}
+
+/// Each two views' ratio is found by itself, then all are balanced. Places that fit badly count
+/// less among those of the same two views only: where a lamp makes each view a little darker than
+/// the next, all around the object, the two that close the circle fit worst, and are right.
 Eigen::VectorXd solve_channel(const ChosenViews& chosen, const BlockMeans& means, int channel,
                               std::size_t views) {
-  Eigen::VectorXd gains = Eigen::VectorXd::Zero(Eigen::Index(views));
+  const auto n = Eigen::Index(views);
   const std::size_t chunk = (means.size() + kGainChunks - 1) / kGainChunks;
-  if (chunk == 0) return gains;
+  if (chunk == 0) return Eigen::VectorXd::Zero(n);
+  PairSums all{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
+  Eigen::MatrixXd usual = Eigen::MatrixXd::Zero(n, n);
   for (int round = 0; round < kGainRounds; ++round) {
     // The first round has no idea yet of what an outlier is.
     const double scale = round == 0 ? 10.0 * kGainScale : kGainScale;
     const auto parts =
-        parallel_chunks<GainSums>(means.size(), chunk, [&](std::size_t begin, std::size_t end) {
-          return add_pairs(chosen, means, channel, gains, scale, begin, end);
+        parallel_chunks<PairSums>(means.size(), chunk, [&](std::size_t begin, std::size_t end) {
+          return add_pairs(chosen, means, channel, usual, scale, begin, end);
         });
-    GainSums all = parts[0];
+    all = parts[0];
     for (std::size_t i = 1; i < parts.size(); ++i) {
-      all.matrix += parts[i].matrix;
-      all.right += parts[i].right;
+      all.weight += parts[i].weight;
+      all.sum += parts[i].sum;
     }
-    const double stay = kStayWeight * std::max(1.0, all.matrix.trace() / double(views));
-    for (Eigen::Index i = 0; i < gains.size(); ++i) all.matrix(i, i) += stay;
-    gains = all.matrix.ldlt().solve(all.right);
+    usual = (all.sum.array() / all.weight.array().max(1e-9)).matrix();
   }
-  return gains;
+  return balanced(all.weight.unaryExpr([](double w) { return w / (w + kEnoughBlocks); }), usual);
 }
 
 /// Luminances of a block, and the normals with which its views saw it.
@@ -126,6 +148,10 @@ FixedLight light_from(double azimuth, double elevation, double share) {
 
 }  // namespace
 
+bool tells_of_exposure(const Vec3f& mean) {
+  return mean.minCoeff() > kDarkest && mean.maxCoeff() < kBrightest;
+}
+
 BlockMeans block_means(const TexelBlocks& blocks, const ChosenViews& chosen,
                        const TexelSamples& samples) {
   const auto linear = linear_table();
@@ -169,7 +195,7 @@ FixedLight solve_light(const ChosenViews& chosen, const BlockMeans& means,
   for (std::size_t b = 0; b < means.size(); b += step) {
     LightBlock block;
     for (std::size_t k = 0; k < kSlots; ++k) {
-      if (!tells(means[b][k])) continue;
+      if (!tells_of_exposure(means[b][k])) continue;
       const std::uint16_t view = chosen.view[b][k];
       block.light[block.count] = means[b][k].cwiseProduct(gains[view]).sum();
       block.normal[block.count++] = rotation[view] * normals[b];

@@ -13,6 +13,10 @@ constexpr float kLeastViewCosine = 0.12f;
 constexpr float kNearRim = 0.02f;  // what a place near a rim is worth: better than nothing
 constexpr std::size_t kViewsAtOnce = 8;
 constexpr int kMostSubsamples = 4;
+// By how well they see a block. Beside the best few, ones farther apart: a highlight is where the
+// best views look, and must not be in most of what is compared.
+constexpr std::size_t kRanked = 16;
+constexpr std::array<std::size_t, kSlots> kTakenRanks{0, 1, 2, 3, 5, 8, 11, 14};
 
 /// Weights of four pixels in a row about a place a share t behind the second (Keys 1981, a = -1/2).
 std::array<float, 4> cubic(float t) {
@@ -75,14 +79,14 @@ float quality_of(const BlockProbe& probe, const ColorView& view, const DrawnMesh
   return scale * scale * cosine * cosine * seen / 3.0f;
 }
 
-/// The best so far, in falling order, and the best of the others.
+/// The best so far, in falling order.
 struct Ranking {
-  std::array<std::uint16_t, kSlots + 1> view;
-  std::array<float, kSlots + 1> quality{};
+  std::array<std::uint16_t, kRanked> view;
+  std::array<float, kRanked> quality{};
   Ranking() { view.fill(kNoView); }
   void add(std::uint16_t which, float value) {
-    if (!(value > quality[kSlots])) return;
-    std::size_t at = kSlots;
+    if (!(value > quality[kRanked - 1])) return;
+    std::size_t at = kRanked - 1;
     for (; at > 0 && value > quality[at - 1]; --at) {
       view[at] = view[at - 1];
       quality[at] = quality[at - 1];
@@ -91,6 +95,16 @@ struct Ranking {
     quality[at] = value;
   }
 };
+
+/// The last ones move up where fewer views see the block, so that none is left out for nothing.
+std::array<std::size_t, kSlots> taken_ranks(const Ranking& ranking) {
+  std::array<std::size_t, kSlots> out = kTakenRanks;
+  const auto end = std::find(ranking.view.begin(), ranking.view.end(), kNoView);
+  const auto n = std::size_t(end - ranking.view.begin());
+  for (std::size_t k = kSlots; k-- > 0;)
+    out[k] = std::max(k, std::min(out[k], n + k > kSlots ? n + k - kSlots : 0));
+  return out;
+}
 
 /// Energy of the second derivatives over that of the first ones, of the object's inside: falls as
 /// an image blurs, whatever it shows.
@@ -236,11 +250,12 @@ Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& bl
   for (std::size_t b = 0; b < rankings.size(); ++b) {
     const Ranking& ranking = rankings[b];
     if (b % 16 == 0 && ranking.quality[0] > 0.0f) best.push_back(std::sqrt(ranking.quality[0]));
-    const float other = ranking.quality[kSlots];
+    const float other = ranking.quality[kRanked - 1];
+    const auto ranks = taken_ranks(ranking);
     for (std::size_t k = 0; k < kSlots; ++k) {
-      out.view[b][k] = ranking.view[k];
-      const float q = ranking.quality[k];
-      out.weight[b][k] = q * q - other * other + 1e-6f * q * q;
+      out.view[b][k] = ranking.view[ranks[k]];
+      const float q = ranking.quality[ranks[k]];
+      out.weight[b][k] = q * q * (q * q - other * other + 1e-6f * q * q);
     }
   }
   out.pixels_per_m = median(best);

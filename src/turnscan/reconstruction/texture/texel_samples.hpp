@@ -7,15 +7,15 @@
 
 namespace turnscan::texture {
 
-/// Views of a block, best first.
+/// Views of a block, best first: the best of all, and some that look from farther aside.
 inline constexpr std::size_t kSlots = 8;
 inline constexpr std::uint16_t kNoView = 0xffff;
 
 /// Per block and slot.
 struct ChosenViews {
   std::vector<std::array<std::uint16_t, kSlots>> view;  ///< kNoView: no other one sees it
-  /// By resolution and incidence, in pixels squared per area; falls to 0 for the last view that is
-  /// left out, so that the weights of neighbouring blocks are alike.
+  /// By resolution and incidence; falls to 0 for views that are hardly taken any more, so that the
+  /// weights of neighbouring blocks are alike.
   std::vector<std::array<float, kSlots>> weight;
   double pixels_per_m = 0.0;  ///< of the best views, median
 };

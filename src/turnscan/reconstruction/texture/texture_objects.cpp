@@ -75,24 +75,30 @@ std::vector<Vec3f> block_normals(const TexelBlocks& blocks) {
   return out;
 }
 
-/// Light on each block in each of its views.
-std::vector<std::array<float, kSlots>> shading_of(const FixedLight& light,
-                                                  const ChosenViews& chosen,
-                                                  const std::vector<Vec3f>& normals,
-                                                  const std::vector<Eigen::Matrix3f>& rotation) {
-  std::vector<std::array<float, kSlots>> out(normals.size());
+/// What takes the light off each block in each of its views.
+BlockLevels without_light(const FixedLight& light, const ChosenViews& chosen,
+                          const std::vector<Vec3f>& normals,
+                          const std::vector<Eigen::Matrix3f>& rotation) {
+  BlockLevels out(normals.size());
   for (std::size_t b = 0; b < out.size(); ++b) {
-    out[b].fill(1.0f);
+    out[b].fill(Vec3f::Ones());
     for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
-      out[b][k] = std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
+      out[b][k] /= std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
   }
   return out;
 }
 
-BlockMeans without_shading(BlockMeans means,
-                           const std::vector<std::array<float, kSlots>>& shading) {
+BlockMeans with_levels(BlockMeans means, const BlockLevels& levels) {
   for (std::size_t b = 0; b < means.size(); ++b)
-    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] /= shading[b][k];
+    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] = means[b][k].cwiseProduct(levels[b][k]);
+  return means;
+}
+
+BlockMeans with_gains(BlockMeans means, const ChosenViews& chosen,
+                      const std::vector<Vec3f>& gains) {
+  for (std::size_t b = 0; b < means.size(); ++b)
+    for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
+      means[b][k] = means[b][k].cwiseProduct(gains[chosen.view[b][k]]);
   return means;
 }
 
@@ -102,11 +108,12 @@ Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
                         const std::vector<Vec3f>& normals,
                         const std::vector<Eigen::Matrix3f>& rotation) {
   Correction out;
+  out.lamp_taken_out = true;
   out.gains.assign(rotation.size(), Vec3f::Ones());
   for (int round = 0; round < kLightRounds; ++round) {
     const FixedLight light = solve_light(chosen, means, out.gains, normals, rotation);
-    out.shading = shading_of(light, chosen, normals, rotation);
-    out.gains = solve_gains(chosen, without_shading(means, out.shading), rotation.size());
+    out.levels = without_light(light, chosen, normals, rotation);
+    out.gains = solve_gains(chosen, with_levels(means, out.levels), rotation.size());
   }
   return out;
 }
@@ -179,13 +186,17 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
   TURNSCAN_ASSIGN(const TexelSamples samples,
                   sample_views(sequence, mesh, blocks, views, chosen, context));
-  const BlockMeans means = block_means(blocks, chosen, samples);
+  BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
   if (options.albedo)
     correction = without_lamp(chosen, means, block_normals(blocks), rig_rotations(sequence, views));
   else
     correction.gains = solve_gains(chosen, means, views.size());
   report.albedo = options.albedo;
+  // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
+  if (!options.albedo)
+    correction.levels = seam_levels(
+        blocks, chosen, with_gains(std::move(means), chosen, correction.gains), views.size());
   TURNSCAN_ASSIGN(const Blended blended,
                   blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
   auto texture = std::make_shared<MeshTexture>();
