@@ -63,7 +63,7 @@ Result<std::vector<Pass>> read_passes(const std::filesystem::path& folder) {
     ReconstructOptions options;
     options.surface.method = SurfaceMethod::kVolumetric;
     options.merge.pass = int(k);
-    options.keep_views = true;
+    options.for_placing = true;
     TURNSCAN_ASSIGN(const Reconstruction made, reconstruct(recording, options, {}, {}));
     Pass& pass = out.emplace_back();
     pass.surface = passes::measured_surface(made.objects.at(0));
