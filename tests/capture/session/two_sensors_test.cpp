@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 #include <turnscan/capture/session/taken_frames.hpp>
 #include <turnscan/capture/source/frame_source.hpp>
@@ -45,7 +46,7 @@ Merged merged() {
       {base + "&elevation=12deg", base + "&elevation=50deg&seed=2&serial=1&clock=3s"}, {});
   EXPECT_TRUE(source) << (source ? "" : source.error().text());
   const auto frames = take_frames(**source, 60, {});
-  EXPECT_TRUE(frames);
+  if (!frames) throw std::runtime_error(frames.error().text());
   Merged out;
   for (std::uint32_t k = 0; k < 2; ++k) {
     const auto scan =

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <tests/reconstruction/turning_scan.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
 
 namespace turnscan::mesh_refinement {
@@ -223,6 +224,47 @@ TEST(FittedOffsets, AnEdgeIsNotAsRaggedAsItsMeasurements) {
   roof.scale.crease_coupling = 0.0;
   EXPECT_GT(spread(roof.ridge()), 0.0006);
   EXPECT_LT(calm, 0.0003);
+}
+
+TEST(FittedOffsets, FewMeasurementsAreSmoothedMoreThanMany) {
+  const auto left = [](float support) {
+    Roof roof;
+    for (std::size_t v = 0; v < roof.measured.offset.size(); ++v) {
+      const double noise = 0.0005 / std::sqrt(double(support));
+      roof.measured.support[v] = support;
+      roof.measured.offset[v] = support * float(noise * standard_normal(hash_key(v, 0, 2)));
+    }
+    const std::vector<float> all = fitted_offsets(roof.mesh, MeshNeighbours(roof.mesh),
+                                                  roof.normals, roof.measured, roof.scale);
+    std::vector<double> flat;
+    for (std::uint32_t r = 10; r + 10 < kRows; ++r) flat.push_back(double(all[r * kColumns + 8]));
+    return spread(flat) * std::sqrt(double(support));  // 0.0005 without a bending term
+  };
+  EXPECT_LT(left(1.0f), 0.85 * left(100.0f));
+  EXPECT_LT(left(100.0f), 0.0004);
+}
+
+TEST(FittedOffsets, ABluntTipIsNotFlattened) {
+  TriangleMesh mesh = ball_mesh();
+  for (Vec3f& p : mesh.vertices) p = {4.0f * (p.x() - float(kCenter.x())), p.y(), p.z()};
+  VertexMeasurements measured;
+  measured.support.assign(mesh.vertices.size(), 1.0f);
+  measured.offset.assign(mesh.vertices.size(), 0.0f);
+  MeshFitScale scale;
+  scale.noise_m = 0.003;  // much noise: the surface is as stiff as it can be
+  const auto all =
+      fitted_offsets(mesh, MeshNeighbours(mesh), vertex_normals(mesh), measured, scale);
+  const auto tip = std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                    [](const Vec3f& a, const Vec3f& b) { return a.x() < b.x(); });
+  EXPECT_NEAR(all[std::size_t(tip - mesh.vertices.begin())], 0.0, 0.00001);
+}
+
+TEST(Stiffening, GrowsWithNoiseAndFallsWithMeasurementsWithinBounds) {
+  EXPECT_GT(stiffening(0.002, 0.001, 2.0f), stiffening(0.001, 0.001, 2.0f));
+  EXPECT_GT(stiffening(0.001, 0.001, 2.0f), stiffening(0.001, 0.001, 8.0f));
+  EXPECT_EQ(stiffening(0.001, 0.001, 1e6f), 1.0);
+  EXPECT_EQ(stiffening(0.0, 0.001, 1.0f), 1.0);
+  EXPECT_EQ(stiffening(0.1, 0.001, 0.0f), stiffening(1.0, 0.001, 0.0f));
 }
 
 TEST(FittedOffsets, AnEdgeKeepsItsShape) {

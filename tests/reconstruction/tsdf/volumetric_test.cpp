@@ -7,6 +7,8 @@
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
+#include <turnscan/reconstruction/passes/pass_surface.hpp>
+#include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 
 namespace turnscan::tsdf {
@@ -122,6 +124,20 @@ TEST(Volumetric, SaysWhereSensorsHadNoReturn) {
   };
   EXPECT_TRUE(no_return(banded));
   EXPECT_FALSE(no_return(ball));
+}
+
+TEST(Volumetric, ForPlacingHasTheSameMeasuredSurfaceAndNothingMore) {
+  const MemorySequence sequence = scan(ball, Rig());
+  ReconstructOptions options = volumetric();
+  const auto whole = reconstruct(sequence, options, {}, RunContext());
+  options.for_placing = true;
+  const auto placing = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(whole && placing);
+  EXPECT_TRUE(placing->seen);
+  EXPECT_FALSE(whole->seen);
+  EXPECT_TRUE(placing->objects[0].quality.empty());
+  EXPECT_EQ(passes::measured_surface(placing->objects[0]).points,
+            passes::measured_surface(whole->objects[0]).points);
 }
 
 /// Value of an automatic choice, metres.

@@ -1,7 +1,9 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/workflow/plan/plan_search.hpp>
+#include <turnscan/workflow/plan/plan_trial.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
 
 #include "tests/support/temp_folder.hpp"
@@ -45,6 +47,24 @@ TEST(Plan, PredictsWhatTheCoverageCommandCounts) {
     ASSERT_TRUE(map);
     EXPECT_NEAR(search.score(rig, Prefer::kCovered).covered, map->covered(), 0.01) << place;
   }
+}
+
+TEST(PlanTrials, SayWhyAScanGaveNoMesh) {
+  PlanRequest request = small_request();
+  request.options.passes = 2;
+  const auto field = make_plan_field(request, {});
+  ASSERT_TRUE(field) << field.error().text();
+  // Laid on its back the letter looks the same turned by half a turn.
+  Plan plan;
+  plan.sensors = {entry_of(*field, field->places[0])};
+  plan.next_passes = {{field->objects[0].poses[1].entry}};
+  TrialRunner runner(request);
+  const auto trials =
+      runner.run({{"trial", scene_of(request, plan, 0), &field->objects[0].given}}, {});
+  ASSERT_TRUE(trials) << trials.error().text();
+  ASSERT_EQ(trials->size(), 1u);
+  EXPECT_THAT(trials->front().failure, ::testing::HasSubstr("not joined"));
+  EXPECT_GT(trials->front().covered, 0.5);
 }
 
 TEST(Plan, LaysTheObjectAsItsScenesDo) {
