@@ -260,11 +260,15 @@ TEST(FittedOffsets, ABluntTipIsNotFlattened) {
 }
 
 TEST(Stiffening, GrowsWithNoiseAndFallsWithMeasurementsWithinBounds) {
-  EXPECT_GT(stiffening(0.002, 0.001, 2.0f), stiffening(0.001, 0.001, 2.0f));
-  EXPECT_GT(stiffening(0.001, 0.001, 2.0f), stiffening(0.001, 0.001, 8.0f));
-  EXPECT_EQ(stiffening(0.001, 0.001, 1e6f), 1.0);
-  EXPECT_EQ(stiffening(0.0, 0.001, 1.0f), 1.0);
-  EXPECT_EQ(stiffening(0.1, 0.001, 0.0f), stiffening(1.0, 0.001, 0.0f));
+  const auto of = [](double noise_m, float support) {
+    return stiffening(noise_m, 0.002, 0.001, support);
+  };
+  EXPECT_GT(of(0.002, 2.0f), of(0.001, 2.0f));
+  EXPECT_GT(of(0.001, 1.0f), of(0.001, 2.0f));
+  EXPECT_EQ(of(0.001, 1e6f), 1.0);
+  EXPECT_EQ(of(0.0, 1.0f), 1.0);
+  EXPECT_EQ(of(0.1, 0.0f), of(1.0, 0.0f));
+  EXPECT_GT(stiffening(0.001, 0.002, 0.001, 2.0f), stiffening(0.001, 0.002, 0.0012, 2.0f));
 }
 
 TEST(FittedOffsets, AnEdgeKeepsItsShape) {

@@ -26,7 +26,7 @@ TriangleMesh sheet(float fold) {
 }
 
 std::size_t at(int i, int j) { return std::size_t(j * kAcross + i); }
-const ErrorScale kScale{0.0015, 0.002, 0.0011, false};
+const ErrorScale kScale{0.0015, 0.002, 0.0009, false};
 
 TEST(ExpectedErrors, FallWithTheNumberOfMeasurements) {
   const TriangleMesh mesh = sheet(0.0f);
@@ -61,7 +61,7 @@ TEST(ExpectedErrors, ScaleWithTheNoise) {
   const std::vector<float> support(mesh.vertices.size(), 10.0f);
   ErrorScale twice = kScale;
   twice.noise_m *= 2.0;
-  twice.reach_m *= 2.0;  // its share of noise averages alike
+  twice.edge_m *= std::sqrt(2.0);  // as stiff
   EXPECT_NEAR(expected_errors(mesh, support, twice)[at(20, 20)],
               2.0f * expected_errors(mesh, support, kScale)[at(20, 20)], 1e-6f);
 }
@@ -78,7 +78,7 @@ TriangleMesh slab(float thickness_m) {
 }
 
 TEST(ExpectedErrors, AreLargerAtWallsThatAFilterCannotTellApart) {
-  const ErrorScale filtered{0.0015, 0.002, 0.0011, true};
+  const ErrorScale filtered{0.0015, 0.002, 0.0009, true};
   const auto middle_of = [](const TriangleMesh& mesh, const ErrorScale& scale) {
     return expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f),
                            scale)[at(20, 20)];

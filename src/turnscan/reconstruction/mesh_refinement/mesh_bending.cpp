@@ -14,7 +14,7 @@ constexpr std::size_t kGrain = 4096;
 /// Support from which on a bend beside a vertex may be a crease: a pixel or two on an edge.
 constexpr float kCreaseSupport = 0.15f;
 /// Fitted to scans of 36 to 460 frames.
-constexpr double kStiffer = 4.1, kMostStiffer = 8.0;
+constexpr double kStiffer = 1.31, kMostStiffer = 4.0;
 constexpr int kJacobiRounds = 80;
 /// Rounds of averaging with the neighbours that tell a vertex how its surroundings bend.
 constexpr int kSteadyRounds = 10;
@@ -98,8 +98,9 @@ class OffsetSolver {
     stiff_.resize(bend_.size());
     coupling_.resize(bend_.size());
     fade_.resize(bend_.size());
-    const float stiffness =
-        float(scale_.stiffness * stiffening(scale_.noise_m, scale_.reach_m, typical_)) * typical_;
+    const float stiffness = float(scale_.stiffness * stiffening(scale_.noise_m, scale_.spacing_m,
+                                                                scale_.edge_m, typical_)) *
+                            typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
       // Where less was measured than usual, only a larger bend is more than noise.
       const float around =
@@ -156,8 +157,9 @@ float typical_support(const std::vector<float>& support) {
   return float(median(some, 1.0));
 }
 
-double stiffening(double noise_m, double reach_m, float typical_support) {
-  const double noisy = noise_m / reach_m / std::sqrt(std::max(1e-3, double(typical_support)));
+double stiffening(double noise_m, double spacing_m, double edge_m, float typical_support) {
+  const double noisy =
+      noise_m * spacing_m / (edge_m * edge_m * std::sqrt(std::max(1e-3, double(typical_support))));
   return std::clamp(kStiffer * noisy, 1.0, kMostStiffer);
 }
 

@@ -10,9 +10,11 @@
 namespace turnscan::mesh_refinement {
 
 struct MeshFitScale {
-  double noise_m = 0.001;   ///< of a depth along its ray
-  double reach_m = 0.0013;  ///< measurements farther across the normal do not count
-  double floor_m = 0.0002;  ///< of errors that do not fall with the angle of incidence
+  double noise_m = 0.001;     ///< of a depth along its ray
+  double spacing_m = 0.0024;  ///< of the points of one frame
+  double edge_m = 0.001;      ///< usual length of the mesh's edges
+  double reach_m = 0.0013;    ///< measurements farther across the normal do not count
+  double floor_m = 0.0002;    ///< of errors that do not fall with the angle of incidence
   /// Of the surface against bending otherwise than around, relative to the measurements; more where
   /// few and noisy ones leave more noise.
   double stiffness = 15.0;
@@ -39,8 +41,9 @@ float typical_support(const std::vector<float>& support);
 inline constexpr float kUnseenShare = 0.02f;
 
 /// How many times MeshFitScale::stiffness the fit takes, 1 or more: what noise leaves of the
-/// measurements falls with their number, and what a surface bends does not.
-double stiffening(double noise_m, double reach_m, float typical_support);
+/// measurements falls with their number, and what a surface bends does not. Longer edges are
+/// stiffer as they are.
+double stiffening(double noise_m, double spacing_m, double edge_m, float typical_support);
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a

@@ -64,7 +64,8 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
   // A stiffer surface averages over waves as long as the fourth root, which is over an area.
-  const double stiffer = mesh_refinement::stiffening(scale.noise_m, scale.reach_m, float(typical));
+  const double stiffer =
+      mesh_refinement::stiffening(scale.noise_m, scale.spacing_m, scale.edge_m, float(typical));
   const double noise_share = kNoiseShare / std::pow(stiffer, 0.25);
   std::optional<ThinWalls> walls;
   if (scale.filtered) walls.emplace(mesh, normals);

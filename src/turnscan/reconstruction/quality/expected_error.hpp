@@ -8,7 +8,7 @@ namespace turnscan::quality {
 struct ErrorScale {
   double noise_m = 0.001;    ///< of a depth along its ray
   double spacing_m = 0.001;  ///< of the points of one frame
-  double reach_m = 0.0013;   ///< MeshFitScale::reach_m
+  double edge_m = 0.0005;    ///< MeshFitScale::edge_m
   bool filtered = false;     ///< the sensor averages over neighbouring pixels
 };
 

@@ -39,7 +39,7 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
   const auto expected = quality::expected_errors(
-      piece.mesh, piece.support, {input.noise_m, input.spacing_m, scale.fit_reach_m, filtered});
+      piece.mesh, piece.support, {input.noise_m, input.spacing_m, scale.volume.cell_m, filtered});
   piece.quality.resize(expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};
