@@ -17,6 +17,7 @@ namespace {
 constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
 constexpr double kBlurShare = 0.3, kFilteredBlur = 0.45;
 constexpr double kMixedShare = 0.55;
+constexpr double kStifferPower = 1.0 / 6.0;
 /// Behind a filter, of the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
@@ -63,10 +64,10 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
-  // A stiffer surface averages over waves as long as the fourth root, which is over an area.
+  // A stiffer surface averages over waves longer by the fourth root; details take part of that.
   const double stiffer =
       mesh_refinement::stiffening(scale.noise_m, scale.spacing_m, scale.edge_m, float(typical));
-  const double noise_share = kNoiseShare / std::pow(stiffer, 0.25);
+  const double noise_share = kNoiseShare / std::pow(stiffer, kStifferPower);
   std::optional<ThinWalls> walls;
   if (scale.filtered) walls.emplace(mesh, normals);
   // Pixels of many frames fall between each other's, so that less noise shows finer detail; what
