@@ -36,31 +36,6 @@ void undo_paeth_rgb(unsigned char* row, const unsigned char* above, std::size_t 
     }
 }
 
-bool undo_filter_rgb(int filter, unsigned char* row, const unsigned char* above, std::size_t size) {
-  const auto add = [&](std::size_t i, int predicted) {
-    row[i] = static_cast<unsigned char>(row[i] + predicted);
-  };
-  switch (filter) {
-    case kNone:
-      return true;
-    case kSub:
-      for (std::size_t i = kChannels; i < size; ++i) add(i, row[i - kChannels]);
-      return true;
-    case kUp:
-      for (std::size_t i = 0; i < size; ++i) add(i, above[i]);
-      return true;
-    case kAverage:
-      for (std::size_t i = 0; i < size; ++i)
-        add(i, ((i < kChannels ? 0 : row[i - kChannels]) + above[i]) / 2);
-      return true;
-    case kPaeth:
-      undo_paeth_rgb(row, above, size);
-      return true;
-    default:
-      return false;
-  }
-}
-
 }  // namespace
 
 bool decode_rgb(std::string_view bytes, const PngInfo& info, unsigned char* pixels) try {
@@ -70,7 +45,7 @@ bool decode_rgb(std::string_view bytes, const PngInfo& info, unsigned char* pixe
   const unsigned char* above = rows.data();
   for (std::size_t y = 0; y < info.height; ++y) {
     unsigned char* row = rows.data() + row_bytes + y * (row_bytes + 1);
-    if (!undo_filter_rgb(row[0], row + 1, above, row_bytes)) return false;
+    if (!undo_filter(row[0], row + 1, above, row_bytes, kChannels, undo_paeth_rgb)) return false;
     std::memcpy(pixels + y * row_bytes, row + 1, row_bytes);
     above = row + 1;
   }

@@ -117,31 +117,6 @@ void undo_paeth(unsigned char* row, const unsigned char* above, std::size_t size
   }
 }
 
-/// Adds what the filter predicts; `above` are the bytes of the row before, zeros for the first.
-bool undo_filter(int filter, unsigned char* row, const unsigned char* above, std::size_t size) {
-  const auto add = [&](std::size_t i, int predicted) {
-    row[i] = static_cast<unsigned char>(row[i] + predicted);
-  };
-  switch (filter) {
-    case kNone:
-      return true;
-    case kSub:
-      for (std::size_t i = 2; i < size; ++i) add(i, row[i - 2]);
-      return true;
-    case kUp:
-      for (std::size_t i = 0; i < size; ++i) add(i, above[i]);
-      return true;
-    case kAverage:
-      for (std::size_t i = 0; i < size; ++i) add(i, ((i < 2 ? 0 : row[i - 2]) + above[i]) / 2);
-      return true;
-    case kPaeth:
-      undo_paeth(row, above, size);
-      return true;
-    default:
-      return false;
-  }
-}
-
 void to_machine_order(const unsigned char* row, std::size_t values, unsigned char* pixels) {
   for (std::size_t i = 0; i < values; ++i) {
     const auto value = static_cast<std::uint16_t>(row[2 * i] << 8 | row[2 * i + 1]);
@@ -154,7 +129,7 @@ bool unfilter(std::span<unsigned char> filtered, const PngInfo& info, unsigned c
   const unsigned char* above = filtered.data();
   for (std::size_t y = 0; y < info.height; ++y) {
     unsigned char* row = filtered.data() + row_bytes + y * stride;
-    if (!undo_filter(row[0], row + 1, above, row_bytes)) return false;
+    if (!undo_filter(row[0], row + 1, above, row_bytes, 2, undo_paeth)) return false;
     to_machine_order(row + 1, info.width, pixels + y * row_bytes);
     above = row + 1;
   }
@@ -204,6 +179,32 @@ void filter_up(const unsigned char* pixels, std::size_t width, std::size_t heigh
 }
 
 }  // namespace
+
+bool undo_filter(int filter, unsigned char* row, const unsigned char* above, std::size_t size,
+                 std::size_t bytes_per_pixel, UndoPaeth undo_paeth) {
+  const auto add = [&](std::size_t i, int predicted) {
+    row[i] = static_cast<unsigned char>(row[i] + predicted);
+  };
+  const std::size_t n = bytes_per_pixel;
+  switch (filter) {
+    case kNone:
+      return true;
+    case kSub:
+      for (std::size_t i = n; i < size; ++i) add(i, row[i - n]);
+      return true;
+    case kUp:
+      for (std::size_t i = 0; i < size; ++i) add(i, above[i]);
+      return true;
+    case kAverage:
+      for (std::size_t i = 0; i < size; ++i) add(i, ((i < n ? 0 : row[i - n]) + above[i]) / 2);
+      return true;
+    case kPaeth:
+      undo_paeth(row, above, size);
+      return true;
+    default:
+      return false;
+  }
+}
 
 std::span<unsigned char> unpack_plain(std::string_view bytes, const PngInfo& info,
                                       std::size_t bytes_per_pixel) {

@@ -23,6 +23,14 @@ std::span<unsigned char> unpack_plain(std::string_view bytes, const PngInfo& inf
 
 enum Filter { kNone, kSub, kUp, kAverage, kPaeth };
 
+/// Undoes Paeth's filter of a row of `size` bytes, for one size of pixel.
+using UndoPaeth = void (*)(unsigned char* row, const unsigned char* above, std::size_t size);
+
+/// Adds what the filter predicts; `above` are the bytes of the row before, zeros for the first.
+/// False where there is no such filter.
+bool undo_filter(int filter, unsigned char* row, const unsigned char* above, std::size_t size,
+                 std::size_t bytes_per_pixel, UndoPaeth undo_paeth);
+
 /// @param pixels width * height values (std::uint16_t in the machine's byte order).
 std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
                                std::uint32_t height);
