@@ -88,6 +88,7 @@ class ExplorerMode : public Mode {
   void load(const QString& path, const std::function<void()>& then,
             std::optional<double> metres_per_unit = std::nullopt, Beside beside = kOthers);
   std::vector<int> visible_models() const;
+  std::optional<int> recording_from(const QString& folder) const;
   void movie_dialog();
   void run_filter();
   void run_comparison();

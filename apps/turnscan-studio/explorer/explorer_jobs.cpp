@@ -55,10 +55,14 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then,
             if (unit != doubt->metres_per_unit) return load(path, then, unit, beside);
           }
           for (const auto& model : models) store_->set_file(model.second, path);
-          const auto ids =
-              store_->add_instead(models, beside == kAlone ? visible_models() : std::vector<int>(),
-                                  tr("open %1").arg(QFileInfo(path).fileName()));
-          list_->select(ids.back());
+          const auto hidden = beside == kAlone ? visible_models() : std::vector<int>();
+          const QString what = tr("open %1").arg(QFileInfo(path).fileName());
+          if (const auto id = beside == kAlone ? recording_from(path) : std::nullopt) {
+            store_->renew(*id, models.back().second, hidden, what);
+            list_->select(*id);
+          } else {
+            list_->select(store_->add_instead(models, hidden, what).back());
+          }
           Box box;
           for (const auto& [name, made] : models) {
             if (box_of(*made->drawable).empty()) continue;
@@ -82,6 +86,14 @@ void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
         if (reconstruct) run_stage(QString::fromStdString(kMeshStage));
       },
       {}, kAlone);
+}
+
+std::optional<int> ExplorerMode::recording_from(const QString& folder) const {
+  for (const Model& model : store_->models())
+    if (model.data->kind == ModelKind::kRecording &&
+        QFileInfo(model.data->source) == QFileInfo(folder))
+      return model.id;
+  return std::nullopt;
 }
 
 std::vector<int> ExplorerMode::visible_models() const {

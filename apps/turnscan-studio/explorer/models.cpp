@@ -148,6 +148,19 @@ void ModelStore::set_data(int id, ModelDataPtr data, const QString& what) {
   Q_EMIT changed();
 }
 
+void ModelStore::renew(int id, ModelDataPtr data, const std::vector<int>& hidden,
+                       const QString& what) {
+  if (!find(id)) return;
+  step(what);
+  for (const int other : hidden)
+    if (Model* model = mutable_find(other)) model->visible = false;
+  Model& renewed = *mutable_find(id);
+  renewed.data = std::move(data);
+  renewed.visible = true;
+  drop_stale_selection();
+  Q_EMIT changed();
+}
+
 void ModelStore::drop_stale_selection() {
   const auto is_of = [&](const Model& model) { return model.data == selected_.of; };
   if (std::none_of(models_.begin(), models_.end(), is_of)) selected_ = {};

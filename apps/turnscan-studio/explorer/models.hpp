@@ -105,6 +105,8 @@ class ModelStore : public QObject {
   /// Of several changes of one model in a row only the first is a step of undo.
   void set_opacity(int id, double opacity);
   void set_data(int id, ModelDataPtr data, const QString& what);
+  /// The same of a file that was read again, as add_instead() does with a new one.
+  void renew(int id, ModelDataPtr data, const std::vector<int>& hidden, const QString& what);
   void duplicate(int id);
   void remove(int id);
   /// A step of undo, too, unless nothing is selected and nothing was. It ends with the data that it
