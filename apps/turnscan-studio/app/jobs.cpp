@@ -2,6 +2,7 @@
 
 #include <QPointer>
 #include <chrono>
+#include <turnscan/core/process/thread_priority.hpp>
 
 namespace turnscan::studio {
 
@@ -13,7 +14,11 @@ struct JobRunner::Job {
   RunContext context;
 };
 
-JobRunner::JobRunner(QObject* parent) : QObject(parent), thread_([this] { run(); }) {}
+JobRunner::JobRunner(QObject* parent)
+    : QObject(parent), thread_([this] {
+        process::lower_thread_priority();  // the window answers, whatever a job takes
+        run();
+      }) {}
 
 JobRunner::~JobRunner() {
   {

@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <QSurfaceFormat>
 #include <clocale>
+#include <turnscan/core/process/thread_priority.hpp>
 
 /// Of a static library, resources are only there when somebody asks for them, in no namespace.
 static void load_resources() {
@@ -24,6 +25,7 @@ void prepare_application() {
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   vtkObject::GlobalWarningDisplayOff();
+  process::lower_worker_priority();
   load_resources();
 }
 

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <turnscan/capture/session/turn_counter.hpp>
+#include <turnscan/core/process/thread_priority.hpp>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 
@@ -69,6 +70,7 @@ void TurnCounter::look_for_speed(const Frame& frame) {
   attempt_s_ *= kLater;
   last_search_ = speed_.has_value();
   search_ = std::async(std::launch::async, [header = header_, kept = kept_] {
+    process::lower_thread_priority();
     FromMotionOptions options;
     options.use_angles = false;
     // A context of its own: this is not the phase that people are told about.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/process/thread_priority.hpp>
 
 namespace turnscan {
 
@@ -53,7 +54,10 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
 }
 
 LiveSurface::LiveSurface(SequenceHeader header)
-    : header_(std::move(header)), thread_([this] { run_on_this_thread([this] { run(); }); }) {}
+    : header_(std::move(header)), thread_([this] {
+        process::lower_thread_priority();  // frames must not be dropped for the sake of a preview
+        run_on_this_thread([this] { run(); });
+      }) {}
 
 LiveSurface::~LiveSurface() {
   context_.cancel();
