@@ -11,7 +11,7 @@ namespace turnscan::process {
 void lower_thread_priority() {
 #ifdef __linux__
   // Linux keeps a niceness for each thread, where POSIX has one for the process; 0 is the caller.
-  constexpr int kNiceness = 10;
+  constexpr int kNiceness = 5;
   if (::getpriority(PRIO_PROCESS, 0) < kNiceness) ::setpriority(PRIO_PROCESS, 0, kNiceness);
 #endif
 }
@@ -26,7 +26,9 @@ void lower_worker_priority() {
       lowered = lowered || is_worker;
     }
   };
-  static Lower lower;
+  // Never destroyed: workers may outlive the static objects.
+  static const Lower* const lower = new Lower;
+  static_cast<void>(lower);
 }
 
 }  // namespace turnscan::process
