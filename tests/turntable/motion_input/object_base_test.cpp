@@ -70,6 +70,29 @@ TEST(FindBase, DoesNotTakeTheTurntablesFootForTheObjects) {
   EXPECT_TRUE(base.ends);
 }
 
+TEST(FindBase, GoesDownToThinPartsThatAreAllOutline) {
+  testing::RigOptions o;
+  o.distance_m = 1.44;
+  o.elevation_rad = 0.576;
+  o.aim_height_m = 0.067;
+  o.platter = o.room = false;
+  o.noise_m = 0.0004;
+  o.frames = 42;
+  o.fps = 3.5;
+  o.angle = [](double t) { return -0.9 * kTurn * t / 12.0; };
+  // Pixels are 4 mm apart there, as far as the jaw is thick.
+  TriangleMesh skull = *builtin_object("skull");
+  const double scale = 0.133 / bounds(skull.vertices).size().y();
+  const Eigen::AngleAxisd yaw(4.2, Vec3d::UnitY());
+  for (Vec3f& p : skull.vertices)
+    p = (yaw * p.cast<double>() * scale + Vec3d(0.014, 0.0, 0.016)).cast<float>();
+  o.objects = {std::move(skull)};
+  const double low = bounds(o.objects[0].vertices).min.y();
+  const ObjectBase base = base_of(o);
+  EXPECT_NEAR(base.height_m, low, 0.01);
+  EXPECT_TRUE(base.ends);
+}
+
 TEST(FindBase, KeepsARoundFootThatLooksAtRest) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = without_platter();

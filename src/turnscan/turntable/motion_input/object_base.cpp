@@ -15,6 +15,12 @@ constexpr double kLeastCell_m = 0.006;      ///< edge of a cell that turns with 
 constexpr double kCellSpacings = 2.0;       ///< and at least so many distances between pixels
 constexpr std::uint32_t kLeastSupport = 3;  ///< frames that saw a cell
 constexpr double kLeastAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
+/// Of thin and rugged parts (a jaw, legs) the motion uses no pixel, as all are outline. Where
+/// nothing stands still below, their cells count if this share of the frames saw them, which mixed
+/// pixels, wherever they fall, do not reach, and only where they lie this many cells below the
+/// rest; all, if they have so many times the support that they would have if they stood still.
+constexpr double kThinShare = 0.2, kThinCells = 3.0, kTurnsRather = 1.4;
+constexpr double kLeastStill = 20.0;  ///< pixels of what stands still below
 constexpr std::size_t kTurningFrames = 48, kMostPoints = 20000;
 constexpr double kSlice_m = 0.002;
 constexpr std::size_t kSlices = 204;
@@ -59,6 +65,7 @@ class TurningCells {
 
   void add(const std::vector<TurningPoint>& points, double angle_rad, std::uint32_t number) {
     const Eigen::AngleAxisd back(-angle_rad, frame_.axis);
+    ++frames_;
     for (const auto& [p, inner] : points) {
       const Vec3d at = (back * (p - frame_.center)) / cell_m_;
       if (!(at.cwiseAbs().maxCoeff() < 1e6)) continue;
@@ -68,6 +75,8 @@ class TurningCells {
       cell.around_rad =
           std::max(cell.around_rad, std::abs(std::remainder(angle_rad - cell.first_rad, kTurn)));
       if (inner) cell.low_m = std::min(cell.low_m, frame_.height(p));
+      cell.heights_m += frame_.height(p);
+      cell.points += 1.0;
       cell.reach_m = std::max(cell.reach_m, frame_.radius(p));
     }
   }
@@ -85,11 +94,32 @@ class TurningCells {
     return out;
   }
 
+  /// Frames that saw the cell of a point, the mean of all points.
+  double mean_support() const {
+    double sum = 0.0, points = 0.0;
+    for (const auto& [key, cell] : cells_) sum += cell.points * cell.frames, points += cell.points;
+    return points > 0.0 ? sum / points : 0.0;
+  }
+
+  /// Mean height of the lowest cell that many frames saw, if it lies well below low_m; else low_m.
+  double thin_low(double low_m) const {
+    const auto least = std::max(kLeastSupport, std::uint32_t(kThinShare * double(frames_)));
+    double lowest = low_m - kThinCells * cell_m_;
+    bool found = false;
+    for (const auto& [key, cell] : cells_) {
+      if (cell.frames < least || cell.around_rad < kLeastAround_rad) continue;
+      const double height = cell.heights_m / cell.points;
+      if (height < lowest) lowest = height, found = true;
+    }
+    return found ? lowest : low_m;
+  }
+
  private:
   struct Cell {
     std::uint32_t frames = 0, last = 0;
     double first_rad = 0.0, around_rad = 0.0;
     double low_m = kNothing_m, reach_m = 0.0;
+    double heights_m = 0.0, points = 0.0;
   };
 
   static std::uint64_t key_of(const Vec3d& at) {
@@ -101,6 +131,7 @@ class TurningCells {
 
   AxisFrame frame_;
   double cell_m_;
+  std::uint32_t frames_ = 0;
   std::unordered_map<std::uint64_t, Cell> cells_;
 };
 
@@ -170,17 +201,23 @@ class StillImage {
   std::vector<float> depth_;
 };
 
+/// How many of the four pixels beside one that is not at the border show about the same depth.
+template <class DepthAt>
+int same_beside(const DepthAt& depth_at, int x, int y, double limit_m) {
+  int same = 0;
+  for (const auto& [dx, dy] : {std::pair{0, -1}, {-1, 0}, {1, 0}, {0, 1}})
+    if (std::abs(depth_at(x + dx, y + dy) - depth_at(x, y)) < limit_m) ++same;
+  return same;
+}
+
 /// Whether at least three of the four pixels beside it, which is not at the border, show the same
 /// surface. A rim that mixes what stands still is one pixel wide.
 bool is_inner(const FrameSurface& surface, int x, int y, double limit_m) {
+  if (x < 1 || y < 1 || x + 1 >= surface.width || y + 1 >= surface.height) return false;
   const auto at = [&](int u, int v) {
     return double(surface.z[std::size_t(v) * std::size_t(surface.width) + std::size_t(u)]);
   };
-  if (x < 1 || y < 1 || x + 1 >= surface.width || y + 1 >= surface.height) return false;
-  int same = 0;
-  for (const auto& [dx, dy] : {std::pair{0, -1}, {-1, 0}, {1, 0}, {0, 1}})
-    if (std::abs(at(x + dx, y + dy) - at(x, y)) < limit_m) ++same;
-  return same >= 3;
+  return same_beside(at, x, y, limit_m) >= 3;
 }
 
 /// What turns, as a frame saw it, without what flickers at the rims of what stands still: a round
@@ -209,6 +246,33 @@ std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFra
   return out;
 }
 
+/// What a frame saw below what turns, within its reach. Of mixed pixels, which lie at any depth,
+/// few have two neighbours as far away.
+std::vector<TurningPoint> points_below(const MotionData& data, const DepthImage& depth,
+                                       const SensorInfo& sensor, const RayTable& rays,
+                                       const AxisFrame& frame, const Extent& turning) {
+  const int w = data.camera.width;
+  const auto at = [&](int x, int y) {
+    const std::uint16_t value = depth.pixels[std::size_t(y) * std::size_t(w) + std::size_t(x)];
+    return value == kNoReturn || value == kOutsideCrop
+               ? 0.0
+               : value * sensor.depth_unit_m + sensor.depth_bias_m;
+  };
+  std::vector<TurningPoint> out;
+  for (int y = 1; y + 1 < data.camera.height; ++y) {
+    for (int x = 1; x + 1 < w; ++x) {
+      const double z = at(x, y), pixel = z / data.camera.fx;
+      if (!(z > 0.0)) continue;
+      const auto i = std::size_t(y) * std::size_t(w) + std::size_t(x);
+      const Vec3d p(rays.x()[i] * z, rays.y()[i] * z, z);
+      if (frame.height(p) > turning.low_m || frame.radius(p) > turning.reach_m) continue;
+      if (same_beside(at, x, y, 1.5 * pixel + 3.0 * data.noise_m) < 2) continue;
+      out.push_back({p, false});
+    }
+  }
+  return out;
+}
+
 /// Pixels of what stands still in the slices below a height, within reach of the axis.
 class StillSlices {
  public:
@@ -229,6 +293,12 @@ class StillSlices {
           slices_[std::size_t(below)].add(height, radius);
       }
     }
+  }
+
+  double pixels() const {
+    double sum = 0.0;
+    for (const Slice& slice : slices_) sum += slice.pixels;
+    return sum;
   }
 
   /// spacing_m: between pixels. up: cosine of the angle between the axis and the way to the sensor.
@@ -298,6 +368,23 @@ double low_of_cloud(const MotionData& data, const AxisFrame& frame) {
   return *at;
 }
 
+/// Of what turns, where nothing stands still below it.
+Result<double> low_of_thin_parts(const MotionData& data, std::span<const double> angles_rad,
+                                 const FrameSequence& sequence, const RayTable& rays,
+                                 const AxisFrame& frame, const Extent& turning, double cell_m) {
+  TurningCells turned(frame, cell_m), still(frame, cell_m);
+  const SensorInfo& sensor = sequence.header().sensors.front();
+  for (const std::size_t i : spread_subset(data.keys, kTurningFrames)) {
+    TURNSCAN_ASSIGN(const Frame seen, sequence.read(data.frames[i].position));
+    if (seen.depth.pixels.size() != rays.x().size()) continue;
+    const auto points = points_below(data, seen.depth, sensor, rays, frame, turning);
+    turned.add(points, angles_rad[i], std::uint32_t(i + 1));
+    still.add(points, 0.0, std::uint32_t(i + 1));
+  }
+  if (turned.mean_support() < kTurnsRather * still.mean_support()) return turning.low_m;
+  return turned.thin_low(turning.low_m);
+}
+
 }  // namespace
 
 Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
@@ -307,7 +394,8 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   if (data.projective) {
     TURNSCAN_ASSIGN(image, StillImage::read(data, sequence));
   }
-  TurningCells cells(frame, std::max(kLeastCell_m, kCellSpacings * data.spacing_m));
+  const double cell_m = std::max(kLeastCell_m, kCellSpacings * data.spacing_m);
+  TurningCells cells(frame, cell_m);
   const RayTable rays(data.camera);
   for (const std::size_t i : spread_subset(data.keys, kTurningFrames))
     cells.add(turning_points(data, data.frames[i], rays, image), angles_rad[i],
@@ -317,6 +405,11 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   if (!data.projective) return ObjectBase{turning->low_m, true, false, turning->reach_m};
   StillSlices slices(frame, *turning);
   slices.add(image, data.camera, rays, data.noise_m);
+  if (slices.pixels() < kLeastStill) {
+    TURNSCAN_ASSIGN(const double low_m,
+                    low_of_thin_parts(data, angles_rad, sequence, rays, frame, *turning, cell_m));
+    if (low_m < turning->low_m) return ObjectBase{low_m, true, false, turning->reach_m};
+  }
   return slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0));
 }
 
