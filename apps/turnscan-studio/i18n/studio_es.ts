@@ -2095,6 +2095,10 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <source>Progress of the running job</source>
         <translation>Progreso de la tarea en curso</translation>
     </message>
+    <message>
+        <source>%1 s so far</source>
+        <translation>%1 s hasta ahora</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::JoinPanel</name>

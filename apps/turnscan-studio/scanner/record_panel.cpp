@@ -214,7 +214,6 @@ void RecordPanel::show_state(const LiveState& state, bool open) {
   if (!state.record_error.empty()) error_->show_text(QString::fromStdString(state.record_error));
   bar_->setVisible(state.recording);
   if (state.recording) {
-    bar_->setRange(0, state.progress.fraction > 0.0 ? 1000 : 0);
     bar_->setValue(int(1000.0 * state.progress.fraction));
     text_->setText(progress_text(state));
     text_->setVisible(true);

@@ -13,7 +13,6 @@ namespace turnscan::studio {
 namespace {
 
 QString time_left(double seconds) {
-  if (seconds < 0.0) return {};
   const int s = static_cast<int>(std::ceil(std::min(seconds, 1e6)));
   if (s < 60) return QObject::tr("%1 s left").arg(s);
   return QObject::tr("%1 min %2 s left").arg(s / 60).arg(s % 60);
@@ -43,22 +42,41 @@ JobBar::JobBar(JobRunner& jobs, QWidget* parent)
   for (QWidget* part : std::initializer_list<QWidget*>{text_, bar_, left_, cancel_})
     layout->addWidget(part);
   setVisible(false);
+  each_second_.setInterval(1000);
+  connect(&each_second_, &QTimer::timeout, this, &JobBar::show_elapsed);
   connect(cancel_, &QToolButton::clicked, this, [this] { jobs_.cancel(); });
   connect(&jobs_, &JobRunner::started, this, [this](const QString& title) {
     title_ = title;
+    since_.start();
+    each_second_.start();
     show_progress({}, 0.0, -1.0);
     setVisible(true);
   });
   connect(&jobs_, &JobRunner::progress, this, &JobBar::show_progress);
-  connect(&jobs_, &JobRunner::finished, this, [this] { setVisible(jobs_.busy()); });
+  connect(&jobs_, &JobRunner::finished, this, [this] {
+    setVisible(jobs_.busy());
+    if (!jobs_.busy()) each_second_.stop();
+  });
 }
 
 void JobBar::show_progress(const QString& phase, double fraction, double seconds_left) {
   text_->setText(phase.isEmpty() ? title_ : QString("%1: %2").arg(title_, phase));
-  // A phase of unknown length says only that it runs.
-  bar_->setRange(0, fraction > 0.0 ? 1000 : 0);
   bar_->setValue(static_cast<int>(1000.0 * fraction));
-  left_->setText(time_left(seconds_left));
+  left_known_ = seconds_left >= 0.0;
+  if (left_known_) {
+    left_->setText(time_left(seconds_left));
+  } else {
+    show_elapsed();
+  }
+}
+
+/// That a job of unknown length runs is told by its seconds. A bar that moves all the time would
+/// have the whole window composed 30 times a second, which costs a software renderer a third of a
+/// processor.
+void JobBar::show_elapsed() {
+  if (left_known_) return;
+  const auto seconds = since_.elapsed() / 1000;
+  left_->setText(seconds > 0 ? tr("%1 s so far").arg(seconds) : QString());
 }
 
 }  // namespace turnscan::studio

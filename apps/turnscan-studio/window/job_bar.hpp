@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QElapsedTimer>
+#include <QTimer>
 #include <QWidget>
 
 class QLabel;
@@ -10,7 +12,8 @@ namespace turnscan::studio {
 
 class JobRunner;
 
-/// Shows the running job in the status line: phase, progress, time left, Cancel.
+/// Shows the running job in the status line: phase, progress, time left (or, where nobody knows,
+/// how long it has run), Cancel.
 class JobBar : public QWidget {
   Q_OBJECT
  public:
@@ -18,6 +21,7 @@ class JobBar : public QWidget {
 
  private:
   void show_progress(const QString& phase, double fraction, double seconds_left);
+  void show_elapsed();
 
   JobRunner& jobs_;
   QLabel* text_;
@@ -25,6 +29,9 @@ class JobBar : public QWidget {
   QLabel* left_;
   QToolButton* cancel_;
   QString title_;
+  QElapsedTimer since_;
+  QTimer each_second_;
+  bool left_known_ = false;
 };
 
 }  // namespace turnscan::studio
