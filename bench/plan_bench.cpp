@@ -4,6 +4,9 @@
 //     random rigs: predicted coverage beside that of the coverage command, predicted median error
 //     beside that of the reconstruction (with `meshes`), and the parts of the error model. Seeds
 //     from 1000 on take objects to which that was not fitted.
+//   plan_bench choices MESHES [OBJECTS]
+//     the same of what the planner chooses for one turn, and two. From 1000 on: of so many of the
+//     objects to which it was not fitted.
 //   plan_bench choice MESHES [N] [OBJECTS] [FIRST]
 //     one, two and three turns of each sensor: the planner's choice, simulated and reconstructed,
 //     beside the best of N random rigs. Those are drawn from a pool of turns (a place, and the
@@ -137,11 +140,41 @@ std::array<double, 5> median_parts(const PlanField& field, const Rig& rig) {
   return {median(parts[0]), median(parts[1]), median(parts[2]), median(parts[3]), median(parts[4])};
 }
 
+constexpr const char* kModelHeader =
+    "case object scanner turns distance mm, elevation deg | covered: predicted command | error mm: "
+    "predicted made | parts noise sigma spacing relief relief-6mm-noise\n";
+
+/// What is predicted of a rig, and what a simulated scan makes of it.
+void print_prediction(const std::string& title, const PlanRequest& request, const PlanField& field,
+                      PlanSearch& search, const Rig& rig, bool reconstruct) {
+  const RigScore score = search.score(rig, Prefer::kCovered);
+  const SceneDescription scene = scene_of(request, plan_from(field, rig), 0);
+  PlanTrial trial;
+  trial.median_error_m = std::nan("");
+  if (reconstruct) {
+    TrialRunner runner(request);
+    const auto trials = runner.run({{"trial", scene, &field.objects[0].given}}, {});
+    if (trials) trial = trials->front();
+  } else {
+    const auto simulation = prepare_simulation(scene, field.objects[0].given, {});
+    if (simulation) trial.covered = coverage_of(*simulation, {}, {})->covered();
+  }
+  const auto parts = median_parts(field, rig);
+  const std::string& object = request.objects.front();
+  fmt::print(
+      "{} {} {} {}x{} {:.0f} {:.0f} | {:.2f} {:.2f} | {:.3f} {:.3f} | {:.3f} {:.3f} {:.3f} "
+      "{:.3f} {:.3f} {}\n",
+      title, object.substr(object.find_last_of("/:") + 1), request.scanners.front().model,
+      rig.places.size(), rig.poses[0].size(), 1e3 * rig.places[0].placement.distance_m,
+      57.3 * rig.places[0].placement.elevation_rad, 100.0 * score.covered, 100.0 * trial.covered,
+      1e3 * score.median_error_m, 1e3 * trial.median_error_m, parts[0], parts[1], parts[2],
+      parts[3], parts[4], trial.failure);
+  std::fflush(stdout);
+}
+
 int run_model(const std::string& meshes, std::uint64_t first, int count, bool reconstruct) {
   const auto objects = first < kFirstHeldOut ? bench_objects(meshes) : held_out(meshes);
-  fmt::print(
-      "seed object scanner turns | covered: predicted command | error mm: predicted made | "
-      "parts noise sigma spacing relief relief-6mm\n");
+  fmt::print(kModelHeader);
   for (std::uint64_t seed = first; seed < first + std::uint64_t(count); ++seed) {
     const BenchObject& object = objects[seed % objects.size()];
     const std::string scanner = hash_key(seed, 3) % 2 == 0 ? "kinect-v2" : "realsense-d435";
@@ -153,32 +186,36 @@ int run_model(const std::string& meshes, std::uint64_t first, int count, bool re
       fmt::print("{} {}\n", seed, field.error().text());
       continue;
     }
-    const Rig rig = random_rig(request, *field, turns, seed);
     PlanSearch search(request, *field);
-    const RigScore score = search.score(rig, Prefer::kCovered);
-    const Plan plan = plan_from(*field, rig);
-    const SceneDescription scene = scene_of(request, plan, 0);
-    PlanTrial trial;
-    trial.median_error_m = std::nan("");
-    if (reconstruct) {
-      TrialRunner runner(request);
-      const auto trials = runner.run({{"trial", scene, &field->objects[0].given}}, {});
-      if (trials) trial = trials->front();
-    } else {
-      const auto simulation = prepare_simulation(scene, field->objects[0].given, {});
-      if (simulation) trial.covered = coverage_of(*simulation, {}, {})->covered();
-    }
-    const auto parts = median_parts(*field, rig);
-    fmt::print(
-        "{} {} {} {}x{} {:.0f} {:.0f} | {:.2f} {:.2f} | {:.3f} {:.3f} | {:.3f} {:.3f} {:.3f} "
-        "{:.3f} {:.3f} {}\n",
-        seed, object.name.substr(object.name.find_last_of("/:") + 1), scanner, rig.places.size(),
-        rig.poses[0].size(), 1e3 * rig.places[0].placement.distance_m,
-        57.3 * rig.places[0].placement.elevation_rad, 100.0 * score.covered, 100.0 * trial.covered,
-        1e3 * score.median_error_m, 1e3 * trial.median_error_m, parts[0], parts[1], parts[2],
-        parts[3], parts[4], trial.failure);
-    std::fflush(stdout);
+    print_prediction(std::to_string(seed), request, *field, search,
+                     random_rig(request, *field, turns, seed), reconstruct);
   }
+  return 0;
+}
+
+/// The same of what the planner chooses: one turn, and two.
+Result<> predict_choice(const BenchObject& object, const char* scanner) {
+  PlanRequest request = request_for(object, scanner);
+  request.options.passes = request.options.sensors = 2;
+  TURNSCAN_ASSIGN(const PlanField field, make_plan_field(request, {}));
+  PlanSearch search(request, field);
+  TURNSCAN_TRY(search.look({}));
+  TURNSCAN_ASSIGN(const auto rigs, search.choose_all({}));
+  for (const ChosenRig& rig : rigs) {
+    if (rig.rig.places.size() * rig.passes > 2) continue;
+    TURNSCAN_ASSIGN(const ChosenRig refined, search.refined(rig, {}));
+    print_prediction("choice", request, field, search, refined.rig, true);
+  }
+  return {};
+}
+
+int run_choices(std::vector<BenchObject> objects, std::size_t most_objects) {
+  objects.resize(std::min(objects.size(), most_objects));
+  fmt::print(kModelHeader);
+  for (const BenchObject& object : objects)
+    for (const char* scanner : {"kinect-v2", "realsense-d435"})
+      if (const auto done = predict_choice(object, scanner); !done)
+        fmt::print("{} {}\n", object.name, done.error().text());
   return 0;
 }
 
@@ -436,7 +473,7 @@ int run_choice(const std::string& meshes, int n, std::size_t most_objects, std::
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print("Usage: plan_bench model|choice MESHES ...\n");
+    fmt::print("Usage: plan_bench model|choices|choice MESHES ...\n");
     return 2;
   }
   const auto number = [&](int i, int otherwise) {
@@ -444,5 +481,11 @@ int main(int argc, char** argv) {
   };
   if (std::strcmp(argv[1], "model") == 0)
     return run_model(argv[2], std::uint64_t(number(3, 1)), number(4, 12), argc > 5);
+  if (std::strcmp(argv[1], "choices") == 0) {
+    const int objects = number(3, 6);
+    const bool others = objects >= int(kFirstHeldOut);
+    return run_choices(others ? held_out(argv[2]) : bench_objects(argv[2]),
+                       std::size_t(others ? objects - int(kFirstHeldOut) : objects));
+  }
   return run_choice(argv[2], number(3, 2000), std::size_t(number(4, 6)), std::size_t(number(5, 0)));
 }

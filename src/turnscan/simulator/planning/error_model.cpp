@@ -6,6 +6,8 @@ namespace turnscan::planning {
 
 namespace {
 
+constexpr double kUsualNoise_m = 0.0004;  // averaged over frames
+
 /// Below the radii that it is known for it falls with the square of the radius, as that of a bend;
 /// beyond them it is as at the last.
 double relief_within(const Spot& spot, double radius_m) {
@@ -25,8 +27,9 @@ std::array<double, ErrorModel::kParts> error_parts(const Spot& spot, const SpotS
   const double n = std::max(double(sight.cosines), 1e-3);
   const double sigma = std::sqrt(n / std::max(double(sight.weights), 1e-9));
   const double spacing = std::sqrt(double(sight.steps_m2) / n);
-  return {sigma / std::sqrt(std::max(n, 1.0)), sigma, spacing, relief_within(spot, spacing),
-          double(spot.relief_m.back())};
+  const double noise = sigma / std::sqrt(std::max(n, 1.0));
+  return {noise, sigma, spacing, relief_within(spot, spacing),
+          double(spot.relief_m.back()) * noise / kUsualNoise_m};
 }
 
 double ErrorModel::at(const Spot& spot, const SpotSight& sight) const {

@@ -7,18 +7,20 @@ namespace turnscan::planning {
 
 /// Expected distance |mesh - truth| at a spot that was seen:
 ///
-///   e^2 = (0.225 sigma / sqrt(n))^2 + (0.016 sigma)^2 + (0.032 d)^2 + (0.93 r(d))^2 + (0.25 r6)^2
+///   e^2 = (0.193 s)^2 + (0.018 sigma)^2 + (0.041 d)^2 + (0.46 r(d))^2 + (0.294 r6 s / 0.4 mm)^2
+///   s = sigma / sqrt(n)
 ///
 /// sigma: of a sample along its ray, the mean of all frames by information; n: frames that see it,
 /// each weighted by the cosine of its incidence; d: distance of samples on the object; r(d): how
 /// far the surface lies from its mean within d, which a grid of samples cannot show; r6: within 6
-/// mm, which is large on thin parts, about whose outlines samples err. The form is that of
-/// reconstruction/quality (noise averaged, a floor that frames do not average out, blur). The
-/// factors are our own, fitted to the median errors of 27 simulated scans and their reconstructions
-/// (bench/plan_bench model; docs/plan.md has how far they hold, also for other objects).
+/// mm, which is large on thin parts, of which a surface that noise has smoothed loses more. The
+/// form is that of reconstruction/quality (noise averaged, a floor that frames do not average out,
+/// blur). The factors are our own, fitted to the median errors of 82 simulated scans and their
+/// reconstructions (bench/plan_bench model and choices; docs/plan.md has how far they hold, also
+/// for other objects).
 struct ErrorModel {
   static constexpr std::size_t kParts = 5;
-  std::array<double, kParts> factors{0.225, 0.016, 0.032, 0.93, 0.25};
+  std::array<double, kParts> factors{0.193, 0.018, 0.041, 0.46, 0.294};
 
   /// Metres. Precondition: sight.chance() > 0.
   double at(const Spot& spot, const SpotSight& sight) const;
