@@ -18,6 +18,7 @@
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
+#include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
@@ -107,6 +108,19 @@ void drop_frames(int seed, double share, std::vector<FrameInfo>& infos) {
 /// Of the processor, on all cores.
 double seconds(std::clock_t from, std::clock_t to) { return double(to - from) / CLOCKS_PER_SEC; }
 
+/// T_truth_mesh: none, and as the first and the middle frame have it.
+std::vector<Pose> starts(const FrameSequence& frames, const CalibrationChoice& choice,
+                         const FrameSequence& at_true_poses) {
+  std::vector<Pose> out{Pose::Identity()};
+  const auto calibrated = with_choice(frames, choice);
+  if (!calibrated) return out;
+  const auto made = frame_poses((*calibrated)->header(), (*calibrated)->frames(), std::nullopt);
+  if (!made) return out;
+  for (const std::size_t i : {std::size_t(0), made->T_table_sensor.size() / 2})
+    out.push_back(*at_true_poses.frames()[i].T_table_sensor * made->T_table_sensor[i].inverse());
+  return out;
+}
+
 struct Tally {
   std::map<std::string, int> of;  ///< "true stated"
   int agreed = 0, judged = 0, bad_called_green = 0;
@@ -125,18 +139,24 @@ void judge(int seed, const Scan& scan, Tally& tally) {
   const std::clock_t reconstructed = std::clock();
   const ObjectResult& object = run->reconstruction.objects.front();
   EvaluateOptions options;
-  options.align = Align::kIcp;
   options.icp.max_iterations = 500;  // half a flat letter slides along its faces slowly
   options.samples = 40000;           // shares to within 0.3 %
   const VirtualScan& pass = simulation->scan.pass(0);
   const TriangleMesh& truth = pass.objects().front();
   const SequenceView posed = rigs::at_true_poses(frames, pass);
-  // The alignment may stop in a wrong place; the best of three starts counts.
+  // The alignment may stop in a wrong place: the best of several starts counts. The mesh is made
+  // where its calibration is, which without a platter is anywhere; its first and middle frames tell
+  // where that lies.
   std::optional<Evaluation> result;
-  for (int start = 1; start <= 3; ++start) {
-    options.seed = start;
-    auto one = evaluate(object.mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
+  for (const Pose& start : starts(frames, run->choice, posed)) {
+    TriangleMesh mesh = object.mesh;
+    for (Vec3f& p : mesh.vertices) p = (start * p.cast<double>()).cast<float>();
+    options.align = Align::kIcp;
+    auto one = evaluate(mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
+    options.align = Align::kNone;  // what is too far off to be aligned is judged as it lies
+    if (!one) one = evaluate(mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
     if (!one) return fmt::print("     not judged: {}\n", one.error().text());
+    one->T_reference_mesh = one->T_reference_mesh * start;
     if (!result || one->scores.at(1).f > result->scores.at(1).f) result = std::move(*one);
   }
   double base_m2 = 0.0;

@@ -26,7 +26,7 @@ TriangleMesh sheet(float fold) {
 }
 
 std::size_t at(int i, int j) { return std::size_t(j * kAcross + i); }
-const ErrorScale kScale{0.0015, 0.002, 0.0009, false};
+const ErrorScale kScale{0.0015, 0.002, 0.0009};
 
 TEST(ExpectedErrors, FallWithTheNumberOfMeasurements) {
   const TriangleMesh mesh = sheet(0.0f);
@@ -42,7 +42,26 @@ TEST(ExpectedErrors, AreLargerWhereTheSurfaceBends) {
   const TriangleMesh mesh = sheet(0.5f);
   const auto errors =
       expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f), kScale);
-  EXPECT_GT(errors[at(20, 20)], 1.5f * errors[at(5, 20)]);
+  EXPECT_GT(errors[at(20, 20)], 1.3f * errors[at(5, 20)]);
+}
+
+TEST(ExpectedErrors, AreLargerAtBendsWherePixelsSeePlacesBesideTheirs) {
+  const TriangleMesh mesh = sheet(0.5f);
+  const std::vector<float> support(mesh.vertices.size(), 50.0f);
+  const auto sharp = expected_errors(mesh, support, kScale);
+  const auto ragged = expected_errors(mesh, support, {0.0015, 0.002, 0.0009, Pixels::kRagged});
+  EXPECT_GT(ragged[at(20, 20)], 1.2f * sharp[at(20, 20)]);
+  EXPECT_EQ(ragged[at(5, 20)], sharp[at(5, 20)]) << "a flat place";
+}
+
+TEST(ExpectedErrors, AreLargerAtBendsWhereTheFitIsStiffer) {
+  const TriangleMesh mesh = sheet(0.5f);
+  const auto lost = [&](float measurements) {
+    const auto errors =
+        expected_errors(mesh, std::vector<float>(mesh.vertices.size(), measurements), kScale);
+    return std::sqrt(std::pow(errors[at(20, 20)], 2.0f) - std::pow(errors[at(5, 20)], 2.0f));
+  };
+  EXPECT_GT(lost(2.0f), 1.1f * lost(200.0f));
 }
 
 TEST(ExpectedErrors, GrowWithTheWayToWhatWasMeasured) {
@@ -78,7 +97,7 @@ TriangleMesh slab(float thickness_m) {
 }
 
 TEST(ExpectedErrors, AreLargerAtWallsThatAFilterCannotTellApart) {
-  const ErrorScale filtered{0.0015, 0.002, 0.0009, true};
+  const ErrorScale filtered{0.0015, 0.002, 0.0009, Pixels::kFiltered};
   const auto middle_of = [](const TriangleMesh& mesh, const ErrorScale& scale) {
     return expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f),
                            scale)[at(20, 20)];

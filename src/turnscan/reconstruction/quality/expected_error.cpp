@@ -14,10 +14,11 @@ namespace turnscan::quality {
 namespace {
 
 /// Fitted to simulated scans (bench/expected_error).
-constexpr double kNoiseShare = 0.19, kFloorShare = 0.037, kHiddenShare = 0.4;
-constexpr double kBlurShare = 0.3, kFilteredBlur = 0.45;
-constexpr double kMixedShare = 0.55;
-constexpr double kStifferPower = 1.0 / 6.0;
+constexpr double kNoiseShare = 0.29, kFloorShare = 0.018, kHiddenShare = 0.4;
+constexpr double kFitBlur = 0.092, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
+constexpr double kMixedShare = 0.65;
+/// Of how many times stiffer a fit is.
+constexpr double kLessNoise = 0.1, kMoreBlur = 0.44;
 /// Behind a filter, of the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
@@ -56,6 +57,22 @@ double bending_at(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
   return length > 0.0 ? angle / length : 0.0;
 }
 
+/// How much of a bend, as an angle per length, is lost as a distance.
+double blurring_window_m2(const ErrorScale& scale, double stiffer) {
+  const double pixel_m2 = scale.spacing_m * scale.spacing_m;
+  switch (scale.pixels) {
+    case Pixels::kFiltered:
+      return kFilteredBlur * pixel_m2;
+    case Pixels::kRagged:
+      return kRaggedBlur * pixel_m2;
+    case Pixels::kSharp:
+      break;
+  }
+  // Pixels of many frames fall between each other's, so that less noise shows finer detail.
+  return kFitBlur * std::pow(stiffer, kMoreBlur) * std::pow(scale.spacing_m, 1.5) *
+         std::sqrt(scale.noise_m);
+}
+
 }  // namespace
 
 std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<float>& support,
@@ -64,17 +81,13 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
-  // A stiffer surface averages over waves longer by the fourth root; details take part of that.
   const double stiffer =
       mesh_refinement::stiffening(scale.noise_m, scale.spacing_m, scale.edge_m, float(typical));
-  const double noise_share = kNoiseShare / std::pow(stiffer, kStifferPower);
+  const double noise_share = kNoiseShare / std::pow(stiffer, kLessNoise);
+  const bool filtered = scale.pixels == Pixels::kFiltered;
   std::optional<ThinWalls> walls;
-  if (scale.filtered) walls.emplace(mesh, normals);
-  // Pixels of many frames fall between each other's, so that less noise shows finer detail; what
-  // the sensor itself has averaged over pixels, they do not show.
-  const double window_m2 =
-      scale.filtered ? kFilteredBlur * scale.spacing_m * scale.spacing_m
-                     : kBlurShare * std::pow(scale.spacing_m, 1.5) * std::sqrt(scale.noise_m);
+  if (filtered) walls.emplace(mesh, normals);
+  const double window_m2 = blurring_window_m2(scale, stiffer);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
@@ -82,7 +95,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
     const double blur = window_m2 * bend;
     const double floor = kFloorShare * scale.noise_m;
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
-    const double mixed = scale.filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
+    const double mixed = filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
     const double hidden = kHiddenShare * double(way[v]);
     const double thin = walls && walls->thinner_than(kThinPixels * scale.spacing_m, v)
                             ? kThinShare * scale.spacing_m

@@ -3,6 +3,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
+#include <turnscan/reconstruction/estimation/ragged_outlines.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 #include <turnscan/reconstruction/quality/expected_error.hpp>
 #include <turnscan/reconstruction/quality/vertex_visibility.hpp>
@@ -15,6 +16,9 @@ namespace {
 
 /// Less invented surface without a return than this is not worth a note: rims have some.
 constexpr double kLeastNoReturn_m2 = 3e-4;
+/// Gaussian noise alone has shares of 0.01 to 0.09, the published lateral noises 0.12 to 0.28
+/// (bench/expected_error).
+constexpr double kRaggedShare = 0.11;
 
 /// Whether vertices that no pass saw lie in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
@@ -38,8 +42,12 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
   const double tolerance_m = 3.0 * input.noise_m + scale.volume.cell_m;
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
-  const auto expected = quality::expected_errors(
-      piece.mesh, piece.support, {input.noise_m, input.spacing_m, scale.volume.cell_m, filtered});
+  quality::ErrorScale errors{input.noise_m, input.spacing_m, scale.volume.cell_m};
+  if (filtered)
+    errors.pixels = quality::Pixels::kFiltered;
+  else if (estimation::ragged_share(input.views, piece.mesh, input.noise_m) > kRaggedShare)
+    errors.pixels = quality::Pixels::kRagged;
+  const auto expected = quality::expected_errors(piece.mesh, piece.support, errors);
   piece.quality.resize(expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};

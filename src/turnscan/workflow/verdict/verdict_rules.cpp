@@ -35,7 +35,7 @@ constexpr double kPoseMatters_m = 0.0005;
 /// Of a frame's spread, that its place is uncertain by; and which share of how far frames lie off
 /// stays in a surface that is their mean, since frames near each other err alike
 /// (bench/expected_error).
-constexpr double kOffNoise = 0.1, kSharedOff = 0.7;
+constexpr double kOffNoise = 0.1, kSharedOff = 0.2;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
 
 /// How far frames lie off each other beyond what the spread of their points explains.
