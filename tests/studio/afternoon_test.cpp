@@ -249,13 +249,13 @@ void Afternoon::fill_the_disk() {
 }
 
 void Afternoon::edit() {
-  const std::size_t triangles = model("doll (2) mesh").data->mesh.triangles.size();
-  const auto now = [&] { return model("doll (2) mesh").data->mesh.triangles.size(); };
+  const std::size_t triangles = model("doll mesh (2)").data->mesh.triangles.size();
+  const auto now = [&] { return model("doll mesh (2)").data->mesh.triangles.size(); };
   // What came last is shown alone.
-  EXPECT_FALSE(model("doll (2) mesh").visible);
-  store.set_visible(model("scorpion (2) mesh").id, false);
-  store.set_visible(model("doll (2) mesh").id, true);
-  window.explorer().list().select(model("doll (2) mesh").id);
+  EXPECT_FALSE(model("doll mesh (2)").visible);
+  store.set_visible(model("scorpion mesh (2)").id, false);
+  store.set_visible(model("doll mesh (2)").id, true);
+  window.explorer().list().select(model("doll mesh (2)").id);
   view.look(StandardView::kFront);
   ASSERT_TRUE(wait_idle(window));
   ASSERT_NO_FATAL_FAILURE(press_named("select_rectangle"));
@@ -267,11 +267,11 @@ void Afternoon::edit() {
   ASSERT_TRUE(wait_idle(window));
   EXPECT_LT(now(), triangles);
   picture("deleted");
-  if (small_pieces(model("doll (2) mesh").data->mesh, 0.05).pieces > 0) {
+  if (small_pieces(model("doll mesh (2)").data->mesh, 0.05).pieces > 0) {
     ASSERT_NO_FATAL_FAILURE(press_named("select_small"));
     QTest::keyClick(&window, Qt::Key_Delete);
     ASSERT_TRUE(wait_idle(window));
-    EXPECT_EQ(small_pieces(model("doll (2) mesh").data->mesh, 0.05).pieces, 0u);
+    EXPECT_EQ(small_pieces(model("doll mesh (2)").data->mesh, 0.05).pieces, 0u);
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
     QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   }
@@ -280,7 +280,7 @@ void Afternoon::edit() {
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_LT(now(), triangles);
   ASSERT_NO_FATAL_FAILURE(press_named("edit_fill"));
-  EXPECT_TRUE(check_mesh(model("doll (2) mesh").data->mesh).closed);
+  EXPECT_TRUE(check_mesh(model("doll mesh (2)").data->mesh).closed);
   ASSERT_NO_FATAL_FAILURE(press_named("edit_smooth"));
   ASSERT_TRUE(click(named(window.explorer(), "history")));
   picture("edited");
@@ -294,22 +294,22 @@ void Afternoon::compare_report_and_export() {
     Q_EMIT combo->activated(combo->currentIndex());
   };
   choose("compare_reference", "doll mesh");
-  choose("compare_model", "doll (2) mesh");
+  choose("compare_model", "doll mesh (2)");
   ASSERT_NO_FATAL_FAILURE(press("Side by side"));
   picture("side-by-side");
   ASSERT_NO_FATAL_FAILURE(press("Distances"));
   picture("distances");
-  EXPECT_EQ(store.models().back().name, "doll (2) mesh to doll mesh");
+  EXPECT_EQ(store.models().back().name, "doll mesh (2) to doll mesh");
   ASSERT_TRUE(wait_idle(window));
-  window.explorer().list().select(model("scorpion (2) mesh").id);
-  window.explorer().export_report(model("scorpion (2) mesh").id, path("scorpion.html"));
+  window.explorer().list().select(model("scorpion mesh (2)").id);
+  window.explorer().export_report(model("scorpion mesh (2)").id, path("scorpion.html"));
   ASSERT_TRUE(wait_idle(window));
   EXPECT_TRUE(content(path("scorpion.html")).contains("scorpion"));
   picture("report");
-  for (const char* name : {"skull (2) mesh", "doll (2) mesh", "scorpion (2) mesh"})
+  for (const char* name : {"skull mesh (2)", "doll mesh (2)", "scorpion mesh (2)"})
     window.explorer().export_as(model(name).id, path(QString(name) + ".3mf"), {});
   ASSERT_TRUE(wait_idle(window));
-  for (const char* name : {"skull (2) mesh", "doll (2) mesh", "scorpion (2) mesh"}) {
+  for (const char* name : {"skull mesh (2)", "doll mesh (2)", "scorpion mesh (2)"}) {
     const auto read = read_mesh(path(QString(name) + ".3mf").toStdString());
     ASSERT_TRUE(read.has_value()) << name;
     EXPECT_EQ(read->triangles.size(), model(name).data->mesh.triangles.size());
@@ -331,7 +331,7 @@ TEST_F(Afternoon, NothingIsLostAndEverythingIsSaid) {
 
   for (const char* text :
        {"stopped answering", "no-room", "Delete selected: ", "Fill holes: ", "Smooth: ",
-        "Wrote ~/scans/scorpion.html", "Wrote ~/scans/doll (2) mesh.3mf"})
+        "Wrote ~/scans/scorpion.html", "Wrote ~/scans/doll mesh (2).3mf"})
     EXPECT_TRUE(was_said(text)) << text;
   for (const char* name : {"skull", "doll", "scorpion"}) {
     const auto recording = Recording::open(path(name).toStdString());
