@@ -161,8 +161,8 @@ void LiveSurface::run() {
     if (!failed) failed = !work(batch, anew).has_value();
     pending_ = !failed;
     if (failed || Clock::now() - last < std::chrono::duration<double>(kLeastPause_s)) continue;
-    auto mesh = stream_->preview(context_);
     last = Clock::now();
+    auto mesh = stream_->preview(context_);
     pending_ = false;
     if (!mesh || mesh->empty()) continue;
     const std::lock_guard lock(mutex_);

@@ -40,7 +40,7 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
 class LiveSurface {
  public:
   static constexpr std::size_t kMostFrames = 128;  ///< in memory
-  static constexpr double kLeastPause_s = 0.3;     ///< between two meshes
+  static constexpr double kLeastPause_s = 0.4;     ///< from one mesh to the next
 
   /// header: of the frames, whose sensor 0 is used.
   explicit LiveSurface(SequenceHeader header);
