@@ -1,5 +1,7 @@
 #include <oneapi/tbb/task_scheduler_observer.h>
 
+#include <cstddef>
+#include <new>
 #include <turnscan/core/process/thread_priority.hpp>
 
 #ifdef __linux__
@@ -27,7 +29,8 @@ void lower_worker_priority() {
     }
   };
   // Never destroyed: workers may outlive the static objects.
-  static const Lower* const lower = new Lower;
+  alignas(Lower) static std::byte storage[sizeof(Lower)];
+  static const Lower* const lower = new (storage) Lower;
   static_cast<void>(lower);
 }
 
