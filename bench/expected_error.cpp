@@ -147,14 +147,15 @@ void judge(int seed, const Scan& scan, Tally& tally) {
   // The alignment may stop in a wrong place: the best of several starts counts. The mesh is made
   // where its calibration is, which without a platter is anywhere; its first and middle frames tell
   // where that lies.
+  const RunContext context;
+  const SeenTest seen = seen_by(pass.scene(), posed, context);
   std::optional<Evaluation> result;
   for (const Pose& start : starts(frames, run->choice, posed)) {
-    TriangleMesh mesh = object.mesh;
-    for (Vec3f& p : mesh.vertices) p = (start * p.cast<double>()).cast<float>();
+    const TriangleMesh mesh = transformed(object.mesh, start);
     options.align = Align::kIcp;
-    auto one = evaluate(mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
+    auto one = evaluate(mesh, truth, options, seen, {});
     options.align = Align::kNone;  // what is too far off to be aligned is judged as it lies
-    if (!one) one = evaluate(mesh, truth, options, seen_by(pass.scene(), posed, {}), {});
+    if (!one) one = evaluate(mesh, truth, options, seen, {});
     if (!one) return fmt::print("     not judged: {}\n", one.error().text());
     one->T_reference_mesh = one->T_reference_mesh * start;
     if (!result || one->scores.at(1).f > result->scores.at(1).f) result = std::move(*one);

@@ -117,7 +117,7 @@ class EvaluateCommand : public Command {
     for (const ThresholdScore& score : result.scores) {
       if (!map_options_.scale_m) scale = std::max(scale, score.threshold_m);
     }
-    for (Vec3f& p : mesh.vertices) p = (result.T_reference_mesh * p.cast<double>()).cast<float>();
+    mesh = transformed(mesh, result.T_reference_mesh);
     mesh.normals.clear();
     TURNSCAN_ASSIGN(const TriangleMesh colored, color_by_error(mesh, reference, scale, context));
     return write_mesh(error_map_, colored);

@@ -104,14 +104,13 @@ class TurningCells {
   /// Mean height of the lowest cell that many frames saw, if it lies well below low_m; else low_m.
   double thin_low(double low_m) const {
     const auto least = std::max(kLeastSupport, std::uint32_t(kThinShare * double(frames_)));
-    double lowest = low_m - kThinCells * cell_m_;
-    bool found = false;
+    const double highest = low_m - kThinCells * cell_m_;
+    double lowest = highest;
     for (const auto& [key, cell] : cells_) {
       if (cell.frames < least || cell.around_rad < kLeastAround_rad) continue;
-      const double height = cell.heights_m / cell.points;
-      if (height < lowest) lowest = height, found = true;
+      lowest = std::min(lowest, cell.heights_m / cell.points);
     }
-    return found ? lowest : low_m;
+    return lowest < highest ? lowest : low_m;
   }
 
  private:
