@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QLabel>
 #include <QMenu>
 #include <QMimeData>
 #include <QMouseEvent>
@@ -14,6 +15,9 @@
 #include <QTest>
 #include <QUrl>
 #include <QWheelEvent>
+#include <atomic>
+#include <chrono>
+#include <thread>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 
@@ -148,6 +152,26 @@ TEST_F(Window, DroppedFilesAreOpenedAndRemembered) {
   recent->actions().front()->trigger();
   ASSERT_TRUE(wait_idle(*window));
   EXPECT_EQ(window->explorer().store().models().size(), 1u);
+}
+
+TEST_F(Window, AJobOfUnknownLengthCountsItsSeconds) {
+  std::atomic<bool> enough{false};
+  window->jobs().start("wait", window.get(),
+                       [&](const RunContext& context) -> Result<Finish> {
+                         while (!enough && !context.cancelled())
+                           std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                         return Finish();
+                       },
+                       {});
+  const auto shown = [&] {
+    for (const QLabel* label : window->findChildren<QLabel*>())
+      if (label->isVisible() && label->text() == "2 s so far") return true;
+    return false;
+  };
+  EXPECT_TRUE(wait_for(shown, 10.0));
+  enough = true;
+  ASSERT_TRUE(wait_idle(*window));
+  EXPECT_FALSE(shown());
 }
 
 TEST_F(Window, TheFirstStartOffersWhatToDo) {
