@@ -125,6 +125,31 @@ TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
   EXPECT_LT(shading_left(texture_of(pictures, options).mesh), 0.02);
 }
 
+TEST(TextureMesh, TakesOutTheShadingWhereTheNormalsOfTheMeshAreWrong) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  EllipsoidPictures pictures;
+  pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
+  pictures.lamp = [](const Vec3d& normal) {
+    const Vec3d to_lamp = Vec3d(0.7, -0.5, -0.5).normalized();
+    return 0.4f + 0.6f * float(std::max(0.0, normal.dot(to_lamp)));
+  };
+  const MemoryFrames frames = ellipsoid_frames(pictures);
+  std::vector<Pose> poses;
+  for (const FrameInfo& info : frames.frames()) poses.push_back(*info.T_table_sensor);
+  TriangleMesh mesh = ellipsoid_mesh(90);
+  // Waves of 10 mm that tilt the normals by up to 0.1, as what is left of a sensor's noise.
+  for (Vec3f& p : mesh.vertices) {
+    const Vec3f wave = 628.0f * p;
+    p += 0.00015f * (std::sin(wave.x()) + std::sin(wave.y()) + std::sin(wave.z())) * p.normalized();
+  }
+  TextureOptions options;
+  options.refine_camera = false;
+  options.albedo = true;
+  ASSERT_TRUE(texture_mesh(frames, color_views(frames, poses, {}, std::nullopt), options, mesh,
+                           RunContext()));
+  EXPECT_LT(shading_left(mesh), 0.065);
+}
+
 /// Differences of light between triangles beside each other that were seen, in shares: what 99 of
 /// 100 stay below.
 double steps_left(const TriangleMesh& mesh) {

@@ -17,6 +17,8 @@ constexpr float kDarkerSays = 0.5f;   // against a colour, of what an equal one 
 constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
 constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
+constexpr float kUnsureShadowWeight = 0.02f;
+constexpr float kLeastLight = 0.05f;  // that is divided by
 constexpr double kMostShift_px = 1.0;
 constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
 constexpr double kExplained = 0.4;  // of the squared difference, by a shift
@@ -25,7 +27,11 @@ constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
 /// A view's colours as floats of 255, after its correction.
 class Corrector {
  public:
-  explicit Corrector(const Correction& correction) : levels_(correction.levels) {
+  explicit Corrector(const Correction& correction)
+      : levels_(correction.levels),
+        light_(correction.light),
+        to_lamp_(correction.to_lamp),
+        tilts_(correction.tilts) {
     tables_.resize(correction.gains.size());
     for (std::size_t view = 0; view < tables_.size(); ++view)
       for (int c = 0; c < 3; ++c)
@@ -36,9 +42,23 @@ class Corrector {
       for (Vec3f& level : slots) level = level.array().pow(1.0f / 2.4f).matrix();
   }
 
-  Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s) const {
+  bool needs_normals() const { return light_.has_value(); }
+  Vec3f normal(const TexelBlocks& blocks, std::size_t block, int texel) const {
+    const Vec3f own = blocks.normal(block, texel);
+    return tilts_ ? Vec3f(own + tilts_->at(block, texel)) : own;
+  }
+  /// normal: of the texel, where it is needed.
+  Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s,
+                   const Vec3f& normal) const {
     const auto& table = tables_[view];
-    const Vec3f& level = levels_[block][slot];
+    Vec3f level = Vec3f::Ones();
+    if (!levels_.empty()) level = levels_[block][slot];
+    if (light_) {
+      const float facing =
+          Lit(s.lit) == Lit::kNo ? 0.0f : std::max(0.0f, normal.dot(to_lamp_[view]));
+      const float light = light_->ambient + light_->lamp * facing;
+      level *= std::pow(std::max(kLeastLight, light), -1.0f / 2.4f);
+    }
     return {scaled(table[s.r], level.x()), scaled(table[256u + s.g], level.y()),
             scaled(table[512u + s.b], level.z())};
   }
@@ -52,6 +72,9 @@ class Corrector {
   }
 
   BlockLevels levels_;
+  std::optional<FixedLight> light_;
+  std::vector<Vec3f> to_lamp_;
+  std::optional<NormalTilts> tilts_;
   std::vector<std::array<float, 768>> tables_;
 };
 
@@ -131,6 +154,7 @@ class Blender {
   std::uint16_t blend(std::size_t b, std::uint8_t left_out, Rgb* colors,
                       std::uint8_t* known) const {
     std::array<float, kSlots> total{};
+    const BlockNormals normals = normals_of(b);
     for (int i = 0; i < kBlockTexels; ++i) {
       if (blocks_.triangle(b, i) == kNoTriangle) continue;
       std::array<Vec3f, kSlots> color;
@@ -140,14 +164,14 @@ class Blender {
       for (std::size_t k = 0; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0 || (left_out >> k & 1u) != 0) continue;
-        take(b, k, s, color[n], weight[n]);
+        take(b, k, s, normals[std::size_t(i)], color[n], weight[n]);
         slot[n++] = k;
       }
       // A texel that only those show which were left out takes what there is.
       for (std::size_t k = 0; n == 0 && k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0) continue;
-        take(b, k, s, color[0], weight[0]);
+        take(b, k, s, normals[std::size_t(i)], color[0], weight[0]);
         slot[0] = k;
         n = 1;
       }
@@ -163,13 +187,26 @@ class Blender {
   }
 
  private:
-  void take(std::size_t b, std::size_t k, const Sample& s, Vec3f& color, float& weight) const {
+  using BlockNormals = std::array<Vec3f, kBlockTexels>;
+
+  BlockNormals normals_of(std::size_t b) const {
+    BlockNormals out;
+    out.fill(Vec3f::Zero());
+    for (int i = 0; i < kBlockTexels && corrected_.needs_normals(); ++i)
+      if (blocks_.triangle(b, i) != kNoTriangle)
+        out[std::size_t(i)] = corrected_.normal(blocks_, b, i);
+    return out;
+  }
+
+  void take(std::size_t b, std::size_t k, const Sample& s, const Vec3f& normal, Vec3f& color,
+            float& weight) const {
     const std::uint16_t view = chosen_.view[b][k];
-    color = corrected_(b, k, view, s);
+    color = corrected_(b, k, view, s, normal);
     const float sharp = std::clamp(samples_.sharpness[view], kLeastSharpness, kMostSharpness);
     weight = chosen_.weight[b][k] / std::max(chosen_.weight[b][0], 1e-20f) * sharp * sharp;
     if (float(std::max({s.r, s.g, s.b})) >= kSaturated) weight *= kSaturatedWeight;
     if (s.valid == Sample::kNearRim) weight *= kNearRimWeight;
+    if (corrected_.needs_normals() && Lit(s.lit) == Lit::kUnsure) weight *= kUnsureShadowWeight;
     weight = std::max(weight, 1e-9f);
   }
 
@@ -219,11 +256,12 @@ class Blender {
     if (chosen_.view[b][0] == kNoView || chosen_.view[b][1] == kNoView) return out;
     std::array<float, kBlockTexels> best{};
     std::array<std::uint8_t, kBlockTexels> there{};
-    fill(b, 0, best, there);
+    const BlockNormals normals = normals_of(b);
+    fill(b, 0, normals, best, there);
     for (std::size_t k = 1; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
       std::array<float, kBlockTexels> other{};
       std::array<std::uint8_t, kBlockTexels> seen{};
-      fill(b, k, other, seen);
+      fill(b, k, normals, other, seen);
       ShiftSums& s = out[k];
       for (int y = 1; y + 1 < kBlock_px; ++y) {
         for (int x = 1; x + 1 < kBlock_px; ++x) {
@@ -241,12 +279,13 @@ class Blender {
     return out;
   }
 
-  void fill(std::size_t b, std::size_t k, std::array<float, kBlockTexels>& light,
+  void fill(std::size_t b, std::size_t k, const BlockNormals& normals,
+            std::array<float, kBlockTexels>& light,
             std::array<std::uint8_t, kBlockTexels>& there) const {
     const Sample* s = samples_.of(b, k);
     for (std::size_t i = 0; i < kBlockTexels; ++i) {
       if (s[i].valid != Sample::kWell) continue;
-      const Vec3f c = corrected_(b, k, chosen_.view[b][k], s[i]);
+      const Vec3f c = corrected_(b, k, chosen_.view[b][k], s[i], normals[i]);
       light[i] = 0.3f * c.x() + 0.59f * c.y() + 0.11f * c.z();
       there[i] = 1;
     }
@@ -284,7 +323,7 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
                       const TexelSamples& samples, const Correction& correction,
                       double texels_per_m, const RunContext& context) {
   const Corrector corrected(correction);
-  const float darker_says = correction.lamp_taken_out ? 0.0f : kDarkerSays;
+  const float darker_says = correction.light ? 0.0f : kDarkerSays;
   Blender blender(blocks, chosen, samples, corrected, darker_says, context);
   blender.measure_shifts();
   TURNSCAN_TRY(context.check());

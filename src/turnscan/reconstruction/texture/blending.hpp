@@ -2,15 +2,19 @@
 // One colour per texel out of those of several views.
 
 #include <turnscan/reconstruction/texture/seam_levels.hpp>
+#include <turnscan/reconstruction/texture/shading_normals.hpp>
 
 namespace turnscan::texture {
 
 /// What the linear light of views is multiplied by before they are compared.
 struct Correction {
   std::vector<Vec3f> gains;  ///< per view
-  BlockLevels levels;        ///< beside the gains
-  /// What is darker than usual is then as likely a shadow as what is brighter is a highlight.
-  bool lamp_taken_out = false;
+  BlockLevels levels;        ///< beside the gains; empty: all 1
+  /// A lamp that is taken out, and per view the direction to it in the object's frame. Samples are
+  /// marked by mark_shadows().
+  std::optional<FixedLight> light;
+  std::vector<Vec3f> to_lamp;
+  std::optional<NormalTilts> tilts;  ///< of what the lamp shines on
 };
 
 struct Blended {

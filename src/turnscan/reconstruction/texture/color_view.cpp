@@ -132,13 +132,24 @@ void DrawnMesh::find_rims() {
     if (edge[i] != 0) rim_[i] = 2;
 }
 
-Shown DrawnMesh::shows(const Projection& p) const {
-  if (!(p.z > 0.0f)) return Shown::kNot;
+std::ptrdiff_t DrawnMesh::pixel_of(const Projection& p) const {
+  if (!(p.z > 0.0f)) return -1;
   const int x = int(std::floor(p.u + 0.5f)) - left_, y = int(std::floor(p.v + 0.5f)) - top_;
-  if (x < 0 || y < 0 || x >= width_ || y >= height_) return Shown::kNot;
-  const std::size_t i = index(x, y);
+  if (x < 0 || y < 0 || x >= width_ || y >= height_) return -1;
+  return std::ptrdiff_t(index(x, y));
+}
+
+Shown DrawnMesh::shows(const Projection& p) const {
+  const std::ptrdiff_t at = pixel_of(p);
+  if (at < 0) return Shown::kNot;
+  const auto i = std::size_t(at);
   if (rim_[i] == 2 || !(p.z <= depth_[i] + kBehind * footprint_ * p.z)) return Shown::kNot;
   return rim_[i] == 0 ? Shown::kWell : Shown::kNearRim;
+}
+
+bool DrawnMesh::near_rim(const Projection& p) const {
+  const std::ptrdiff_t at = pixel_of(p);
+  return at < 0 || rim_[std::size_t(at)] != 0;
 }
 
 std::vector<ColorView> color_views(const FrameSequence& sequence,

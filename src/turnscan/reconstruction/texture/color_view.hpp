@@ -56,8 +56,12 @@ class DrawnMesh {
   }
   /// How the view shows a point of the mesh that is seen at p.
   Shown shows(const Projection& p) const;
+  /// Whether p lies near a rim of what is drawn there, or beside the mesh.
+  bool near_rim(const Projection& p) const;
 
  private:
+  /// -1: outside the window.
+  std::ptrdiff_t pixel_of(const Projection& p) const;
   std::size_t index(int column, int row) const {
     return std::size_t(row) * std::size_t(width_) + std::size_t(column);
   }

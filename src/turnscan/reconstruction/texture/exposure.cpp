@@ -1,7 +1,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/texture/charts.hpp>
 #include <turnscan/reconstruction/texture/exposure.hpp>
@@ -19,7 +18,6 @@ constexpr double kUsualGain = 0.15;       // log of how far gains are from 1
 constexpr double kLeastPairError = 0.01;  // log
 constexpr int kStayRounds = 3;
 constexpr std::size_t kGainChunks = 32;
-constexpr std::size_t kLightBlocks = 4000;  // that the lamp is looked for in
 
 std::array<float, 256> linear_table() {
   std::array<float, 256> out{};
@@ -103,49 +101,6 @@ Eigen::VectorXd solve_channel(const ChosenViews& chosen, const BlockMeans& means
   return balanced(all.weight.unaryExpr([](double w) { return w / (w + kEnoughBlocks); }), usual);
 }
 
-/// Luminances of a block, and the normals with which its views saw it.
-struct LightBlock {
-  std::array<float, kSlots> light{};
-  std::array<Vec3f, kSlots> normal{};
-  std::size_t count = 0;
-};
-
-/// How far the views of a block disagree about its albedo, in shares of it; large ones count as
-/// one.
-double disagreement(const std::vector<LightBlock>& blocks, const FixedLight& light) {
-  const auto parts =
-      parallel_chunks<double>(blocks.size(), 256, [&](std::size_t begin, std::size_t end) {
-        double sum = 0.0;
-        for (std::size_t b = begin; b < end; ++b) {
-          const LightBlock& block = blocks[b];
-          std::array<float, kSlots> albedo{};
-          float mean = 0.0f;
-          for (std::size_t k = 0; k < block.count; ++k) {
-            albedo[k] = block.light[k] / light.on(block.normal[k]);
-            mean += albedo[k] / float(block.count);
-          }
-          for (std::size_t k = 0; k < block.count; ++k) {
-            const double r = double((albedo[k] - mean) / (0.1f * mean));
-            sum += r * r / (1.0 + r * r);
-          }
-        }
-        return sum;
-      });
-  double sum = 0.0;
-  for (const double part : parts) sum += part;
-  return sum;
-}
-
-FixedLight light_from(double azimuth, double elevation, double share) {
-  FixedLight light;
-  light.direction =
-      Vec3f(float(std::cos(elevation) * std::sin(azimuth)), float(std::sin(elevation)),
-            float(std::cos(elevation) * std::cos(azimuth)));
-  light.ambient = float(1.0 - share);
-  light.lamp = float(share);
-  return light;
-}
-
 }  // namespace
 
 bool tells_of_exposure(const Vec3f& mean) {
@@ -185,51 +140,6 @@ std::vector<Vec3f> solve_gains(const ChosenViews& chosen, const BlockMeans& mean
       out[i][channel] = float(std::exp(std::clamp(gains[Eigen::Index(i)], -2.0, 2.0)));
   }
   return out;
-}
-
-FixedLight solve_light(const ChosenViews& chosen, const BlockMeans& means,
-                       const std::vector<Vec3f>& gains, const std::vector<Vec3f>& normals,
-                       const std::vector<Eigen::Matrix3f>& rotation) {
-  std::vector<LightBlock> blocks;
-  const std::size_t step = std::max<std::size_t>(1, means.size() / kLightBlocks);
-  for (std::size_t b = 0; b < means.size(); b += step) {
-    LightBlock block;
-    for (std::size_t k = 0; k < kSlots; ++k) {
-      if (!tells_of_exposure(means[b][k])) continue;
-      const std::uint16_t view = chosen.view[b][k];
-      block.light[block.count] = means[b][k].cwiseProduct(gains[view]).sum();
-      block.normal[block.count++] = rotation[view] * normals[b];
-    }
-    if (block.count >= 3) blocks.push_back(block);
-  }
-  FixedLight best;
-  if (blocks.empty()) return best;
-  double least = disagreement(blocks, best), azimuth = 0.0, elevation = 0.0, share = 0.0;
-  const auto look = [&](double a, double e, double s) {
-    if (s < 0.0 || s > 0.97 || std::abs(e) > kTurn / 4) return;
-    const FixedLight light = light_from(a, e, s);
-    const double value = disagreement(blocks, light);
-    if (value < least) least = value, best = light, azimuth = a, elevation = e, share = s;
-  };
-  for (int e = -2; e <= 4; ++e)
-    for (int a = 0; a < 18; ++a)
-      for (const double s : {0.2, 0.45, 0.7, 0.9}) look(a * kTurn / 18, e * kTurn / 20, s);
-  double step_angle = kTurn / 36, step_share = 0.12;
-  for (int round = 0; round < 24 && share > 0.0; ++round) {
-    const double a = azimuth, e = elevation, s = share;
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k)
-          look(a + i * step_angle, e + j * step_angle, s + k * step_share);
-    if (azimuth == a && elevation == e && share == s) step_angle *= 0.6, step_share *= 0.6;
-  }
-  double mean = 0.0, count = 0.0;
-  for (const LightBlock& block : blocks)
-    for (std::size_t k = 0; k < block.count; ++k, count += 1.0)
-      mean += double(best.on(block.normal[k]));
-  best.ambient *= float(count / mean);
-  best.lamp *= float(count / mean);
-  return best;
 }
 
 }  // namespace turnscan::texture

@@ -1,5 +1,5 @@
 #pragma once
-// Exposure and white balance of each view, and the shading of a lamp that does not turn.
+// Exposure and white balance of each view.
 
 #include <turnscan/reconstruction/texture/texel_samples.hpp>
 
@@ -20,22 +20,5 @@ bool tells_of_exposure(const Vec3f& mean);
 /// nothing with others stay as they are.
 std::vector<Vec3f> solve_gains(const ChosenViews& chosen, const BlockMeans& means,
                                std::size_t views);
-
-/// Light that does not turn with the object: from all sides alike, and from one lamp far away.
-/// Lambert: I = albedo * (ambient + lamp * max(0, n . direction)).
-struct FixedLight {
-  Vec3f direction = Vec3f::UnitY();  ///< to the lamp, rig's frame
-  float ambient = 1.0f, lamp = 0.0f;
-  float on(const Vec3f& normal_rig) const {
-    return ambient + lamp * std::max(0.0f, normal_rig.dot(direction));
-  }
-};
-
-/// The light under which the many views of each block agree best about its albedo. rotation: per
-/// view, from the object's frame to the rig's. normals: per block. The mean over the surface that
-/// was seen is 1.
-FixedLight solve_light(const ChosenViews& chosen, const BlockMeans& means,
-                       const std::vector<Vec3f>& gains, const std::vector<Vec3f>& normals,
-                       const std::vector<Eigen::Matrix3f>& rotation);
 
 }  // namespace turnscan::texture

@@ -149,8 +149,8 @@ class BlockSampler {
       if (side == 0) side = subsamples(s, view_);
       const Vec3f color = side == 1 ? sharp_pixel_at(image_, p.u, p.v) : mean(s, side);
       const auto byte = [](float v) { return std::uint8_t(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
-      out[i] = {byte(color.x()), byte(color.y()), byte(color.z()),
-                std::uint8_t(shown == Shown::kWell ? Sample::kWell : Sample::kNearRim)};
+      out[i].r = byte(color.x()), out[i].g = byte(color.y()), out[i].b = byte(color.z());
+      out[i].valid = shown == Shown::kWell ? Sample::kWell : Sample::kNearRim;
     }
   }
 

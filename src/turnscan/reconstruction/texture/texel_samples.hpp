@@ -27,7 +27,9 @@ Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& bl
 
 struct Sample {
   static constexpr std::uint8_t kWell = 1, kNearRim = 2;
-  std::uint8_t r = 0, g = 0, b = 0, valid = 0;
+  std::uint8_t r = 0, g = 0, b = 0;
+  std::uint8_t valid : 4 = 0;
+  std::uint8_t lit : 4 = 0;  ///< by a lamp that is taken out: Lit (lamp_view.hpp)
 };
 
 struct TexelSamples {

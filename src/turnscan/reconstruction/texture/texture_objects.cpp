@@ -62,35 +62,12 @@ std::vector<Eigen::Matrix3f> rig_rotations(const FrameSequence& sequence,
   return out;
 }
 
-std::vector<Vec3f> block_normals(const TexelBlocks& blocks) {
-  std::vector<Vec3f> out(blocks.count(), Vec3f::UnitY());
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    Vec3f sum = Vec3f::Zero();
-    for (int i = 0; i < kBlockTexels; i += 9)
-      if (blocks.triangle(b, i) != kNoTriangle) sum += blocks.normal(b, i);
-    for (int i = 0; i < kBlockTexels && sum.squaredNorm() == 0.0f; ++i)
-      if (blocks.triangle(b, i) != kNoTriangle) sum = blocks.normal(b, i);
-    if (sum.squaredNorm() > 0.0f) out[b] = sum.normalized();
-  }
-  return out;
-}
-
-/// What takes the light off each block in each of its views.
-BlockLevels without_light(const FixedLight& light, const ChosenViews& chosen,
-                          const std::vector<Vec3f>& normals,
-                          const std::vector<Eigen::Matrix3f>& rotation) {
-  BlockLevels out(normals.size());
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    out[b].fill(Vec3f::Ones());
-    for (std::size_t k = 0; k < kSlots && chosen.view[b][k] != kNoView; ++k)
-      out[b][k] /= std::max(0.05f, light.on(rotation[chosen.view[b][k]] * normals[b]));
-  }
-  return out;
-}
-
-BlockMeans with_levels(BlockMeans means, const BlockLevels& levels) {
+/// What the views would show in even light; nothing where the edge of a shadow is near.
+BlockMeans without_light(BlockMeans means, const BlockLight& light) {
   for (std::size_t b = 0; b < means.size(); ++b)
-    for (std::size_t k = 0; k < kSlots; ++k) means[b][k] = means[b][k].cwiseProduct(levels[b][k]);
+    for (std::size_t k = 0; k < kSlots; ++k)
+      means[b][k] = light.light[b][k] > 0.0f ? Vec3f(means[b][k] / light.light[b][k])
+                                             : Vec3f(Vec3f::Constant(-1.0f));
   return means;
 }
 
@@ -104,17 +81,20 @@ BlockMeans with_gains(BlockMeans means, const ChosenViews& chosen,
 
 /// Light and exposure in turn: a lamp that stands still looks like an exposure that changes with
 /// the turn, and gains that were found without it would hide most of it.
-Correction without_lamp(const ChosenViews& chosen, const BlockMeans& means,
-                        const std::vector<Vec3f>& normals,
-                        const std::vector<Eigen::Matrix3f>& rotation) {
+Result<Correction> without_lamp(const LampScene& scene, TexelSamples& samples, double texels_per_m,
+                                const RunContext& context) {
   Correction out;
-  out.lamp_taken_out = true;
-  out.gains.assign(rotation.size(), Vec3f::Ones());
+  out.gains.assign(scene.rotation.size(), Vec3f::Ones());
   for (int round = 0; round < kLightRounds; ++round) {
-    const FixedLight light = solve_light(chosen, means, out.gains, normals, rotation);
-    out.levels = without_light(light, chosen, normals, rotation);
-    out.gains = solve_gains(chosen, with_levels(means, out.levels), rotation.size());
+    TURNSCAN_ASSIGN(out.light, solve_light(scene, out.gains, out.light, context));
+    TURNSCAN_ASSIGN(const BlockLight light, block_light(scene, *out.light, context));
+    out.gains = solve_gains(scene.chosen, without_light(scene.means, light), scene.rotation.size());
   }
+  TURNSCAN_TRY(mark_shadows(scene, *out.light, samples, context));
+  for (const Eigen::Matrix3f& rotation : scene.rotation)
+    out.to_lamp.push_back(rotation.transpose() * out.light->direction);
+  out.tilts.emplace(shading_normals(scene.blocks, scene.chosen, samples, out.gains, *out.light,
+                                    out.to_lamp, texels_per_m));
   return out;
 }
 
@@ -184,19 +164,20 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   const std::vector<Vec3f> vertex_normal = vertex_normals(mesh);
   const TexelBlocks blocks(mesh, atlas, vertex_normal);
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
-  TURNSCAN_ASSIGN(const TexelSamples samples,
+  TURNSCAN_ASSIGN(TexelSamples samples,
                   sample_views(sequence, mesh, blocks, views, chosen, context));
   BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
-  if (options.albedo)
-    correction = without_lamp(chosen, means, block_normals(blocks), rig_rotations(sequence, views));
-  else
-    correction.gains = solve_gains(chosen, means, views.size());
-  report.albedo = options.albedo;
   // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
-  if (!options.albedo)
+  if (options.albedo) {
+    const LampScene scene{mesh, blocks, chosen, means, rig_rotations(sequence, views)};
+    TURNSCAN_ASSIGN(correction, without_lamp(scene, samples, atlas.texels_per_m, context));
+  } else {
+    correction.gains = solve_gains(chosen, means, views.size());
     correction.levels = seam_levels(
         blocks, chosen, with_gains(std::move(means), chosen, correction.gains), views.size());
+  }
+  report.albedo = options.albedo;
   TURNSCAN_ASSIGN(const Blended blended,
                   blend(blocks, chosen, samples, correction, atlas.texels_per_m, context));
   auto texture = std::make_shared<MeshTexture>();
