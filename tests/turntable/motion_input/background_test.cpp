@@ -104,6 +104,33 @@ TEST(FindBackground, BeforeAWallTheLimitLiesBetweenWallAndObject) {
   EXPECT_GT(beside, 100);
 }
 
+/// Each frame cut to what lies near the object, as some data sets are published.
+testing::MemorySequence cut_out(testing::MemorySequence frames) {
+  const auto count = frames.data.size();
+  for (std::size_t f = 0; f < count; ++f) {
+    const double turn = 2.0 * std::numbers::pi * double(f) / double(count);
+    const int middle = kColumns / 2 + int(5.0 * std::cos(turn));
+    const int half = 22 + int(14.0 * std::pow(std::sin(turn), 2));
+    auto& pixels = frames.data[f].depth.pixels;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      if (std::abs(int(i) % kColumns - middle) > half) pixels[i] = kNoReturn;
+  }
+  return frames;
+}
+
+TEST(FindBackground, OfFramesCutToTheObjectTheWallIsNoObject) {
+  const auto frames = cut_out(Pillar(1.1).turning(24));
+  const auto found = find_background(frames, all_of(frames), kPillarNoise_m, {});
+  ASSERT_TRUE(found) << found.error().text();
+  int object = 0, wall = 0;
+  for (const float limit : found->nearer_than) {
+    object += limit > 0.82f ? 1 : 0;
+    wall += limit > 1.1f ? 1 : 0;
+  }
+  EXPECT_GT(object, 1000);
+  EXPECT_LT(wall, object / 4);  // where the object hides it always, there is no limit
+}
+
 TEST(SpatialNoise, FeaturesOfAnObjectAreNoNoise) {
   const auto frames = Pillar(0.0, 7.0).turning(4);
   const auto noise = spatial_noise(frames, all_of(frames), {});

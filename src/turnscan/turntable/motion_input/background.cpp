@@ -5,6 +5,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
+#include <turnscan/turntable/motion_input/depth_steps.hpp>
 #include <turnscan/turntable/motion_input/still_surface.hpp>
 
 namespace turnscan::motion {
@@ -18,8 +19,13 @@ constexpr std::size_t kLeastMovingPixels = 100;
 /// Standard deviations between the tenths at both ends of a pixel's depths: 2.6 of normal noise.
 constexpr double kMovingSigmas = 4.0;
 constexpr double kLeastMove_m = 0.003;
+/// Of the steps in which a sensor tells depth: it may fall to either side of what stands still.
+constexpr double kMovingSteps = 2.5;
 /// A pixel shows two things where nothing lies between them, in ranges of what stands still.
 constexpr double kClearGap = 3.0;
+/// What is seen now and then at one depth stands still if that is so of a wide patch: of an object
+/// that turns only lines along its outline are. A share of all that moves.
+constexpr double kLeastPassing = 0.02;
 
 /// The depths of every pixel, frame after frame; 0: none.
 class DepthStack {
@@ -37,6 +43,7 @@ class DepthStack {
       if (results[k]) results[k] = out.read_one(sequence, positions[k], sensor, out.images_[k]);
     });
     for (auto& result : results) TURNSCAN_TRY(result);
+    out.steps_ = DepthSteps(out.images_, sensor.depth_unit_m);
     return out;
   }
 
@@ -44,6 +51,7 @@ class DepthStack {
   int height() const { return height_; }
   std::size_t frames() const { return images_.size(); }
   const std::vector<float>& image(std::size_t k) const { return images_[k]; }
+  const DepthSteps& steps() const { return steps_; }
 
   /// A pixel's depths, ascending.
   void depths(std::size_t pixel, std::vector<float>& out) const {
@@ -69,6 +77,7 @@ class DepthStack {
 
   int width_ = 0, height_ = 0;
   std::vector<std::vector<float>> images_;
+  DepthSteps steps_;
 };
 
 /// Second difference of a row over every second pixel, since neighbours share some of their noise;
@@ -167,7 +176,7 @@ class BackgroundSearch {
  private:
   /// What a pixel's depth changes by without motion. Noise is larger far away and at low angles,
   /// as it then is between neighbours.
-  double still_range(std::size_t pixel) const {
+  double still_range(std::size_t pixel, double depth_m) const {
     thread_local std::vector<float> differences;
     differences.clear();
     for (std::size_t k = 0; k < stack_.frames(); ++k) {
@@ -175,7 +184,8 @@ class BackgroundSearch {
       if (std::isfinite(size)) differences.push_back(size);
     }
     const double noise = differences.size() < 4 ? noise_m_ : noise_from(differences);
-    return std::max(kMovingSigmas * std::max(noise, noise_m_), kLeastMove_m);
+    const double steps = kMovingSteps * stack_.steps().at(depth_m);
+    return std::max({kMovingSigmas * std::max(noise, noise_m_), steps, kLeastMove_m});
   }
 
   void find_moving() {
@@ -192,17 +202,20 @@ class BackgroundSearch {
     if (valid == 0) return;
     const std::size_t tenth = valid / 10;
     const double range = double(depths[valid - 1 - tenth] - depths[tenth]);
-    const double still = still_range(i);
+    const double still = still_range(i, double(depths[valid - 1]));
     const bool comes_and_goes = 10 * valid < 9 * frames && 10 * valid > frames;
     if (range <= still && !comes_and_goes) {
       if (2 * valid >= frames) still_.seen[i] = depths[valid / 2];
       return;
     }
     moving_[i] = 1;
+    still_.tolerance[i] = float(still);
+    if (valid >= 4 && range <= still) passing_[i] = depths[valid / 2];
+    farthest_[i] = depths[valid - 1];
     // The farthest depth may be what stands still if it is seen again; else the object hides it.
     if (valid < 4 || double(depths[valid - 1] - depths[valid - 3]) >= still) return;
     const float far = depths[valid - 2];
-    still_.candidate[i] = far, still_.tolerance[i] = float(still);
+    still_.candidate[i] = far;
     const auto nearer = std::lower_bound(depths.begin(), depths.end(), far - float(still));
     apart_[i] = nearer != depths.begin() && double(far - *(nearer - 1)) > kClearGap * still ? 1 : 0;
   }
@@ -214,15 +227,43 @@ class BackgroundSearch {
   void set_limits(std::vector<float>& nearer_than) {
     for (std::size_t i = 0; i < moving_.size(); ++i)
       if (moving_[i] == 0) still_.candidate[i] = 0.0f;
+    const bool passes = see_what_passes();
     const auto continued = continued_from_seen(still_);
-    const bool room = std::count(continued.begin(), continued.end(), 1) > 0;
+    const bool room = passes || std::count(continued.begin(), continued.end(), 1) > 0;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (moving_[i] == 0) continue;
-      const float far = still_.candidate[i], still = still_.tolerance[i];
-      const bool apart = apart_[i] != 0 && continued[i] == 0;
-      nearer_than[i] = room && far > 0.0f ? far - (apart ? 0.5f * float(kClearGap) : 1.0f) * still
-                                          : std::numeric_limits<float>::infinity();
+      const bool known = continued[i] != 0 || (still_.candidate[i] > 0.0f && lone_[i] == 0);
+      const double gaps = apart_[i] != 0 && continued[i] == 0 ? 0.5 * kClearGap : 1.0;
+      nearer_than[i] = room && known ? still_.candidate[i] - float(gaps) * still_.tolerance[i]
+                                     : std::numeric_limits<float>::infinity();
     }
+  }
+
+  /// Where the images show now this, now that part of what stands around, hardly a pixel shows it
+  /// most of the time; it is seen where wide patches show one depth whenever they show any. What
+  /// continues it may be seen a single time then. Returns whether it is so.
+  bool see_what_passes() {
+    std::vector<std::uint8_t> passing(moving_.size(), 0);
+    for (std::size_t i = 0; i < passing.size(); ++i)
+      passing[i] = moving_[i] != 0 && passing_[i] > 0.0f ? 1 : 0;
+    const std::vector<std::uint8_t> core = eroded(passing);
+    std::vector<std::int32_t> label(core.size(), 0);
+    std::size_t widest = 0;
+    for (std::size_t i = 0; i < core.size(); ++i)
+      if (core[i] != 0 && label[i] == 0) widest = std::max(widest, fill(core, label, i, 1));
+    const auto moving = double(std::count(moving_.begin(), moving_.end(), 1));
+    if (widest < kLeastMovingPixels || double(widest) < kLeastPassing * moving) return false;
+    const auto wide = dilated(core);
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      if (moving_[i] == 0) continue;
+      if (passing[i] != 0 && wide[i] != 0) {
+        moving_[i] = 0, still_.seen[i] = passing_[i], still_.candidate[i] = 0.0f;
+      } else if (still_.candidate[i] == 0.0f) {
+        lone_[i] = 1, still_.candidate[i] = farthest_[i];
+      }
+    }
+    still_.least_patch = kLeastPassing;
+    return true;
   }
 
   /// Patches of what moves, without lines one or two pixels wide; then as wide again.
@@ -287,7 +328,10 @@ class BackgroundSearch {
   double noise_m_;
   std::vector<std::uint8_t> moving_ =
       std::vector<std::uint8_t>(std::size_t(w_) * std::size_t(h_), 0);
+  std::vector<std::uint8_t> lone_ = moving_;   ///< the candidate was not seen again
   std::vector<std::uint8_t> apart_ = moving_;  ///< nothing is seen shortly before the candidate
+  std::vector<float> passing_ = std::vector<float>(moving_.size(), 0.0f);  ///< seen now and then
+  std::vector<float> farthest_ = passing_;
   StillDepths still_{w_, h_, std::vector<float>(moving_.size(), 0.0f),
                      std::vector<float>(moving_.size(), 0.0f),
                      std::vector<float>(moving_.size(), 0.0f)};

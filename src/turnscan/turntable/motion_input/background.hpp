@@ -32,7 +32,8 @@ Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
 
 /// From these frames (positions) of a depth camera. A pixel shows something that moves when its
 /// depth changes by more than noise, or comes and goes; what stands still behind it is the farthest
-/// depth that it shows more than once. Lone flickering pixels and small patches do not count.
+/// depth that it shows more than once; where frames were cut to the object, what shows wide patches
+/// of now and then, and what continues it. Lone flickering pixels and small patches do not count.
 /// noise_m: standard deviation of a depth value, about. Fails with kTooFewPoints when nothing
 /// moves, kCancelled, and what reading fails with.
 Result<Background> find_background(const FrameSequence& sequence,

@@ -12,8 +12,6 @@ namespace {
 /// Half width of the window that a plane is fitted in, and the pixels that it needs.
 constexpr int kReach = 4;
 constexpr int kLeastKnown = 8;
-/// A patch of what stands still is at least this share of all candidates.
-constexpr double kLeastPatch = 0.5;
 
 class Continuation {
  public:
@@ -45,7 +43,7 @@ class Continuation {
     for (std::size_t i = 0; i < known_.size(); ++i) {
       if (!(in_.seen[i] > 0.0f) || visited[i] != 0) continue;
       const std::vector<std::size_t> patch = patch_of(i, visited);
-      if (double(patch.size()) < kLeastPatch * candidates) continue;
+      if (double(patch.size()) < in_.least_patch * candidates) continue;
       for (const std::size_t k : patch) known_[k] = in_.seen[k];
     }
   }

@@ -12,6 +12,7 @@ struct StillDepths {
   std::vector<float> seen;       ///< where nothing moves
   std::vector<float> candidate;  ///< where something moves: what may stand still behind it
   std::vector<float> tolerance;  ///< of a candidate: what its noise may make of it
+  double least_patch = 0.5;      ///< of `seen` that counts, as a share of all candidates
 };
 
 /// Per pixel, 1 where the candidate continues the surface that is seen beside it: it lies within
