@@ -145,6 +145,22 @@ TEST(CalibrateFromMotion, TellsTheMotorsSpeedBesideASlip) {
   EXPECT_LT(mean_angle_error_deg(rig, *found), 0.4);
 }
 
+TEST(CalibrateFromMotion, TheSpeedOfAnUnevenMotorIsItsMeanAndStatedByItsScatter) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  testing::RigOptions o = rig_options("doll", 60, 1.1);
+  const double slow = 1.0 * 2.0 * std::numbers::pi / 30.0;
+  const auto fast_s = [](double t) {  // in the first 6 and the last 7 seconds
+    return std::clamp(t, 0.0, 6.0) + std::clamp(t - 23.0, 0.0, 7.0);
+  };
+  o.angle = [=](double t) { return slow * (t + 0.35 * fast_s(t)); };
+  const testing::Rig rig(o);
+  const auto found = calibrate_from_motion(rig, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  const double mean = o.angle(29.5) / 29.5;
+  EXPECT_NEAR(*found->table.speed_rad_s, mean, 0.03 * mean);
+  EXPECT_GT(found->speed_sigma_rad_s, 0.01 * mean);
+}
+
 // Pairs of views alone lead each other astray, here to 0.12 degrees; the model does not.
 TEST(CalibrateFromMotion, FollowsTheRippleOfAMotor) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";

@@ -21,6 +21,8 @@ constexpr double kHiddenBase = 0.15;
 constexpr double kRecordedHeight_m = 0.01;
 /// Frames that tell a speed, less one.
 constexpr std::size_t kLeastStretch = 3;
+/// Share of the frames beside slips and halts, which are short: else the table turns unevenly.
+constexpr double kLeastSteady = 0.6;
 
 class Publication {
  public:
@@ -202,31 +204,57 @@ class Publication {
     return out;
   }
 
+  /// Slips and halts would be much of the recording.
+  bool uneven(std::size_t first, std::size_t last) const {
+    const auto& transient = motion_.prior.transient;
+    if (transient.empty() || last < first + 4 * kLeastStretch) return false;
+    const auto steady = std::count(transient.begin() + std::ptrdiff_t(first),
+                                   transient.begin() + std::ptrdiff_t(last) + 1, 0);
+    return double(steady) < kLeastSteady * double(last - first + 1);
+  }
+
+  double slope(std::size_t a, std::size_t b) const {
+    return (state_.angle[b] - state_.angle[a]) / (data_.frames[b].time_s - data_.frames[a].time_s);
+  }
+
+  /// Of the mean speed, as the speeds of the quarters tell it.
+  double uneven_sigma(std::size_t first, std::size_t last) const {
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double speed =
+          slope(first + k * (last - first) / 4, first + (k + 1) * (last - first) / 4);
+      sum += speed, squares += speed * speed;
+    }
+    return std::sqrt(std::max(0.0, squares / 4.0 - sum * sum / 16.0) / 3.0);
+  }
+
   /// The steady speed: the slope of the angles over time once the table runs, a slip or a halt left
-  /// out, and the moment at which that line left the angle that the table stood at.
+  /// out; of a table that turns unevenly the mean speed. And the moment at which that line left the
+  /// angle that the table stood at.
   void set_speed(Calibration& out) const {
     const auto& frames = data_.frames;
     const std::size_t n = frames.size();
-    const auto slope = [&](std::size_t a, std::size_t b) {
-      return (state_.angle[b] - state_.angle[a]) / (frames[b].time_s - frames[a].time_s);
-    };
     const double middle = slope(n / 4, 3 * n / 4);
     // Runs: from where a stretch of a twentieth goes at nearly the steady speed.
     const std::size_t stretch = std::max<std::size_t>(1, n / 20);
     std::size_t first = 0, last = n - 1;
     while (first + stretch < n / 4 && slope(first, first + stretch) / middle < 0.93) ++first;
     while (last > stretch + 3 * n / 4 && slope(last - stretch, last) / middle < 0.93) --last;
-    const auto lines = steady_stretches(first, last);
+    const bool mean = uneven(first, last);
+    const auto lines = mean ? std::vector{regression(first, last)} : steady_stretches(first, last);
     double along = 0.0, squares = 0.0, spans = 0.0, sigma = 0.0;
     for (const Stretch& line : lines) {
       along += line.along, squares += line.squares;
       spans += std::pow(frames[line.last].time_s - frames[line.first].time_s, 2);
     }
-    const double speed = along / squares;
+    const double speed = mean ? slope(first, last) : along / squares;
     out.table.speed_rad_s = speed;
     for (std::size_t i = first; i <= last; ++i) sigma = std::max(sigma, solution_.angle_sigma[i]);
-    out.speed_sigma_rad_s = sigma / std::sqrt(spans);
-    out.speed_found = motion_.turn_observable ? "slope of the angles over time" : "stated";
+    out.speed_sigma_rad_s =
+        std::hypot(sigma / std::sqrt(spans), mean ? uneven_sigma(first, last) : 0.0);
+    out.speed_found = !motion_.turn_observable ? "stated"
+                      : mean                   ? "mean of an uneven turn"
+                                               : "slope of the angles over time";
     if (!motion_.turn_observable) {
       out.undetermined.emplace_back("speed");
       out.speed_sigma_rad_s = std::nan("");
