@@ -106,15 +106,20 @@ double shading_left(const TriangleMesh& mesh) {
   return light[light.size() * 95 / 100];
 }
 
-TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
-  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+/// Evenly painted, before a lamp from the right and above.
+EllipsoidPictures white_before_a_lamp() {
   EllipsoidPictures pictures;
   pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
-  // From the right and above.
   pictures.lamp = [](const Vec3d& normal) {
     const Vec3d to_lamp = Vec3d(0.7, -0.5, -0.5).normalized();
     return 0.4f + 0.6f * float(std::max(0.0, normal.dot(to_lamp)));
   };
+  return pictures;
+}
+
+TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  EllipsoidPictures pictures = white_before_a_lamp();
   TextureOptions options;
   options.refine_camera = false;  // nothing to find it by
   EXPECT_GT(shading_left(texture_of(pictures, options).mesh), 0.1);
@@ -127,13 +132,7 @@ TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
 
 TEST(TextureMesh, TakesOutTheShadingWhereTheNormalsOfTheMeshAreWrong) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
-  EllipsoidPictures pictures;
-  pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
-  pictures.lamp = [](const Vec3d& normal) {
-    const Vec3d to_lamp = Vec3d(0.7, -0.5, -0.5).normalized();
-    return 0.4f + 0.6f * float(std::max(0.0, normal.dot(to_lamp)));
-  };
-  const MemoryFrames frames = ellipsoid_frames(pictures);
+  const MemoryFrames frames = ellipsoid_frames(white_before_a_lamp());
   std::vector<Pose> poses;
   for (const FrameInfo& info : frames.frames()) poses.push_back(*info.T_table_sensor);
   TriangleMesh mesh = ellipsoid_mesh(90);

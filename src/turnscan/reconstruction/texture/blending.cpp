@@ -18,20 +18,16 @@ constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
 constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
 constexpr float kUnsureShadowWeight = 0.02f;
-constexpr float kLeastLight = 0.05f;  // that is divided by
 constexpr double kMostShift_px = 1.0;
 constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
 constexpr double kExplained = 0.4;  // of the squared difference, by a shift
 constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
 
-/// A view's colours as floats of 255, after its correction.
+/// A view's colours as floats of 255, after its correction, which it refers to.
 class Corrector {
  public:
   explicit Corrector(const Correction& correction)
-      : levels_(correction.levels),
-        light_(correction.light),
-        to_lamp_(correction.to_lamp),
-        tilts_(correction.tilts) {
+      : levels_(correction.levels), lamp_(correction.lamp ? &*correction.lamp : nullptr) {
     tables_.resize(correction.gains.size());
     for (std::size_t view = 0; view < tables_.size(); ++view)
       for (int c = 0; c < 3; ++c)
@@ -42,21 +38,18 @@ class Corrector {
       for (Vec3f& level : slots) level = level.array().pow(1.0f / 2.4f).matrix();
   }
 
-  bool needs_normals() const { return light_.has_value(); }
+  bool needs_normals() const { return lamp_ != nullptr; }
   Vec3f normal(const TexelBlocks& blocks, std::size_t block, int texel) const {
-    const Vec3f own = blocks.normal(block, texel);
-    return tilts_ ? Vec3f(own + tilts_->at(block, texel)) : own;
+    return blocks.normal(block, texel) + lamp_->tilts.at(block, texel);
   }
-  /// normal: of the texel, where it is needed.
+  /// normal: by normal(), where it is needed.
   Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s,
                    const Vec3f& normal) const {
     const auto& table = tables_[view];
     Vec3f level = Vec3f::Ones();
     if (!levels_.empty()) level = levels_[block][slot];
-    if (light_) {
-      const float facing =
-          Lit(s.lit) == Lit::kNo ? 0.0f : std::max(0.0f, normal.dot(to_lamp_[view]));
-      const float light = light_->ambient + light_->lamp * facing;
+    if (lamp_ != nullptr) {
+      const float light = lamp_->light.on(normal.dot(lamp_->to_lamp[view]), Lit(s.lit) != Lit::kNo);
       level *= std::pow(std::max(kLeastLight, light), -1.0f / 2.4f);
     }
     return {scaled(table[s.r], level.x()), scaled(table[256u + s.g], level.y()),
@@ -72,9 +65,7 @@ class Corrector {
   }
 
   BlockLevels levels_;
-  std::optional<FixedLight> light_;
-  std::vector<Vec3f> to_lamp_;
-  std::optional<NormalTilts> tilts_;
+  const LampCorrection* lamp_;
   std::vector<std::array<float, 768>> tables_;
 };
 
@@ -323,7 +314,9 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
                       const TexelSamples& samples, const Correction& correction,
                       double texels_per_m, const RunContext& context) {
   const Corrector corrected(correction);
-  const float darker_says = correction.light ? 0.0f : kDarkerSays;
+  // What is darker than usual is as likely a shadow that was missed as what is brighter is a
+  // highlight.
+  const float darker_says = correction.lamp ? 0.0f : kDarkerSays;
   Blender blender(blocks, chosen, samples, corrected, darker_says, context);
   blender.measure_shifts();
   TURNSCAN_TRY(context.check());

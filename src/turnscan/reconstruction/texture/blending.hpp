@@ -6,15 +6,18 @@
 
 namespace turnscan::texture {
 
+/// A lamp that is taken out of samples that mark_shadows() has marked.
+struct LampCorrection {
+  FixedLight light;
+  std::vector<Vec3f> to_lamp;  ///< per view, object's frame
+  NormalTilts tilts;           ///< of what the lamp shines on
+};
+
 /// What the linear light of views is multiplied by before they are compared.
 struct Correction {
   std::vector<Vec3f> gains;  ///< per view
   BlockLevels levels;        ///< beside the gains; empty: all 1
-  /// A lamp that is taken out, and per view the direction to it in the object's frame. Samples are
-  /// marked by mark_shadows().
-  std::optional<FixedLight> light;
-  std::vector<Vec3f> to_lamp;
-  std::optional<NormalTilts> tilts;  ///< of what the lamp shines on
+  std::optional<LampCorrection> lamp;
 };
 
 struct Blended {

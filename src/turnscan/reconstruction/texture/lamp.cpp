@@ -75,14 +75,13 @@ FixedLight light_from(double azimuth, double elevation, double share) {
 /// Tries lights.
 class LampSearch {
  public:
-  LampSearch(const LampScene& scene, const TriangleMesh& coarse, std::vector<LightBlock> blocks,
-             const RunContext& context)
-      : scene_(scene), coarse_(coarse), blocks_(std::move(blocks)), context_(context) {
+  LampSearch(const LampScene& scene, std::vector<LightBlock> blocks, const RunContext& context)
+      : scene_(scene), blocks_(std::move(blocks)), context_(context) {
     of_view_.resize(scene.rotation.size());
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       for (std::size_t k = 0; k < blocks_[b].count; ++k)
-        of_view_[blocks_[b].view[k]].emplace_back(std::uint32_t(b), std::uint8_t(k));
-    pixel_ = pixel_of(coarse, kLookMap_px);
+        of_view_[blocks_[b].view[k]].push_back({std::uint32_t(b), std::uint8_t(k)});
+    pixel_ = pixel_of(scene.coarse, kLookMap_px);
   }
 
   void start(const std::optional<FixedLight>& near) {
@@ -135,7 +134,7 @@ class LampSearch {
     Reached out(blocks_.size());
     parallel_for(of_view_.size(), 1, [&](std::size_t view) {
       if (of_view_[view].empty() || context_.cancelled()) return;
-      const LampView lamp(coarse_, scene_.rotation[view].transpose() * direction, pixel_);
+      const LampView lamp(scene_.coarse, scene_.rotation[view].transpose() * direction, pixel_);
       for (const auto& [b, k] : of_view_[view])
         out[b][k] = lamp.lit(blocks_[b].position, blocks_[b].normal);
     });
@@ -143,7 +142,8 @@ class LampSearch {
   }
 
   float light_on(std::size_t b, std::size_t k, const FixedLight& light, bool reached) const {
-    return light.on(scene_.rotation[blocks_[b].view[k]] * blocks_[b].normal, reached);
+    const Vec3f normal_rig = scene_.rotation[blocks_[b].view[k]] * blocks_[b].normal;
+    return light.on(normal_rig.dot(light.direction), reached);
   }
 
   void look(double azimuth, double elevation, std::initializer_list<double> shares) {
@@ -208,32 +208,36 @@ class LampSearch {
   }
 
   const LampScene& scene_;
-  const TriangleMesh& coarse_;
   const std::vector<LightBlock> blocks_;
   const RunContext& context_;
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint8_t>>> of_view_;
+  std::vector<std::vector<ViewSlot>> of_view_;
   double pixel_ = 0.0, step_angle_ = 0.0, step_share_ = 0.0;
   double least_ = 1e8, azimuth_ = 0.0, elevation_ = 0.0, share_ = 0.0;
 };
 
-/// Calls work(view, lamp's view) for each view.
+/// Calls work(slot, view, lamp's view) for each slot of each block that shows a view.
 template <class Work>
-Result<> for_each_view(const LampScene& scene, const FixedLight& light, const RunContext& context,
+Result<> for_each_slot(const LampScene& scene, const FixedLight& light, const RunContext& context,
                        const Work& work) {
   const double pixel = pixel_of(scene.mesh, kMap_px);
-  parallel_for(scene.rotation.size(), 1, [&](std::size_t view) {
-    if (context.cancelled()) return;
-    work(view, LampView(scene.mesh, scene.rotation[view].transpose() * light.direction, pixel));
+  const auto slots = slots_by_view(scene.chosen, scene.rotation.size());
+  parallel_for(slots.size(), 1, [&](std::size_t view) {
+    if (slots[view].empty() || context.cancelled()) return;
+    const LampView lamp(scene.mesh, scene.rotation[view].transpose() * light.direction, pixel);
+    for (const ViewSlot& at : slots[view]) work(at, view, lamp);
   });
   return context.check();
 }
 
 }  // namespace
 
+Result<TriangleMesh> coarse_caster(const TriangleMesh& mesh) {
+  return simplify(mesh, {.triangles = kLookTriangles});
+}
+
 Result<FixedLight> solve_light(const LampScene& scene, const std::vector<Vec3f>& gains,
                                const std::optional<FixedLight>& near, const RunContext& context) {
-  TURNSCAN_ASSIGN(const TriangleMesh coarse, simplify(scene.mesh, {.triangles = kLookTriangles}));
-  LampSearch search(scene, coarse, light_blocks(scene, gains), context);
+  LampSearch search(scene, light_blocks(scene, gains), context);
   search.start(near);
   search.refine();
   TURNSCAN_TRY(context.check());
@@ -242,37 +246,29 @@ Result<FixedLight> solve_light(const LampScene& scene, const std::vector<Vec3f>&
 
 Result<BlockLight> block_light(const LampScene& scene, const FixedLight& light,
                                const RunContext& context) {
-  BlockLight out;
-  out.light.resize(scene.blocks.count());
-  TURNSCAN_TRY(for_each_view(scene, light, context, [&](std::size_t view, const LampView& lamp) {
-    for (std::size_t b = 0; b < out.light.size(); ++b) {
-      for (std::size_t k = 0; k < kSlots && scene.chosen.view[b][k] != kNoView; ++k) {
-        if (scene.chosen.view[b][k] != view) continue;
-        const int texel = middle_texel(scene.blocks, b);
-        const Vec3f normal = scene.blocks.normal(b, texel);
-        const Lit lit = lamp.lit(scene.blocks.surface(b, texel).position, normal);
-        out.light[b][k] =
-            lit == Lit::kUnsure ? -1.0f : light.on(scene.rotation[view] * normal, lit == Lit::kYes);
-      }
-    }
-  }));
+  BlockLight out(scene.blocks.count());
+  TURNSCAN_TRY(for_each_slot(
+      scene, light, context, [&](const ViewSlot& at, std::size_t view, const LampView& lamp) {
+        const int texel = middle_texel(scene.blocks, at.block);
+        const Vec3f normal = scene.blocks.normal(at.block, texel);
+        const Lit lit = lamp.lit(scene.blocks.surface(at.block, texel).position, normal);
+        const float facing = (scene.rotation[view] * normal).dot(light.direction);
+        out[at.block][at.slot] = lit == Lit::kUnsure ? -1.0f : light.on(facing, lit == Lit::kYes);
+      }));
   return out;
 }
 
 Result<> mark_shadows(const LampScene& scene, const FixedLight& light, TexelSamples& samples,
                       const RunContext& context) {
-  return for_each_view(scene, light, context, [&](std::size_t view, const LampView& lamp) {
-    for (std::size_t b = 0; b < scene.blocks.count(); ++b) {
-      for (std::size_t k = 0; k < kSlots && scene.chosen.view[b][k] != kNoView; ++k) {
-        if (scene.chosen.view[b][k] != view) continue;
+  return for_each_slot(
+      scene, light, context, [&](const ViewSlot& at, std::size_t, const LampView& lamp) {
+        Sample* of_slot = samples.of(at.block, at.slot);
         for (int i = 0; i < kBlockTexels; ++i) {
-          if (scene.blocks.triangle(b, i) == kNoTriangle) continue;
-          samples.samples[(b * kSlots + k) * kBlockTexels + std::size_t(i)].lit = std::uint8_t(
-              lamp.lit(scene.blocks.surface(b, i).position, scene.blocks.normal(b, i)));
+          if (of_slot[i].valid == 0) continue;
+          const Vec3f p = scene.blocks.surface(at.block, i).position;
+          of_slot[i].lit = std::uint8_t(lamp.lit(p, scene.blocks.normal(at.block, i)));
         }
-      }
-    }
-  });
+      });
 }
 
 }  // namespace turnscan::texture

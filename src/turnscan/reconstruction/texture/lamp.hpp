@@ -11,24 +11,32 @@ namespace turnscan::texture {
 struct FixedLight {
   Vec3f direction = Vec3f::UnitY();  ///< to the lamp, rig's frame
   float ambient = 1.0f, lamp = 0.0f;
-  float on(const Vec3f& normal_rig, bool reached = true) const {
-    return reached ? ambient + lamp * std::max(0.0f, normal_rig.dot(direction)) : ambient;
+  /// facing: cosine between normal and direction; of what the lamp does not reach only the rest.
+  float on(float facing, bool reached) const {
+    return reached ? ambient + lamp * std::max(0.0f, facing) : ambient;
   }
 };
+
+/// Light that is divided by is at least this.
+inline constexpr float kLeastLight = 0.05f;
 
 /// What a lamp is looked for in. Refers to its parts.
 struct LampScene {
   const TriangleMesh& mesh;
+  const TriangleMesh&
+      coarse;  ///< by coarse_caster(): casts the shadows while the lamp is looked for
   const TexelBlocks& blocks;
   const ChosenViews& chosen;
   const BlockMeans& means;
   std::vector<Eigen::Matrix3f> rotation;  ///< per view, from the object's frame to the rig's
 };
 
-/// How the light falls on each block in each of its views: by its middle.
-struct BlockLight {
-  std::vector<std::array<float, kSlots>> light;  ///< negative where the edge of a shadow is near
-};
+/// Fails as simplify().
+Result<TriangleMesh> coarse_caster(const TriangleMesh& mesh);
+
+/// How the light falls on each block in each of its views, by its middle; negative where the edge
+/// of a shadow is near.
+using BlockLight = std::vector<std::array<float, kSlots>>;
 
 /// The light under which the views of each place agree best about its albedo, shadows that the mesh
 /// casts included. The mean over the surface that was seen is 1. gains: per view. near: it is about

@@ -72,8 +72,8 @@ class ShadingSolver {
       const std::uint16_t view = chosen_.view[b][k];
       const Vec3f& to_lamp = to_lamp_[view];
       const float facing = Lit(s.lit) == Lit::kYes ? normal.dot(to_lamp) : 0.0f;
-      const float light = light_.ambient + light_.lamp * std::max(0.0f, facing);
-      if (!(light > 0.05f)) continue;
+      const float light = light_.on(facing, true);
+      if (!(light > kLeastLight)) continue;
       const Vec3f& gain = gains_[view];
       albedo[n] =
           (linear_[s.r] * gain.x() + linear_[s.g] * gain.y() + linear_[s.b] * gain.z()) / light;
@@ -114,22 +114,17 @@ class ShadingSolver {
   std::array<float, 256> linear_{};
 };
 
-/// Of the squares of a picture that belong to the chart of a block.
-class SquareGrid {
- public:
-  explicit SquareGrid(const TexelBlocks& blocks) : blocks_(blocks) {}
-
-  /// Calls visit(block, square); column and row count squares of the picture.
-  template <class Visit>
-  void visit(std::uint32_t chart, int column, int row, const Visit& visit) const {
-    const std::int32_t at = blocks_.block_at(column * kSquare, row * kSquare);
-    if (at < 0 || column < 0 || row < 0 || blocks_.chart(std::size_t(at)) != chart) return;
-    visit(std::size_t(at), std::size_t(row % kInRow * kInRow + column % kInRow));
-  }
-
- private:
-  const TexelBlocks& blocks_;
+struct Square {
+  std::size_t block, index;
 };
+
+/// The square of a chart's at a column and row of squares of the picture, if there is one.
+std::optional<Square> square_at(const TexelBlocks& blocks, std::uint32_t chart, int column,
+                                int row) {
+  const std::int32_t at = blocks.block_at(column * kSquare, row * kSquare);
+  if (at < 0 || blocks.chart(std::size_t(at)) != chart) return std::nullopt;
+  return Square{std::size_t(at), std::size_t(row % kInRow * kInRow + column % kInRow)};
+}
 
 Vec3f tilt_of(const TiltSums& sums) {
   if (!(sums.count > 0.0f)) return Vec3f::Zero();
@@ -142,13 +137,6 @@ Vec3f tilt_of(const TiltSums& sums) {
 
 }  // namespace
 
-const Vec3f* NormalTilts::square(std::size_t block, int column, int row) const {
-  const Vec3f* out = nullptr;
-  SquareGrid(*blocks_).visit(blocks_->chart(block), column, row,
-                             [&](std::size_t b, std::size_t square) { out = &tilts_[b][square]; });
-  return out;
-}
-
 Vec3f NormalTilts::at(std::size_t block, int texel) const {
   const int x = blocks_->left(block) + texel % kBlock_px,
             y = blocks_->top(block) + texel / kBlock_px;
@@ -159,11 +147,11 @@ Vec3f NormalTilts::at(std::size_t block, int texel) const {
   float weights = 0.0f;
   for (int dy = 0; dy <= 1; ++dy) {
     for (int dx = 0; dx <= 1; ++dx) {
-      const Vec3f* tilt = square(block, column + dx, row + dy);
-      if (tilt == nullptr) continue;
+      const auto square = square_at(*blocks_, blocks_->chart(block), column + dx, row + dy);
+      if (!square) continue;
       const float weight =
           (1.0f - std::abs(u - float(column + dx))) * (1.0f - std::abs(v - float(row + dy)));
-      sum += weight * *tilt;
+      sum += weight * tilts_[square->block][square->index];
       weights += weight;
     }
   }
@@ -183,7 +171,6 @@ NormalTilts shading_normals(const TexelBlocks& blocks, const ChosenViews& chosen
   for (int d = -most; d <= most; ++d)
     kernel.push_back(float(std::exp(-0.5 * d * d / std::max(reach * reach, 0.05))));
   std::vector<NormalTilts::OfBlock> tilts(blocks.count());
-  const SquareGrid grid(blocks);
   parallel_for(tilts.size(), 64, [&](std::size_t b) {
     for (int s = 0; s < NormalTilts::kSquares; ++s) {
       const int column = blocks.left(b) / kSquare + s % kInRow;
@@ -191,11 +178,9 @@ NormalTilts shading_normals(const TexelBlocks& blocks, const ChosenViews& chosen
       TiltSums near;
       for (int dy = -most; dy <= most; ++dy)
         for (int dx = -most; dx <= most; ++dx)
-          grid.visit(blocks.chart(b), column + dx, row + dy,
-                     [&](std::size_t other, std::size_t square) {
-                       near.add(sums[other][square],
-                                kernel[std::size_t(dx + most)] * kernel[std::size_t(dy + most)]);
-                     });
+          if (const auto square = square_at(blocks, blocks.chart(b), column + dx, row + dy))
+            near.add(sums[square->block][square->index],
+                     kernel[std::size_t(dx + most)] * kernel[std::size_t(dy + most)]);
       tilts[b][std::size_t(s)] = tilt_of(near);
     }
   });

@@ -20,9 +20,6 @@ class NormalTilts {
   Vec3f at(std::size_t block, int texel) const;
 
  private:
-  /// nullptr where the chart has no such square.
-  const Vec3f* square(std::size_t block, int column, int row) const;
-
   const TexelBlocks* blocks_;
   std::vector<OfBlock> tilts_;
 };

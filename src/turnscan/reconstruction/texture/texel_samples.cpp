@@ -181,21 +181,6 @@ class BlockSampler {
   const ColorImage& image_;
 };
 
-/// What each view is to sample.
-struct SampleJob {
-  std::uint32_t block;
-  std::uint8_t slot;
-};
-
-std::vector<std::vector<SampleJob>> jobs_of(const ChosenViews& chosen, std::size_t views) {
-  std::vector<std::vector<SampleJob>> out(views);
-  for (std::size_t b = 0; b < chosen.view.size(); ++b)
-    for (std::size_t k = 0; k < kSlots; ++k)
-      if (chosen.view[b][k] != kNoView)
-        out[chosen.view[b][k]].push_back({std::uint32_t(b), std::uint8_t(k)});
-  return out;
-}
-
 }  // namespace
 
 Vec3f pixel_at(const ColorImage& image, float u, float v) {
@@ -262,16 +247,25 @@ Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& bl
   return out;
 }
 
+std::vector<std::vector<ViewSlot>> slots_by_view(const ChosenViews& chosen, std::size_t views) {
+  std::vector<std::vector<ViewSlot>> out(views);
+  for (std::size_t b = 0; b < chosen.view.size(); ++b)
+    for (std::size_t k = 0; k < kSlots; ++k)
+      if (chosen.view[b][k] != kNoView)
+        out[chosen.view[b][k]].push_back({std::uint32_t(b), std::uint8_t(k)});
+  return out;
+}
+
 Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleMesh& mesh,
                                   const TexelBlocks& blocks, const std::vector<ColorView>& views,
                                   const ChosenViews& chosen, const RunContext& context) {
   TexelSamples out;
   out.samples.resize(blocks.count() * kSlots * kBlockTexels);
   std::vector<double> sharpness(views.size(), 0.0);
-  const auto jobs = jobs_of(chosen, views.size());
+  const auto slots = slots_by_view(chosen, views.size());
   std::vector<std::optional<Error>> errors(views.size());
   parallel_for(views.size(), 1, [&](std::size_t i) {
-    if (context.cancelled() || jobs[i].empty()) return;
+    if (context.cancelled() || slots[i].empty()) return;
     auto image = image_of(sequence, views[i]);
     if (!image) {
       errors[i] = std::move(image).error();
@@ -283,8 +277,7 @@ Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleM
     if (drawn.empty()) return;
     sharpness[i] = sharpness_of(*image, drawn);
     const BlockSampler sampler(blocks, views[i], drawn, *image);
-    for (const SampleJob& job : jobs[i])
-      sampler.sample(job.block, &out.samples[(job.block * kSlots + job.slot) * kBlockTexels]);
+    for (const ViewSlot& at : slots[i]) sampler.sample(at.block, out.of(at.block, at.slot));
   });
   TURNSCAN_TRY(context.check());
   for (auto& error : errors)

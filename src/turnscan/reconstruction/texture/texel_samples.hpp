@@ -25,6 +25,15 @@ struct ChosenViews {
 Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& blocks,
                                  const std::vector<ColorView>& views, const RunContext& context);
 
+/// A slot of a block that shows a view.
+struct ViewSlot {
+  std::uint32_t block;
+  std::uint8_t slot;
+};
+
+/// Per view the slots that show it, in the order of the blocks.
+std::vector<std::vector<ViewSlot>> slots_by_view(const ChosenViews& chosen, std::size_t views);
+
 struct Sample {
   static constexpr std::uint8_t kWell = 1, kNearRim = 2;
   std::uint8_t r = 0, g = 0, b = 0;
@@ -36,6 +45,9 @@ struct TexelSamples {
   std::vector<Sample> samples;   ///< per block, slot and texel
   std::vector<float> sharpness;  ///< per view, over the median; 0: it has no image
   const Sample* of(std::size_t block, std::size_t slot) const {
+    return &samples[(block * kSlots + slot) * kBlockTexels];
+  }
+  Sample* of(std::size_t block, std::size_t slot) {
     return &samples[(block * kSlots + slot) * kBlockTexels];
   }
 };

@@ -66,8 +66,8 @@ std::vector<Eigen::Matrix3f> rig_rotations(const FrameSequence& sequence,
 BlockMeans without_light(BlockMeans means, const BlockLight& light) {
   for (std::size_t b = 0; b < means.size(); ++b)
     for (std::size_t k = 0; k < kSlots; ++k)
-      means[b][k] = light.light[b][k] > 0.0f ? Vec3f(means[b][k] / light.light[b][k])
-                                             : Vec3f(Vec3f::Constant(-1.0f));
+      means[b][k] =
+          light[b][k] > 0.0f ? Vec3f(means[b][k] / light[b][k]) : Vec3f(Vec3f::Constant(-1.0f));
   return means;
 }
 
@@ -85,16 +85,20 @@ Result<Correction> without_lamp(const LampScene& scene, TexelSamples& samples, d
                                 const RunContext& context) {
   Correction out;
   out.gains.assign(scene.rotation.size(), Vec3f::Ones());
+  std::optional<FixedLight> light;
   for (int round = 0; round < kLightRounds; ++round) {
-    TURNSCAN_ASSIGN(out.light, solve_light(scene, out.gains, out.light, context));
-    TURNSCAN_ASSIGN(const BlockLight light, block_light(scene, *out.light, context));
-    out.gains = solve_gains(scene.chosen, without_light(scene.means, light), scene.rotation.size());
+    TURNSCAN_ASSIGN(light, solve_light(scene, out.gains, light, context));
+    TURNSCAN_ASSIGN(const BlockLight on_blocks, block_light(scene, *light, context));
+    out.gains =
+        solve_gains(scene.chosen, without_light(scene.means, on_blocks), scene.rotation.size());
   }
-  TURNSCAN_TRY(mark_shadows(scene, *out.light, samples, context));
+  TURNSCAN_TRY(mark_shadows(scene, *light, samples, context));
+  std::vector<Vec3f> to_lamp;
   for (const Eigen::Matrix3f& rotation : scene.rotation)
-    out.to_lamp.push_back(rotation.transpose() * out.light->direction);
-  out.tilts.emplace(shading_normals(scene.blocks, scene.chosen, samples, out.gains, *out.light,
-                                    out.to_lamp, texels_per_m));
+    to_lamp.push_back(rotation.transpose() * light->direction);
+  NormalTilts tilts = shading_normals(scene.blocks, scene.chosen, samples, out.gains, *light,
+                                      to_lamp, texels_per_m);
+  out.lamp = LampCorrection{*light, std::move(to_lamp), std::move(tilts)};
   return out;
 }
 
@@ -170,7 +174,8 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   Correction correction;
   // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
   if (options.albedo) {
-    const LampScene scene{mesh, blocks, chosen, means, rig_rotations(sequence, views)};
+    TURNSCAN_ASSIGN(const TriangleMesh coarse, coarse_caster(mesh));
+    const LampScene scene{mesh, coarse, blocks, chosen, means, rig_rotations(sequence, views)};
     TURNSCAN_ASSIGN(correction, without_lamp(scene, samples, atlas.texels_per_m, context));
   } else {
     correction.gains = solve_gains(chosen, means, views.size());
