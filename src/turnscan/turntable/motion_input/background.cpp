@@ -43,7 +43,7 @@ class DepthStack {
       if (results[k]) results[k] = out.read_one(sequence, positions[k], sensor, out.images_[k]);
     });
     for (auto& result : results) TURNSCAN_TRY(result);
-    out.steps_ = DepthSteps(out.images_, sensor.depth_unit_m);
+    out.depth_unit_m_ = sensor.depth_unit_m;
     return out;
   }
 
@@ -51,7 +51,7 @@ class DepthStack {
   int height() const { return height_; }
   std::size_t frames() const { return images_.size(); }
   const std::vector<float>& image(std::size_t k) const { return images_[k]; }
-  const DepthSteps& steps() const { return steps_; }
+  DepthSteps steps() const { return DepthSteps(images_, depth_unit_m_); }
 
   /// A pixel's depths, ascending.
   void depths(std::size_t pixel, std::vector<float>& out) const {
@@ -77,7 +77,7 @@ class DepthStack {
 
   int width_ = 0, height_ = 0;
   std::vector<std::vector<float>> images_;
-  DepthSteps steps_;
+  double depth_unit_m_ = 0.001;
 };
 
 /// Second difference of a row over every second pixel, since neighbours share some of their noise;
@@ -157,7 +157,11 @@ SpatialNoise noise_of(const DepthStack& stack, std::size_t every_frame, std::siz
 class BackgroundSearch {
  public:
   BackgroundSearch(const DepthStack& stack, double noise_m)
-      : stack_(stack), w_(stack.width()), h_(stack.height()), noise_m_(noise_m) {}
+      : stack_(stack),
+        steps_(stack.steps()),
+        w_(stack.width()),
+        h_(stack.height()),
+        noise_m_(noise_m) {}
 
   Result<Background> run() {
     find_moving();
@@ -184,7 +188,7 @@ class BackgroundSearch {
       if (std::isfinite(size)) differences.push_back(size);
     }
     const double noise = differences.size() < 4 ? noise_m_ : noise_from(differences);
-    const double steps = kMovingSteps * stack_.steps().at(depth_m);
+    const double steps = kMovingSteps * steps_.at(depth_m);
     return std::max({kMovingSigmas * std::max(noise, noise_m_), steps, kLeastMove_m});
   }
 
@@ -324,6 +328,7 @@ class BackgroundSearch {
   }
 
   const DepthStack& stack_;
+  const DepthSteps steps_;
   int w_, h_;
   double noise_m_;
   std::vector<std::uint8_t> moving_ =
