@@ -12,7 +12,9 @@
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTest>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
@@ -234,6 +236,14 @@ TEST_F(Trouble, WhatWentWrongIsSaidAndStaysInTheMessages) {
   window->explorer().save_as(1, path("no-such-folder/bad.stl"));
   ASSERT_TRUE(wait_idle(*window));
   EXPECT_EQ(status->text(), "Save bad.stl: failed");
+  // A save that has begun is quick and goes to its end; this one still waits when it is cancelled.
+  window->jobs().start("Wait", window.get(),
+                       [](const RunContext& context) -> Result<Finish> {
+                         while (!context.cancelled())
+                           std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                         return fail(ErrorCode::kCancelled, "cancelled");
+                       },
+                       {});
   window->explorer().save_as(1, path("late.ply"));
   window->jobs().cancel();
   ASSERT_TRUE(wait_idle(*window));
