@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tests/reconstruction/retreating_outlines.hpp>
 #include <tests/reconstruction/turning_scan.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
@@ -176,6 +177,19 @@ TEST(Volumetric, IsMadeAgainWhenLaterFramesDisagreeMoreThanTheFirst) {
   const auto once = reconstruct(sequence, given, {}, RunContext());
   ASSERT_TRUE(once) << once.error().text();
   EXPECT_THAT(once->notes, ::testing::Not(again));
+}
+
+TEST(Volumetric, WhatSomeFramesSeePastIsNotHollowed) {
+  MemorySequence uneven = scan(carton, {30, 0.0005});
+  for (std::size_t f = 0; f < uneven.infos.size(); ++f)  // by 0.4 degrees
+    *uneven.infos[f].angle_rad += 0.007 * standard_normal(hash_key(f, 1, 2));
+  const auto good = reconstruct(uneven, volumetric(), {}, RunContext());
+  ASSERT_TRUE(good) << good.error().text();
+  const auto result =
+      reconstruct(with_retreating_outlines(uneven, 6), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  EXPECT_GT(chosen(*result, "truncation"), 1.5 * chosen(*good, "truncation"));
+  EXPECT_GT(result->objects[0].check.volume_m3, 0.93 * good->objects[0].check.volume_m3);
 }
 
 TEST(Volumetric, IsSolidWhateverWasRecorded) {

@@ -6,7 +6,9 @@ OptionTable describe(VolumetricOptions& o) {
   OptionTable table;
   table
       .number("truncation", o.truncation_m, Quantity::kLength, {1e-5, 1.0},
-              "Volumetric: how far along its ray a measurement counts; automatic: from its noise")
+              "Volumetric: how far along its ray a measurement counts; automatic: from its noise, "
+              "or from "
+              "how far frames see past what others measured")
       .flag("fit", o.fit, "Volumetric: move the vertices onto the frames' measurements")
       .number("fit-reach", o.fit_reach_m, Quantity::kLength, {1e-5, 0.1},
               "Volumetric: measurements farther from a vertex, across its normal, do not count in "

@@ -45,6 +45,12 @@ void widen_for_few(const VolumetricInput& input, double longest, double& cell,
   }
 }
 
+/// A surface that some views see past keeps an inside where the truncation is so much deeper than
+/// they see; samples much finer than that show nothing more.
+constexpr double kDeeperThanSeenPast = 1.5, kSeenPastPerCell = 8.0;
+/// Deeper than this share of the longest side it would swallow the object.
+constexpr double kDeepest = 1.0 / 12.0;
+
 }  // namespace
 
 VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
@@ -70,6 +76,12 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
     cell = longest / 600.0;
     reason = fmt::format("a 600th of the longest side, {}", mm(longest));
   }
+  const double past = std::min(input.seen_past_m, longest * kDeepest / kDeeperThanSeenPast);
+  if (cell < past / kSeenPastPerCell) {
+    cell = past / kSeenPastPerCell;
+    reason = fmt::format("an {:g}th of the {} that frames see past what others measured",
+                         kSeenPastPerCell, mm(past));
+  }
   if (input.grid) {
     cell = longest / *input.grid;
     reason = fmt::format("voxel-grid {} along {}", *input.grid, mm(longest));
@@ -77,10 +89,15 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
   scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
   // Many views outvote one that is misplaced; few do not.
   const double few = few_views(input) ? 27.0 / double(input.views.size() + 1) : 0.0;
-  scale.truncation_m = choose(
-      "truncation", options.truncation_m, std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m),
-      fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
-                  mm(input.noise_m)));
+  double truncation = std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m);
+  reason = fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
+                       mm(input.noise_m));
+  if (truncation < kDeeperThanSeenPast * past) {
+    truncation = kDeeperThanSeenPast * past;
+    reason = fmt::format("{:g} times the {} that frames see past what others measured",
+                         kDeeperThanSeenPast, mm(past));
+  }
+  scale.truncation_m = choose("truncation", options.truncation_m, truncation, reason);
   scale.full_weight_behind_m = scale.truncation_m * 2.0 / 3.0;
   scale.cylinder = input.cylinder;
   scale.platters = input.platters;

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <turnscan/geometry/grid/isosurface.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
+#include <turnscan/reconstruction/estimation/seen_past.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/seen_space.hpp>
@@ -30,13 +31,22 @@ constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
 /// Fewer points than this make no object.
 constexpr std::uint64_t kFewestPoints = 100;
 
-/// Where the frames' places disagree, the cloud is thicker than one frame's noise. 0 when there
-/// are too few points to tell.
-double thickness(const VolumetricInput& input, double noise_m) {
+/// How far the views disagree. thickness_m: where the frames' places do, the cloud is thicker than
+/// one frame's noise; 0 when there are too few points to tell. seen_past_m: see
+/// estimation/seen_past.hpp.
+struct Disagreement {
+  double thickness_m = 0.0, seen_past_m = 0.0;
+};
+Disagreement disagreement(const VolumetricInput& input, double noise_m, bool images) {
   const voxels::MergedCloud sample = sample_points(input);
-  if (sample.cloud.size() < 100) return 0.0;
+  Disagreement out;
+  if (sample.cloud.size() < 100) return out;
   const double start_m = 3.0 * std::max(input.spacing_m, noise_m);
-  return estimation::one_sided_statistics(sample, start_m).noise_m;
+  out.thickness_m = estimation::one_sided_statistics(sample, start_m).noise_m;
+  if (images)
+    out.seen_past_m =
+        estimation::depth_seen_past(input.views, sample.cloud.points, noise_m, input.spacing_m);
+  return out;
 }
 
 /// Of the pass whose frames are being added.
@@ -245,7 +255,9 @@ Result<> VolumetricMethod::add_view(views::DepthView view, std::uint32_t sensor,
 Result<> VolumetricMethod::begin(const RunContext& context) {
   input_.views = std::move(pending_);
   if (are_images_) input_.filter_share = estimation::share_of_neighbours(input_.views, noise_m_);
-  input_.noise_m = std::max(noise_m_, thickness(input_, noise_m_));
+  const Disagreement found = disagreement(input_, noise_m_, are_images_);
+  input_.noise_m = std::max(noise_m_, found.thickness_m);
+  input_.seen_past_m = found.seen_past_m;
   scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
   pending_ = std::move(input_.views);
   {
@@ -278,16 +290,22 @@ Result<> VolumetricMethod::integrate_pending(bool all, const RunContext& context
 /// When the frames' places disagree more than the first ones let expect, the volume is made once
 /// more, from the views that were kept.
 Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& context) {
-  out.merged_noise_m = thickness(input_, noise_m_);
+  const Disagreement found = disagreement(input_, noise_m_, are_images_);
+  out.merged_noise_m = found.thickness_m;
   const double noise = std::max(noise_m_, out.merged_noise_m);
-  const bool again = noise > kNoiseSlack * input_.noise_m && !options_.volumetric.truncation_m;
-  input_.noise_m = noise;
-  if (!again) return {};
+  const bool noisier = noise > kNoiseSlack * input_.noise_m;
+  input_.noise_m = noise, input_.seen_past_m = found.seen_past_m;
+  const VolumetricScale scale = choose_scale(input_, options_.volumetric, measured_box(input_));
+  const bool wider = scale.volume.truncation_m > kNoiseSlack * scale_.volume.truncation_m;
+  if (options_.volumetric.truncation_m || !(noisier || wider)) return {};
   out.notes.push_back(
-      fmt::format("the frames' places disagree by {}, which the first frames did not show: the "
-                  "volume was made again",
-                  mm(noise)));
-  scale_ = choose_scale(input_, options_.volumetric, measured_box(input_));
+      noisier ? fmt::format("the frames' places disagree by {}, which the first frames did not "
+                            "show: the volume was made again",
+                            mm(noise))
+              : fmt::format("frames see {} deep past what others measured, which the first frames "
+                            "did not show: the volume was made again",
+                            mm(found.seen_past_m)));
+  scale_ = scale;
   Integrator integrator(scale_.volume);
   const std::span<const views::DepthView> all(input_.views);
   for (std::size_t v = 0; v < all.size(); v += kViewsAtOnce)
