@@ -167,6 +167,9 @@ TEST(JudgeObjects, DoNotCallAScanBadForDroppedFramesAlone) {
   Reconstruction run = sheet();
   run.frames = 30, run.dropped_frames = 30;
   judge_objects(run, {});
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "frames")->level, Level::kGood);
+  run.dropped_frames = 31;
+  judge_objects(run, {});
   EXPECT_EQ(sentence(*run.objects[0].verdict, "frames")->level, Level::kFair);
 }
 
@@ -180,6 +183,7 @@ TEST(JudgeObjects, SayWhichFramesDisagree) {
   const VerdictSentence* apart = sentence(*run.objects[0].verdict, "apart");
   ASSERT_NE(apart, nullptr);
   EXPECT_EQ(apart->level, Level::kFair);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kFair);
   EXPECT_EQ(apart->text,
             "3 of 40 frames lie elsewhere than the rest: frames 20 to 21 at 2.0 to 2.1 s (4.0 mm), "
             "frame 30 at 3.0 s (4.0 mm)");
@@ -187,6 +191,18 @@ TEST(JudgeObjects, SayWhichFramesDisagree) {
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "apart"), nullptr);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kGood);
+}
+
+TEST(JudgeObjects, LetFewFramesThatDisagreeBeOutvoted) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  known.residuals.resize(1);
+  for (std::uint32_t i = 0; i < 100; ++i)
+    known.residuals[0].push_back(residual(i, i % 33 == 1 ? 0.004 : 0.0001));
+  judge_objects(run, known);
+  const VerdictSentence* apart = sentence(*run.objects[0].verdict, "apart");
+  ASSERT_NE(apart, nullptr);
+  EXPECT_EQ(apart->level, Level::kGood) << apart->text;
 }
 
 TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
@@ -204,6 +220,11 @@ TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
   };
   EXPECT_EQ(said(358.0), "it is watertight and can be printed");
   EXPECT_EQ(said(250.0), "it is watertight and can be printed");
+  EXPECT_EQ(sentence(*object.verdict, "turn")->level, Level::kGood);
+  EXPECT_EQ(sentence(*object.verdict, "turn")->text,
+            "the frames look from all sides, up to 110 degrees apart");
+  EXPECT_EQ(said(236.0).find("can be printed"), std::string::npos);
+  EXPECT_EQ(sentence(*object.verdict, "turn")->level, Level::kFair);
   EXPECT_EQ(said(0.4 * 360.0).find("can be printed"), std::string::npos) << "nothing else is wrong";
   EXPECT_EQ(object.verdict->colour(), "amber");
 }

@@ -1,6 +1,5 @@
 #include <turnscan/workflow/verdict/scan_sentences.hpp>
 
-#include <turnscan/core/angles.hpp>
 #include <turnscan/workflow/verdict/frame_agreement.hpp>
 
 namespace turnscan::workflow {
@@ -8,10 +7,9 @@ namespace turnscan::workflow {
 namespace {
 
 constexpr double kHalfTurn = 0.5;
-constexpr double kFewDropped = 0.25;
+constexpr double kFewDropped = 0.5;
 /// Frames that disagree by more, beyond what their noise explains, blur the mesh.
 constexpr double kAgreed_m = 0.001;
-constexpr double kFewApart = 0.02;
 
 void say_found(const Calibration& found, Sentences& out) {
   const bool open = !found.undetermined.empty();
@@ -67,6 +65,8 @@ std::string compared_text(const FrameAgreement& a) {
 
 }  // namespace
 
+bool looked_from_all_sides(const TurnSeen& turn) { return turn.widest_gap_rad <= kSideGap_rad; }
+
 Level level_of(double value, double good, double fair) {
   return value >= good ? Level::kGood : value >= fair ? Level::kFair : Level::kBad;
 }
@@ -74,16 +74,23 @@ Level level_of(double value, double good, double fair) {
 void say_turn(const ScanKnowledge& known, Sentences& out) {
   if (!known.turn) return;
   const TurnSeen& turn = *known.turn;
-  const double missing = 360.0 * (1.0 - turn.share);
-  const Level level = level_of(turn.share, kWholeTurn, kHalfTurn);
-  out.push_back(
-      {"turn", level,
-       level == Level::kGood
-           ? fmt::format("the frames look from all sides, over {:.2f} turns", turn.turns)
-           : fmt::format("the frames look from {:.0f} of 360 degrees; of the other {:.0f} there is "
-                         "no view",
-                         360.0 - missing, missing),
-       turn.share * 360.0, "deg"});
+  const bool whole = turn.share >= kWholeTurn;
+  // A gap that leaves every upright side in sight costs the surface that is then not seen, which
+  // counts by itself.
+  const Level level = whole || looked_from_all_sides(turn) ? Level::kGood
+                      : turn.share >= kHalfTurn            ? Level::kFair
+                                                           : Level::kBad;
+  const double seen_deg = 360.0 * turn.share;
+  const std::string text =
+      whole ? fmt::format("the frames look from all sides, over {:.2f} turns", turn.turns)
+      : level == Level::kGood
+          ? fmt::format("the frames look from all sides, up to {:.0f} degrees apart",
+                        turn.widest_gap_rad * kDegreesPerRadian)
+          : fmt::format(
+                "the frames look from {:.0f} of 360 degrees; of the other {:.0f} there is "
+                "no view",
+                seen_deg, 360.0 - seen_deg);
+  out.push_back({"turn", level, text, seen_deg, "deg"});
 }
 
 void say_calibration(const ScanKnowledge& known, Sentences& out) {
@@ -124,8 +131,8 @@ void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) 
   if (a.apart.empty()) return;
   std::size_t count = 0;
   for (const FramesApart& apart : a.apart) count += apart.last - apart.first + 1;
-  const double share = double(count) / double(a.frames);
-  out.push_back({"apart", share > kFewApart ? Level::kFair : Level::kGood,
+  // A few among many that agree are outvoted.
+  out.push_back({"apart", agree ? Level::kGood : Level::kFair,
                  fmt::format("{} of {} frames lie elsewhere than the rest: {}", count, a.frames,
                              frames_apart_text(a, residuals)),
                  double(count), "frames"});
@@ -135,8 +142,7 @@ void say_dropped(const Reconstruction& run, Sentences& out) {
   const std::size_t all = run.frames + run.dropped_frames;
   if (run.dropped_frames == 0 || all == 0) return;
   const double share = double(run.dropped_frames) / double(all);
-  // Whatever their share: what they would have shown is missing elsewhere, in turn and surface
-  // seen.
+  // What they would have shown is missing elsewhere, in turn and surface seen.
   out.push_back({"frames", share > kFewDropped ? Level::kFair : Level::kGood,
                  fmt::format("{} of {} frames were dropped", run.dropped_frames, all),
                  100.0 * share, "%"});

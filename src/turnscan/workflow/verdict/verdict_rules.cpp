@@ -26,9 +26,6 @@ constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04
 constexpr double kFewFrames = 6.0;
 /// Frames that see a place; more do not help as much as a nearer sensor.
 constexpr int kManyFrames = 40;
-/// An upright side in the middle of a wider gap is seen at 60 degrees from its normal at best: what
-/// was closed there may be as deep as the object, and its area says nothing of that.
-constexpr double kSideGap_rad = 120.0 * kRadiansPerDegree;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
@@ -265,7 +262,7 @@ class Judge {
       say("mesh", Level::kGood, "it was left open, as asked for");
       return;
     }
-    const bool all_sides = !known_.turn || known_.turn->widest_gap_rad <= kSideGap_rad;
+    const bool all_sides = !known_.turn || workflow::looked_from_all_sides(*known_.turn);
     if (!watertight)
       say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
     else if (out_.level() == Level::kBad)
