@@ -10,8 +10,9 @@ namespace turnscan::detection {
 namespace {
 
 constexpr double kFirstReach_px = 6.0, kReach_px = 4.5;
-constexpr std::size_t kMostInSearch = 3000;  // pixels
+constexpr std::size_t kMostInSearch = 2000;  // pixels
 constexpr std::array kThicknesses_m{0.0, 0.003, 0.007, 0.012, 0.02, 0.03, 0.045, 0.065};
+constexpr double kThickestMode_m = 0.03;  // of a higher wall enough is seen
 constexpr std::array kSpreads_px{1.0, 0.7, 0.5, 0.36, 0.27, 0.2, 0.14, 0.1};
 constexpr std::size_t kLeastRimPixels = 60;
 
@@ -26,6 +27,7 @@ RimState moved(RimState state, const RimEquations::Vector& step) {
   state.model.thickness_m = std::max(0.0, state.model.thickness_m + step[3]);
   state.edge.shift_px += step[4];
   state.edge.band_px = std::max(0.02, state.edge.band_px + step[5]);
+  state.edge.bare_px += step[6];
   return state;
 }
 
@@ -72,7 +74,7 @@ std::size_t wrong_pixels(const RimData& data, const RimState& state) {
   for (const RimPixel& pixel : data.pixels) {
     const auto distance = data.rays.outline(state.model, pixel.column, pixel.row);
     if (!distance || pixel.label == RimLabel::kMixed) continue;
-    const bool within = distance->px > state.edge.shift_px;
+    const bool within = distance->px > state.edge.shift_of(pixel);
     wrong += within == (pixel.label == RimLabel::kPlatter) ? 0 : 1;
   }
   return wrong;
@@ -95,6 +97,33 @@ RimState best_thickness(const RimData& data, const RimModel& start) {
     best = ascent.state();
   }
   return best;
+}
+
+/// A maximum of the likelihood.
+struct RimMode {
+  RimState state;
+  double log_likelihood = 0.0;  ///< of all pixels
+};
+
+/// Where the far side is not seen, a low wall and a place nearer to the sensor look much alike.
+/// From each thickness to the maximum beside it; the best first.
+std::vector<RimMode> modes(const RimData& data, const RimState& start) {
+  std::vector<RimMode> out;
+  const auto climb_from = [&](double thickness) {
+    RimState state = start;
+    state.model.thickness_m = thickness;
+    RimAscent ascent(data, state);
+    ascent.climb(15);
+    out.push_back(
+        {ascent.state(), log_likelihood_of_all(data, ascent.state().model, ascent.state().edge)});
+  };
+  climb_from(start.model.thickness_m);
+  for (const double thickness : kThicknesses_m)
+    if (thickness <= kThickestMode_m) climb_from(thickness);
+  std::stable_sort(out.begin(), out.end(), [](const RimMode& l, const RimMode& r) {
+    return l.log_likelihood > r.log_likelihood;
+  });
+  return out;
 }
 
 /// From blurred to sharp, as long as that explains more.
@@ -142,7 +171,7 @@ Eigen::Matrix4d covariance_of(const RimEquations& equations) {
     if (score.squaredNorm() > 0.0) sectors += 1.0;
     scatter += score * score.transpose();
   }
-  constexpr double kUnknowns = 6.0;
+  constexpr double kUnknowns = 7.0;
   const double lost = sectors > kUnknowns + 1.0 ? sectors / (sectors - kUnknowns) : sectors;
   const RimEquations::Matrix clustered = lost * own * scatter * own;
   Eigen::Matrix4d out = own.topLeftCorner<4, 4>();
@@ -154,6 +183,27 @@ Eigen::Matrix4d covariance_of(const RimEquations& equations) {
   return out;
 }
 
+/// By how much the estimate would be wrong if another maximum were the truth, by their likelihoods.
+/// These are of pixels that have more in common than they know: half of their difference counts.
+Eigen::Matrix4d scatter_of(const std::vector<RimMode>& maxima) {
+  const auto unknowns = [](const RimModel& m) {
+    return Eigen::Vector4d(m.center.x(), m.center.y(), m.radius_m, m.thickness_m);
+  };
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  const RimMode& best = maxima.front();
+  double most = 0.0, weights = 1.0;
+  for (const RimMode& other : maxima) {
+    const double weight = std::exp(0.5 * (other.log_likelihood - best.log_likelihood));
+    const Eigen::Vector4d apart = unknowns(other.state.model) - unknowns(best.state.model);
+    // Several starts lead to one maximum, which counts once.
+    if (weight * apart.squaredNorm() <= most) continue;
+    most = weight * apart.squaredNorm();
+    weights = 1.0 + weight;
+    sum = weight * apart * apart.transpose();
+  }
+  return sum / weights;
+}
+
 /// Fills agreement and rim_share.
 void count_witnesses(const RimData& data, RimEstimate& out) {
   constexpr std::size_t kBearings = 72;
@@ -163,7 +213,7 @@ void count_witnesses(const RimData& data, RimEstimate& out) {
   for (const RimPixel& pixel : data.pixels) {
     const auto distance = data.rays.outline(out.model, pixel.column, pixel.row);
     if (!distance || pixel.label == RimLabel::kMixed) continue;
-    const double off = distance->px - out.edge.shift_px;
+    const double off = distance->px - out.edge.shift_of(pixel);
     const double away = std::abs(off) - 0.5 * out.edge.band_px;
     if (away > kBeside_px || away < std::min(0.5, out.edge.spread_px)) continue;
     const bool platter = pixel.label == RimLabel::kPlatter, within = off > 0.0;
@@ -198,19 +248,22 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
     if (data.pixels.size() < kLeastRimPixels || context.cancelled()) return std::nullopt;
     data.empty_share = empty_share(data.pixels);
     const RimData few = thinned(data);
-    state = round == 0 ? best_thickness(few, state.model) : best_spread(few, state);
+    if (round == 0) state = best_thickness(few, state.model);
+    if (round == 1) state = modes(few, state).front().state;
+    if (round > 0) state = best_spread(few, state);
     const double moved = (state.model.center - start.center).norm();
     if (moved > 0.3 * start.radius_m || !(state.model.radius_m > 0.5 * start.radius_m))
       return std::nullopt;
   }
   if (context.cancelled()) return std::nullopt;
-  RimAscent ascent(data, state);
+  const std::vector<RimMode> maxima = modes(thinned(data), state);
+  RimAscent ascent(data, maxima.front().state);
   ascent.climb(15);
   const RimEquations& system = ascent.system();
   RimEstimate out;
   out.model = ascent.state().model;
   out.edge = ascent.state().edge;
-  out.covariance = covariance_of(system);
+  out.covariance = covariance_of(system) + scatter_of(maxima);
   out.edge_pixels = system.edge_pixels;
   out.wall_pixels = system.wall_pixels;
   out.explained = system.explained / double(std::max<std::size_t>(1, system.edge_pixels));

@@ -8,8 +8,8 @@ namespace {
 enum class Seen : std::uint8_t { kUnknown, kPlatter, kFlickers, kBehind, kNothing, kBefore };
 
 constexpr double kInwards_px = 7.0;  // from the outermost pixels that count into the platter
-constexpr int kCrowdReach = 2;       // pixels
-constexpr int kMostInCrowd = 12;     // flickering, of 25: an edge has up to 10
+constexpr int kCrowdReach = 2, kBareReach = 3;  // pixels
+constexpr int kMostInCrowd = 12;                // flickering, of 25: an edge has up to 10
 
 class RimLabelling {
  public:
@@ -46,12 +46,31 @@ class RimLabelling {
       if (const auto label = label_of(x, y))
         out.push_back({x, y, *label, double(view_.scan.point[i].z())});
     }
+    mark_bare(out);
     return out;
   }
 
  private:
   std::size_t index(int x, int y) const {
     return std::size_t(y) * std::size_t(w_) + std::size_t(x);
+  }
+
+  /// What lies behind decides whether its mixture with the platter has a return, and that on which
+  /// side of the outline the mixture begins.
+  void mark_bare(std::vector<RimPixel>& pixels) const {
+    std::vector<std::int8_t> emptier(seen_.size(), 0);
+    for (const RimPixel& p : pixels) {
+      if (p.label == RimLabel::kEmpty) emptier[index(p.column, p.row)] = 1;
+      if (p.label == RimLabel::kMixed) emptier[index(p.column, p.row)] = -1;
+    }
+    for (RimPixel& p : pixels) {
+      int sum = 0;
+      for (int v = std::max(0, p.row - kBareReach); v <= std::min(h_ - 1, p.row + kBareReach); ++v)
+        for (int u = std::max(0, p.column - kBareReach);
+             u <= std::min(w_ - 1, p.column + kBareReach); ++u)
+          sum += emptier[index(u, v)];
+      p.bare = sum > 0;
+    }
   }
 
   Seen look(int x, int y) const {

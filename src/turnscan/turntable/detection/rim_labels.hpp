@@ -16,7 +16,8 @@ enum class RimLabel : std::uint8_t {
 struct RimPixel {
   int column = 0, row = 0;
   RimLabel label = RimLabel::kBackground;
-  double z_m = 0.0;  ///< 0: no return
+  double z_m = 0.0;   ///< 0: no return
+  bool bare = false;  ///< more pixels near it are empty than mixed
 };
 
 /// Of the pixels within `reach_px` of the model's outline, and those within it near the edge

@@ -19,8 +19,10 @@ constexpr double kRadiusSigma_m = 0.0005;
 // What is known before: of the thickness next to nothing, of the mixed pixels that the edge is
 // among them.
 constexpr double kThickness_m = 0.012, kThicknessSigma_m = 0.03;
-// A filter lets the platter reach half a pixel out into nothing.
-constexpr double kEmptyShift_px = -0.45;
+// A filter lets the platter, which is nearer and brighter, reach out into what lies behind, and
+// farther where that is so dark or far that their mixture has no return.
+constexpr double kFilterShift_px = -0.3, kFilterBare_px = -0.3;
+constexpr double kFilterBareSigma_px = 0.4, kBareSigma_px = 0.06;
 constexpr double kBand_px = 0.5, kBandSigma_px = 1.0, kBandLeast_px = 0.05;
 constexpr double kShiftPerBand = 0.35, kShiftPerBlur = 0.25, kShiftLeast_px = 0.06;
 
@@ -33,9 +35,9 @@ struct LabelChances {
   std::array<double, 3> chance, by_distance, by_band;
 };
 
-LabelChances chances(const EdgeResponse& edge, double distance_px) {
-  const double inner = (distance_px - edge.shift_px - 0.5 * edge.band_px) / edge.spread_px;
-  const double outer = (edge.shift_px - 0.5 * edge.band_px - distance_px) / edge.spread_px;
+LabelChances chances(const EdgeResponse& edge, double shift_px, double distance_px) {
+  const double inner = (distance_px - shift_px - 0.5 * edge.band_px) / edge.spread_px;
+  const double outer = (shift_px - 0.5 * edge.band_px - distance_px) / edge.spread_px;
   const double in = normal_cdf(inner), out = normal_cdf(outer);
   const double by_in = normal_pdf(inner) / edge.spread_px;
   const double by_out = normal_pdf(outer) / edge.spread_px;
@@ -68,15 +70,17 @@ void add_score(const OutlineDistance& place, const Unknowns& score, RimEquations
   out.score += score;
 }
 
-void add_edge(const OutlineDistance& distance, RimLabel label, const EdgeResponse& edge,
+void add_edge(const OutlineDistance& distance, const RimPixel& pixel, const EdgeResponse& edge,
               double weight, RimEquations& out) {
-  LabelChances c = chances(edge, distance.px);
+  const RimLabel label = pixel.label;
+  LabelChances c = chances(edge, edge.shift_of(pixel), distance.px);
   if (label == RimLabel::kEmpty) c = without_mixed(c);
   const auto seen = label == RimLabel::kEmpty ? std::size_t{0} : static_cast<std::size_t>(label);
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(c.chance[k] > 0.0)) continue;
     Unknowns row;
-    row << c.by_distance[k] * distance.gradient, -c.by_distance[k], c.by_band[k];
+    row << c.by_distance[k] * distance.gradient, -c.by_distance[k], c.by_band[k],
+        pixel.bare ? -c.by_distance[k] : 0.0;
     out.information += weight * row * row.transpose() / c.chance[k];
     if (k == seen) add_score(distance, weight * row / c.chance[k], out);
   }
@@ -86,7 +90,7 @@ void add_edge(const OutlineDistance& distance, RimLabel label, const EdgeRespons
 }
 
 /// Depth that the sensor's filter makes of the surfaces about a pixel, and how it changes; nullopt
-/// where no wall is among them, or an end of it.
+/// where an end of them is among them.
 std::optional<SurfaceDepth> filtered(const RimData& data, const RimModel& model,
                                      const RimPixel& pixel) {
   const int reach = data.noise.blur_px;
@@ -104,18 +108,25 @@ std::optional<SurfaceDepth> filtered(const RimData& data, const RimModel& model,
       weights += s->facing;
     }
   }
-  if (!sum.wall || !(weights > 0.0)) return std::nullopt;
+  if (!(weights > 0.0)) return std::nullopt;
   sum.z_m /= weights;
   sum.gradient /= weights;
   sum.per_pixel_m /= weights;
   return sum;
 }
 
+double depth_sigma(const RimData& data, const SurfaceDepth& depth) {
+  return std::hypot(data.noise.sigma_m, kPixelSigma_px * depth.per_pixel_m);
+}
+double huber(double size) {
+  return size > kWallHuber ? kWallHuber * (size - 0.5 * kWallHuber) : 0.5 * size * size;
+}
+
 void add_wall(const RimData& data, const RimModel& model, const RimPixel& pixel,
               const OutlineDistance& place, RimEquations& out) {
   const auto depth = filtered(data, model, pixel);
-  if (!depth) return;
-  const double sigma = std::hypot(data.noise.sigma_m, kPixelSigma_px * depth->per_pixel_m);
+  if (!depth || !depth->wall) return;
+  const double sigma = depth_sigma(data, *depth);
   const double error = (pixel.z_m - depth->z_m) / sigma, size = std::abs(error);
   const double weight =
       (size > kWallHuber ? kWallHuber / size : 1.0) / data.noise.pixels_per_sample;
@@ -123,9 +134,7 @@ void add_wall(const RimData& data, const RimModel& model, const RimPixel& pixel,
   row.head<4>() = depth->gradient / sigma;
   out.information += weight * row * row.transpose();
   add_score(place, weight * error * row, out);
-  out.log_likelihood -=
-      (size > kWallHuber ? kWallHuber * (size - 0.5 * kWallHuber) : 0.5 * size * size) /
-      data.noise.pixels_per_sample;
+  out.log_likelihood -= huber(size) / data.noise.pixels_per_sample;
   ++out.wall_pixels;
 }
 
@@ -142,29 +151,58 @@ void add_priors(const RimData& data, const RimModel& model, const EdgeResponse& 
   add_prior(out, 3, model.thickness_m, kThickness_m, kThicknessSigma_m);
   const double shift =
       std::hypot(kShiftPerBand * edge.band_px, kShiftPerBlur * data.noise.blur_px, kShiftLeast_px);
-  const double expected = data.noise.blur_px > 0 ? kEmptyShift_px * data.empty_share : 0.0;
-  add_prior(out, 4, edge.shift_px, expected, shift);
   // Where nothing is behind, only the inner end of the band is seen.
   const double behind = 1.0 - data.empty_share;
+  const bool filter = data.noise.blur_px > 0;
+  add_prior(out, 4, edge.shift_px, filter ? kFilterShift_px : 0.0, shift);
+  add_prior(out, 6, edge.bare_px, filter ? kFilterBare_px : 0.0,
+            filter ? kFilterBareSigma_px : kBareSigma_px);
   add_prior(out, 5, edge.band_px, kBand_px * behind, kBandSigma_px * behind + kBandLeast_px);
+}
+
+/// Pixels within the outline by so much are not mixed with what lies beyond.
+double inner_margin(const RimData& data) { return 0.5 + 2.0 * data.noise.blur_px; }
+
+/// A filter makes one of as many pixels as it joins.
+double edge_weight(const RimData& data) {
+  const double joined = 2.0 * data.noise.blur_px + 1.0;
+  return 1.0 / (joined * joined);
 }
 
 }  // namespace
 
 RimEquations linearise(const RimData& data, const RimModel& model, const EdgeResponse& edge) {
   RimEquations out;
-  const double margin = 0.5 + 2.0 * data.noise.blur_px;
-  // A filter makes one of as many pixels as it joins.
-  const double joined = 2.0 * data.noise.blur_px + 1.0, weight = 1.0 / (joined * joined);
+  const double margin = inner_margin(data), weight = edge_weight(data);
   for (const RimPixel& pixel : data.pixels) {
     const auto distance = data.rays.outline(model, pixel.column, pixel.row);
     if (!distance) continue;
-    if (std::abs(distance->px) < kEdgeReach_px) add_edge(*distance, pixel.label, edge, weight, out);
+    if (std::abs(distance->px) < kEdgeReach_px) add_edge(*distance, pixel, edge, weight, out);
     if (pixel.label == RimLabel::kPlatter && distance->px > margin)
       add_wall(data, model, pixel, *distance, out);
   }
   add_priors(data, model, edge, out);
   return out;
+}
+
+double log_likelihood_of_all(const RimData& data, const RimModel& model, const EdgeResponse& edge) {
+  double sum = 0.0;
+  for (const RimPixel& pixel : data.pixels) {
+    const auto distance = data.rays.outline(model, pixel.column, pixel.row);
+    if (!distance) continue;
+    LabelChances c = chances(edge, edge.shift_of(pixel), distance->px);
+    if (pixel.label == RimLabel::kEmpty) c = without_mixed(c);
+    const bool empty = pixel.label == RimLabel::kEmpty;
+    sum += edge_weight(data) *
+           std::log(c.chance[empty ? std::size_t{0} : static_cast<std::size_t>(pixel.label)]);
+    if (pixel.label != RimLabel::kPlatter || !(distance->px > inner_margin(data))) continue;
+    if (const auto depth = filtered(data, model, pixel))
+      sum -= huber(std::abs(pixel.z_m - depth->z_m) / depth_sigma(data, *depth)) /
+             data.noise.pixels_per_sample;
+  }
+  RimEquations priors;
+  add_priors(data, model, edge, priors);
+  return sum + priors.log_likelihood;
 }
 
 }  // namespace turnscan::detection

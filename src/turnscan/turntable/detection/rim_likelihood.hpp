@@ -16,13 +16,16 @@ struct EdgeResponse {
   double shift_px = 0.0;  ///< of the middle of the mixed pixels into the platter
   double band_px = 0.3;   ///< how wide they are
   double spread_px = 0.7;
+  double bare_px = 0.0;  ///< more of the shift beside pixels without a return
+
+  double shift_of(const RimPixel& pixel) const { return shift_px + (pixel.bare ? bare_px : 0.0); }
 };
 
 /// Normal equations of one step (Fisher scoring). Unknowns: center x, center y, radius, thickness,
-/// shift, band.
+/// shift, band, more of the shift where it is bare.
 struct RimEquations {
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  using Vector = Eigen::Matrix<double, 6, 1>;
+  using Matrix = Eigen::Matrix<double, 7, 7>;
+  using Vector = Eigen::Matrix<double, 7, 1>;
   static constexpr std::size_t kSectors = 24;
   Matrix information = Matrix::Zero();
   Vector score = Vector::Zero();
@@ -45,5 +48,9 @@ struct RimData {
 };
 
 RimEquations linearise(const RimData& data, const RimModel& model, const EdgeResponse& edge);
+
+/// Comparable between models: pixels far from the outline count as well, by the side of it that
+/// they are on, and the depths of the disc as those of the wall.
+double log_likelihood_of_all(const RimData& data, const RimModel& model, const EdgeResponse& edge);
 
 }  // namespace turnscan::detection
