@@ -3,12 +3,12 @@
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/mesh_texture.hpp>
-#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/texture/camera_refinement.hpp>
 #include <turnscan/reconstruction/texture/charts.hpp>
 #include <turnscan/reconstruction/texture/color_view.hpp>
 #include <turnscan/reconstruction/texture/filling.hpp>
+#include <turnscan/reconstruction/texture/smoothed_normals.hpp>
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
@@ -165,7 +165,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   if (options.refine_camera) TURNSCAN_TRY(refine_cameras(sequence, mesh, views, report, context));
   const double finest = kTexelsPerPixel * best_pixels_per_m(views, center);
   TURNSCAN_ASSIGN(const Atlas atlas, atlas_for(mesh, options, finest, context));
-  const std::vector<Vec3f> vertex_normal = vertex_normals(mesh);
+  const std::vector<Vec3f> vertex_normal = smoothed_normals(mesh);
   const TexelBlocks blocks(mesh, atlas, vertex_normal);
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
   TURNSCAN_ASSIGN(TexelSamples samples,
