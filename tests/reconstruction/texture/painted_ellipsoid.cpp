@@ -99,14 +99,16 @@ MemoryFrames ellipsoid_frames(const EllipsoidPictures& pictures) {
         const Vec3d p = T.translation() + (-q - std::sqrt(r)) / d.squaredNorm() * ray;
         const Vec3d normal = p.cwiseQuotient(axes.cwiseProduct(axes)).normalized();
         const Eigen::Matrix3d to_sensor = frame.info.T_table_sensor->linear().transpose();
-        const double shine =
-            double(pictures.gloss(to_sensor * normal, to_sensor * -ray.normalized()));
+        const Vec3d to_eye = to_sensor * -ray.normalized();
+        const auto shine = double(pictures.gloss(to_sensor * normal, to_eye));
+        const auto mirrored = double(pictures.mirrored(to_sensor * normal, to_eye));
         const Vec3f color = pictures.pattern(p);
-        const double lamp = double(pictures.lamp(to_sensor * normal));
+        const double lamp = double(pictures.lamp(to_sensor * normal, to_sensor * p));
         std::array<std::uint8_t, 3> bytes{};
         for (int c = 0; c < 3; ++c)
           bytes[std::size_t(c)] = std::uint8_t(std::clamp(
-              srgb(double(gain[c]) * lamp * linear(double(color[c]))) + shine + 0.5, 0.0, 255.0));
+              srgb(double(gain[c]) * (lamp * linear(double(color[c])) + mirrored)) + shine + 0.5,
+              0.0, 255.0));
         frame.color.at(x, y) = {bytes[0], bytes[1], bytes[2]};
       }
     }

@@ -21,8 +21,14 @@ struct EllipsoidPictures {
   /// Linear light times this, per frame and channel.
   std::function<Vec3f(int frame)> gain = [](int) { return Vec3f(1.0f, 1.0f, 1.0f); };
   std::function<Vec3f(const Vec3d& p)> pattern = pattern_at;
-  /// Linear light times this, for a place with this normal, in the sensor's frame.
-  std::function<float(const Vec3d& normal)> lamp = [](const Vec3d&) { return 1.0f; };
+  /// Linear light times this, for a place with this normal, from the ellipsoid's middle; both along
+  /// the sensor's axes.
+  std::function<float(const Vec3d& normal, const Vec3d& p)> lamp = [](const Vec3d&, const Vec3d&) {
+    return 1.0f;
+  };
+  /// Added to the linear light of a place with this normal, both in the sensor's frame.
+  std::function<float(const Vec3d& normal, const Vec3d& to_eye)> mirrored =
+      [](const Vec3d&, const Vec3d&) { return 0.0f; };
   /// Added to the sRGB colour of a place with this normal, both in the sensor's frame.
   std::function<float(const Vec3d& normal, const Vec3d& to_eye)> gloss =
       [](const Vec3d&, const Vec3d&) { return 0.0f; };

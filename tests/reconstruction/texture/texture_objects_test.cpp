@@ -110,7 +110,7 @@ double shading_left(const TriangleMesh& mesh) {
 EllipsoidPictures white_before_a_lamp() {
   EllipsoidPictures pictures;
   pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
-  pictures.lamp = [](const Vec3d& normal) {
+  pictures.lamp = [](const Vec3d& normal, const Vec3d&) {
     const Vec3d to_lamp = Vec3d(0.7, -0.5, -0.5).normalized();
     return 0.4f + 0.6f * float(std::max(0.0, normal.dot(to_lamp)));
   };
@@ -126,7 +126,7 @@ TEST(TextureMesh, TakesOutTheShadingOfALampThatStandsStill) {
   options.albedo = true;
   EXPECT_LT(shading_left(texture_of(pictures, options).mesh), 0.05);
   // Nor is there any in a lamp's place where no lamp is.
-  pictures.lamp = [](const Vec3d&) { return 1.0f; };
+  pictures.lamp = [](const Vec3d&, const Vec3d&) { return 1.0f; };
   EXPECT_LT(shading_left(texture_of(pictures, options).mesh), 0.02);
 }
 
@@ -173,7 +173,7 @@ TEST(TextureMesh, ShowsFewStepsWhereViewsOfALampMeet) {
   pictures.frames = 7;
   pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
   // From the right: the left side of each picture is darker than the same place in the next one.
-  pictures.lamp = [](const Vec3d& normal) {
+  pictures.lamp = [](const Vec3d& normal, const Vec3d&) {
     const Vec3d to_lamp = Vec3d(0.9, -0.2, -0.4).normalized();
     return 0.5f + 0.5f * float(std::max(0.0, normal.dot(to_lamp)));
   };
@@ -192,6 +192,16 @@ TEST(TextureMesh, LeavesLittleOfAHighlightAsWideAsTheViewsAreApart) {
     return 120.0f * float(std::pow(std::max(0.0, normal.dot(half)), 40.0));
   };
   EXPECT_LT(error_of(texture_of(pictures).mesh), 10.0);
+}
+
+TEST(TextureMesh, LeavesLittleOfAHighlightThatMostViewsOfAPlaceShow) {
+  EllipsoidPictures pictures;
+  pictures.frames = 40;
+  pictures.mirrored = [](const Vec3d& normal, const Vec3d& to_eye) {
+    const Vec3d half = (to_eye + Vec3d(0.0, -0.7, -0.7).normalized()).normalized();
+    return 0.6f * float(std::pow(std::max(0.0, normal.dot(half)), 20.0));
+  };
+  EXPECT_LT(error_of(texture_of(pictures).mesh), 6.0);
 }
 
 TEST(TextureMesh, FindsAColourCameraThatIsNotWhereItWasSaidToBe) {

@@ -17,6 +17,7 @@ constexpr float kDarkerSays = 0.5f;   // against a colour, of what an equal one 
 constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
 constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
+constexpr float kShineLevels = 4.0f;  // of a highlight that is taken out: counts a quarter
 constexpr float kUnsureShadowWeight = 0.02f;
 constexpr double kMostShift_px = 1.0;
 constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
@@ -27,7 +28,9 @@ constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
 class Corrector {
  public:
   explicit Corrector(const Correction& correction)
-      : levels_(correction.levels), lamp_(correction.lamp ? &*correction.lamp : nullptr) {
+      : levels_(correction.levels),
+        lamp_(correction.lamp ? &*correction.lamp : nullptr),
+        highlight_(correction.highlight ? &*correction.highlight : nullptr) {
     tables_.resize(correction.gains.size());
     for (std::size_t view = 0; view < tables_.size(); ++view)
       for (int c = 0; c < 3; ++c)
@@ -38,22 +41,48 @@ class Corrector {
       for (Vec3f& level : slots) level = level.array().pow(1.0f / 2.4f).matrix();
   }
 
-  bool needs_normals() const { return lamp_ != nullptr; }
-  Vec3f normal(const TexelBlocks& blocks, std::size_t block, int texel) const {
-    return blocks.normal(block, texel) + lamp_->tilts.at(block, texel);
+  /// What the colours of a block are corrected by, beside gains and levels.
+  struct Surface {
+    std::array<Vec3f, kBlockTexels> normal;  ///< where a lamp or a highlight needs it
+    std::array<Vec3f, kSlots> half;          ///< where a highlight needs it
+  };
+
+  bool takes_out_lamp() const { return lamp_ != nullptr; }
+  Surface surface(const TexelBlocks& blocks, const ChosenViews& chosen, std::size_t block) const {
+    Surface out;
+    if (lamp_ == nullptr && highlight_ == nullptr) return out;
+    for (int i = 0; i < kBlockTexels; ++i) {
+      if (blocks.triangle(block, i) == kNoTriangle) continue;
+      Vec3f& normal = out.normal[std::size_t(i)];
+      normal = blocks.normal(block, i);
+      if (lamp_ != nullptr) normal += lamp_->tilts.at(block, i);
+    }
+    if (highlight_ == nullptr) return out;
+    const Vec3f position = blocks.surface(block, blocks.middle_texel(block)).position;
+    for (std::size_t k = 0; k < kSlots && chosen.view[block][k] != kNoView; ++k)
+      out.half[k] = highlight_->half(chosen.view[block][k], position);
+    return out;
   }
-  /// normal: by normal(), where it is needed.
+  /// Linear light of a highlight at a texel in a slot.
+  float shine(const Surface& surface, std::size_t slot, int texel) const {
+    if (highlight_ == nullptr) return 0.0f;
+    return highlight_->highlight().on(surface.normal[std::size_t(texel)].dot(surface.half[slot]));
+  }
   Vec3f operator()(std::size_t block, std::size_t slot, std::size_t view, const Sample& s,
-                   const Vec3f& normal) const {
+                   const Surface& surface, int texel) const {
     const auto& table = tables_[view];
     Vec3f level = Vec3f::Ones();
     if (!levels_.empty()) level = levels_[block][slot];
     if (lamp_ != nullptr) {
-      const float light = lamp_->light.on(normal.dot(lamp_->to_lamp[view]), Lit(s.lit) != Lit::kNo);
+      const float light = lamp_->light.on(
+          surface.normal[std::size_t(texel)].dot(lamp_->to_lamp[view]), Lit(s.lit) != Lit::kNo);
       level *= std::pow(std::max(kLeastLight, light), -1.0f / 2.4f);
     }
-    return {scaled(table[s.r], level.x()), scaled(table[256u + s.g], level.y()),
-            scaled(table[512u + s.b], level.z())};
+    Vec3f color(table[s.r], table[256u + s.g], table[512u + s.b]);
+    if (const float light = shine(surface, slot, texel); light > 0.0f)
+      for (float& c : color) c = srgb_of(linear_of(c) - light);
+    return {scaled(color.x(), level.x()), scaled(color.y(), level.y()),
+            scaled(color.z(), level.z())};
   }
 
  private:
@@ -66,6 +95,7 @@ class Corrector {
 
   BlockLevels levels_;
   const LampCorrection* lamp_;
+  const SeenHighlight* highlight_;
   std::vector<std::array<float, 768>> tables_;
 };
 
@@ -107,6 +137,13 @@ Shift shift_of(const ShiftSums& s) {
   return out;
 }
 
+/// A view's colour of a texel, and what it is worth.
+struct Taken {
+  Vec3f color;
+  float weight = 0.0f;
+  float trust = 1.0f;  ///< the share of the weight that a highlight leaves
+};
+
 using BlockShifts = std::array<ShiftSums, kSlots>;
 
 class Blender {
@@ -145,60 +182,56 @@ class Blender {
   std::uint16_t blend(std::size_t b, std::uint8_t left_out, Rgb* colors,
                       std::uint8_t* known) const {
     std::array<float, kSlots> total{};
-    const BlockNormals normals = normals_of(b);
+    const Corrector::Surface surface = corrected_.surface(blocks_, chosen_, b);
     for (int i = 0; i < kBlockTexels; ++i) {
       if (blocks_.triangle(b, i) == kNoTriangle) continue;
-      std::array<Vec3f, kSlots> color;
-      std::array<float, kSlots> weight;
+      std::array<Taken, kSlots> taken;
       std::array<std::size_t, kSlots> slot;
       std::size_t n = 0;
       for (std::size_t k = 0; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0 || (left_out >> k & 1u) != 0) continue;
-        take(b, k, s, normals[std::size_t(i)], color[n], weight[n]);
+        taken[n] = take(b, k, s, surface, i);
         slot[n++] = k;
       }
       // A texel that only those show which were left out takes what there is.
       for (std::size_t k = 0; n == 0 && k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0) continue;
-        take(b, k, s, normals[std::size_t(i)], color[0], weight[0]);
+        taken[0] = take(b, k, s, surface, i);
         slot[0] = k;
         n = 1;
       }
       if (n == 0) continue;
-      colors[i] = rounded(robust_mean(color, weight, n));
+      colors[i] = rounded(robust_mean(taken, n));
       known[i] = 1;
       float sum = 0.0f;
-      for (std::size_t j = 0; j < n; ++j) sum += weight[j];
-      for (std::size_t j = 0; j < n; ++j) total[slot[j]] += weight[j] / sum;
+      for (std::size_t j = 0; j < n; ++j) sum += taken[j].weight;
+      for (std::size_t j = 0; j < n; ++j) total[slot[j]] += taken[j].weight / sum;
     }
     const auto most = std::max_element(total.begin(), total.end());
     return *most > 0.0f ? chosen_.view[b][std::size_t(most - total.begin())] : kNoView;
   }
 
  private:
-  using BlockNormals = std::array<Vec3f, kBlockTexels>;
-
-  BlockNormals normals_of(std::size_t b) const {
-    BlockNormals out;
-    out.fill(Vec3f::Zero());
-    for (int i = 0; i < kBlockTexels && corrected_.needs_normals(); ++i)
-      if (blocks_.triangle(b, i) != kNoTriangle)
-        out[std::size_t(i)] = corrected_.normal(blocks_, b, i);
-    return out;
-  }
-
-  void take(std::size_t b, std::size_t k, const Sample& s, const Vec3f& normal, Vec3f& color,
-            float& weight) const {
+  Taken take(std::size_t b, std::size_t k, const Sample& s, const Corrector::Surface& surface,
+             int texel) const {
     const std::uint16_t view = chosen_.view[b][k];
-    color = corrected_(b, k, view, s, normal);
+    Taken out{corrected_(b, k, view, s, surface, texel)};
     const float sharp = std::clamp(samples_.sharpness[view], kLeastSharpness, kMostSharpness);
-    weight = chosen_.weight[b][k] / std::max(chosen_.weight[b][0], 1e-20f) * sharp * sharp;
-    if (float(std::max({s.r, s.g, s.b})) >= kSaturated) weight *= kSaturatedWeight;
-    if (s.valid == Sample::kNearRim) weight *= kNearRimWeight;
-    if (corrected_.needs_normals() && Lit(s.lit) == Lit::kUnsure) weight *= kUnsureShadowWeight;
-    weight = std::max(weight, 1e-9f);
+    out.weight = chosen_.weight[b][k] / std::max(chosen_.weight[b][0], 1e-20f) * sharp * sharp;
+    if (float(std::max({s.r, s.g, s.b})) >= kSaturated) out.weight *= kSaturatedWeight;
+    if (s.valid == Sample::kNearRim) out.weight *= kNearRimWeight;
+    if (corrected_.takes_out_lamp() && Lit(s.lit) == Lit::kUnsure)
+      out.weight *= kUnsureShadowWeight;
+    out.weight = std::max(out.weight, 1e-9f);
+    if (const float light = corrected_.shine(surface, k, texel); light > 0.0f) {
+      const float dark = out.color.minCoeff();
+      const float r = (srgb_of(linear_of(dark) + light) - dark) / kShineLevels;
+      out.trust = 1.0f / ((1.0f + r * r) * (1.0f + r * r));
+      out.weight *= out.trust;
+    }
+    return out;
   }
 
   static Rgb rounded(const Vec3f& c) {
@@ -209,18 +242,19 @@ class Blender {
   /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
   /// the surface from view to view: where several views have one, they do not agree with each
   /// other. Weights become what they were in the mean.
-  Vec3f robust_mean(const std::array<Vec3f, kSlots>& color, std::array<float, kSlots>& weight,
-                    std::size_t n) const {
-    if (n == 1) return color[0];
+  Vec3f robust_mean(std::array<Taken, kSlots>& taken, std::size_t n) const {
+    if (n == 1) return taken[0].color;
     constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
     const auto nearness = [&](std::size_t j, std::size_t k) {
-      const float r = 1.0f + kPerLevel * (color[j] - color[k]).squaredNorm();
+      const float r = 1.0f + kPerLevel * (taken[j].color - taken[k].color).squaredNorm();
       return 1.0f / (r * r);
     };
     // A highlight is where the best views look: the others have a say in what is usual. It adds
-    // light, so that darker views speak against a colour, and brighter ones do not.
+    // light, so that darker views speak against a colour, and brighter ones do not. Where one is
+    // known to be, a view hardly votes, however many of them there are.
     std::array<float, kSlots> vote{};
-    for (std::size_t k = 0; k < n; ++k) vote[k] = std::sqrt(std::sqrt(weight[k]));
+    for (std::size_t k = 0; k < n; ++k)
+      vote[k] = std::sqrt(std::sqrt(taken[k].weight / taken[k].trust)) * taken[k].trust;
     std::size_t usual = 0;
     float most = -std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < n; ++k) {
@@ -228,16 +262,17 @@ class Blender {
       for (std::size_t j = 0; j < n; ++j) {
         const float near = nearness(j, k);
         support += vote[j] * near;
-        if (color[j].sum() < color[k].sum()) support -= darker_says_ * vote[j] * (1.0f - near);
+        if (taken[j].color.sum() < taken[k].color.sum())
+          support -= darker_says_ * vote[j] * (1.0f - near);
       }
       if (support > most) most = support, usual = k;
     }
     Vec3f sum = Vec3f::Zero();
     float weights = 0.0f;
     for (std::size_t k = 0; k < n; ++k) {
-      weight[k] *= nearness(k, usual);
-      sum += weight[k] * color[k];
-      weights += weight[k];
+      taken[k].weight *= nearness(k, usual);
+      sum += taken[k].weight * taken[k].color;
+      weights += taken[k].weight;
     }
     return sum / weights;
   }
@@ -247,12 +282,12 @@ class Blender {
     if (chosen_.view[b][0] == kNoView || chosen_.view[b][1] == kNoView) return out;
     std::array<float, kBlockTexels> best{};
     std::array<std::uint8_t, kBlockTexels> there{};
-    const BlockNormals normals = normals_of(b);
-    fill(b, 0, normals, best, there);
+    const Corrector::Surface surface = corrected_.surface(blocks_, chosen_, b);
+    fill(b, 0, surface, best, there);
     for (std::size_t k = 1; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
       std::array<float, kBlockTexels> other{};
       std::array<std::uint8_t, kBlockTexels> seen{};
-      fill(b, k, normals, other, seen);
+      fill(b, k, surface, other, seen);
       ShiftSums& s = out[k];
       for (int y = 1; y + 1 < kBlock_px; ++y) {
         for (int x = 1; x + 1 < kBlock_px; ++x) {
@@ -270,13 +305,13 @@ class Blender {
     return out;
   }
 
-  void fill(std::size_t b, std::size_t k, const BlockNormals& normals,
+  void fill(std::size_t b, std::size_t k, const Corrector::Surface& surface,
             std::array<float, kBlockTexels>& light,
             std::array<std::uint8_t, kBlockTexels>& there) const {
     const Sample* s = samples_.of(b, k);
     for (std::size_t i = 0; i < kBlockTexels; ++i) {
       if (s[i].valid != Sample::kWell) continue;
-      const Vec3f c = corrected_(b, k, chosen_.view[b][k], s[i], normals[i]);
+      const Vec3f c = corrected_(b, k, chosen_.view[b][k], s[i], surface, int(i));
       light[i] = 0.3f * c.x() + 0.59f * c.y() + 0.11f * c.z();
       there[i] = 1;
     }

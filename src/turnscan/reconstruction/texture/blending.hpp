@@ -1,6 +1,7 @@
 #pragma once
 // One colour per texel out of those of several views.
 
+#include <turnscan/reconstruction/texture/highlight.hpp>
 #include <turnscan/reconstruction/texture/seam_levels.hpp>
 #include <turnscan/reconstruction/texture/shading_normals.hpp>
 
@@ -18,6 +19,7 @@ struct Correction {
   std::vector<Vec3f> gains;  ///< per view
   BlockLevels levels;        ///< beside the gains; empty: all 1
   std::optional<LampCorrection> lamp;
+  std::optional<SeenHighlight> highlight;
 };
 
 struct Blended {

@@ -28,16 +28,6 @@ struct LightBlock {
   std::size_t count = 0;
 };
 
-/// The middle texel of a block.
-int middle_texel(const TexelBlocks& blocks, std::size_t block) {
-  constexpr int kMiddle = kBlock_px / 2 * kBlock_px + kBlock_px / 2;
-  for (int d = 0; d < kBlockTexels; ++d) {
-    const int i = (kMiddle + d) % kBlockTexels;
-    if (blocks.triangle(block, i) != kNoTriangle) return i;
-  }
-  return 0;
-}
-
 std::vector<LightBlock> light_blocks(const LampScene& scene, const std::vector<Vec3f>& gains) {
   std::vector<LightBlock> out;
   const std::size_t step = std::max<std::size_t>(1, scene.means.size() / kLightBlocks);
@@ -50,7 +40,7 @@ std::vector<LightBlock> light_blocks(const LampScene& scene, const std::vector<V
           scene.means[b][k].cwiseProduct(gains[scene.chosen.view[b][k]]).sum();
     }
     if (block.count < 3) continue;
-    const int texel = middle_texel(scene.blocks, b);
+    const int texel = scene.blocks.middle_texel(b);
     block.position = scene.blocks.surface(b, texel).position;
     block.normal = scene.blocks.normal(b, texel);
     out.push_back(block);
@@ -64,9 +54,7 @@ double pixel_of(const TriangleMesh& mesh, double across_px) {
 
 FixedLight light_from(double azimuth, double elevation, double share) {
   FixedLight light;
-  light.direction =
-      Vec3f(float(std::cos(elevation) * std::sin(azimuth)), float(std::sin(elevation)),
-            float(std::cos(elevation) * std::cos(azimuth)));
+  light.direction = rig_direction(azimuth, elevation);
   light.ambient = float(1.0 - share);
   light.lamp = float(share);
   return light;
@@ -231,6 +219,11 @@ Result<> for_each_slot(const LampScene& scene, const FixedLight& light, const Ru
 
 }  // namespace
 
+Vec3f rig_direction(double azimuth, double elevation) {
+  return {float(std::cos(elevation) * std::sin(azimuth)), float(std::sin(elevation)),
+          float(std::cos(elevation) * std::cos(azimuth))};
+}
+
 Result<TriangleMesh> coarse_caster(const TriangleMesh& mesh) {
   return simplify(mesh, {.triangles = kLookTriangles});
 }
@@ -249,7 +242,7 @@ Result<BlockLight> block_light(const LampScene& scene, const FixedLight& light,
   BlockLight out(scene.blocks.count());
   TURNSCAN_TRY(for_each_slot(
       scene, light, context, [&](const ViewSlot& at, std::size_t view, const LampView& lamp) {
-        const int texel = middle_texel(scene.blocks, at.block);
+        const int texel = scene.blocks.middle_texel(at.block);
         const Vec3f normal = scene.blocks.normal(at.block, texel);
         const Lit lit = lamp.lit(scene.blocks.surface(at.block, texel).position, normal);
         const float facing = (scene.rotation[view] * normal).dot(light.direction);

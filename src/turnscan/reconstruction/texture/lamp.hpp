@@ -17,6 +17,9 @@ struct FixedLight {
   }
 };
 
+/// Unit, rig's frame; radians, above the horizontal and about +Y from +Z.
+Vec3f rig_direction(double azimuth, double elevation);
+
 /// Light that is divided by is at least this.
 inline constexpr float kLeastLight = 0.05f;
 

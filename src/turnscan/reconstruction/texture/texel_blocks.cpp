@@ -58,6 +58,15 @@ std::int32_t TexelBlocks::block_at(int column, int row) const {
                    std::size_t(column / kBlock_px)];
 }
 
+int TexelBlocks::middle_texel(std::size_t block) const {
+  constexpr int kMiddle = kBlock_px / 2 * kBlock_px + kBlock_px / 2;
+  for (int d = 0; d < kBlockTexels; ++d) {
+    const int i = (kMiddle + d) % kBlockTexels;
+    if (triangle(block, i) != kNoTriangle) return i;
+  }
+  return 0;
+}
+
 TexelBlocks::Surface TexelBlocks::surface(std::size_t block, int texel) const {
   const std::uint32_t t = triangle(block, texel);
   const Plane& plane = planes_[t];

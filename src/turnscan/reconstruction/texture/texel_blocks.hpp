@@ -28,6 +28,8 @@ class TexelBlocks {
   std::uint32_t triangle(std::size_t block, int texel) const {
     return owner_[block * kBlockTexels + std::size_t(texel)];
   }
+  /// A covered texel, in its middle where that is.
+  int middle_texel(std::size_t block) const;
   /// Place of a texel's centre on its triangle, and steps to the texel on its right and below it.
   struct Surface {
     Vec3f position, right, down;

@@ -62,6 +62,12 @@ std::vector<Eigen::Matrix3f> rig_rotations(const FrameSequence& sequence,
   return out;
 }
 
+Viewpoints viewpoints_of(const FrameSequence& sequence, const std::vector<ColorView>& views) {
+  Viewpoints out{rig_rotations(sequence, views), {}};
+  for (const ColorView& view : views) out.eye.push_back(view.eye());
+  return out;
+}
+
 /// What the views would show in even light; nothing where the edge of a shadow is near.
 BlockMeans without_light(BlockMeans means, const BlockLight& light) {
   for (std::size_t b = 0; b < means.size(); ++b)
@@ -179,6 +185,16 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
     TURNSCAN_ASSIGN(correction, without_lamp(scene, samples, atlas.texels_per_m, context));
   } else {
     correction.gains = solve_gains(chosen, means, views.size());
+    const Viewpoints viewpoints = viewpoints_of(sequence, views);
+    TURNSCAN_ASSIGN(const auto highlight,
+                    solve_highlight(blocks, chosen, with_gains(means, chosen, correction.gains),
+                                    viewpoints, context));
+    if (highlight) {
+      correction.highlight.emplace(*highlight, viewpoints);
+      means = without_highlight(std::move(means), blocks, chosen, *correction.highlight,
+                                correction.gains);
+      correction.gains = solve_gains(chosen, means, views.size());
+    }
     correction.levels = seam_levels(
         blocks, chosen, with_gains(std::move(means), chosen, correction.gains), views.size());
   }
