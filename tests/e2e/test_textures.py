@@ -77,6 +77,23 @@ class Textures(harness.TestCase):
         self.assertIn("texture of 256 x 256", self.ok("info", "m.obj").stdout)
         self.ok("render", "m.obj", "--picture-width", "64", "--picture-height", "64", "-o", "p.png")
 
+    def test_the_highlight_of_a_lamp_is_named_and_taken_out(self):
+        frames = ("--frames", "36", "--colour-width", "640", "--colour-fov", "20deg", "--colour-lamp-azimuth", "40deg", "--colour-lamp-elevation", "50deg")
+        self.ok(*SCAN, *frames, "--colour-gloss", "0.6", "--out", "glossy")
+        self.ok(*SCAN, *frames, "--out", "dull")
+
+        def highlight_of(recording):
+            text = self.ok("reconstruct", recording, "--texture", "-o", f"{recording}.glb",
+                           "--report", "r.json").stdout
+            found = json.loads((self.dir / "r.json").read_text())["objects"][0]["texture"]["highlight"]
+            self.assertEqual("Highlight of a lamp" in text, found is not None)
+            return found
+
+        found = highlight_of("glossy")
+        self.assertAlmostEqual(found["azimuth_deg"], 40, delta=12)
+        self.assertAlmostEqual(found["elevation_deg"], 50, delta=12)
+        self.assertIsNone(highlight_of("dull"))
+
     @unittest.skipUnless(shutil.which("node") and VALIDATOR.is_dir(),
                          "Khronos' validator is not installed (scripts/setup page)")
     def test_khronos_validator_finds_nothing_in_glb_files(self):

@@ -51,6 +51,11 @@ Json texture_json(const TextureReport& texture) {
                        {"deviation_px", camera.deviation_px},
                        {"moved_mm", camera.moved_m * 1e3},
                        {"turned_deg", camera.turned_rad * kDegreesPerRadian}});
+  Json highlight;
+  if (texture.highlight)
+    highlight = {{"azimuth_deg", texture.highlight->azimuth_rad * kDegreesPerRadian},
+                 {"elevation_deg", texture.highlight->elevation_rad * kDegreesPerRadian},
+                 {"strength", texture.highlight->strength}};
   return {{"size_px", texture.size_px},
           {"texel_mm", texture.texel_m * 1e3},
           {"charts", texture.charts},
@@ -61,7 +66,8 @@ Json texture_json(const TextureReport& texture) {
           {"gains", gains},
           {"colour_cameras", cameras},
           {"disagreement_px", texture.disagreement_px},
-          {"albedo", texture.albedo}};
+          {"albedo", texture.albedo},
+          {"highlight", highlight}};
 }
 
 Json object_json(const ObjectResult& o) {

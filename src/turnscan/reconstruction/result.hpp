@@ -69,6 +69,14 @@ struct TextureReport {
   std::vector<Camera> cameras;
   double disagreement_px = 0.0;  ///< median shift between an image and the best one
   bool albedo = false;           ///< shading was taken out
+  /// A lamp's highlight that was taken out: where the lamp stands, and what the surface mirrors of
+  /// it at most, of white.
+  struct Highlight {
+    double azimuth_rad = 0.0;    ///< about the rig's +Y, from -Z, as a virtual scanner's
+    double elevation_rad = 0.0;  ///< above the horizontal
+    double strength = 0.0;       ///< linear light
+  };
+  std::optional<Highlight> highlight;
 
   /// A view that was used: its frame, by position in the sequence.
   struct View {

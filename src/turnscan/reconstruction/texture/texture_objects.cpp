@@ -68,6 +68,12 @@ Viewpoints viewpoints_of(const FrameSequence& sequence, const std::vector<ColorV
   return out;
 }
 
+TextureReport::Highlight noted(const Highlight& highlight) {
+  const Vec3f& to_lamp = highlight.direction;
+  return {double(std::atan2(-to_lamp.x(), -to_lamp.z())),
+          double(std::asin(std::clamp(to_lamp.y(), -1.0f, 1.0f))), double(highlight.strength)};
+}
+
 /// What the views would show in even light; nothing where the edge of a shadow is near.
 BlockMeans without_light(BlockMeans means, const BlockLight& light) {
   for (std::size_t b = 0; b < means.size(); ++b)
@@ -191,6 +197,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
                                     viewpoints, context));
     if (highlight) {
       correction.highlight.emplace(*highlight, viewpoints);
+      report.highlight = noted(*highlight);
       means = without_highlight(std::move(means), blocks, chosen, *correction.highlight,
                                 correction.gains);
       correction.gains = solve_gains(chosen, means, views.size());

@@ -62,6 +62,12 @@ std::string texture_text(const Reconstruction& r) {
         r.objects.size() < 2 ? "" : fmt::format(" of object {}", i + 1), texture->size_px,
         texture->size_px, texture->texel_m * 1e3, texture->charts, texture->views,
         texture->filled_share * 100.0);
+    if (const auto& highlight = texture->highlight)
+      text += fmt::format(
+          "Highlight of a lamp {:.0f} deg above the horizontal, at azimuth {:.0f} deg: up to "
+          "{:.0f} % of white, taken out\n",
+          highlight->elevation_rad * kDegreesPerRadian, highlight->azimuth_rad * kDegreesPerRadian,
+          highlight->strength * 100.0);
     for (const TextureReport::Camera& camera : texture->cameras)
       text += camera.refined
                   ? fmt::format(
