@@ -6,7 +6,8 @@
 // camera sees it from 20 directions in which no frame was taken. PSNR and SSIM over the object,
 // against the same pictures of the painted object itself, where both show it, and what kinds of
 // places the squared error comes from. Cases: as-it-is; drift (exposure wanders by 20 %); misplaced
-// (the colour camera's recorded place is wrong by 0.5 deg and 5 mm); gloss (a lamp is mirrored);
+// (the colour camera's recorded place is wrong by 0.5 deg and 5 mm); late (colours come when the
+// object has turned 0.1 to 0.9 deg further); gloss (a lamp is mirrored);
 // lamp, albedo (six tenths of the light from one side, without and with --albedo). builtin:doll and
 // meshes are 0.2 m tall; objects with a texture of their own keep it and their size, and of
 // builtin:labelled-cylinder the text is read. --white: paints the object evenly, and prints how far
@@ -260,6 +261,10 @@ Result<> run_case(const Settings& settings, const std::string& name, const Trian
       mesh.triangles.size(), report.charts, report.stretch, report.size_px, report.texel_m * 1e3,
       report.filled_share * 100, report.one_view_share * 100, report.views, report.disagreement_px,
       scanned, textured);
+  double turned = 0.0;
+  for (const double t : report.turned_rad) turned += t * t / double(report.views);
+  if (turned > 0.0)
+    fmt::print("    views turned by {:.3f} deg rms\n", std::sqrt(turned) * 57.29578);
   for (const auto& camera : report.cameras)
     fmt::print(
         "    camera of sensor {}: {} by {:.2f} px (deviation {:.2f}), {:.2f} mm, {:.3f} deg\n",
@@ -305,6 +310,11 @@ Result<> run(const Settings& settings) {
   wrong.color_camera.given_turn_rad = 0.5 / 57.29578;
   wrong.color_camera.given_shift_m = 0.005;
   TURNSCAN_TRY(run_case(settings, "misplaced", object, wrong, truth));
+  VirtualScanOptions late = base;
+  const double s_per_deg = settings.frames / base.motion.fps / 360.0;
+  late.color_camera.delay_s = 0.5 * s_per_deg;  // 20 ms at 25 deg/s
+  late.color_camera.jitter_s = 0.4 * s_per_deg;
+  TURNSCAN_TRY(run_case(settings, "late", object, late, truth));
   VirtualScanOptions glossy = base;
   glossy.color_camera.gloss = 0.6;
   TURNSCAN_TRY(run_case(settings, "gloss", object, glossy, truth));

@@ -570,6 +570,33 @@ TEST(ColourCamera, DriftsFromFrameToFrameAndIsGivenInTheWrongPlaceOnlyIfAsked) {
   EXPECT_NEAR(error.translation().norm(), 0.005, 1e-4);
 }
 
+TEST(ColourCamera, ThatIsLateSeesTheObjectAsItIsThen) {
+  VirtualScanOptions o = noiseless();
+  o.motion.frames = 5;
+  o.motion.turns = 0.05;
+  o.record.color = true;
+  o.color_camera.width = 80;
+  const VirtualScan in_step = scan_of({textured_wall()}, o);
+  o.color_camera.delay_s = 1.0 / o.motion.fps;
+  const VirtualScan late = scan_of({textured_wall()}, o);
+  EXPECT_EQ(late.read(1)->color.pixels, in_step.read(2)->color.pixels);
+  EXPECT_NE(late.read(1)->color.pixels, in_step.read(1)->color.pixels);
+  EXPECT_EQ(late.read(1)->depth.pixels, in_step.read(1)->depth.pixels);
+}
+
+TEST(ColourCamera, JittersByAsMuchAsAskedForAboutItsDelay) {
+  ColorCameraOptions o;
+  o.delay_s = 0.01;
+  o.jitter_s = 0.004;
+  double least = 1.0, most = -1.0;
+  for (std::uint64_t key = 0; key < 1000; ++key) {
+    const double late = late_s(o, key);
+    least = std::min(least, late), most = std::max(most, late);
+  }
+  EXPECT_NEAR(least, 0.006, 1e-4);
+  EXPECT_NEAR(most, 0.014, 1e-4);
+}
+
 TEST(ColourCamera, ItsNoiseIsAsWideAsAskedForAndColoursAreThoseOfTheMeshWithout) {
   VirtualScanOptions o = noiseless();
   o.motion.frames = 1;

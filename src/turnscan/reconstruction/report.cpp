@@ -42,7 +42,8 @@ Json verdict_json(const Verdict& verdict) {
 }
 
 Json texture_json(const TextureReport& texture) {
-  Json gains = Json::array(), cameras = Json::array();
+  Json gains = Json::array(), cameras = Json::array(), turned = Json::array();
+  for (const double angle : texture.turned_rad) turned.push_back(angle * kDegreesPerRadian);
   for (const Vec3f& g : texture.gains) gains.push_back({g.x(), g.y(), g.z()});
   for (const TextureReport::Camera& camera : texture.cameras)
     cameras.push_back({{"sensor", camera.sensor},
@@ -64,6 +65,7 @@ Json texture_json(const TextureReport& texture) {
           {"one_view_share", texture.one_view_share},
           {"views", texture.views},
           {"gains", gains},
+          {"turned_deg", turned},
           {"colour_cameras", cameras},
           {"disagreement_px", texture.disagreement_px},
           {"albedo", texture.albedo},

@@ -58,6 +58,9 @@ struct TextureReport {
   std::size_t views = 0;        ///< images that were used
   /// Per view, by which its red, green and blue were multiplied (linear light); mean 1.
   std::vector<Vec3f> gains;
+  /// Per view, by how much the object had turned further in its image than in its depth image;
+  /// empty: no view was moved for it.
+  std::vector<double> turned_rad;
   /// Per sensor with colours that are not registered to depth: by how many pixels its camera was
   /// misplaced (rms over the surface), and the standard deviation of that.
   struct Camera {

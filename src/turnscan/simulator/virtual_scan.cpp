@@ -232,18 +232,28 @@ struct VirtualScan::Impl {
   }
 
   /// Of a camera of its own; over the exposure.
-  ColorImage own_color_image(const SensorView& view, std::size_t position) const {
+  ColorImage own_color_image(std::size_t position) const {
+    const std::size_t k = scanner_of(position);
+    const auto seed = static_cast<std::uint64_t>(options.measure.seed);
+    const std::uint64_t key = hash_key(seed, 0x636f6c6f, instant_of(position), k);
+    const double middle_s = state_of(position).time_s + late_s(options.color_camera, key);
+    const double exposure_s = options.measure.exposure_s;
+    const std::size_t moments = exposure_s > 0.0 ? kExposureMoments : 1;
     Image<Vec3f> light;
-    if (view.moments.empty()) light = color_camera->light(view.bodies, view.T_world_sensor);
-    for (const SensorMoment& moment : view.moments) {
-      const Image<Vec3f> one = color_camera->light(moment.bodies, moment.T_world_sensor);
+    for (std::size_t j = 0; j < moments; ++j) {
+      const double share = (double(j) + 0.5) / double(moments) - 0.5;
+      const PlatterState state = platter_state_at(options.motion, middle_s + share * exposure_s);
+      Image<Vec3f> one =
+          color_camera->light(bench.bodies_at(state), bench.T_world_sensor(k, state));
+      if (moments == 1) {
+        light = std::move(one);
+        break;
+      }
       if (light.empty()) light = Image<Vec3f>(one.width, one.height, Vec3f::Zero());
       for (std::size_t i = 0; i < one.pixels.size(); ++i)
-        light.pixels[i] += one.pixels[i] / float(view.moments.size());
+        light.pixels[i] += one.pixels[i] / float(moments);
     }
-    const auto seed = static_cast<std::uint64_t>(options.measure.seed);
-    return color_camera->exposed(
-        light, hash_key(seed, 0x636f6c6f, instant_of(position), scanner_of(position)));
+    return color_camera->exposed(light, key);
   }
 
   TrueSamples true_samples(std::size_t position) const {
@@ -305,7 +315,7 @@ struct VirtualScan::Impl {
                                         options.scanners[k].model.depth_unit_m);
     if (color)
       frame.color =
-          color_camera ? own_color_image(view, position) : color_image(view, space.exact, paint);
+          color_camera ? own_color_image(position) : color_image(view, space.exact, paint);
     return frame;
   }
 };

@@ -87,7 +87,8 @@ MemoryFrames ellipsoid_frames(const EllipsoidPictures& pictures) {
     frame.info.T_table_sensor = table_sensor(2.0 * kPi * f / pictures.frames);
     frame.depth = DepthImage(camera.width, camera.height, kNoReturn);
     frame.color = ColorImage(camera.width, camera.height, Rgb{10, 10, 10});
-    const Pose T = *frame.info.T_table_sensor * pictures.T_color_sensor.inverse();
+    const Pose T_table_sensor = rotation_about_y(-pictures.turned(f)) * *frame.info.T_table_sensor;
+    const Pose T = T_table_sensor * pictures.T_color_sensor.inverse();
     const Vec3d eye = T.translation().cwiseQuotient(axes);
     const Vec3f gain = pictures.gain(f);
     for (int y = 0; y < camera.height; ++y) {
@@ -98,7 +99,7 @@ MemoryFrames ellipsoid_frames(const EllipsoidPictures& pictures) {
         if (r < 0.0) continue;
         const Vec3d p = T.translation() + (-q - std::sqrt(r)) / d.squaredNorm() * ray;
         const Vec3d normal = p.cwiseQuotient(axes.cwiseProduct(axes)).normalized();
-        const Eigen::Matrix3d to_sensor = frame.info.T_table_sensor->linear().transpose();
+        const Eigen::Matrix3d to_sensor = T_table_sensor.linear().transpose();
         const Vec3d to_eye = to_sensor * -ray.normalized();
         const auto shine = double(pictures.gloss(to_sensor * normal, to_eye));
         const auto mirrored = double(pictures.mirrored(to_sensor * normal, to_eye));

@@ -18,6 +18,8 @@ struct EllipsoidPictures {
   int frames = 24;
   Pose T_color_sensor = Pose::Identity();        ///< where the colour camera is
   Pose given_T_color_sensor = Pose::Identity();  ///< where the header says that it is
+  /// By how much it has turned further when the picture is taken than the frame says, radians.
+  std::function<double(int frame)> turned = [](int) { return 0.0; };
   /// Linear light times this, per frame and channel.
   std::function<Vec3f(int frame)> gain = [](int) { return Vec3f(1.0f, 1.0f, 1.0f); };
   std::function<Vec3f(const Vec3d& p)> pattern = pattern_at;

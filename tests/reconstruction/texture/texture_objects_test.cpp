@@ -204,6 +204,69 @@ TEST(TextureMesh, LeavesLittleOfAHighlightThatMostViewsOfAPlaceShow) {
   EXPECT_LT(error_of(texture_of(pictures).mesh), 6.0);
 }
 
+/// Up to half a degree to either side.
+double out_of_step(int frame) { return 0.0087 * std::sin(2.4 * frame); }
+
+TEST(TextureMesh, TurnsViewsWhoseImagesAreNotInStepWithTheirDepth) {
+  EllipsoidPictures pictures;
+  pictures.frames = 36;
+  const double in_step = error_of(texture_of(pictures).mesh);
+  pictures.turned = out_of_step;
+  TextureOptions options;
+  options.refine_camera = false;
+  const Textured made = texture_of(pictures, options);
+  ASSERT_EQ(made.report.turned_rad.size(), 36u);
+  for (int f = 0; f < 36; ++f)
+    EXPECT_NEAR(made.report.turned_rad[std::size_t(f)], out_of_step(f), 0.003) << f;  // 0.15 pixels
+  EXPECT_LT(error_of(made.mesh), 1.15 * in_step);
+}
+
+TEST(TextureMesh, LeavesViewsInStepWhereTheyAre) {
+  EllipsoidPictures pictures;
+  pictures.frames = 36;
+  TextureOptions options;
+  options.refine_camera = false;
+  EXPECT_TRUE(texture_of(pictures, options).report.turned_rad.empty());
+  // Nor does an even surface tell of any turn.
+  pictures.turned = out_of_step;
+  pictures.pattern = [](const Vec3d&) { return Vec3f(190.0f, 190.0f, 190.0f); };
+  EXPECT_TRUE(texture_of(pictures, options).report.turned_rad.empty());
+}
+
+TEST(TextureMesh, FindsTurnsAlikeForOneThreadAndSeveral) {
+  EllipsoidPictures pictures;
+  pictures.frames = 12;
+  pictures.turned = out_of_step;
+  set_thread_count(4);
+  const auto several = texture_of(pictures).report.turned_rad;
+  set_thread_count(1);
+  const auto alone = texture_of(pictures).report.turned_rad;
+  set_thread_count(0);
+  EXPECT_EQ(several, alone);
+}
+
+TEST(ColorView, ThatIsTurnedSeesAPlaceWhereTheTurnedObjectHasIt) {
+  ColorView view;
+  CameraIntrinsics camera;
+  camera.width = 640, camera.height = 480;
+  camera.fx = camera.fy = 500.0, camera.cx = 320.0, camera.cy = 240.0;
+  view.set_camera(camera);
+  view.T_object_table.linear() =
+      Eigen::AngleAxisd(0.4, Vec3d(1.0, 2.0, 0.5).normalized()).toRotationMatrix();
+  view.T_object_table.translation() = Vec3d(0.02, -0.01, 0.03);
+  view.T_sensor_object.translation() = Vec3d(0.01, 0.02, 0.8);
+  view.set_pose(Pose::Identity());
+  ColorView turned = view;
+  turned.turn(0.3);
+  const Vec3d p(0.05, 0.04, -0.03);
+  const Vec3d moved =
+      view.T_object_table * (rotation_about_y(0.3) * (view.T_object_table.inverse() * p));
+  const Projection is = turned.project(p.cast<float>()), want = view.project(moved.cast<float>());
+  EXPECT_NEAR(is.u, want.u, 1e-2);
+  EXPECT_NEAR(is.v, want.v, 1e-2);
+  EXPECT_TRUE((turned.T_sensor_object * p).isApprox(view.T_sensor_object * moved, 1e-9));
+}
+
 TEST(TextureMesh, FindsAColourCameraThatIsNotWhereItWasSaidToBe) {
   EllipsoidPictures pictures;
   pictures.given_T_color_sensor.linear() =

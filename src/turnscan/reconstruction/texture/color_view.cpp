@@ -26,6 +26,13 @@ void ColorView::set_pose(const Pose& T_color_sensor) {
   translation = T.translation().cast<float>();
 }
 
+void ColorView::turn(double angle_rad) {
+  const Pose turned = T_object_table * rotation_about_y(angle_rad) * T_object_table.inverse();
+  T_sensor_object = T_sensor_object * turned;
+  translation += rotation * turned.translation().cast<float>();
+  rotation *= turned.linear().cast<float>();
+}
+
 Projection ColorView::project(const Vec3f& p_object) const {
   const Vec3f p = rotation * p_object + translation;
   if (!(p.z() > 0.0f)) return {};
@@ -163,13 +170,11 @@ std::vector<ColorView> color_views(const FrameSequence& sequence,
     if (info.status != FrameStatus::kOk || (pass && info.pass != *pass)) continue;
     const SensorInfo& sensor = sequence.header().sensors[info.sensor];
     if (sensor.kind != SensorKind::kDepthCamera) continue;
-    Pose T_object_sensor = T_table_sensor[i];
-    if (info.pass < T_object_table.size())
-      T_object_sensor = T_object_table[info.pass] * T_object_sensor;
     ColorView view;
+    if (info.pass < T_object_table.size()) view.T_object_table = T_object_table[info.pass];
     view.position = i;
     view.sensor = info.sensor;
-    view.T_sensor_object = T_object_sensor.inverse();
+    view.T_sensor_object = (view.T_object_table * T_table_sensor[i]).inverse();
     view.set_camera(sensor.color_intrinsics.value_or(sensor.intrinsics));
     view.set_pose(sensor.color_intrinsics ? sensor.T_color_sensor : Pose::Identity());
     out.push_back(std::move(view));

@@ -18,14 +18,17 @@ struct ColorView {
   std::size_t position = 0;  ///< of its frame in the sequence
   std::uint32_t sensor = 0;
   Pose T_sensor_object = Pose::Identity();
-  CameraIntrinsics camera;     ///< set by set_camera()
-  bool distorted = false;      ///< camera.distorted()
-  BrownConrady<float> lens{};  ///< camera.lens()
+  Pose T_object_table = Pose::Identity();  ///< the object turns about the table's Y
+  CameraIntrinsics camera;                 ///< set by set_camera()
+  bool distorted = false;                  ///< camera.distorted()
+  BrownConrady<float> lens{};              ///< camera.lens()
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Vec3f translation = Vec3f::Zero();
 
   void set_camera(const CameraIntrinsics& intrinsics);
   void set_pose(const Pose& T_color_sensor);
+  /// As if the object had turned further by that when the image was taken.
+  void turn(double angle_rad);
   Vec3f eye() const { return -(rotation.transpose() * translation); }
   float focal_px() const { return float(0.5 * (camera.fx + camera.fy)); }
   /// z <= 0: it lies behind the camera, u and v say nothing.

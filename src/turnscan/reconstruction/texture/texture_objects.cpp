@@ -10,6 +10,7 @@
 #include <turnscan/reconstruction/texture/filling.hpp>
 #include <turnscan/reconstruction/texture/smoothed_normals.hpp>
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
+#include <turnscan/reconstruction/texture/view_turns.hpp>
 #include <turnscan/turntable/rotation.hpp>
 
 namespace turnscan::texture {
@@ -18,6 +19,8 @@ namespace {
 
 constexpr int kLeastSize_px = 256, kMostSize_px = 4096;  // chosen by itself
 constexpr int kLightRounds = 3;
+constexpr int kTurnedRounds = 3;
+constexpr double kLeastTurned_px = 0.15;  // that is worth reading the images again
 constexpr double kLeastOfScale = 0.97;
 constexpr double kTexelsPerPixel = 2.0;  // so that the texels blur little that the images show
 
@@ -136,6 +139,34 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
   return {};
 }
 
+/// Turns the views by what their images were taken too early or too late, as long as their patterns
+/// lie on each other the better for it.
+Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
+                    const TexelBlocks& blocks, const ChosenViews& chosen,
+                    std::vector<ColorView>& views, TexelSamples& samples, TextureReport& report,
+                    const RunContext& context) {
+  std::vector<double> turned(views.size(), 0.0);
+  for (int round = 0; round < kTurnedRounds; ++round) {
+    TURNSCAN_ASSIGN(const std::vector<double> turns,
+                    solve_turns(blocks, chosen, samples, views, context));
+    if (!(turned_px(turns, views, mesh) > kLeastTurned_px)) break;
+    const double before = pattern_misfit(blocks, chosen, samples);
+    const std::vector<ColorView> old = views;
+    for (std::size_t k = 0; k < views.size(); ++k) views[k].turn(turns[k]);
+    samples = {};  // two of them would be the most that memory holds
+    TURNSCAN_ASSIGN(samples, sample_views(sequence, mesh, blocks, views, chosen, context));
+    if (!(pattern_misfit(blocks, chosen, samples) < before)) {
+      views = old;
+      samples = {};
+      TURNSCAN_ASSIGN(samples, sample_views(sequence, mesh, blocks, views, chosen, context));
+      break;
+    }
+    for (std::size_t k = 0; k < turned.size(); ++k) turned[k] += turns[k];
+    report.turned_rad = turned;
+  }
+  return {};
+}
+
 void note_views(const std::vector<ColorView>& views, const TexelBlocks& blocks,
                 const Blended& blended, TextureReport& report) {
   static_assert(kNoView == TextureReport::kNoView);
@@ -182,6 +213,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
   TURNSCAN_ASSIGN(TexelSamples samples,
                   sample_views(sequence, mesh, blocks, views, chosen, context));
+  TURNSCAN_TRY(turn_views(sequence, mesh, blocks, chosen, views, samples, report, context));
   BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
   // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <turnscan/core/random.hpp>
 #include <turnscan/simulator/color/color_camera.hpp>
 
 namespace turnscan {
@@ -38,6 +39,11 @@ OptionTable describe(ColorCameraOptions& o) {
       .number("colour-pan", o.pan_rad, Quantity::kAngle, {-0.5, 0.5},
               "How far it is turned to its right.")
       .number("colour-tilt", o.tilt_rad, Quantity::kAngle, {-0.5, 0.5}, "And up.")
+      .number(
+          "colour-delay", o.delay_s, Quantity::kTime, {-1.0, 1.0},
+          "How much later its images are taken than those of depth; the recording does not say.")
+      .number("colour-jitter", o.jitter_s, Quantity::kTime, {0.0, 1.0},
+              "By up to this more or less in each frame, as of streams that are not in step.")
       .number("colour-noise", o.noise, Quantity::kNone, {0.0, 100.0},
               "Standard deviation of its noise, of 255 levels.")
       .number("colour-drift", o.drift, Quantity::kNone, {0.0, 0.9},
@@ -76,6 +82,10 @@ CameraIntrinsics intrinsics_of(const ColorCameraOptions& o) {
 
 Pose true_T_color_sensor(const ColorCameraOptions& o) {
   return color_pose({o.x_m, o.y_m, o.z_m}, o.pan_rad, o.tilt_rad);
+}
+
+double late_s(const ColorCameraOptions& o, std::uint64_t key) {
+  return o.delay_s + o.jitter_s * (2.0 * uniform01(mix64(key + 3)) - 1.0);
 }
 
 Pose given_T_color_sensor(const ColorCameraOptions& o) {

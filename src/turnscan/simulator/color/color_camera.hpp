@@ -1,6 +1,7 @@
 #pragma once
 // The colour camera of a virtual depth camera, and its light.
 
+#include <cstdint>
 #include <optional>
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/option_table.hpp>
@@ -14,6 +15,8 @@ struct ColorCameraOptions {
   double fov_y_rad = 0.9424777960769379;           ///< 54 deg, from edge to edge
   double x_m = 0.05, y_m = 0.0, z_m = 0.0;         ///< of its eye, in the sensor's frame
   double pan_rad = 0.0, tilt_rad = 0.0;            ///< to its right, and up
+  double delay_s = 0.0;                            ///< its images are later than those of depth,
+  double jitter_s = 0.0;                           ///< by up to this more or less in each frame
   double noise = 0.0;                              ///< standard deviation, of 255 grey levels
   double drift = 0.0;                              ///< exposure wanders by that share, up and down
   double white_drift = 0.0;                        ///< red and blue wander against green
@@ -32,6 +35,8 @@ OptionTable describe(ColorCameraOptions& options);
 CameraIntrinsics intrinsics_of(const ColorCameraOptions& options);
 /// Takes points of the depth sensor to the colour camera: where it is.
 Pose true_T_color_sensor(const ColorCameraOptions& options);
+/// By how much the image of a frame is later than its depth image; key: of the frame, random.
+double late_s(const ColorCameraOptions& options, std::uint64_t key);
 /// Where the recording says that it is.
 Pose given_T_color_sensor(const ColorCameraOptions& options);
 

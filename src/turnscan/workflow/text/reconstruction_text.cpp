@@ -1,5 +1,7 @@
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
@@ -50,6 +52,12 @@ std::string choices_text(const Reconstruction& r) {
   return table.text();
 }
 
+double most_turned(const TextureReport& texture) {
+  double most = 0.0;
+  for (const double angle : texture.turned_rad) most = std::max(most, std::abs(angle));
+  return most;
+}
+
 std::string texture_text(const Reconstruction& r) {
   std::string text;
   for (std::size_t i = 0; i < r.objects.size(); ++i) {
@@ -62,6 +70,11 @@ std::string texture_text(const Reconstruction& r) {
         r.objects.size() < 2 ? "" : fmt::format(" of object {}", i + 1), texture->size_px,
         texture->size_px, texture->texel_m * 1e3, texture->charts, texture->views,
         texture->filled_share * 100.0);
+    if (!texture->turned_rad.empty())
+      text += fmt::format(
+          "Colours out of step with depth: the object had turned by up to {:.2f} deg more or less; "
+          "corrected for the texture\n",
+          most_turned(*texture) * kDegreesPerRadian);
     if (const auto& highlight = texture->highlight)
       text += fmt::format(
           "Highlight of a lamp {:.0f} deg above the horizontal, at azimuth {:.0f} deg: up to "
