@@ -125,6 +125,7 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
   for (const ColorView& view : views)
     if (sequence.header().sensors[view.sensor].color_intrinsics)
       of_sensor[view.sensor].push_back(view);
+  report.cameras.clear();
   for (const auto& [sensor, own] : of_sensor) {
     const Pose& before = sequence.header().sensors[sensor].T_color_sensor;
     TURNSCAN_ASSIGN(const RefinedCamera found, refine_camera(sequence, mesh, own, before, context));
@@ -140,11 +141,12 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
 }
 
 /// Turns the views by what their images were taken too early or too late, as long as their patterns
-/// lie on each other the better for it.
+/// lie on each other the better for it. The camera's place, which they had to be taken for, is
+/// found anew among the turned ones.
 Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
                     const TexelBlocks& blocks, const ChosenViews& chosen,
                     std::vector<ColorView>& views, TexelSamples& samples, TextureReport& report,
-                    const RunContext& context) {
+                    bool refine_camera, const RunContext& context) {
   std::vector<double> turned(views.size(), 0.0);
   for (int round = 0; round < kTurnedRounds; ++round) {
     TURNSCAN_ASSIGN(const std::vector<double> turns,
@@ -152,11 +154,15 @@ Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
     if (!(turned_px(turns, views, mesh) > kLeastTurned_px)) break;
     const double before = pattern_misfit(blocks, chosen, samples);
     const std::vector<ColorView> old = views;
+    const std::vector<TextureReport::Camera> old_cameras = report.cameras;
     for (std::size_t k = 0; k < views.size(); ++k) views[k].turn(turns[k]);
+    if (round == 0 && refine_camera)
+      TURNSCAN_TRY(refine_cameras(sequence, mesh, views, report, context));
     samples = {};  // two of them would be the most that memory holds
     TURNSCAN_ASSIGN(samples, sample_views(sequence, mesh, blocks, views, chosen, context));
     if (!(pattern_misfit(blocks, chosen, samples) < before)) {
       views = old;
+      report.cameras = old_cameras;
       samples = {};
       TURNSCAN_ASSIGN(samples, sample_views(sequence, mesh, blocks, views, chosen, context));
       break;
@@ -213,7 +219,8 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
   TURNSCAN_ASSIGN(const ChosenViews chosen, choose_views(mesh, blocks, views, context));
   TURNSCAN_ASSIGN(TexelSamples samples,
                   sample_views(sequence, mesh, blocks, views, chosen, context));
-  TURNSCAN_TRY(turn_views(sequence, mesh, blocks, chosen, views, samples, report, context));
+  TURNSCAN_TRY(turn_views(sequence, mesh, blocks, chosen, views, samples, report,
+                          options.refine_camera, context));
   BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
   // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
