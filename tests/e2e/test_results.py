@@ -19,6 +19,24 @@ def stl_size_mm(path):
     return [max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)]
 
 
+def banded_figure():
+    """PLY of two blocks, one above the other, and a black post between them."""
+    vertices, faces = [], []
+    for half, low, high, grey in ((30, 0, 60, 200), (15, 60, 90, 2), (25, 90, 130, 200)):
+        first = len(vertices)
+        vertices += [(x * half / 1e3, y / 1e3, z * half / 1e3, grey)
+                     for x in (-1, 1) for y in (low, high) for z in (-1, 1)]
+        faces += [[first + i for i in quad] for quad in
+                  ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                   (1, 5, 7, 3))]
+    header = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}",
+              *(f"property float {a}" for a in "xyz"),
+              *(f"property uchar {c}" for c in ("red", "green", "blue")),
+              f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+    rows = [f"{x} {y} {z} {g} {g} {g}" for x, y, z, g in vertices]
+    return "\n".join(header + rows + [f"4 {' '.join(map(str, f))}" for f in faces]) + "\n"
+
+
 class Reconstruct(harness.TestCase):
     def setUp(self):
         super().setUp()
@@ -43,6 +61,21 @@ class Reconstruct(harness.TestCase):
         for word in ("frames", "points", "candidates", "vertices", "triangles", "reason",
                      "seconds", "memory", "watertight", "version"):
             self.assertIn(word, report)
+
+    def test_a_black_band_before_a_wall_is_joined_and_named(self):
+        (self.dir / "figure.ply").write_text(banded_figure())
+        self.ok("simulate", "figure.ply", "--noise", "physics", "--room", "wall", "--frames", "36",
+                "--distance", "0.7m", "--elevation", "20deg", "--seed", "3", "--out", "rec")
+        out = self.ok("reconstruct", "rec", "-o", "m.ply", "--report", "r.json").stdout
+        self.assertIn("too dark, too shiny or transparent", out)
+        self.assertIn("Wrote m.ply", out)  # one object
+        (figure,) = json.loads((self.dir / "r.json").read_text())["objects"]
+        self.assertEqual(figure["mesh"]["components"], 1)
+        self.assertTrue(figure["mesh"]["watertight"])
+        self.assertTrue(any("too dark" in note for note in figure["notes"]))
+        # 60 x 60 x 60, 30 x 30 x 30 and 50 x 50 x 40 mm
+        self.assertAlmostEqual(figure["mesh"]["volume_cm3"], 343, delta=17)
+        self.assertGreater(figure["invented_area_cm2"], 20)
 
     def test_stl_and_3mf_are_in_millimetres(self):
         self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl")

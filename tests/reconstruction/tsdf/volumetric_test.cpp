@@ -127,6 +127,53 @@ TEST(Volumetric, SaysWhereSensorsHadNoReturn) {
   EXPECT_FALSE(no_return(ball));
 }
 
+/// Two blocks, one above the other, and between them a post that returns nothing, in a room.
+double banded_figure(const Vec3d& o, const Vec3d& d) {
+  const double post = to_box(o, d, Vec3d(-0.008, 0.02, -0.008), Vec3d(0.008, 0.06, 0.008));
+  const double block = nearer(to_box(o, d, Vec3d(-0.025, 0, -0.025), Vec3d(0.025, 0.03, 0.025)),
+                              to_box(o, d, Vec3d(-0.02, 0.055, -0.02), Vec3d(0.02, 0.08, 0.02)));
+  const double t = nearer(post, block);
+  if (t > 0.0) return t == post ? 1e-6 : t;  // no depth, but nothing is seen through it
+  return 1.5 / d.norm();
+}
+
+TEST(Volumetric, ABlackBandIsJoinedByItsVisualHull) {
+  const auto result = reconstruct(scan(banded_figure, {36, 0.0}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  ASSERT_EQ(result->objects.size(), 1u);
+  const ObjectResult& object = result->objects[0];
+  EXPECT_EQ(object.check.components, 1u);
+  EXPECT_TRUE(is_solid(object.mesh));
+  EXPECT_THAT(object.notes, ::testing::Contains(HasSubstr("too dark")));
+  // Neither much thinner than the post, whose corners are 11 mm from its axis, nor as wide as the
+  // blocks.
+  std::size_t between = 0;
+  for (std::size_t v = 0; v < object.mesh.vertices.size(); ++v) {
+    const Vec3f& p = object.mesh.vertices[v];
+    if (p.y() < 0.038f || p.y() > 0.048f) continue;
+    ++between;
+    EXPECT_GT(std::hypot(p.x(), p.z()), 0.006f);
+    EXPECT_LT(std::hypot(p.x(), p.z()), 0.018f);
+    EXPECT_LT(object.confidence[v], 0.02f) << "marked as invented";
+  }
+  EXPECT_GT(between, 100u);
+}
+
+TEST(Volumetric, WithoutABackgroundHolesAreNoBand) {
+  // A gate: through its opening nothing is seen, and that says nothing of what is there.
+  const auto gate = [](const Vec3d& o, const Vec3d& d) {
+    const auto post = [&](double x) {
+      return to_box(o, d, Vec3d(x - 0.006, 0, -0.006), Vec3d(x + 0.006, 0.08, 0.006));
+    };
+    return nearer(nearer(post(-0.025), post(0.025)),
+                  to_box(o, d, Vec3d(-0.031, 0.068, -0.006), Vec3d(0.031, 0.08, 0.006)));
+  };
+  const auto result = reconstruct(scan(gate, {36, 0.0005}), volumetric(), {}, RunContext());
+  ASSERT_TRUE(result) << result.error().text();
+  for (const Vec3f& p : result->objects[0].mesh.vertices)
+    EXPECT_FALSE(std::abs(p.x()) < 0.015f && p.y() > 0.01f && p.y() < 0.06f) << p.transpose();
+}
+
 TEST(Volumetric, ForPlacingHasTheSameMeasuredSurfaceAndNothingMore) {
   const MemorySequence sequence = scan(ball, Rig());
   ReconstructOptions options = volumetric();

@@ -1,3 +1,4 @@
+#include <turnscan/reconstruction/tsdf/no_return_hull.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 
 namespace turnscan::tsdf {
@@ -34,14 +35,17 @@ bool UnseenSpace::contains(const Vec3f& p) const {
 }
 
 Result<ExtractedSurface> extract_surface(const Integrator& integrator, const VolumeScale& scale,
-                                         Box box, std::vector<StageTime>& times,
-                                         const RunContext& context) {
+                                         std::span<const views::DepthView> views, Box box,
+                                         std::vector<StageTime>& times, const RunContext& context) {
   const double rim = scale.truncation_m + 4.0 * scale.cell_m;
   box.min.array() -= rim;
   box.max.array() += rim;
   if (scale.floor_m) box.min.y() = -0.25 * scale.cell_m;  // the lowest layer is at -0.5
   TURNSCAN_ASSIGN(Volume volume, timed(times, "distances",
                                        [&] { return integrator.extract_volume(box, context); }));
+  TURNSCAN_ASSIGN(const SampleBits hull, timed(times, "no return", [&] {
+                    return no_return_hull(volume, views, context);
+                  }));
   EvenOutScale marched;
   marched.origin_m = volume.origin_m;
   marched.cell_m = volume.cell_m;
@@ -49,6 +53,7 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   ExtractedSurface out{{}, marched, UnseenSpace(volume)};
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));
+    set_inside(volume, hull);
     return close_holes(volume, scale, context);
   };
   TURNSCAN_TRY(timed(times, "closing", close));

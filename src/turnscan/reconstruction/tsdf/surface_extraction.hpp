@@ -28,11 +28,12 @@ struct ExtractedSurface {
   UnseenSpace unseen;
 };
 
-/// The zero set of what was integrated in and around the box, smoothed, its holes closed. Adds to
+/// The zero set of what was integrated in and around the box, smoothed, its holes closed: what the
+/// views looked at in vain is inside (no_return_hull()), the rest is close_holes()'s. Adds to
 /// the seconds of the stages "distances", "closing" and "extraction". Fails with kResourceLimit,
 /// kCancelled.
 Result<ExtractedSurface> extract_surface(const Integrator& integrator, const VolumeScale& scale,
-                                         Box box, std::vector<StageTime>& times,
-                                         const RunContext& context);
+                                         std::span<const views::DepthView> views, Box box,
+                                         std::vector<StageTime>& times, const RunContext& context);
 
 }  // namespace turnscan::tsdf

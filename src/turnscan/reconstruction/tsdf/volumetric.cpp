@@ -39,8 +39,9 @@ class VolumetricReconstruction {
     const Box box = measured_box(input_);
     if (box.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: no frame has a point on the object");
-    TURNSCAN_ASSIGN(const ExtractedSurface surface,
-                    extract_surface(integrator, scale_.volume, box, out_.stages, context_));
+    TURNSCAN_ASSIGN(
+        const ExtractedSurface surface,
+        extract_surface(integrator, scale_.volume, input_.views, box, out_.stages, context_));
     TURNSCAN_ASSIGN(std::vector<TriangleMesh> components, split_components(surface.mesh));
     for (const auto& object : group_objects(std::move(components), grouping_rules(min_share)))
       TURNSCAN_TRY(refine(object, surface));
