@@ -19,12 +19,12 @@ def stl_size_mm(path):
     return [max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)]
 
 
-def banded_figure():
-    """PLY of two blocks, one above the other, and a black post between them."""
+def coloured_blocks(*blocks):
+    """PLY of upright blocks: (x, z, half a side, lowest and highest y in mm, grey)."""
     vertices, faces = [], []
-    for half, low, high, grey in ((30, 0, 60, 200), (15, 60, 90, 2), (25, 90, 130, 200)):
+    for at_x, at_z, half, low, high, grey in blocks:
         first = len(vertices)
-        vertices += [(x * half / 1e3, y / 1e3, z * half / 1e3, grey)
+        vertices += [((at_x + x * half) / 1e3, y / 1e3, (at_z + z * half) / 1e3, grey)
                      for x in (-1, 1) for y in (low, high) for z in (-1, 1)]
         faces += [[first + i for i in quad] for quad in
                   ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
@@ -63,7 +63,9 @@ class Reconstruct(harness.TestCase):
             self.assertIn(word, report)
 
     def test_a_black_band_before_a_wall_is_joined_and_named(self):
-        (self.dir / "figure.ply").write_text(banded_figure())
+        # A black post between two blocks, one above the other.
+        (self.dir / "figure.ply").write_text(coloured_blocks(
+            (0, 0, 30, 0, 60, 200), (0, 0, 15, 60, 90, 2), (0, 0, 25, 90, 130, 200)))
         self.ok("simulate", "figure.ply", "--noise", "physics", "--room", "wall", "--frames", "36",
                 "--distance", "0.7m", "--elevation", "20deg", "--seed", "3", "--out", "rec")
         out = self.ok("reconstruct", "rec", "-o", "m.ply", "--report", "r.json").stdout
@@ -76,6 +78,20 @@ class Reconstruct(harness.TestCase):
         # 60 x 60 x 60, 30 x 30 x 30 and 50 x 50 x 40 mm
         self.assertAlmostEqual(figure["mesh"]["volume_cm3"], 343, delta=17)
         self.assertGreater(figure["invented_area_cm2"], 20)
+
+    def test_things_that_touch_are_one_with_a_note_and_apart_they_are_two(self):
+        for name, z, apart in (("touch", 50, 0), ("apart", 50, 12)):
+            (self.dir / f"{name}.ply").write_text(coloured_blocks(
+                (-30 - apart / 2, -z / 2, 30, 0, 70, 200), (30 + apart / 2, z / 2, 30, 0, 90, 200)))
+            self.ok("simulate", f"{name}.ply", "--frames", "36", "--distance", "0.8m", "--elevation",
+                    "20deg", "--noise", "gaussian:0.5mm", "--seed", "3", "--out", f"rec-{name}")
+            out = self.ok("reconstruct", f"rec-{name}", "-o", f"m-{name}.ply", "--report",
+                          f"{name}.json").stdout
+            objects = json.loads((self.dir / f"{name}.json").read_text())["objects"]
+            notes = [note for o in objects for note in o["notes"] if "that touch" in note]
+            self.assertEqual(len(objects), 2 if apart else 1)
+            self.assertEqual(len(notes), 0 if apart else 1, notes)
+            self.assertEqual("two things that touch" in out, not apart)
 
     def test_stl_and_3mf_are_in_millimetres(self):
         self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl")

@@ -160,6 +160,9 @@ class VolumetricReconstruction {
     const auto quality = [&]() -> Result<> {
       measure_evidence(piece, scale_.volume);
       if (input_.measured_only) return {};
+      if (scale_.volume.floor_m)
+        piece.neck =
+            quality::narrowest_neck(piece.mesh, scale_.volume.cell_m, *scale_.volume.floor_m);
       TURNSCAN_TRY(measure_quality(piece, input_, scale_, filter_share_ > 0.0, context_));
       return measure_no_return(piece, input_.views, context_);
     };

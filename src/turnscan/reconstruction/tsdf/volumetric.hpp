@@ -2,6 +2,7 @@
 // The volumetric method: from the integrated views to closed meshes.
 
 #include <turnscan/reconstruction/options/volumetric_options.hpp>
+#include <turnscan/reconstruction/quality/touching.hpp>
 #include <turnscan/reconstruction/result.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
 #include <turnscan/reconstruction/views/depth_view.hpp>
@@ -41,8 +42,9 @@ struct VolumetricPiece {
   double invented_area_m2 = 0.0;   ///< where vertices have a fiftieth of the usual support or less
   double base_area_m2 = 0.0;       ///< closed flat on the platter
   double no_return_area_m2 = 0.0;  ///< of what was invented: where sensors looked in vain
-  std::size_t points = 0;          ///< measured, in the box of the piece
-  std::size_t detached = 0;        ///< components that no frame shows to be connected to the rest
+  std::optional<quality::Neck> neck;  ///< where it may be two things that touch, on a platter
+  std::size_t points = 0;             ///< measured, in the box of the piece
+  std::size_t detached = 0;  ///< components that no frame shows to be connected to the rest
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
