@@ -92,4 +92,9 @@ Basis basis_of(const DisturbanceModel& model, const ModelFrame& frame, const Mod
   return Basis::Zero(6, 0);
 }
 
+double wobble_rad(const DisturbanceModel& model, double lever_m) {
+  const Eigen::VectorXd& v = model.values;
+  return std::sqrt(0.5 * (v.segment<2>(0).squaredNorm() + v.segment<2>(5).squaredNorm())) / lever_m;
+}
+
 }  // namespace turnscan::placement

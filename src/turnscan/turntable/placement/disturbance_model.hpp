@@ -45,4 +45,7 @@ Eigen::Index unknowns_of(ModelKind kind);
 /// The twist of a frame by each unknown.
 Basis basis_of(const DisturbanceModel& model, const ModelFrame& frame, const ModelScene& scene);
 
+/// By how much a wobbling axis leans to a side, rms over its way; model: kWobble.
+double wobble_rad(const DisturbanceModel& model, double lever_m);
+
 }  // namespace turnscan::placement

@@ -48,10 +48,8 @@ std::string slip_text(double more_rad, double turn_rad) {
 }
 
 std::string wobble_text(const DisturbanceModel& model, double lever_m) {
-  const Eigen::VectorXd& v = model.values;
-  const double squares = v.segment<2>(0).squaredNorm() + v.segment<2>(5).squaredNorm();
   return fmt::format("the table wobbles by {:.1f} deg, {:g} times a turn",
-                     std::sqrt(0.5 * squares) / lever_m * kDegreesPerRadian, model.cycles);
+                     wobble_rad(model, lever_m) * kDegreesPerRadian, model.cycles);
 }
 
 DisturbanceKind kind_of(ModelKind kind) {

@@ -38,11 +38,9 @@ bool turns(ModelKind kind) {
   return kind == ModelKind::kSpeed || kind == ModelKind::kSlip || kind == ModelKind::kHalt;
 }
 
-/// The tilts of a wobble's cosine and sine are two unknowns each (DisturbanceModel).
 bool plausible(const DisturbanceModel& model, double lever_m) {
   if (model.kind != ModelKind::kWobble) return true;
-  return std::hypot(model.values.segment<2>(0).norm(), model.values.segment<2>(5).norm()) <
-         kLargestWobble_rad * lever_m;
+  return wobble_rad(model, lever_m) < kLargestWobble_rad;
 }
 
 using Models = std::vector<DisturbanceModel>;
