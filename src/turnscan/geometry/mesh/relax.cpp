@@ -4,8 +4,8 @@
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/geometry/mesh/sparse_ldlt.hpp>
 #include <turnscan/geometry/mesh/vertex_neighbours.hpp>
+#include <turnscan/geometry/sparse/sparse_cholesky.hpp>
 
 namespace turnscan {
 namespace {
@@ -52,16 +52,16 @@ class PlateSystem {
               double tension)
       : mesh_(mesh), adjacency_(adjacency), region_(region), place_(place) {
     origin_ = mesh.vertices[region[0]].cast<double>();
-    right_ = mesh::Columns3::Zero(Eigen::Index(region.size()), 3);
+    right_ = sparse::Columns3::Zero(Eigen::Index(region.size()), 3);
     assemble(tension);
   }
 
   Result<> solve(const RunContext& context, std::vector<Vec3f>& vertices) {
-    mesh::SparseMatrix matrix(right_.rows(), right_.rows());
+    sparse::SparseMatrix matrix(right_.rows(), right_.rows());
     matrix.setFromTriplets(triplets_.begin(), triplets_.end());
     triplets_ = {};
-    TURNSCAN_ASSIGN(const mesh::Columns3 moved,
-                    mesh::solve_sparse(matrix, right_, kMaxFactorBytes, context));
+    TURNSCAN_ASSIGN(const sparse::Columns3 moved,
+                    sparse::solve(matrix, right_, kMaxFactorBytes, context));
     if (!moved.allFinite()) {
       return fail(ErrorCode::kLibrary, "sparse system: the solution is not finite; check the mesh");
     }
@@ -126,7 +126,7 @@ class PlateSystem {
   const std::vector<std::uint32_t>& region_;
   const std::vector<std::uint32_t>& place_;  // vertex -> row, kNone for fixed ones
   Vec3d origin_;
-  mesh::Columns3 right_;
+  sparse::Columns3 right_;
   std::vector<Triplet> triplets_;
   std::vector<std::pair<std::uint32_t, double>> row_;
 };
