@@ -119,5 +119,19 @@ TEST(DepthView, OfSeveralPassesWhatItsTableCropsOnlyBoundsFreeSpace) {
   EXPECT_GT(ended, 10u);
 }
 
+TEST(DepthViews, AreFewerForStatisticsTheMorePixelsTheyHave) {
+  std::vector<DepthView> views(60);
+  const auto with_pixels = [&](std::size_t pixels) {
+    for (DepthView& view : views) view.pixels.resize(pixels);
+    return views_for_statistics(views, 24);
+  };
+  EXPECT_EQ(with_pixels(0), 24u);
+  EXPECT_EQ(with_pixels(1000), 24u);
+  EXPECT_EQ(with_pixels(1'000'000), 12u);
+  EXPECT_EQ(with_pixels(6'000'000), 4u) << "one or two views show too little of an object";
+  EXPECT_EQ(views_for_statistics(std::span(views).first(3), 24), 3u);
+  EXPECT_EQ(views_for_statistics(std::span(views).first(0), 24), 0u);
+}
+
 }  // namespace
 }  // namespace turnscan::views

@@ -47,7 +47,7 @@ Outside outside_outlines(const views::DepthView& view, const TriangleMesh& mesh,
 
 double ragged_share(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                     double noise_m) {
-  std::vector<Outside> each(std::min(views.size(), kMostOutlines));
+  std::vector<Outside> each(views::views_for_statistics(views, kMostOutlines));
   parallel_for(each.size(), 1, [&](std::size_t i) {
     each[i] = outside_outlines(views[i * views.size() / each.size()], mesh, noise_m);
   });

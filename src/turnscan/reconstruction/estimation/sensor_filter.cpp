@@ -156,9 +156,10 @@ Differences joined(const std::vector<Differences>& parts) {
 
 std::optional<double> share_of_neighbours(std::span<const views::DepthView> views, double noise_m) {
   if (views.empty()) return std::nullopt;
-  std::vector<Differences> own(views.size());
-  parallel_for(own.size() - 1, 1, [&](std::size_t v) {
-    if (nearly_same_place(views[v], views[v + 1])) own[v] = differences(views[v], views[v + 1]);
+  std::vector<Differences> own(views::views_for_statistics(views, views.size() - 1));
+  parallel_for(own.size(), 1, [&](std::size_t i) {
+    const std::size_t v = i * (views.size() - 1) / own.size();
+    if (nearly_same_place(views[v], views[v + 1])) own[i] = differences(views[v], views[v + 1]);
   });
   Differences all = joined(own);
   if (all.over[0].size() < kFewest) return std::nullopt;
@@ -169,7 +170,7 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
                            double noise_m) {
   if (views.empty()) return 0.0;
   const float unit_m = views[0].unit_m;
-  std::vector<Differences> own(std::min(views.size(), kMostDrawn));
+  std::vector<Differences> own(views::views_for_statistics(views, kMostDrawn));
   parallel_for(own.size(), 1, [&](std::size_t i) {
     const views::DepthView& view = views[i * views.size() / own.size()];
     if (!view.parallel && view.unit_m == unit_m) own[i] = differences(view, mesh, noise_m);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/reconstruction/quality/touching.hpp>
 
@@ -128,13 +129,14 @@ class Sections {
 }  // namespace
 
 std::optional<Neck> narrowest_neck(const TriangleMesh& mesh, double step_m, double stands_below_m) {
+  std::vector<std::optional<Sections>> sections(kDirections);
+  parallel_for(sections.size(), 1, [&](std::size_t i) {
+    const double angle = std::numbers::pi * double(i) / kDirections;
+    sections[i].emplace(mesh, Vec3d(std::cos(angle), 0.0, std::sin(angle)), step_m);
+  });
   std::optional<Neck> neck;
   bool is_bar = false;  // what the narrowest section cuts
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = std::numbers::pi * i / kDirections;
-    Sections(mesh, Vec3d(std::cos(angle), 0.0, std::sin(angle)), step_m)
-        .find_neck(stands_below_m, neck, is_bar);
-  }
+  for (const auto& one : sections) one->find_neck(stands_below_m, neck, is_bar);
   return is_bar ? std::nullopt : neck;
 }
 

@@ -1,6 +1,7 @@
 // What no view saw: decided by what lies around it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/guessed_threads.hpp>
@@ -37,7 +38,7 @@ class HoleClosing {
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
     for (int round = 0; round < kMostExtensions; ++round) {
-      TURNSCAN_TRY(relax(unknown_bricks(), round == 0 ? kFirstRounds : kMoreRounds));
+      TURNSCAN_TRY(relax(bricks_at_surface(), round == 0 ? kFirstRounds : kMoreRounds));
       if (!extend(fill)) break;
     }
     TURNSCAN_TRY(cut_threads());
@@ -194,6 +195,38 @@ class HoleClosing {
     return out;
   }
 
+  /// The bricks with unknown samples in which, or beside which, the sign changes at an unknown
+  /// sample. Elsewhere, as deep in the object, only signs count, and these are known.
+  std::vector<std::size_t> bricks_at_surface() const {
+    std::vector<std::size_t> unknown = unknown_bricks();
+    std::vector<std::uint8_t> changes(unknown.size(), 0), around(v_.brick_count(), 0);
+    parallel_for(unknown.size(), 8,
+                 [&](std::size_t w) { changes[w] = sign_changes(unknown[w]) ? 1 : 0; });
+    for (std::size_t w = 0; w < unknown.size(); ++w)
+      if (changes[w]) mark_around(unknown[w], around);
+    std::erase_if(unknown, [&](std::size_t b) { return around[b] == 0; });
+    return unknown;
+  }
+
+  bool sign_changes(std::size_t b) const {
+    BrickHalo halo;
+    halo.gather(v_, samples_, v_.bricks.coords(b));
+    bool out = false;
+    for_each_in_brick([&](int i, int j, int k) {
+      const std::size_t c = BrickHalo::at(i, j, k);
+      if (out || halo.weight[c] > 0.0f) return;
+      for (const std::size_t other : beside(c))
+        out |= (halo.value[other] < 0.0f) != (halo.value[c] < 0.0f);
+    });
+    return out;
+  }
+
+  /// The samples of a halo beside one of them.
+  static std::array<std::size_t, 6> beside(std::size_t c) {
+    constexpr int kRow = BrickHalo::kWide, kLayer = kRow * kRow;
+    return {c - 1, c + 1, c - kRow, c + kRow, c - kLayer, c + kLayer};
+  }
+
   /// Rounds of Jacobi over what is unknown in some bricks.
   Result<> relax(const std::vector<std::size_t>& work, int rounds) {
     std::vector<float> next(work.size() * kBrickSamples);
@@ -209,7 +242,6 @@ class HoleClosing {
   }
 
   void relax_brick(std::size_t b, float* out) const {
-    constexpr int kRow = BrickHalo::kWide, kLayer = kRow * kRow;
     const float outside = float(v_.truncation_m);
     BrickHalo halo;
     halo.gather(v_, samples_, v_.bricks.coords(b));
@@ -221,7 +253,7 @@ class HoleClosing {
       const std::size_t c = BrickHalo::at(i, j, k);
       const bool mirrors = halo.weight[c] == 0.0f;
       float sum = 0.0f;
-      for (const std::size_t other : {c - 1, c + 1, c - kRow, c + kRow, c - kLayer, c + kLayer})
+      for (const std::size_t other : beside(c))
         sum += mirrors && halo.weight[other] < 0.0f ? value[c] : value[other];
       out[sample_in_brick(i, j, k)] = halo.weight[c] > 0.0f ? halo.value[c] : sum / 6.0f;
     });
@@ -270,12 +302,12 @@ class HoleClosing {
   /// Between rims of what was seen the harmonic function leaves threads and fins.
   Result<> cut_threads() {
     const SampleBits threads = guessed_threads(v_, guessed_, kThreadRadius);
-    std::vector<std::uint8_t> beside(v_.brick_count(), 0);
+    std::vector<std::uint8_t> around(v_.brick_count(), 0);
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
-      if (cut(b, threads.brick(b))) mark_around(b, beside);
+      if (cut(b, threads.brick(b))) mark_around(b, around);
     }
     std::vector<std::size_t> work = unknown_bricks();
-    std::erase_if(work, [&](std::size_t b) { return beside[b] == 0; });
+    std::erase_if(work, [&](std::size_t b) { return around[b] == 0; });
     return relax(work, kMoreRounds);
   }
 

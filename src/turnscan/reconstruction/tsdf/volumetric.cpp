@@ -202,7 +202,8 @@ class VolumetricReconstruction {
 
 voxels::MergedCloud sample_points(const VolumetricInput& input) {
   voxels::MergedCloud out;
-  const std::size_t stride = view_stride(input.views.size(), kSampledViews);
+  const std::size_t stride =
+      view_stride(input.views.size(), views::views_for_statistics(input.views, kSampledViews));
   for (std::size_t v = 0; v < input.views.size(); v += stride) {
     for_each_point(input.views[v], input.cylinder,
                    [&](const Vec3f& p) { out.cloud.points.push_back(p); });

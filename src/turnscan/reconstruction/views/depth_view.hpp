@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/lens.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
@@ -57,6 +58,10 @@ struct DepthView {
   /// Position of the sensor, or direction towards it, in the table frame.
   Viewpoint viewpoint() const;
 };
+
+/// How many of the views, evenly spread, statistics look at: at most `most`, and so many that their
+/// windows have at most 12 million pixels, but four where there are so many.
+std::size_t views_for_statistics(std::span<const DepthView> views, std::size_t most);
 
 /// What makes a view out of a frame.
 struct ViewScale {
