@@ -5,6 +5,7 @@
 #include <turnscan/recording/calibration_file.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/detection/average.hpp>
+#include <turnscan/workflow/calibration/reduced_frames.hpp>
 
 namespace turnscan::workflow {
 
@@ -47,14 +48,15 @@ std::string age_text(const ScanDates& dates) {
 
 Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence& sequence,
                                                             const RunContext& context) {
-  const SequenceHeader& header = sequence.header();
+  const SequenceView reduced = reduced_frames(sequence);
+  const SequenceHeader& header = reduced.header();
   if (!header.turntable || header.sensors.empty() ||
       header.sensors[0].kind != SensorKind::kDepthCamera)
     return std::nullopt;
   Calibration calibration;
   calibration.table = *header.turntable;
   const auto scan =
-      average_frames(sequence, spread_positions(sequence, 0, kFrames), AverageOptions(), context);
+      average_frames(reduced, spread_positions(reduced, 0, kFrames), AverageOptions(), context);
   const auto check =
       scan ? check_rig(*scan, calibration, context) : tl::unexpected<Error>(scan.error());
   if (!check) {

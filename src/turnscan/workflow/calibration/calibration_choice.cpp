@@ -11,6 +11,7 @@
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
+#include <turnscan/workflow/calibration/reduced_frames.hpp>
 
 namespace turnscan {
 
@@ -304,13 +305,14 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
+  const SequenceView reduced = workflow::reduced_frames(sequence);
   PlatterMemory memory;  // it stands where it stood, whatever is asked about the recording
-  if (request.mode == "recorded") return as_recorded(sequence, request, memory, context);
+  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
   if (request.mode == "motion")
-    return from_motion(sequence, request, "--calibration motion was given", memory, context);
-  if (request.mode == "auto") return automatic(sequence, request, memory, context);
+    return from_motion(reduced, request, "--calibration motion was given", memory, context);
+  if (request.mode == "auto") return automatic(reduced, request, memory, context);
   if (const auto way = free_ways().find(request.mode); way != free_ways().end())
-    return by_free_registration(sequence, request, way->second, context);
+    return by_free_registration(reduced, request, way->second, context);
   return fail(ErrorCode::kInvalidOption,
               "--calibration {}: there is no such way; use auto, recorded, motion or a "
               "free registration",

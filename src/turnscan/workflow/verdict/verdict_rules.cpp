@@ -6,6 +6,7 @@
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/finishing/hole_patches.hpp>
 #include <turnscan/reconstruction/quality/thin_walls.hpp>
+#include <turnscan/workflow/calibration/reduced_frames.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/verdict/error_shares.hpp>
 #include <turnscan/workflow/verdict/frame_agreement.hpp>
@@ -356,8 +357,13 @@ std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
 
 Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames>& frames,
                         double noise_m, const RunContext& context, ScanKnowledge& known) {
-  TURNSCAN_ASSIGN(auto residuals, frame_residuals(object, frames, noise_m, context));
-  TURNSCAN_ASSIGN(auto seen, seen_vertices(object.mesh, frames, context));
+  std::vector<SequenceView> sequences;
+  sequences.reserve(frames.size());
+  std::vector<MeshFrames> reduced = frames;
+  for (MeshFrames& of : reduced)
+    of.frames = &sequences.emplace_back(workflow::reduced_frames(*of.frames));
+  TURNSCAN_ASSIGN(auto residuals, frame_residuals(object, reduced, noise_m, context));
+  TURNSCAN_ASSIGN(auto seen, seen_vertices(object.mesh, reduced, context));
   known.residuals.push_back(std::move(residuals));
   known.seen.push_back(std::move(seen));
   return {};
