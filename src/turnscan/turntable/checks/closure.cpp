@@ -19,8 +19,9 @@ using motion::MotionFrame;
 using motion::SurfaceSample;
 
 constexpr std::size_t kMostPairs = 6;
-/// Between frames that show the same view, but for noise.
-constexpr double kSameView = 3.0 / kDegreesPerRadian;
+/// Between frames that show nearly the same view: a wrong axis or speed moves one against the other
+/// by a tenth of what it does half a turn apart, or less.
+constexpr double kSameView = 12.0 / kDegreesPerRadian;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
 
 struct TurnPair {

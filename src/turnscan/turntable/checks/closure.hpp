@@ -15,8 +15,8 @@ struct ClosureError {
                           ///< not show it
   double shift_m = 0.0;   ///< median of sqrt(3) times the root mean square of how far the object's
                           ///< points lie off along their normals
-  double noise_m = 0.0;   ///< the same of frames less than 3 degrees apart, which noise alone sets
-                          ///< apart; 0 where there are none
+  double noise_m = 0.0;   ///< the same of a frame and the next one, less than 12 degrees on, which
+                          ///< hardly more than noise sets apart; 0 where there are none
   std::size_t pairs = 0;  ///< pairs of frames that were compared
   bool bad() const;       ///< over 1.5 mm beyond the noise (squares), or 1 degree
   /// "noise alone makes 0.31 mm", or that it was not measured.
