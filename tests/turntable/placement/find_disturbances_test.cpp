@@ -127,6 +127,17 @@ TEST(FindDisturbances, CorrectsASpeedThatWasStatedWrongly) {
   EXPECT_LT(largest_error(found.T_table_sensor, poses_of(calibrated(rig))), 0.001);
 }
 
+TEST(FindDisturbances, CorrectsASpeedThatWasFarOff) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const testing::Rig rig = turning_rig("letter-a");
+  for (const double factor : {0.82, 1.2}) {
+    const Placement found = found_in(calibrated(rig, factor));
+    ASSERT_EQ(found.disturbances.size(), 1u) << factor;
+    EXPECT_EQ(found.disturbances[0].kind, DisturbanceKind::kSpeed) << found.disturbances[0].text;
+    EXPECT_LT(largest_error(found.T_table_sensor, poses_of(calibrated(rig))), 0.0015);
+  }
+}
+
 TEST(FindDisturbances, LeavesTheSpeedAloneWhereNothingShowsIt) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const testing::Rig rig = turning_rig("cylinder");

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
 #include <turnscan/turntable/placement/model_search.hpp>
 
 namespace turnscan::placement {
@@ -25,6 +26,8 @@ constexpr double kMostMismatch = 1.02;
 constexpr std::size_t kLeastBeside = 5;
 /// How far it must move the object's points.
 constexpr double kLeastSize_m = 0.0005;
+/// Of a speed: beyond this it is looked for before anything else.
+constexpr double kFarOff = 0.08;
 /// A smaller error of the calibration is left alone: a sensor's warped depth looks like one.
 constexpr double kLeastCalibration_m = 0.0015;
 /// No table wobbles by more: what the shape hardly shows, together with another calibration, does.
@@ -69,6 +72,7 @@ class ModelSearch {
 
   Result<Models> run(const PoseGraph& graph) {
     models_ = {model_of(ModelKind::kCalibration)};
+    TURNSCAN_TRY(try_other_speed(graph));
     for (int k = 0; k < kMostRounds; ++k) {
       TURNSCAN_TRY(context_.check());
       TURNSCAN_ASSIGN(const bool found, add_best(graph));
@@ -154,6 +158,28 @@ class ModelSearch {
     double gain = (with.gain - without.gain) / with.spread;
     for (const DisturbanceModel& model : set) gain -= penalty(model);
     return gain;
+  }
+
+  /// Where a speed is far off, frames that are believed to show the same view do not, and say
+  /// nothing sensible; how far free frames turn from one to the next does.
+  Result<> try_other_speed(const PoseGraph& graph) {
+    std::vector<double> faster;
+    for (std::size_t k = 1; k < keyframes_.size(); ++k) {
+      const double believed =
+          turn_between(keyframes_.T_table_sensor[k], keyframes_.T_table_sensor[k - 1]);
+      if (std::abs(believed) > 1e-3)
+        faster.push_back(turn_between(graph.poses[k], graph.poses[k - 1]) / believed - 1.0);
+    }
+    const double most = faster.empty() ? 0.0 : median(faster);
+    if (std::abs(most) < kFarOff) return {};
+    DisturbanceModel model = model_of(ModelKind::kSpeed);
+    std::vector<Models> starts;
+    for (const double way : {-1.0, 1.0}) {
+      model.values[0] = way * most * frames_.scene.turn_rad * frames_.scene.lever_m;
+      starts.push_back({model});
+    }
+    TURNSCAN_ASSIGN([[maybe_unused]] const bool found, keep_better(starts));
+    return {};
   }
 
   /// Adds the disturbance that explains most, if any is clear, and improves all. Whether it did.
