@@ -18,11 +18,24 @@ constexpr AdjustEffort kTrial{4000, 10};
 /// above 0.99, and the preferences below 4.
 constexpr double kGuess = 0.975, kMaybe = 0.9, kSure = 5.0;
 
+/// What is alike from several sides may overlap most where it does not lie: a motion under which
+/// half as much agrees, as closely, and as little contradicts, is no worse. Of a knot that is alike
+/// from six sides the other five had more than 0.8, up to 1.3, and nothing; the next best 0.35, 6,
+/// and contradicted more than it agreed.
+constexpr double kHalf = 0.5, kAsClosely = 1.5, kHardly = 0.003;
+
+bool fits_as_closely(const Agreement& best, const Agreement& other) {
+  return other.agreeing_m2 > kHalf * best.agreeing_m2 && other.rms_m < kAsClosely * best.rms_m &&
+         other.against_m2 * best.agreeing_m2 <
+             (best.against_m2 + kHardly * best.agreeing_m2) * other.agreeing_m2;
+}
+
 bool rivals(const PreparedPass& a, const PreparedPass& b, const CandidateMotion& best,
             const CandidateMotion& other) {
   const double share = other.agreement.score_m2 / best.agreement.score_m2;
-  return share > kGuess || (share > kMaybe && preference(a, b, best.T_a_b, other.T_a_b,
-                                                         agreement_tolerance_m(a, b)) < kSure);
+  return share > kGuess || fits_as_closely(best.agreement, other.agreement) ||
+         (share > kMaybe &&
+          preference(a, b, best.T_a_b, other.T_a_b, agreement_tolerance_m(a, b)) < kSure);
 }
 
 /// Share of the differences of colour that a motion has to explain; of a ball with a few patches
