@@ -96,8 +96,8 @@ TEST(JoinPasses, AVaseWithAKnobIsJoinedThoughMostOfItIsRound) {
 
 TEST(JoinPasses, WhatIsAlikeFromBehindIsNotJoinedWhereItOverlapsMost) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
-  // Half a turn about x leaves it as it is. Tipped by 75 degrees, as much more of it overlaps where
-  // it lies as, tipped by 105, where it does not.
+  // Half a turn about x leaves it as it is. Tipped by 75 degrees it overlaps most where it lies,
+  // tipped by 105 degrees where it does not.
   const auto alike = [](const Vec3d& d) {
     const double square = d.y() * d.y(), mixed = d.y() * d.z();
     return 0.06 + 0.012 * std::sin(3.1 * d.x() + 1.0) +

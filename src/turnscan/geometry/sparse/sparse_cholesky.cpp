@@ -1,7 +1,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/sparse/supernodes.hpp>
 
@@ -26,11 +25,9 @@ class Factorization {
 
   Result<> factorize() {
     const std::vector<int> roots = subtree_roots();
-    std::vector<std::uint8_t> done(panels_.size(), 0);
-    for (const int root : roots) mark_subtree(root, done);
     parallel_for(roots.size(), 1, [&](std::size_t k) { eliminate_subtree(roots[k]); });
     for (std::size_t s = 0; s < panels_.size(); ++s)
-      if (done[s] == 0) eliminate(int(s));
+      if (panels_[s].size() == 0) eliminate(int(s));
     TURNSCAN_TRY(context_.check());
     if (indefinite_)
       return fail(ErrorCode::kLibrary, "sparse system: not positive definite; check the mesh");
@@ -76,15 +73,6 @@ class Factorization {
         out.push_back(int(s));
     }
     return out;
-  }
-
-  void mark_subtree(int root, std::vector<std::uint8_t>& marks) const {
-    std::vector<int> queue(1, root);
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      marks[std::size_t(queue[i])] = 1;
-      const auto& children = symbolic_.supernodes[std::size_t(queue[i])].children;
-      queue.insert(queue.end(), children.begin(), children.end());
-    }
   }
 
   /// A subtree is consecutive, and ends with its root.

@@ -204,8 +204,13 @@ class HoleClosing {
                  [&](std::size_t w) { changes[w] = sign_changes(unknown[w]) ? 1 : 0; });
     for (std::size_t w = 0; w < unknown.size(); ++w)
       if (changes[w]) mark_around(unknown[w], around);
-    std::erase_if(unknown, [&](std::size_t b) { return around[b] == 0; });
-    return unknown;
+    return marked(std::move(unknown), around);
+  }
+
+  static std::vector<std::size_t> marked(std::vector<std::size_t> bricks,
+                                         const std::vector<std::uint8_t>& marks) {
+    std::erase_if(bricks, [&](std::size_t b) { return marks[b] == 0; });
+    return bricks;
   }
 
   bool sign_changes(std::size_t b) const {
@@ -306,9 +311,7 @@ class HoleClosing {
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
       if (cut(b, threads.brick(b))) mark_around(b, around);
     }
-    std::vector<std::size_t> work = unknown_bricks();
-    std::erase_if(work, [&](std::size_t b) { return around[b] == 0; });
-    return relax(work, kMoreRounds);
+    return relax(marked(unknown_bricks(), around), kMoreRounds);
   }
 
   /// Makes samples of a brick outside for good. Whether there were any.

@@ -45,8 +45,9 @@ double penalty_of(const DisturbanceModel& model) {
 }
 
 double penalty_here(const DisturbanceModel& model) {
-  if (model.kind == ModelKind::kWobble) return kClearWobbleHere;
-  return kGainPerUnknownHere * double(unknowns_of(model.kind)) + kClearGainHere;
+  return model.kind == ModelKind::kWobble
+             ? kClearWobbleHere
+             : kGainPerUnknownHere * double(unknowns_of(model.kind)) + kClearGainHere;
 }
 
 DisturbanceModel model_of(ModelKind kind, std::size_t first = 0, std::size_t last = 0,
@@ -178,7 +179,7 @@ class ModelSearch {
       model.values[0] = way * most * frames_.scene.turn_rad * frames_.scene.lever_m;
       starts.push_back({model});
     }
-    TURNSCAN_ASSIGN([[maybe_unused]] const bool found, keep_better(starts));
+    TURNSCAN_TRY(keep_better(starts));
     return {};
   }
 
