@@ -26,6 +26,12 @@ TEST(Volumetric, IsFarBelowTheNoiseOfTheSensor) {
   EXPECT_LT(median_error_to_ball(result->objects[0].mesh), 0.00025);
 }
 
+TEST(Volumetric, NoViewsHaveNoPoints) {
+  const auto points = sample_points(VolumetricInput());
+  EXPECT_EQ(points.cloud.size(), 0u);
+  EXPECT_TRUE(points.viewpoints.empty());
+}
+
 TEST(Volumetric, FlyingPixelsLeaveNothingBehind) {
   const auto result = reconstruct(scan(ball, {40, 0.001, 0.5}), volumetric(), {}, RunContext());
   ASSERT_TRUE(result) << result.error().text();

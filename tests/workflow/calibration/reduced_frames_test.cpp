@@ -58,7 +58,8 @@ TEST(ReducedFrames, HaveAtMost1600000Pixels) {
   for (const auto& [width, height] :
        {std::pair(1600, 1000), {1601, 1000}, {4000, 3000}, {9000, 1}}) {
     const auto images = one_image(width, height);
-    const auto& camera = workflow::reduced_frames(images).header().sensors[0].intrinsics;
+    const SequenceView view = workflow::reduced_frames(images);
+    const auto& camera = view.header().sensors[0].intrinsics;
     EXPECT_LE(double(camera.width) * camera.height, 1.61e6);
     EXPECT_GE(double(camera.width) * camera.height, std::min(double(width) * height, 0.4e6));
   }

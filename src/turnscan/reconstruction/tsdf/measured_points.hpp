@@ -33,9 +33,9 @@ void for_each_point(const views::DepthView& view, const std::optional<Cylinder>&
 Box measured_box(std::span<const views::DepthView> views, const std::optional<Cylinder>& cylinder,
                  std::size_t most_views = std::numeric_limits<std::size_t>::max());
 
-/// Distance between views of which about most_views are looked at.
+/// Distance between views of which about most_views, at least one, are looked at.
 inline std::size_t view_stride(std::size_t views, std::size_t most_views) {
-  return std::max<std::size_t>(1, views / most_views);
+  return std::max<std::size_t>(1, views / std::max<std::size_t>(1, most_views));
 }
 
 }  // namespace turnscan::tsdf
