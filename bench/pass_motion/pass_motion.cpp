@@ -69,6 +69,8 @@ Result<std::vector<Pass>> read_passes(const std::filesystem::path& folder) {
     pass.surface = passes::measured_surface(made.objects.at(0));
     pass.surface.views = passes::SharedViews(made.seen, &made.seen->views);
     pass.surface.noise_m = made.seen->noise_m;
+    pass.surface.spacing_m = made.seen->spacing_m;
+    pass.surface.filtered = made.seen->filtered;
     pass.surface.floor_m = made.seen->floor_m;
     pass.T_table_object = truth[k];
   }

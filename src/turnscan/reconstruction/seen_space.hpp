@@ -12,6 +12,8 @@ struct SeenSpace {
   std::vector<views::DepthView> views;  ///< up to so many, evenly spread
   std::optional<double> floor_m;        ///< height of the platter, where there is one
   double noise_m = 0.0;                 ///< of a depth along its ray
+  double spacing_m = 0.0;               ///< of the points of one frame
+  bool filtered = false;                ///< the sensor averages over its pixels (sensor_filter.hpp)
 };
 
 }  // namespace turnscan

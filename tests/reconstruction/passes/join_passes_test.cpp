@@ -300,6 +300,18 @@ TEST(JoinPasses, StatedDeviationsAreThoseOfRepeatedScans) {
   EXPECT_LT(sum / double(kScans), 12.0);
 }
 
+TEST(JoinPasses, WhatASensorFiltersIsLessCertain) {
+  Scene scene(lumpy_radius, {tipped(0, 0), tipped(90, 70)});
+  for (PassSurface& surface : scene.surfaces) surface.spacing_m = 0.004;
+  const PassMotion sharp = join(scene.surfaces)[1];
+  for (PassSurface& surface : scene.surfaces) surface.filtered = true;
+  const PassMotion filtered = join(scene.surfaces)[1];
+  ASSERT_TRUE(sharp.joined && filtered.joined);
+  EXPECT_GT(filtered.sigma_m, 1.5 * sharp.sigma_m);
+  EXPECT_GT(filtered.sigma_rad, 1.5 * sharp.sigma_rad);
+  EXPECT_LT((filtered.T_first_pass.matrix() - sharp.T_first_pass.matrix()).norm(), 1e-12);
+}
+
 TEST(JoinPasses, TheBytesDoNotDependOnTheNumberOfThreads) {
   const Scene scene(lumpy_radius, {tipped(0, 0), tipped(120, 50)});
   set_thread_count(1);

@@ -21,6 +21,11 @@ constexpr double kBlock = 0.012;
 /// share of a depth's noise; and turned, by another share at its rms distance from the axis of the
 /// turn. From simulated scans.
 constexpr double kRaised = 0.018, kTilted = 0.0045;
+/// What a sensor's own filter does to a curved surface is alike in all frames of a pass, too: of
+/// the square of the distance between pixels over the object's extent, that it is turned by at its
+/// rms distance from the axis of the turn, and shifted by in each direction. From simulated scans
+/// with a Kinect v2's physics (bench/pass_motion).
+constexpr double kFilterTilted = 1.7, kFilterShifted = 0.7;
 constexpr std::size_t kFewestPairs = 50;
 constexpr double kLeastColorSigma = 0.02;
 
@@ -81,16 +86,20 @@ class JointAdjustment {
   }
 
  private:
-  /// Adds what each pass is raised and tilted by. That moves it; what moves the first moves all
+  /// Adds what each pass is shifted and tilted by. That moves it; what moves the first moves all
   /// others against it.
   void add_systematic(Eigen::MatrixXd& covariance) const {
     for (std::size_t k = 0; k < passes_.size(); ++k) {
-      const double raised = kRaised * passes_[k]->surface->noise_m;
-      const double tilted = kTilted * passes_[k]->surface->noise_m;
+      const PassSurface& surface = *passes_[k]->surface;
+      const double bending_m =
+          surface.filtered ? surface.spacing_m * surface.spacing_m / passes_[k]->extent_m : 0.0;
+      const double raised = kRaised * surface.noise_m, shifted = kFilterShifted * bending_m;
+      const double tilted = std::hypot(kTilted * surface.noise_m, kFilterTilted * bending_m);
       const Vec3d up = out_.T_first_pass[k].linear().col(1);
       Matrix6 own = Matrix6::Zero();
       own.topLeftCorner<3, 3>() = tilted * tilted * squared_levers(k).inverse();
-      own.bottomRightCorner<3, 3>() = raised * raised * up * up.transpose();
+      own.bottomRightCorner<3, 3>() =
+          raised * raised * up * up.transpose() + shifted * shifted * Eigen::Matrix3d::Identity();
       for (Eigen::Index i = 0; i < covariance.rows(); i += 6) {
         for (Eigen::Index j = 0; j < covariance.rows(); j += 6)
           if (k == 0 || (i == j && i == Eigen::Index(6 * (k - 1))))

@@ -24,6 +24,8 @@ struct PassSurface {
   SharedViews views;              ///< some or all of the pass; may be none
   std::optional<double> floor_m;  ///< height below which there is only the platter
   double noise_m = 0.0015;        ///< of a depth along its ray
+  double spacing_m = 0.0;         ///< of the points of one frame
+  bool filtered = false;          ///< the sensor averages over its pixels
 };
 
 /// Fails with kTooFewPoints when it has fewer than 200 points; throws std::invalid_argument when

@@ -41,6 +41,8 @@ void UnitedPass::add(const PreparedPass& pass, const Pose& T_here_pass) {
     surface_->weights.push_back(from.weights[i]);
   }
   surface_->noise_m = std::max(surface_->noise_m, from.noise_m);
+  surface_->spacing_m = std::max(surface_->spacing_m, from.spacing_m);
+  surface_->filtered = surface_->filtered || from.filtered;
 }
 
 }  // namespace turnscan::passes

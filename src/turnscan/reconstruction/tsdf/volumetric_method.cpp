@@ -101,7 +101,7 @@ class VolumetricMethod final : public Method {
   Result<> add_view(views::DepthView view, std::uint32_t sensor, const RunContext& context);
   Result<> integrate_pending(bool all, const RunContext& context);
   Result<> correct_noise(Reconstruction& out, const RunContext& context);
-  std::shared_ptr<const SeenSpace> seen_space() const;
+  std::shared_ptr<const SeenSpace> seen_space(bool filtered) const;
 
   const SequenceHeader& header_;
   const ReconstructOptions& options_;
@@ -333,12 +333,14 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   return isosurface(grid, IsosurfaceOptions(), context);
 }
 
-std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space() const {
+std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space(bool filtered) const {
   auto seen = std::make_shared<SeenSpace>();
   const std::size_t count = input_.views.size(), most = std::min(count, SeenSpace::kMostViews);
   for (std::size_t i = 0; i < most; ++i) seen->views.push_back(input_.views[i * count / most]);
   if (pass_.cylinder && pass_.cylinder->margin_m > 0.0) seen->floor_m = 0.0;
   seen->noise_m = noise_m_;
+  seen->spacing_m = input_.spacing_m;
+  seen->filtered = filtered;
   return seen;
 }
 
@@ -382,7 +384,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                          object.mesh.vertices.end());
     fitted.weights.insert(fitted.weights.end(), piece.support.begin(), piece.support.end());
   }
-  if (options_.for_placing) out.seen = seen_space();
+  if (options_.for_placing) out.seen = seen_space(result.filter_share > 0.0);
   return sink ? sink("fitted", fitted) : Result<>();
 }
 

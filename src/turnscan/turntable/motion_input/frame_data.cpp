@@ -109,7 +109,11 @@ class FrameLoader {
     DepthForeground depth = extract_foreground(raw.depth, sequence_.header().sensors.front(),
                                                data_.camera, rays_, foreground_);
     drop_mixed_pixels(depth, fx, noise);
-    if (data_.correlated_noise) drop_outline(depth, fx, noise);
+    if (data_.correlated_noise) {
+      const auto before = double(depth.pixels.size());
+      drop_outline(depth, fx, noise);
+      frame.inner_share = double(depth.pixels.size()) / std::max(before, 1.0);
+    }
     frame.raw_surface = raw_surface(depth);
     if (!data_.correlated_noise) mark_inner(frame.raw_surface, fx, noise);
     smooth_depth(depth, fx, noise);
@@ -157,6 +161,9 @@ class FrameLoader {
       count += 1.0;
     }
     data_.middle /= count;
+    data_.inner_share = 0.0;
+    for (const MotionFrame& frame : data_.frames)
+      data_.inner_share += frame.inner_share / double(data_.frames.size());
     double squares = 0.0;
     for (const Vec3f& p : data_.cloud) squares += (p.cast<double>() - data_.middle).squaredNorm();
     data_.extent_m = std::max(0.005, 2.0 * std::sqrt(squares / count));

@@ -38,6 +38,7 @@ struct MotionFrame {
   std::vector<SurfaceSample> samples;
   FrameSurface surface;      ///< smoothed; empty unless a key frame
   FrameSurface raw_surface;  ///< of depth images: not smoothed, without mixed pixels
+  double inner_share = 1.0;  ///< of the foreground's pixels, those that drop_outline() leaves
 };
 
 struct MotionData {
@@ -49,6 +50,8 @@ struct MotionData {
   /// Neighbouring pixels share noise (SpatialNoise): surfaces have no outlines then, where such a
   /// sensor mixes what it sees.
   bool correlated_noise = false;
+  /// Mean of the frames; 1 where surfaces keep their outlines.
+  double inner_share = 1.0;
   double spacing_m = 0.0;  ///< between neighbouring pixels on the object
   std::optional<DetectedPlatter> platter;
   Vec3d middle = Vec3d::Zero();       ///< of the foreground's points

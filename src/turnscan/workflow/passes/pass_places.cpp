@@ -99,6 +99,8 @@ Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOpt
     surface.views = views;
     surface.floor_m = r.seen->floor_m;
     surface.noise_m = r.seen->noise_m;
+    surface.spacing_m = r.seen->spacing_m;
+    surface.filtered = r.seen->filtered;
     out.objects.push_back(std::move(surface));
     meshes.push_back(&object.mesh);
   }
