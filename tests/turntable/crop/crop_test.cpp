@@ -94,6 +94,17 @@ TEST(MeasurePlatter, TakesFeetAndWallsForNoPlatter) {
   }
 }
 
+TEST(MeasurePlatter, TakesAnObjectThatWidensUpwardsForNoPlatter) {
+  std::vector<Vec3f> body;
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    const double up = std::sqrt(std::sqrt(uniform01(hash_key(13, i))));
+    body.emplace_back(0.05f, float(-0.015 + 0.05 * up), 0.0f);
+  }
+  const PlatterReturns returns = measure_platter(body, 0.2);
+  EXPECT_GT(returns.dense_share, 0.25);
+  EXPECT_FALSE(returns.plane()) << returns.height_m << " " << returns.sigma_m;
+}
+
 TEST(MeasurePlatter, TakesANoisyPlatterForAPlane) {
   std::vector<Vec3f> points;
   for (std::uint64_t i = 0; i < 5000; ++i)

@@ -205,6 +205,19 @@ TEST(JudgeObjects, LetFewFramesThatDisagreeBeOutvoted) {
   EXPECT_EQ(apart->level, Level::kGood) << apart->text;
 }
 
+TEST(JudgeObjects, CallBadWhatManyFramesSeeElsewhere) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  known.residuals.resize(1);
+  for (std::uint32_t i = 0; i < 39; ++i)
+    known.residuals[0].push_back(residual(i, i < 11 ? 0.004 : 0.0001));
+  judge_objects(run, known);
+  const VerdictSentence* apart = sentence(*run.objects[0].verdict, "apart");
+  ASSERT_NE(apart, nullptr);
+  EXPECT_EQ(apart->level, Level::kBad) << apart->text;
+  EXPECT_EQ(run.objects[0].verdict->colour(), "red");
+}
+
 TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
   Reconstruction run = sheet();
   ObjectResult& object = run.objects[0];

@@ -84,7 +84,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
     margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
     reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
                          mm(platter.height_m), mm(platter.sigma_m));
-  } else if (platter.count > 0) {
+  } else if (!known) {
     margin = -std::max(0.005, 4.0 * estimate.noise_m);
     reason = "no platter is seen, so that nothing is cropped below";
   }

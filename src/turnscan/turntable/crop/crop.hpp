@@ -1,6 +1,7 @@
 #pragma once
 // Keep what stands on the platter: the cylinder above it (thesis eq. 3.5 to 3.7, algorithm 2).
 
+#include <cmath>
 #include <optional>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/option_table.hpp>
@@ -68,8 +69,12 @@ struct PlatterReturns {
   double sigma_m = 0.0;      ///< robust standard deviation of their height
   double dense_share = 0.0;  ///< of the returns that lie in the 3 mm that hold most of them
   /// Whether they lie in a plane. Without a platter, what is seen at its height are the object's
-  /// own feet and walls: of what is spread evenly over 15 mm or more, 3 mm hold a fifth at most.
-  bool plane() const { return dense_share > 0.25; }
+  /// own feet and walls. Of what is spread evenly over 15 mm or more, 3 mm hold a fifth at most,
+  /// and its spread is 5 mm or more; where an object widens upwards, most returns lie at the upper
+  /// end.
+  bool plane() const {
+    return dense_share > 0.25 && sigma_m < 0.0045 && std::abs(height_m) < 0.0115;
+  }
 };
 
 /// Measures them on points in the table frame. The lower half of their distribution decides, so

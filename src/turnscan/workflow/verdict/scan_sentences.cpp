@@ -10,6 +10,9 @@ constexpr double kHalfTurn = 0.5;
 constexpr double kFewDropped = 0.5;
 /// Frames that disagree by more, beyond what their noise explains, blur the mesh.
 constexpr double kAgreed_m = 0.001;
+/// Share of the frames that may lie elsewhere than the rest: they are outvoted, since enough others
+/// see the same surface.
+constexpr double kOutvoted = 0.1;
 
 void say_found(const Calibration& found, Sentences& out) {
   const bool open = !found.undetermined.empty();
@@ -131,8 +134,12 @@ void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) 
   if (a.apart.empty()) return;
   std::size_t count = 0;
   for (const FramesApart& apart : a.apart) count += apart.last - apart.first + 1;
-  // A few among many that agree are outvoted.
-  out.push_back({"apart", agree ? Level::kGood : Level::kFair,
+  // A few among many that agree are outvoted; many show a surface of their own.
+  const bool many = double(count) > kOutvoted * double(a.frames);
+  out.push_back({"apart",
+                 many    ? Level::kBad
+                 : agree ? Level::kGood
+                         : Level::kFair,
                  fmt::format("{} of {} frames lie elsewhere than the rest: {}", count, a.frames,
                              frames_apart_text(a, residuals)),
                  double(count), "frames"});
