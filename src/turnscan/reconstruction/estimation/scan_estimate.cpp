@@ -64,7 +64,8 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   const std::optional<double> known = known_radius(header, crop);
   const std::optional<double> calibrated = calibrated_radius(header, crop);
   const PlatterReturns platter = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
-  const auto found = calibrated ? calibrated : find_platter_radius(sample, platter);
+  const auto found =
+      calibrated ? calibrated : find_platter_radius(sample, platter, estimate.noise_m);
   if (found) {
     estimate.choices.push_back({"crop-radius", mm(*found),
                                 crop.radius_m ? "given"
@@ -80,7 +81,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   double margin = std::max(0.002, 4.0 * estimate.noise_m);
   std::string reason = fmt::format("4 times the sensor's noise of {}", mm(estimate.noise_m));
   // A calibration that knows the radius has seen a platter.
-  if (platter.count > 0 && (known || platter.plane())) {
+  if (platter.count > 0 && (known || platter.plane(estimate.noise_m))) {
     margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
     reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
                          mm(platter.height_m), mm(platter.sigma_m));
