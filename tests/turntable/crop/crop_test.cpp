@@ -89,8 +89,8 @@ TEST(MeasurePlatter, TakesFeetAndWallsForNoPlatter) {
       walls.emplace_back(0.05f, float(lowest_m + 0.08 * uniform01(hash_key(11, i))), 0.0f);
     const PlatterReturns returns = measure_platter(walls, 0.2);
     EXPECT_GT(returns.count, 0u);
-    EXPECT_FALSE(returns.plane(0.0015)) << returns.dense_share;
-    EXPECT_FALSE(find_platter_radius(walls, returns, 0.0015));
+    EXPECT_FALSE(returns.plane()) << returns.dense_share;
+    EXPECT_FALSE(find_platter_radius(walls, returns));
   }
 }
 
@@ -102,7 +102,7 @@ TEST(MeasurePlatter, TakesAnObjectThatWidensUpwardsForNoPlatter) {
   }
   const PlatterReturns returns = measure_platter(body, 0.2);
   EXPECT_GT(returns.dense_share, 0.25);
-  EXPECT_FALSE(returns.plane(0.0015)) << returns.height_m << " " << returns.sigma_m;
+  EXPECT_FALSE(returns.plane()) << returns.height_m << " " << returns.sigma_m;
 }
 
 TEST(MeasurePlatter, TakesAWideObjectThatIsCurvedForNoPlatter) {
@@ -111,14 +111,15 @@ TEST(MeasurePlatter, TakesAWideObjectThatIsCurvedForNoPlatter) {
     body.emplace_back(0.05f, float(0.007 + 0.0035 * standard_normal(hash_key(14, i))), 0.0f);
   const PlatterReturns returns = measure_platter(body, 0.2);
   EXPECT_GT(returns.dense_share, 0.25);
-  EXPECT_FALSE(returns.plane(0.0015)) << returns.sigma_m;
+  EXPECT_FALSE(returns.plane(0.002)) << returns.sigma_m;
+  EXPECT_TRUE(returns.plane()) << "a platter that a distant sensor sees as thick";
 }
 
 TEST(MeasurePlatter, TakesANoisyPlatterForAPlane) {
   std::vector<Vec3f> points;
   for (std::uint64_t i = 0; i < 5000; ++i)
     points.emplace_back(0.05f, float(0.003 * standard_normal(hash_key(12, i))), 0.0f);
-  EXPECT_TRUE(measure_platter(points, 0.2).plane(0.003));
+  EXPECT_TRUE(measure_platter(points, 0.2).plane());
 }
 
 /// A platter of 12 cm on a table that lies 2 cm lower.
@@ -134,13 +135,13 @@ std::vector<Vec3f> platter_on_a_table() {
 
 TEST(FindPlatterRadius, FindsWhereThePlatterEnds) {
   const auto points = platter_on_a_table();
-  const auto radius = find_platter_radius(points, measure_platter(points, 0.5), 0.0005);
+  const auto radius = find_platter_radius(points, measure_platter(points, 0.5));
   ASSERT_TRUE(radius);
   EXPECT_NEAR(*radius, 0.12, 0.005);
 }
 
 TEST(FindPlatterRadius, RefusesToGuessWithoutReturns) {
-  EXPECT_FALSE(find_platter_radius({}, PlatterReturns(), 0.001));
+  EXPECT_FALSE(find_platter_radius({}, PlatterReturns()));
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
 /// Cells in which the object's points hang together, in distances between the points of a frame.
 constexpr double kCellSpacings = 3.0;
+/// How far a plane leaves y = 0 that is tilted as a calibration from motion may be.
+constexpr double kTilt_m = 0.0005;
 /// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
 constexpr double kBeyondReach = 1.25, kBeyondReach_m = 0.015;
 
@@ -64,8 +66,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   const std::optional<double> known = known_radius(header, crop);
   const std::optional<double> calibrated = calibrated_radius(header, crop);
   const PlatterReturns platter = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
-  const auto found =
-      calibrated ? calibrated : find_platter_radius(sample, platter, estimate.noise_m);
+  const auto found = calibrated ? calibrated : find_platter_radius(sample, platter);
   if (found) {
     estimate.choices.push_back({"crop-radius", mm(*found),
                                 crop.radius_m ? "given"
@@ -80,8 +81,10 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
   cylinder.radius_m = found.value_or(1e3);
   double margin = std::max(0.002, 4.0 * estimate.noise_m);
   std::string reason = fmt::format("4 times the sensor's noise of {}", mm(estimate.noise_m));
-  // A calibration that knows the radius has seen a platter.
-  if (platter.count > 0 && (known || platter.plane(estimate.noise_m))) {
+  // A calibration that knows the radius has seen a platter; one that knows a reach looked for it in
+  // vain, and only what is as thin as the noise proves the opposite.
+  const bool plane = calibrated ? platter.plane(estimate.noise_m + kTilt_m) : platter.plane();
+  if (platter.count > 0 && (known || plane)) {
     margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
     reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
                          mm(platter.height_m), mm(platter.sigma_m));

@@ -62,11 +62,11 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
 }
 
 std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
-                                          const PlatterReturns& platter, double noise_m) {
+                                          const PlatterReturns& platter) {
   constexpr double kRing = 0.004;
   constexpr std::size_t kRings = 150;
   constexpr double kLeastDensity = 2e4;  // returns per square metre: one in 50 mm^2
-  if (!platter.plane(noise_m)) return std::nullopt;
+  if (!platter.plane()) return std::nullopt;
   std::vector<double> density(kRings, 0.0);
   const double band = std::max(4.0 * platter.sigma_m, 0.001);
   for (const Vec3f& p : p_table) {

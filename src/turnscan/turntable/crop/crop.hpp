@@ -68,12 +68,11 @@ struct PlatterReturns {
   double height_m = 0.0;     ///< their median height
   double sigma_m = 0.0;      ///< robust standard deviation of their height
   double dense_share = 0.0;  ///< of the returns that lie in the 3 mm that hold most of them
-  /// Whether they lie in a plane, within what a depth's noise and half a millimetre of tilt
-  /// explain. Without a platter, what is seen at its height are the object's own feet and walls. Of
-  /// what is spread evenly over 15 mm or more, 3 mm hold a fifth at most; where an object widens
-  /// upwards, most returns lie at the upper end.
-  bool plane(double noise_m) const {
-    return dense_share > 0.25 && sigma_m < noise_m + 0.0005 && std::abs(height_m) < 0.0115;
+  /// Whether they lie in a plane. Without a platter, what is seen at its height are the object's
+  /// own feet and walls. Of what is spread evenly over 15 mm or more, 3 mm hold a fifth at most;
+  /// where an object widens upwards, most returns lie at the upper end.
+  bool plane(double most_sigma_m = 0.0045) const {
+    return dense_share > 0.25 && sigma_m < most_sigma_m && std::abs(height_m) < 0.0115;
   }
 };
 
@@ -85,8 +84,7 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
 /// densest, the first ring with less than 0.3 times that density. p_table must hold whole frames
 /// (not cropped), spread over a turn. nullopt where they do not end within 0.6 m, e.g. on a plane
 /// that goes on beyond the platter, where there are too few, or where they lie in no plane.
-/// noise_m: of a depth along its ray.
 std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
-                                          const PlatterReturns& platter, double noise_m);
+                                          const PlatterReturns& platter);
 
 }  // namespace turnscan
