@@ -15,7 +15,6 @@
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/recording/recording.hpp>
 
 namespace {
@@ -66,12 +65,7 @@ Result<std::vector<Pass>> read_passes(const std::filesystem::path& folder) {
     options.for_placing = true;
     TURNSCAN_ASSIGN(const Reconstruction made, reconstruct(recording, options, {}, {}));
     Pass& pass = out.emplace_back();
-    pass.surface = passes::measured_surface(made.objects.at(0));
-    pass.surface.views = passes::SharedViews(made.seen, &made.seen->views);
-    pass.surface.noise_m = made.seen->noise_m;
-    pass.surface.spacing_m = made.seen->spacing_m;
-    pass.surface.filtered = made.seen->filtered;
-    pass.surface.floor_m = made.seen->floor_m;
+    pass.surface = passes::measured_surface(made.objects.at(0), made.seen);
     pass.T_table_object = truth[k];
   }
   return out;

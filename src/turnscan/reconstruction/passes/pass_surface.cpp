@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
+#include <turnscan/reconstruction/seen_space.hpp>
 
 namespace turnscan::passes {
 
@@ -69,6 +70,17 @@ PassSurface measured_surface(const ObjectResult& object) {
     out.areas.push_back(areas[v]);
     out.weights.push_back(object.confidence.empty() ? 1.0f : object.confidence[v]);
   }
+  return out;
+}
+
+PassSurface measured_surface(const ObjectResult& object,
+                             const std::shared_ptr<const SeenSpace>& seen) {
+  PassSurface out = measured_surface(object);
+  out.views = SharedViews(seen, &seen->views);
+  out.floor_m = seen->floor_m;
+  out.noise_m = seen->noise_m;
+  out.spacing_m = seen->spacing_m;
+  out.filtered = seen->filtered;
   return out;
 }
 

@@ -35,5 +35,8 @@ Result<> check_surface(const PassSurface& surface);
 /// The vertices of a reconstructed object that were measured and lie at least two edges away from
 /// what was not. Without views, floor and noise.
 PassSurface measured_surface(const ObjectResult& object);
+/// With them, from what its reconstruction for placing saw (Reconstruction::seen).
+PassSurface measured_surface(const ObjectResult& object,
+                             const std::shared_ptr<const SeenSpace>& seen);
 
 }  // namespace turnscan::passes

@@ -10,7 +10,6 @@
 #include <turnscan/reconstruction/passes/motion_refinement.hpp>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/workflow/passes/pass_colors.hpp>
 
 namespace turnscan {
@@ -89,18 +88,12 @@ Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOpt
   TURNSCAN_ASSIGN(const JoinedFrames all, JoinedFrames::create({pass.frames}));
   const SequenceView frames(all, images_for_placing(all));
   TURNSCAN_ASSIGN(const Reconstruction r, reconstruct(frames, for_surface(options), {}, context));
-  const passes::SharedViews views(r.seen, &r.seen->views);
   MeasuredTable out;
   std::vector<const TriangleMesh*> meshes;
   for (const ObjectResult& object : r.objects) {
     if (surface_area(object.mesh) < kCrumbShare * surface_area(r.objects[0].mesh)) continue;
-    PassSurface surface = passes::measured_surface(object);
+    PassSurface surface = passes::measured_surface(object, r.seen);
     if (surface.points.size() < kFewestPoints) continue;
-    surface.views = views;
-    surface.floor_m = r.seen->floor_m;
-    surface.noise_m = r.seen->noise_m;
-    surface.spacing_m = r.seen->spacing_m;
-    surface.filtered = r.seen->filtered;
     out.objects.push_back(std::move(surface));
     meshes.push_back(&object.mesh);
   }
