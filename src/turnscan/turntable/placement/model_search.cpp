@@ -12,8 +12,10 @@ namespace {
 constexpr int kMostRounds = 4;
 /// What a model must explain, in chi square, of where the frames end up when they are left free.
 constexpr double kClearGain = 100.0, kGainPerUnknown = 6.0;
-/// And of where they are: frames that overlap in little more than edges end up anywhere.
-constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 3.0;
+/// And of where they are: frames that overlap in little more than edges end up anywhere. A step of
+/// 0.7 to 3 mm explains 130 or more, one that seems to be there in an undisturbed recording up
+/// to 60.
+constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 10.0;
 /// A wobble comes back with every turn and is seen by all frames; by its many unknowns it would
 /// have to explain more than there is under a sensor's own errors. In undisturbed recordings
 /// wobbles seem to explain up to 27 freely, and 19 where frames are.
