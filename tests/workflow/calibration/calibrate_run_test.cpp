@@ -122,6 +122,41 @@ TEST(CalibrationChoiceOf, AutoMovesFramesBackAndRecordedOnlySaysWhatHappened) {
   EXPECT_NE(recorded->note.find("nothing was corrected"), std::string::npos) << recorded->note;
 }
 
+/// Every pixel as 3 x 3 of them: so many that checks look at every other one.
+SequenceView with_more_pixels(const FrameSequence& recording) {
+  constexpr int kTimes = 3;
+  SequenceView out(recording);
+  SequenceHeader header = recording.header();
+  CameraIntrinsics& camera = header.sensors[0].intrinsics;
+  camera.width *= kTimes, camera.height *= kTimes;
+  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value *= kTimes;
+  camera.cx += 1.0, camera.cy += 1.0;  // of the middle one
+  out.set_header(header);
+  out.set_map([](Frame frame, std::size_t) -> Result<Frame> {
+    DepthImage depth(kTimes * frame.depth.width, kTimes * frame.depth.height);
+    for (int y = 0; y < depth.height; ++y)
+      for (int x = 0; x < depth.width; ++x) depth.at(x, y) = frame.depth.at(x / kTimes, y / kTimes);
+    frame.depth = std::move(depth);
+    return frame;
+  });
+  return out;
+}
+
+TEST(CalibrationChoiceOf, WhatCoarseFramesShowIsLookedAtInFinerOnes) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const MovedLetter still(40, 40), moved(40, 22);
+  const SequenceView large = with_more_pixels(still), disturbed = with_more_pixels(moved);
+  const auto sound = choose_calibration(large, {"auto", {}, false}, RunContext());
+  ASSERT_TRUE(sound) << sound.error().text();
+  EXPECT_TRUE(sound->checks.closure && !sound->checks.closure->bad());
+  EXPECT_FALSE(sound->calibration);
+  EXPECT_TRUE(sound->note.empty() && sound->poses.empty()) << sound->note;
+  const auto found = choose_calibration(disturbed, {"auto", {}, false}, RunContext());
+  ASSERT_TRUE(found) << found.error().text();
+  EXPECT_EQ(found->note.find("the object moved by "), 0u) << found->note;
+  EXPECT_EQ(found->poses.size(), 40u);
+}
+
 /// The recording without its angles and speed, with its table `shift_m` beside where it stands.
 SequenceView without_turning(const FrameSequence& recording, double shift_m) {
   SequenceView out(recording);

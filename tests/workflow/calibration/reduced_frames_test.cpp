@@ -65,6 +65,17 @@ TEST(ReducedFrames, HaveAtMost1600000Pixels) {
   }
 }
 
+TEST(ReducedFrames, AreCoarserForChecksWhereImagesAreLarge) {
+  for (const auto& [width, height, coarser] :
+       {std::tuple(512, 424, false), {848, 480, false}, {1024, 768, true}, {2048, 1536, true}}) {
+    const auto images = one_image(width, height);
+    EXPECT_EQ(workflow::are_coarser_for_checks(images.header()), coarser) << width;
+    const SequenceView view = workflow::reduced_frames(images, workflow::kPixelsToCheck);
+    const auto& camera = view.header().sensors[0].intrinsics;
+    EXPECT_LE(double(camera.width) * camera.height, 1.01 * workflow::kPixelsToCheck);
+  }
+}
+
 TEST(ReducedFrames, LeavePointsOfScannersAlone) {
   testing::MemorySequence scans;
   SensorInfo sensor;

@@ -48,7 +48,7 @@ std::string age_text(const ScanDates& dates) {
 
 Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence& sequence,
                                                             const RunContext& context) {
-  const SequenceView reduced = reduced_frames(sequence);
+  const SequenceView reduced = reduced_frames(sequence, kPixelsToCheck);
   const SequenceHeader& header = reduced.header();
   if (!header.turntable || header.sensors.empty() ||
       header.sensors[0].kind != SensorKind::kDepthCamera)

@@ -126,15 +126,20 @@ SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) 
   return out;
 }
 
+/// The checks of the calibration with which the sequence would be used as it is.
+Result<CalibrationChecks> check_as_used(const FrameSequence& sequence,
+                                        const CalibrationRequest& request, PlatterMemory& memory,
+                                        const RunContext& context) {
+  return request.speed_rad_s
+             ? check_calibration(at_stated_speed(sequence, *request.speed_rad_s), memory, context)
+             : check_calibration(sequence, memory, context);
+}
+
 /// What was given by somebody is used, and a doubt about it is said.
 Result<CalibrationChoice> as_given(const FrameSequence& sequence, const CalibrationRequest& request,
                                    PlatterMemory& memory, const RunContext& context) {
   CalibrationChoice out;
-  TURNSCAN_ASSIGN(
-      out.checks,
-      request.speed_rad_s
-          ? check_calibration(at_stated_speed(sequence, *request.speed_rad_s), memory, context)
-          : check_calibration(sequence, memory, context));
+  TURNSCAN_ASSIGN(out.checks, check_as_used(sequence, request, memory, context));
   if (const auto why = doubt_of(out.checks))
     out.note = fmt::format("{}; it was used because {} given, --calibration motion makes another",
                            *why, request.speed_rad_s ? "the speed was" : "it was");
@@ -300,11 +305,34 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
   return out;
 }
 
+/// The recording's own calibration where coarse frames, which cost less, show nothing that speaks
+/// against it and no disturbance. nullopt: look again with finer ones.
+Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
+                                                  const CalibrationRequest& request,
+                                                  const RunContext& context) {
+  if (workflow::has_poses(coarse) ||
+      !frame_poses(coarse.header(), coarse.frames(), request.speed_rad_s))
+    return std::nullopt;
+  PlatterMemory memory;
+  TURNSCAN_ASSIGN(const Placement placement,
+                  workflow::disturbances_of(coarse, request.speed_rad_s, &memory, context));
+  if (!placement.disturbances.empty()) return std::nullopt;
+  CalibrationChoice out;
+  TURNSCAN_ASSIGN(out.checks, check_as_used(coarse, request, memory, context));
+  if (doubt_of(out.checks)) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
+  if (request.mode == "auto" && workflow::are_coarser_for_checks(sequence.header())) {
+    const SequenceView coarse = workflow::reduced_frames(sequence, workflow::kPixelsToCheck);
+    TURNSCAN_ASSIGN(auto sound, if_sound(coarse, request, context));
+    if (sound) return std::move(*sound);
+  }
   const SequenceView reduced = workflow::reduced_frames(sequence);
   PlatterMemory memory;  // it stands where it stood, whatever is asked about the recording
   if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);

@@ -1,14 +1,16 @@
 #include <turnscan/workflow/calibration/reduced_frames.hpp>
 
+#include <algorithm>
+
 namespace turnscan::workflow {
 
 namespace {
 
-constexpr double kMostPixels = 1.6e6;
-
-int step_of(const CameraIntrinsics& camera) {
+int step_of(const SensorInfo& sensor, double most_pixels) {
+  if (sensor.kind != SensorKind::kDepthCamera) return 1;
+  const CameraIntrinsics& camera = sensor.intrinsics;
   int step = 1;
-  while (double(camera.width) * double(camera.height) > kMostPixels * step * step) ++step;
+  while (double(camera.width) * double(camera.height) > most_pixels * step * step) ++step;
   return step;
 }
 
@@ -29,13 +31,12 @@ DepthImage reduced(const DepthImage& depth, int step) {
 
 }  // namespace
 
-SequenceView reduced_frames(const FrameSequence& sequence) {
+SequenceView reduced_frames(const FrameSequence& sequence, double most_pixels) {
   SequenceView out(sequence);
   SequenceHeader header = sequence.header();
   std::vector<int> steps;
   for (SensorInfo& sensor : header.sensors) {
-    const bool images = sensor.kind == SensorKind::kDepthCamera;
-    steps.push_back(images ? step_of(sensor.intrinsics) : 1);
+    steps.push_back(step_of(sensor, most_pixels));
     if (steps.back() > 1) sensor.intrinsics = reduced(sensor.intrinsics, steps.back());
   }
   out.set_header(std::move(header));
@@ -48,6 +49,12 @@ SequenceView reduced_frames(const FrameSequence& sequence) {
     return frame;
   });
   return out;
+}
+
+bool are_coarser_for_checks(const SequenceHeader& header) {
+  return std::any_of(header.sensors.begin(), header.sensors.end(), [](const SensorInfo& sensor) {
+    return step_of(sensor, kPixelsToCheck) > step_of(sensor, kPixelsToCalibrate);
+  });
 }
 
 }  // namespace turnscan::workflow

@@ -361,7 +361,8 @@ Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames
   sequences.reserve(frames.size());
   std::vector<MeshFrames> reduced = frames;
   for (MeshFrames& of : reduced)
-    of.frames = &sequences.emplace_back(workflow::reduced_frames(*of.frames));
+    of.frames =
+        &sequences.emplace_back(workflow::reduced_frames(*of.frames, workflow::kPixelsToCheck));
   TURNSCAN_ASSIGN(auto residuals, frame_residuals(object, reduced, noise_m, context));
   TURNSCAN_ASSIGN(auto seen, seen_vertices(object.mesh, reduced, context));
   known.residuals.push_back(std::move(residuals));
