@@ -127,7 +127,7 @@ TEST(DepthViews, AreFewerForStatisticsTheMorePixelsTheyHave) {
   };
   EXPECT_EQ(with_pixels(0), 24u);
   EXPECT_EQ(with_pixels(1000), 24u);
-  EXPECT_EQ(with_pixels(1'000'000), 12u);
+  EXPECT_EQ(with_pixels(400'000), 10u);
   EXPECT_EQ(with_pixels(6'000'000), 4u) << "one or two views show too little of an object";
   EXPECT_EQ(views_for_statistics(std::span(views).first(3), 24), 3u);
   EXPECT_EQ(views_for_statistics(std::span(views).first(0), 24), 0u);

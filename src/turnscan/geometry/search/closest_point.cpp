@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <vector>
 
@@ -49,6 +50,7 @@ Vec3d closest_point_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, 
 namespace {
 
 constexpr std::size_t kLeafSize = 4;
+constexpr std::size_t kBuiltAtOnce = 8192;  ///< triangles below a node that one thread builds
 constexpr std::uint32_t kLeafBit = 0x80000000u;
 
 struct FloatBox {
@@ -86,6 +88,13 @@ struct Item {
   std::uint32_t triangle;
 };
 
+/// Of a subtree of so many triangles; 0 for a leaf.
+std::size_t nodes_below(std::size_t triangles) {
+  if (triangles <= kLeafSize) return 0;
+  const std::size_t half = triangles / 2;
+  return 1 + nodes_below(half) + nodes_below(triangles - half);
+}
+
 }  // namespace
 
 struct MeshDistance::Impl {
@@ -95,9 +104,10 @@ struct MeshDistance::Impl {
   double rounding_m = 0.0;         // more than what rounding can do to a distance
 
   explicit Impl(const TriangleMesh& mesh);
-  std::uint32_t build_node(std::vector<Item>& items, std::size_t begin, std::size_t end);
-  void set_child(std::uint32_t node, int side, std::vector<Item>& items, std::size_t begin,
-                 std::size_t end);
+  FloatBox build_node(std::uint32_t node, std::vector<Item>& items, std::size_t begin,
+                      std::size_t end);
+  FloatBox set_child(std::uint32_t node, int side, std::uint32_t child, std::vector<Item>& items,
+                     std::size_t begin, std::size_t end);
   void query(const Vec3d& p, double max_distance, Hit& best) const;
   const TriangleMesh* source = nullptr;  // while building
 };
@@ -117,8 +127,8 @@ MeshDistance::Impl::Impl(const TriangleMesh& mesh) : source(&mesh) {
   }
   rounding_m = 1e-12 * double(largest);
   if (items.empty()) return;
-  nodes.reserve(2 * items.size() / kLeafSize + 2);
-  build_node(items, 0, items.size());
+  nodes.resize(std::max<std::size_t>(1, nodes_below(items.size())));
+  build_node(0, items, 0, items.size());
   corners.reserve(items.size());
   ids.reserve(items.size());
   for (const Item& item : items) {
@@ -129,10 +139,8 @@ MeshDistance::Impl::Impl(const TriangleMesh& mesh) : source(&mesh) {
   source = nullptr;
 }
 
-std::uint32_t MeshDistance::Impl::build_node(std::vector<Item>& items, std::size_t begin,
-                                             std::size_t end) {
-  const auto index = std::uint32_t(nodes.size());
-  nodes.emplace_back();
+FloatBox MeshDistance::Impl::build_node(std::uint32_t node, std::vector<Item>& items,
+                                        std::size_t begin, std::size_t end) {
   FloatBox centroids;
   for (std::size_t i = begin; i < end; ++i) centroids.add(items[i].centroid);
   int axis = 0;
@@ -143,23 +151,34 @@ std::uint32_t MeshDistance::Impl::build_node(std::vector<Item>& items, std::size
     return a.centroid[axis] < b.centroid[axis] ||
            (a.centroid[axis] == b.centroid[axis] && a.triangle < b.triangle);
   });
-  set_child(index, 0, items, begin, middle);
-  set_child(index, 1, items, middle, end);
-  return index;
+  // Nodes lie in the order of a walk that takes the first child first.
+  const std::uint32_t child[2] = {node + 1, node + 1 + std::uint32_t(nodes_below(middle - begin))};
+  FloatBox box[2];
+  parallel_for(2, end - begin > kBuiltAtOnce ? 1 : 2, [&](std::size_t side) {
+    box[side] = set_child(node, int(side), child[side], items, side == 0 ? begin : middle,
+                          side == 0 ? middle : end);
+  });
+  box[0].add(box[1].lo);
+  box[0].add(box[1].hi);
+  return box[0];
 }
 
-void MeshDistance::Impl::set_child(std::uint32_t node, int side, std::vector<Item>& items,
-                                   std::size_t begin, std::size_t end) {
+FloatBox MeshDistance::Impl::set_child(std::uint32_t node, int side, std::uint32_t child,
+                                       std::vector<Item>& items, std::size_t begin,
+                                       std::size_t end) {
   FloatBox box;
-  for (std::size_t i = begin; i < end; ++i) {
-    for (const std::uint32_t v : source->triangles[items[i].triangle]) box.add(source->vertices[v]);
-  }
   const bool leaf = end - begin <= kLeafSize;
-  const std::uint32_t child =
-      leaf ? (std::uint32_t(begin) | kLeafBit) : build_node(items, begin, end);
+  if (leaf) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const std::uint32_t v : source->triangles[items[i].triangle])
+        box.add(source->vertices[v]);
+  } else {
+    box = build_node(child, items, begin, end);
+  }
   nodes[node].box[side] = box;
-  nodes[node].child[side] = child;
+  nodes[node].child[side] = leaf ? (std::uint32_t(begin) | kLeafBit) : child;
   nodes[node].count[side] = leaf ? std::uint32_t(end - begin) : 0;
+  return box;
 }
 
 void MeshDistance::Impl::query(const Vec3d& p, double max_distance, Hit& best) const {

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <compare>
+#include <span>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 
 namespace turnscan {
 
 namespace {
 
-/// An edge from its lower to its higher vertex, with the triangle and the corner it starts at.
+/// An edge by its higher vertex, with the triangle and the corner it starts at.
 struct SidedEdge {
-  std::uint32_t low, high, triangle, corner;
+  std::uint32_t high, triangle, corner;
+  auto operator<=>(const SidedEdge&) const = default;
 };
 
 Vec3d unit_or_zero(const Vec3d& v) {
@@ -31,36 +34,50 @@ PseudoNormals::PseudoNormals(const TriangleMesh& mesh)
       of_face_(mesh.triangles.size()),
       of_vertex_(mesh.vertices.size()),
       of_edge_(mesh.triangles.size()) {
-  std::vector<Vec3d> sums(vertices_.size(), Vec3d::Zero());
-  std::vector<SidedEdge> edges;
-  edges.reserve(3 * triangles_.size());
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    const auto& corners = triangles_[t];
+  std::vector<std::array<double, 3>> angles(triangles_.size());
+  parallel_for(triangles_.size(), 4096, [&](std::size_t t) {
     std::array<Vec3d, 3> p;
-    for (std::size_t c = 0; c < 3; ++c) p[c] = vertices_[corners[c]].cast<double>();
-    const Vec3d normal = unit_or_zero((p[1] - p[0]).cross(p[2] - p[0]));
-    of_face_[t] = normal.cast<float>();
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::size_t next = (c + 1) % 3, last = (c + 2) % 3;
-      sums[corners[c]] += angle_between(p[next] - p[c], p[last] - p[c]) * normal;
-      const auto [low, high] = std::minmax(corners[c], corners[next]);
-      edges.push_back({low, high, t, c});
-    }
-  }
-  for (std::size_t v = 0; v < sums.size(); ++v) of_vertex_[v] = unit_or_zero(sums[v]).cast<float>();
-  std::sort(edges.begin(), edges.end(), [](const SidedEdge& a, const SidedEdge& b) {
-    return std::tie(a.low, a.high, a.triangle, a.corner) <
-           std::tie(b.low, b.high, b.triangle, b.corner);
+    for (std::size_t c = 0; c < 3; ++c) p[c] = vertices_[triangles_[t][c]].cast<double>();
+    of_face_[t] = unit_or_zero((p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
+    for (std::size_t c = 0; c < 3; ++c)
+      angles[t][c] = angle_between(p[(c + 1) % 3] - p[c], p[(c + 2) % 3] - p[c]);
   });
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    Vec3d sum = Vec3d::Zero();
-    for (end = begin; end < edges.size() && edges[end].low == edges[begin].low &&
-                      edges[end].high == edges[begin].high;
-         ++end)
-      sum += of_face_[edges[end].triangle].cast<double>();
-    for (std::size_t e = begin; e < end; ++e)
-      of_edge_[edges[e].triangle][edges[e].corner] = unit_or_zero(sum).cast<float>();
-  }
+  std::vector<Vec3d> sums(vertices_.size(), Vec3d::Zero());
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      sums[triangles_[t][c]] += angles[t][c] * of_face_[t].cast<double>();
+  parallel_for(sums.size(), 4096,
+               [&](std::size_t v) { of_vertex_[v] = unit_or_zero(sums[v]).cast<float>(); });
+  set_edges();
+}
+
+void PseudoNormals::set_edges() {
+  // Counted by their lower vertex, so that only those of one vertex remain to be sorted.
+  std::vector<std::uint32_t> end(vertices_.size() + 1, 0);
+  const auto for_each_edge = [&](const auto& take) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const auto [low, high] = std::minmax(triangles_[t][c], triangles_[t][(c + 1) % 3]);
+        take(low, SidedEdge{high, t, c});
+      }
+  };
+  for_each_edge([&](std::uint32_t low, const SidedEdge&) { ++end[low + 1]; });
+  for (std::size_t v = 0; v + 1 < end.size(); ++v) end[v + 1] += end[v];
+  std::vector<SidedEdge> edges(3 * triangles_.size());
+  for_each_edge([&](std::uint32_t low, const SidedEdge& edge) { edges[end[low]++] = edge; });
+  parallel_for(vertices_.size(), 4096, [&](std::size_t v) {
+    const auto of_vertex =
+        std::span(edges).subspan(v > 0 ? end[v - 1] : 0).first(end[v] - (v > 0 ? end[v - 1] : 0));
+    std::sort(of_vertex.begin(), of_vertex.end());
+    for (auto first = of_vertex.begin(); first != of_vertex.end();) {
+      Vec3d sum = Vec3d::Zero();
+      auto next = first;
+      for (; next != of_vertex.end() && next->high == first->high; ++next)
+        sum += of_face_[next->triangle].cast<double>();
+      for (; first != next; ++first)
+        of_edge_[first->triangle][first->corner] = unit_or_zero(sum).cast<float>();
+    }
+  });
 }
 
 Vec3d PseudoNormals::at(const Vec3d& point, std::uint32_t triangle) const {

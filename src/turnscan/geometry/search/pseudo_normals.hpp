@@ -23,6 +23,8 @@ class PseudoNormals {
   Vec3d at(const Vec3d& point, std::uint32_t triangle) const;
 
  private:
+  void set_edges();
+
   std::vector<Vec3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Vec3f> of_face_, of_vertex_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/estimation/object_reach.hpp>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
+/// So many points of a frame say where the platter and the object end; of more, every n-th is used.
+constexpr std::size_t kMostUncropped = 500'000;
 /// Cells in which the object's points hang together, in distances between the points of a frame.
 constexpr double kCellSpacings = 3.0;
 /// How far a plane leaves y = 0 that is tilted as a calibration from motion may be.
@@ -105,8 +108,11 @@ Result<FramePoints> object_points(const Frame& frame, const Pose& pose,
                                   const std::optional<views::LightSheet>& sheet,
                                   const CropOptions& crop_options, std::vector<Vec3f>* all) {
   TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header.sensors[frame.info.sensor], rays));
-  for (const Vec3f& p : points.cloud.points) {
-    if (all != nullptr) all->push_back(pose.cast<float>() * p);
+  if (all != nullptr) {
+    const Eigen::Affine3f T_table_sensor = pose.cast<float>();
+    const std::size_t step = 1 + points.cloud.size() / kMostUncropped;
+    for (std::size_t i = 0; i < points.cloud.size(); i += step)
+      all->push_back(T_table_sensor * points.cloud.points[i]);
   }
   if (sheet) points = in_sheet_order(points, *sheet);
   if (is_cropped(header, crop_options))
@@ -153,19 +159,20 @@ class FrameSamples {
  public:
   explicit FrameSamples(const PosedScan& scan) : scan_(scan) {}
 
-  Result<> add(std::size_t i) {
-    const std::optional<views::LightSheet>& sheet = scan_.sheets.at(scan_.frames[i].info.sensor);
-    TURNSCAN_ASSIGN(const FramePoints points, points_on_object(i, &points_));
-    if (points.cloud.size() < kFewestPoints) return {};
-    const FrameStatistics statistics = frame_statistics(points);
-    spacing_.push_back(statistics.spacing_m);
-    even_.push_back(statistics.even_spacing_m);
-    noise_.push_back(statistics.noise_m);
-    const auto next = sheet ? next_of_sensor(scan_.frames, i) : std::nullopt;
-    if (!next) return {};
-    TURNSCAN_ASSIGN(const FramePoints neighbour, points_on_object(*next, nullptr));
-    if (neighbour.cloud.size() >= kFewestPoints)
-      across_.push_back(profile_distance(points, scan_.poses[i], neighbour, scan_.poses[*next]));
+  /// `count` of the frames, evenly spread.
+  Result<> add(std::size_t count) {
+    std::vector<Result<Sample>> samples(count);
+    parallel_for(count, 1,
+                 [&](std::size_t k) { samples[k] = sample(k * scan_.frames.size() / count); });
+    for (const Result<Sample>& one : samples) {
+      TURNSCAN_TRY(one);
+      points_.insert(points_.end(), one->uncropped.begin(), one->uncropped.end());
+      if (!one->statistics) continue;
+      spacing_.push_back(one->statistics->spacing_m);
+      even_.push_back(one->statistics->even_spacing_m);
+      noise_.push_back(one->statistics->noise_m);
+      if (one->across_m) across_.push_back(*one->across_m);
+    }
     return {};
   }
 
@@ -187,6 +194,27 @@ class FrameSamples {
   const std::vector<Vec3f>& points() const { return points_; }
 
  private:
+  /// What one frame says.
+  struct Sample {
+    std::vector<Vec3f> uncropped;               ///< table frame
+    std::optional<FrameStatistics> statistics;  ///< where it has enough points on the object
+    std::optional<double> across_m;             ///< to the next profile
+  };
+
+  Result<Sample> sample(std::size_t i) const {
+    Sample out;
+    const std::optional<views::LightSheet>& sheet = scan_.sheets.at(scan_.frames[i].info.sensor);
+    TURNSCAN_ASSIGN(const FramePoints points, points_on_object(i, &out.uncropped));
+    if (points.cloud.size() < kFewestPoints) return out;
+    out.statistics = frame_statistics(points);
+    const auto next = sheet ? next_of_sensor(scan_.frames, i) : std::nullopt;
+    if (!next) return out;
+    TURNSCAN_ASSIGN(const FramePoints neighbour, points_on_object(*next, nullptr));
+    if (neighbour.cloud.size() >= kFewestPoints)
+      out.across_m = profile_distance(points, scan_.poses[i], neighbour, scan_.poses[*next]);
+    return out;
+  }
+
   Result<FramePoints> points_on_object(std::size_t i, std::vector<Vec3f>* all) const {
     const std::size_t s = scan_.frames[i].info.sensor;
     return object_points(scan_.frames[i], scan_.poses[i], scan_.header, scan_.rays.at(s),
@@ -234,7 +262,7 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
   TURNSCAN_ASSIGN(estimate.sheets, find_sheets(frames, header, rays));
   FrameSamples samples({frames, poses, header, rays, estimate.sheets, crop_options});
   const std::size_t count = std::min(kSampledFrames, frames.size());
-  for (std::size_t k = 0; k < count; ++k) TURNSCAN_TRY(samples.add(k * frames.size() / count));
+  TURNSCAN_TRY(samples.add(count));
   TURNSCAN_TRY(samples.summarise(estimate));
   // Rounding to the sensor's unit spreads depth by unit / sqrt(12) at least.
   for (const SensorInfo& sensor : header.sensors) {

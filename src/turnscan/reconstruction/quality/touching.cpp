@@ -42,13 +42,16 @@ class Sections {
   Sections(const TriangleMesh& mesh, const Vec3d& normal, double step_m)
       : mesh_(mesh), normal_(normal), across_(normal.cross(Vec3d::UnitY())), step_m_(step_m) {
     double low = 1e9, high = -1e9;
+    std::vector<double> along_m;
+    along_m.reserve(mesh.vertices.size());
     for (const Vec3f& p : mesh.vertices) {
-      low = std::min(low, along(p));
-      high = std::max(high, along(p));
+      along_m.push_back(along(p));
+      low = std::min(low, along_m.back());
+      high = std::max(high, along_m.back());
     }
     first_m_ = low + 0.5 * step_m;
     sections_.resize(std::size_t(std::max(0.0, std::ceil((high - first_m_) / step_m))));
-    for (const auto& triangle : mesh.triangles) cut(triangle);
+    for (const auto& triangle : mesh.triangles) cut(triangle, along_m);
   }
 
   /// The narrowest one that parts what may stand by itself, if it is narrower than the neck.
@@ -76,9 +79,8 @@ class Sections {
   double along(const Vec3f& p) const { return normal_.dot(p.cast<double>()); }
   double at(std::size_t section) const { return first_m_ + double(section) * step_m_; }
 
-  void cut(const std::array<std::uint32_t, 3>& triangle) {
-    std::array<double, 3> d{};
-    for (std::size_t k = 0; k < 3; ++k) d[k] = along(mesh_.vertices[triangle[k]]);
+  void cut(const std::array<std::uint32_t, 3>& triangle, const std::vector<double>& along_m) {
+    const std::array<double, 3> d{along_m[triangle[0]], along_m[triangle[1]], along_m[triangle[2]]};
     const auto [low, high] = std::minmax({d[0], d[1], d[2]});
     const double from = std::max(0.0, std::ceil((low - first_m_) / step_m_));
     for (auto s = std::size_t(from); s < sections_.size() && at(s) < high; ++s)

@@ -50,9 +50,10 @@ bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
 
 /// Of the sectors in all bands, that of a view as a point sees it.
 int sector_of(const Viewpoint& viewpoint, const Vec3f& p) {
-  const Vec3d to = viewpoint.direction_from(p.cast<double>());
-  const double turn = std::atan2(to.z(), to.x()) / kTurn + 0.5;
-  const double height = std::asin(std::clamp(to.y(), -1.0, 1.0)) / std::numbers::pi + 0.5;
+  const Vec3f to = viewpoint.direction_from(p.cast<double>()).cast<float>();
+  const float turn = std::atan2(to.z(), to.x()) / float(kTurn) + 0.5f;
+  const float height =
+      std::asin(std::clamp(to.y(), -1.0f, 1.0f)) / std::numbers::pi_v<float> + 0.5f;
   return std::clamp(int(height * kBands), 0, kBands - 1) * kSectors +
          std::clamp(int(turn * kSectors), 0, kSectors - 1);
 }

@@ -11,7 +11,7 @@ using Columns = std::array<std::vector<float>, 3>;
 
 constexpr double kStray = 2e-4;             // of the points, on each side
 constexpr std::size_t kViewsPerBatch = 16;  // of which points are held twice
-constexpr std::size_t kMostPoints = 8'000'000;
+constexpr std::size_t kMostPoints = 4'000'000;
 
 void append(Columns& all, Columns& more) {
   for (std::size_t a = 0; a < 3; ++a) {
@@ -47,11 +47,10 @@ Box measured_box(std::span<const views::DepthView> views, const std::optional<Cy
   for (std::size_t first = 0; first < count; first += kViewsPerBatch) {
     std::vector<Columns> own(std::min(kViewsPerBatch, count - first));
     parallel_for(own.size(), 1, [&](std::size_t v) {
-      std::size_t n = 0;
-      for_each_point(views[(first + v) * stride], cylinder, [&](const Vec3f& p) {
-        if (n++ % step != 0) return;
+      const auto take = [&](const Vec3f& p) {
         for (int a = 0; a < 3; ++a) own[v][std::size_t(a)].push_back(p[a]);
-      });
+      };
+      for_each_point(views[(first + v) * stride], cylinder, take, step);
     });
     for (Columns& one : own) append(points, one);
   }

@@ -9,15 +9,18 @@
 
 namespace turnscan::tsdf {
 
-/// Calls take(p_table) for what a view measured in the cylinder, if there is one; edges left out.
+/// Calls take(p_table) for what a view measured in the cylinder, if there is one, of every step-th
+/// pixel; edges left out.
 template <class Take>
 void for_each_point(const views::DepthView& view, const std::optional<Cylinder>& cylinder,
-                    const Take& take) {
+                    const Take& take, std::size_t step = 1) {
   const Eigen::Matrix3f back = view.rotation.transpose();
+  std::size_t n = 0;
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const std::uint32_t word = view.pixels[std::size_t(y) * std::size_t(view.width) + x];
       if ((word & 0xffffu) == 0 || (word & views::DepthView::kEdge) != 0) continue;
+      if (n++ % step != 0) continue;
       const float z = float(word & 0xffffu) * view.unit_m + view.bias_m;
       const float s = view.parallel ? 1.0f : z;
       const Vec3f p =

@@ -19,7 +19,8 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kSampledViews = 64;
-constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
+constexpr double kPlatterCells = 0.5;       ///< above a platter's plane is on it
+constexpr double kLeastSection_m = 0.0005;  ///< between the sections that look for a neck
 
 using mesh_refinement::MeshFit;
 using mesh_refinement::MeshFitScale;
@@ -161,8 +162,8 @@ class VolumetricReconstruction {
       measure_evidence(piece, scale_.volume);
       if (input_.measured_only) return {};
       if (scale_.volume.floor_m)
-        piece.neck =
-            quality::narrowest_neck(piece.mesh, scale_.volume.cell_m, *scale_.volume.floor_m);
+        piece.neck = quality::narrowest_neck(
+            piece.mesh, std::max(scale_.volume.cell_m, kLeastSection_m), *scale_.volume.floor_m);
       TURNSCAN_TRY(measure_quality(piece, input_, scale_, filter_share_ > 0.0, context_));
       return measure_no_return(piece, input_.views, context_);
     };

@@ -174,7 +174,7 @@ DepthView view_of_points(FramePoints points, const Pose& T_table_sensor, const V
 
 std::size_t views_for_statistics(std::span<const DepthView> views, std::size_t most) {
   constexpr std::size_t kFewest = 4;
-  constexpr double kMostPixels = 12e6;
+  constexpr double kMostPixels = 4e6;
   double pixels = 0.0;
   for (const DepthView& view : views) pixels += double(view.pixels.size());
   const double share = std::min(1.0, kMostPixels / std::max(pixels, 1.0));

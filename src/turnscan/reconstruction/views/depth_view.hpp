@@ -60,7 +60,7 @@ struct DepthView {
 };
 
 /// How many of the views, evenly spread, statistics look at: at most `most`, and so many that their
-/// windows have at most 12 million pixels, but four where there are so many.
+/// windows have at most 4 million pixels, but four where there are so many.
 std::size_t views_for_statistics(std::span<const DepthView> views, std::size_t most);
 
 /// What makes a view out of a frame.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <turnscan/reconstruction/views/depth_window.hpp>
 
 namespace turnscan::views {
@@ -57,28 +58,34 @@ bool flying(const RawWindow& raw, int x, int y, int step) {
 /// A pixel this near to another may look past what that one sees: its own share of the edge, and a
 /// pixel that the sensor's filter spreads it by.
 constexpr int kMayLookPast = 2;
+static_assert(kMayLookPast >= kNarrowGap, "pack_window tells from free depths that no rim is near");
+
+/// to[i] = the lesser of to[i] and from[i].
+void take_least(std::span<std::uint16_t> to, const std::uint16_t* from) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = std::min(to[i], from[i]);
+}
 
 /// Per pixel the least depth of those around it, up to which it saw free space.
 Image<std::uint16_t> free_depths(const RawWindow& raw) {
   const int w = raw.width, h = raw.height;
+  constexpr int kReach = kMayLookPast;
+  const auto width = std::size_t(w);
   Image<std::uint16_t> rows(w, h), out(w, h);
+  std::vector<std::uint16_t> padded(width + 2 * kReach, kFar);
   for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      std::uint16_t least = kFar;
-      const int end = std::min(w - 1, x + kMayLookPast);
-      for (int u = std::max(0, x - kMayLookPast); u <= end; ++u)
-        least = std::min(least, measured(raw.at(u, y)) ? raw.at(u, y) : kFar);
-      rows.at(x, y) = least;
-    }
+    for (int x = 0; x < w; ++x)
+      padded[std::size_t(x + kReach)] = measured(raw.at(x, y)) ? raw.at(x, y) : kFar;
+    const std::span row(&rows.at(0, y), width);
+    std::copy_n(padded.begin(), width, row.begin());
+    for (int k = 1; k <= 2 * kReach; ++k) take_least(row, padded.data() + k);
   }
   for (int y = 0; y < h; ++y) {
-    const int end = std::min(h - 1, y + kMayLookPast);
-    for (int x = 0; x < w; ++x) {
-      std::uint16_t least = kFar;
-      for (int v = std::max(0, y - kMayLookPast); v <= end; ++v)
-        least = std::min(least, rows.at(x, v));
-      out.at(x, y) = raw.at(x, y) == kNoReturn ? std::uint16_t(0) : least;
-    }
+    const std::span row(&out.at(0, y), width);
+    std::copy_n(&rows.at(0, y), width, row.begin());
+    for (int v = std::max(0, y - kReach); v <= std::min(h - 1, y + kReach); ++v)
+      take_least(row, &rows.at(0, v));
+    for (int x = 0; x < w; ++x)
+      if (raw.at(x, y) == kNoReturn) out.at(x, y) = 0;
   }
   return out;
 }
@@ -95,7 +102,9 @@ void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const std::uint16_t own = raw.at(x, y);
-      const bool on_surface = measured(own) && !flying(raw, x, y, step);
+      // A pixel that hangs behind a rim has seen something so much nearer beside it.
+      const bool behind = int(own) - int(free.at(x, y)) > step;
+      const bool on_surface = measured(own) && !(behind && flying(raw, x, y, step));
       const std::uint32_t depth = on_surface ? own : 0u;
       if (depth != 0) nearest = std::min(nearest, own);
       view.pixels[std::size_t(y + 1) * std::size_t(view.width) + std::size_t(x + 1)] =
