@@ -111,6 +111,23 @@ TEST(CalibrateFromMotion, FindsTheAxisWithoutAPlatter) {
 
 // An object that reaches beyond its platter is not seen whole above it, so where it ends proves
 // nothing.
+TEST(CalibrateFromMotion, SeesThePlatterBesideAnObjectThatFillsTheImage) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  auto options = rig_options("doll", 24, 1.2);
+  options.room = options.drum = false;
+  options.clutter = 0;
+  options.shrink = 1;
+  options.radius_m = 0.11;
+  for (TriangleMesh& mesh : options.objects)
+    for (Vec3f& p : mesh.vertices) p *= 1.6f;
+  const testing::Rig rig(options);
+  const auto found = calibrate_from_motion(rig, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  ASSERT_TRUE(found->table.radius_m);
+  EXPECT_NEAR(*found->table.radius_m, 0.11, 0.002);
+  EXPECT_LT((found->table.center_m - rig.truth().center_m).norm(), 0.002);
+}
+
 TEST(CalibrateFromMotion, KeepsTheRecordingsHeightWhereTheObjectEndsElsewhere) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 40, 1.1);

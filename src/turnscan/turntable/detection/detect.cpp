@@ -77,14 +77,15 @@ class PlatterDetector {
     candidates_.push_back(last_);
   }
 
-  /// Only what may be the platter: it costs time.
+  /// Only what may be the platter: it costs time. Where the best ones are no platter, as half discs
+  /// of clutter are, one that counts for less before it is refined may be.
   void refine_best(const RunContext& context) {
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& l, const auto& r) { return worth(l) > worth(r); });
     if (candidates_.size() > kMostRefined) candidates_.resize(kMostRefined);
     std::vector<PlatterCandidate> refined;
     for (const PlatterCandidate& c : candidates_) {
-      if (worth(c) < kLeastWorth * worth(candidates_.front())) break;
+      if (!refined.empty() && worth(c) < kLeastWorth * worth(candidates_.front())) break;
       auto better = refine_platter({pixels_, camera_, rays_}, c, options_.radius_m, context);
       if (better) refined.push_back(std::move(*better));
     }

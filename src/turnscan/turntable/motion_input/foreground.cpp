@@ -10,6 +10,9 @@ constexpr std::size_t kMeanFrames = 36;  ///< that the search averages
 /// From this ratio of noise in time to noise between pixels on, nothing stands still.
 constexpr double kMovingNoise = 3.0;
 
+/// Of what moves, the share that stands on its platter.
+constexpr double kCarried = 0.8;
+
 /// Of a platter of which only the axis is known.
 constexpr double kUnknownRadius_m = 0.3;
 
@@ -29,7 +32,7 @@ class ForegroundSearch {
     TURNSCAN_ASSIGN(const AveragedScan scan,
                     average_frames(sequence_, positions, average, context_));
     TURNSCAN_ASSIGN(const bool still, find_noise(scan, positions));
-    if (options_.use_platter && still) TURNSCAN_TRY(find_platter(scan));
+    if (options_.use_platter) TURNSCAN_TRY(find_platter(scan, still));
     if (const auto& platter = data_.platter) {
       crop_to(platter->axis, platter->center_m, platter->radius_m, platter->plane_rms_m);
     } else if (options_.hint && options_.hint->radius_m) {
@@ -41,18 +44,45 @@ class ForegroundSearch {
   }
 
  private:
-  Result<> find_platter(const AveragedScan& scan) {
+  /// still: most of what is seen stands still. Else it is looked for where something does, and it
+  /// must carry what moves: a turning object may have a round top.
+  Result<> find_platter(const AveragedScan& scan, bool still) {
     PlatterMemory* memory = options_.memory;
     if (memory != nullptr && memory->searched) {
       data_.platter = memory->platter;
       return {};
     }
-    const auto platter = detect_platter(scan, options_.detect, context_);
+    const auto platter =
+        detect_platter(still ? scan : without_moving(scan), options_.detect, context_);
     if (!platter && platter.error().code == ErrorCode::kCancelled)
       return tl::unexpected<Error>(platter.error());
-    if (platter) data_.platter = *platter;
+    if (platter && (still || carries_moving(scan, *platter))) data_.platter = *platter;
     if (memory != nullptr) *memory = {true, data_.platter};
     return {};
+  }
+
+  bool moves(const AveragedScan& scan, std::size_t pixel) const {
+    return scan.depth_m.pixels[pixel] > 0.0f &&
+           !(double(scan.noise_m.pixels[pixel]) < kMovingNoise * data_.noise_m);
+  }
+
+  AveragedScan without_moving(AveragedScan scan) const {
+    for (std::size_t i = 0; i < scan.depth_m.pixels.size(); ++i)
+      if (moves(scan, i)) scan.depth_m.pixels[i] = 0.0f;
+    return scan;
+  }
+
+  bool carries_moving(const AveragedScan& scan, const DetectedPlatter& platter) const {
+    const RayTable rays(scan.intrinsics);
+    double all = 0.0, above = 0.0;
+    for (std::size_t i = 0; i < scan.depth_m.pixels.size(); ++i) {
+      if (!moves(scan, i)) continue;
+      const double z = scan.depth_m.pixels[i];
+      const Vec3d p(rays.x()[i] * z, rays.y()[i] * z, z);
+      all += 1.0;
+      above += platter.axis.dot(p - platter.center_m) > 0.0 ? 1.0 : 0.0;
+    }
+    return above > kCarried * all;
   }
 
   /// Sets the noise. Returns whether something stands still, a platter perhaps: else the pixels
