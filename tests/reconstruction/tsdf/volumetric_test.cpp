@@ -54,6 +54,31 @@ TEST(Volumetric, StandsFlatOnThePlatter) {
   EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
 }
 
+TEST(Volumetric, KeepsFeetWhereNoPlatterIsSeenThoughItsRadiusIsKnown) {
+  // A ball that rests on one point: half of it lies within 15 mm of where the platter would be.
+  const Vec3d center(0.0, 0.02, 0.0);
+  const auto resting = [&](const Vec3d& o, const Vec3d& d) { return to_ball(o, d, center, 0.02); };
+  Rig rig;
+  for (const bool platter : {false, true}) {
+    rig.platter = platter;
+    MemorySequence recording = scan(resting, rig);
+    recording.header_value.turntable->radius_m = 0.12;
+    const auto result = reconstruct(recording, volumetric(), {}, RunContext());
+    ASSERT_TRUE(result) << result.error().text();
+    const auto margin = std::find_if(result->choices.begin(), result->choices.end(),
+                                     [](const Choice& c) { return c.option == "crop-margin"; });
+    ASSERT_NE(margin, result->choices.end());
+    EXPECT_THAT(margin->reason, HasSubstr(platter ? "the platter's returns lie at"
+                                                  : "no platter is seen, so that nothing"));
+    ASSERT_EQ(result->objects.size(), 1u);
+    if (platter) continue;
+    std::size_t far = 0;
+    for (const Vec3f& v : result->objects[0].mesh.vertices)
+      far += std::abs((v.cast<double>() - center).norm() - 0.02) > 0.0015;
+    EXPECT_LT(double(far), 0.1 * double(result->objects[0].mesh.vertices.size()));
+  }
+}
+
 TEST(Volumetric, BothSidesOfAThinPlateSurvive) {
   for (const double thickness : {0.003, 0.005}) {  // pixels lie 2.3 mm apart
     const double half = 0.5 * thickness;

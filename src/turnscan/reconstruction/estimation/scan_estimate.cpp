@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
@@ -17,6 +21,12 @@ constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
 constexpr std::size_t kMostUncropped = 500'000;
 /// Cells in which the object's points hang together, in distances between the points of a frame.
 constexpr double kCellSpacings = 3.0;
+/// A crop ends so many spreads above what it leaves out.
+constexpr double kClearNoises = 4.0;
+/// Of the platter's radius: farther out only large objects stand.
+constexpr double kRimShare = 0.75;
+/// Of the directions in which a platter's rim must be seen. All frames of a sample show most of it.
+constexpr double kRoundShare = 0.6;
 /// How far a plane leaves y = 0 that is tilted as a calibration from motion may be.
 constexpr double kTilt_m = 0.0005;
 /// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
@@ -62,14 +72,74 @@ void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
                             mm(*reach), mm(platter))};
 }
 
+/// Share of the directions from the axis in which some of the points lie.
+double share_of_directions(const std::vector<Vec3f>& p_table) {
+  constexpr std::size_t kSectors = 36, kFewest = 3;
+  std::array<std::size_t, kSectors> counts{};
+  for (const Vec3f& p : p_table) {
+    const double turn = std::atan2(double(p.z()), double(p.x())) / kTurn + 0.5;
+    ++counts[std::min(std::size_t(turn * kSectors), kSectors - 1)];
+  }
+  const auto some = std::count_if(counts.begin(), counts.end(),
+                                  [](std::size_t count) { return count >= kFewest; });
+  return double(some) / double(kSectors);
+}
+
+/// The returns of a platter of a radius that is known, where they are as wide and as round as its
+/// own, not only an object's feet and walls.
+std::optional<PlatterReturns> platter_with_rim(const PlatterReturns& returns, double most_sigma_m,
+                                               const std::vector<Vec3f>& sample, double radius_m) {
+  std::vector<Vec3f> rim;
+  const double inner = kRimShare * radius_m;
+  std::copy_if(sample.begin(), sample.end(), std::back_inserter(rim), [&](const Vec3f& p) {
+    const double r = std::hypot(double(p.x()), double(p.z()));
+    return std::abs(double(p.y())) < PlatterReturns::kReach_m && r > inner && r < radius_m;
+  });
+  const PlatterReturns at_rim = measure_platter(rim, radius_m);
+  if (!at_rim.plane(most_sigma_m) || share_of_directions(rim) < kRoundShare) return std::nullopt;
+  return returns.plane(most_sigma_m) ? returns : at_rim;
+}
+
+/// The platter's returns among those at its height, if one is seen. known_m: its radius, by the
+/// recording or the user; calibrated: so far out something turns, at least.
+std::optional<PlatterReturns> platter_in(const PlatterReturns& returns,
+                                         const std::vector<Vec3f>& sample,
+                                         const std::optional<double>& known_m, bool calibrated,
+                                         double noise_m) {
+  const double most_sigma_m = std::max(PlatterReturns::kMostSigma_m, 2.0 * noise_m);
+  if (known_m) return platter_with_rim(returns, most_sigma_m, sample, *known_m);
+  // A calibration that knows no radius has looked for a platter in vain: only what is as thin as
+  // the noise proves the opposite.
+  const bool plane = returns.plane(calibrated ? noise_m + kTilt_m : most_sigma_m);
+  return plane ? std::optional(returns) : std::nullopt;
+}
+
+/// Lowest height that is kept, and why.
+std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
+                                             const std::optional<PlatterReturns>& platter,
+                                             bool known, double noise_m) {
+  const double clear = kClearNoises * noise_m;
+  if (platter)
+    return {std::max(0.001, platter->height_m + kClearNoises * platter->sigma_m),
+            fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
+                        mm(platter->height_m), mm(platter->sigma_m))};
+  if (known && returns.count == 0)
+    return {std::max(0.002, clear), fmt::format("4 times the sensor's noise of {}", mm(noise_m))};
+  const double below = -std::max(0.005, clear);
+  if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMostSigma_m))
+    return {std::clamp(returns.height_m + kClearNoises * returns.sigma_m, below, 0.0),
+            fmt::format("no platter is seen, but a plane {} below it", mm(-returns.height_m))};
+  return {below, "no platter is seen, so that nothing is cropped below"};
+}
+
 void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
                  const CropOptions& crop, ScanEstimate& estimate) {
   Cylinder cylinder;
   cylinder.height_m = crop.height_m;
   const std::optional<double> known = known_radius(header, crop);
   const std::optional<double> calibrated = calibrated_radius(header, crop);
-  const PlatterReturns platter = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
-  const auto found = calibrated ? calibrated : find_platter_radius(sample, platter);
+  const PlatterReturns returns = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
+  const auto found = calibrated ? calibrated : find_platter_radius(sample, returns);
   if (found) {
     estimate.choices.push_back({"crop-radius", mm(*found),
                                 crop.radius_m ? "given"
@@ -82,19 +152,8 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
         "cropped sideways; give --crop-radius");
   }
   cylinder.radius_m = found.value_or(1e3);
-  double margin = std::max(0.002, 4.0 * estimate.noise_m);
-  std::string reason = fmt::format("4 times the sensor's noise of {}", mm(estimate.noise_m));
-  // A calibration that knows the radius has seen a platter; one that knows a reach looked for it in
-  // vain, and only what is as thin as the noise proves the opposite.
-  const bool plane = calibrated ? platter.plane(estimate.noise_m + kTilt_m) : platter.plane();
-  if (platter.count > 0 && (known || plane)) {
-    margin = std::max(0.001, platter.height_m + 4.0 * platter.sigma_m);
-    reason = fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
-                         mm(platter.height_m), mm(platter.sigma_m));
-  } else if (!known) {
-    margin = -std::max(0.005, 4.0 * estimate.noise_m);
-    reason = "no platter is seen, so that nothing is cropped below";
-  }
+  const auto platter = platter_in(returns, sample, known, calibrated.has_value(), estimate.noise_m);
+  auto [margin, reason] = choose_margin(returns, platter, known.has_value(), estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(
       {"crop-margin", mm(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});

@@ -101,7 +101,8 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
   scale.full_weight_behind_m = scale.truncation_m * 2.0 / 3.0;
   scale.cylinder = input.cylinder;
   scale.platters = input.platters;
-  if (input.cylinder) scale.floor_m = std::max(input.cylinder->margin_m, 0.0);
+  // Nothing goes down to a platter that is not seen.
+  if (input.cylinder && input.cylinder->margin_m > 0.0) scale.floor_m = input.cylinder->margin_m;
   out.fit_reach_m =
       choose("fit-reach", options.fit_reach_m, std::max(0.55 * input.spacing_m, 1.2 * scale.cell_m),
              "0.55 times the spacing of a frame's points");

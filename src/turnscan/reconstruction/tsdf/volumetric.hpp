@@ -48,6 +48,7 @@ struct VolumetricPiece {
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
+  std::size_t left_out = 0;             ///< pieces of which views measured next to nothing
   double filter_share = 0.0;            ///< as was told, or was found
   std::vector<StageTime> stages;
 };

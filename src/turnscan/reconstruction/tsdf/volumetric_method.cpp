@@ -373,6 +373,12 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
         "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
         "edges are sharpened",
         200.0 * result.filter_share));
+  if (result.left_out > 0)
+    out.notes.push_back(fmt::format(
+        "{} left out: hardly a frame measured {}, as of what stands "
+        "about and does not turn with the table",
+        result.left_out == 1 ? "one thing was" : fmt::format("{} things were", result.left_out),
+        result.left_out == 1 ? "it" : "them"));
   out.choices.insert(out.choices.end(), scale_.choices.begin(), scale_.choices.end());
   out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
   const StageTimer timer(out.stages, "check");

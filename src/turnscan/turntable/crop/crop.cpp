@@ -33,7 +33,7 @@ FramePoints crop(const FramePoints& points, const SensorCrop& crop) {
 }
 
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m) {
-  constexpr float kReach = 0.015f;
+  constexpr auto kReach = float(PlatterReturns::kReach_m);
   std::vector<float> heights;
   const float r2 = static_cast<float>(radius_m * radius_m);
   for (const Vec3f& p : p_table) {
