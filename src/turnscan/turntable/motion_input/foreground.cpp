@@ -12,6 +12,7 @@ constexpr double kMovingNoise = 3.0;
 
 /// Of what moves, the share that stands on its platter.
 constexpr double kCarried = 0.8;
+constexpr int kRimPixels = 2;
 
 /// Of a platter of which only the axis is known.
 constexpr double kUnknownRadius_m = 0.3;
@@ -66,9 +67,20 @@ class ForegroundSearch {
            !(double(scan.noise_m.pixels[pixel]) < kMovingNoise * data_.noise_m);
   }
 
+  /// Beside what stands still pixels are kept: those of a rim flicker.
   AveragedScan without_moving(AveragedScan scan) const {
+    const int w = scan.depth_m.width, h = scan.depth_m.height;
+    Image<std::uint8_t> near_still(w, h, 0);
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const std::size_t i = std::size_t(y) * std::size_t(w) + std::size_t(x);
+        if (!(scan.depth_m.pixels[i] > 0.0f) || moves(scan, i)) continue;
+        for (int v = std::max(0, y - kRimPixels); v <= std::min(h - 1, y + kRimPixels); ++v)
+          for (int u = std::max(0, x - kRimPixels); u <= std::min(w - 1, x + kRimPixels); ++u)
+            near_still.at(u, v) = 1;
+      }
     for (std::size_t i = 0; i < scan.depth_m.pixels.size(); ++i)
-      if (moves(scan, i)) scan.depth_m.pixels[i] = 0.0f;
+      if (near_still.pixels[i] == 0) scan.depth_m.pixels[i] = 0.0f;
     return scan;
   }
 
