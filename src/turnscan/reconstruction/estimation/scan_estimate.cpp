@@ -114,16 +114,25 @@ std::optional<PlatterReturns> platter_in(const PlatterReturns& returns,
   return plane ? std::optional(returns) : std::nullopt;
 }
 
-/// Lowest height that is kept, and why.
+/// Whether frames may lack the platter though there is one: cut to the object by what recorded
+/// them, or scans of it alone.
+bool may_be_cut(std::span<const Frame> frames) {
+  return std::any_of(frames.begin(), frames.end(), [](const Frame& frame) {
+    const auto& pixels = frame.depth.pixels;
+    return pixels.empty() || std::find(pixels.begin(), pixels.end(), kOutsideCrop) != pixels.end();
+  });
+}
+
+/// Lowest height that is kept, and why. stands: there is a platter, whether it is seen or not.
 std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
                                              const std::optional<PlatterReturns>& platter,
-                                             bool known, double noise_m) {
+                                             bool stands, double noise_m) {
   const double clear = kClearNoises * noise_m;
   if (platter)
     return {std::max(0.001, platter->height_m + kClearNoises * platter->sigma_m),
             fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
                         mm(platter->height_m), mm(platter->sigma_m))};
-  if (known && returns.count == 0)
+  if (stands)
     return {std::max(0.002, clear), fmt::format("4 times the sensor's noise of {}", mm(noise_m))};
   const double below = -std::max(0.005, clear);
   if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMostSigma_m))
@@ -132,7 +141,8 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
   return {below, "no platter is seen, so that nothing is cropped below"};
 }
 
-void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
+/// cut: the frames may lack the platter.
+void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header, bool cut,
                  const CropOptions& crop, ScanEstimate& estimate) {
   Cylinder cylinder;
   cylinder.height_m = crop.height_m;
@@ -152,8 +162,11 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
         "cropped sideways; give --crop-radius");
   }
   cylinder.radius_m = found.value_or(1e3);
-  const auto platter = platter_in(returns, sample, known, calibrated.has_value(), estimate.noise_m);
-  auto [margin, reason] = choose_margin(returns, platter, known.has_value(), estimate.noise_m);
+  auto platter = platter_in(returns, sample, known, calibrated.has_value(), estimate.noise_m);
+  // What is left at its height of frames that lack it stands for it.
+  if (known && cut && returns.count > 0) platter = returns;
+  const bool stands = known && returns.count == 0;
+  auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(
       {"crop-margin", mm(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});
@@ -329,7 +342,7 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
       estimate.noise_m = std::max(estimate.noise_m, sensor.depth_unit_m / std::sqrt(12.0));
   }
   if (is_cropped(header, crop_options))
-    choose_crop(samples.points(), header, crop_options, estimate);
+    choose_crop(samples.points(), header, may_be_cut(frames), crop_options, estimate);
   return estimate;
 }
 
