@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <turnscan/core/angles.hpp>
@@ -7,6 +6,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/estimation/object_reach.hpp>
+#include <turnscan/reconstruction/estimation/platter_rim.hpp>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/length_text.hpp>
@@ -23,14 +23,22 @@ constexpr std::size_t kMostUncropped = 500'000;
 constexpr double kCellSpacings = 3.0;
 /// A crop ends so many spreads above what it leaves out.
 constexpr double kClearNoises = 4.0;
-/// Of the platter's radius: farther out only large objects stand.
-constexpr double kRimShare = 0.75;
-/// Of the directions in which a platter's rim must be seen. All frames of a sample show most of it.
+/// Of the directions in which frames show what is at a platter's rim: where it must be seen.
 constexpr double kRoundShare = 0.6;
 /// How far a plane leaves y = 0 that is tilted as a calibration from motion may be.
 constexpr double kTilt_m = 0.0005;
 /// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
 constexpr double kBeyondReach = 1.25, kBeyondReach_m = 0.015;
+
+/// What the estimate is made from.
+struct PosedScan {
+  std::span<const Frame> frames;
+  std::span<const Pose> poses;
+  const SequenceHeader& header;
+  const std::vector<RayTable>& rays;
+  const std::vector<std::optional<views::LightSheet>>& sheets;
+  const CropOptions& crop;
+};
 
 bool is_cropped(const SequenceHeader& header, const CropOptions& crop) {
   return crop.enabled && (header.turntable || crop.radius_m);
@@ -72,31 +80,19 @@ void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
                             mm(*reach), mm(platter))};
 }
 
-/// Share of the directions from the axis in which some of the points lie.
-double share_of_directions(const std::vector<Vec3f>& p_table) {
-  constexpr std::size_t kSectors = 36, kFewest = 3;
-  std::array<std::size_t, kSectors> counts{};
-  for (const Vec3f& p : p_table) {
-    const double turn = std::atan2(double(p.z()), double(p.x())) / kTurn + 0.5;
-    ++counts[std::min(std::size_t(turn * kSectors), kSectors - 1)];
-  }
-  const auto some = std::count_if(counts.begin(), counts.end(),
-                                  [](std::size_t count) { return count >= kFewest; });
-  return double(some) / double(kSectors);
-}
-
 /// The returns of a platter of a radius that is known, where they are as wide and as round as its
 /// own, not only an object's feet and walls.
 std::optional<PlatterReturns> platter_with_rim(const PlatterReturns& returns, double most_sigma_m,
-                                               const std::vector<Vec3f>& sample, double radius_m) {
+                                               const std::vector<Vec3f>& sample, double radius_m,
+                                               const PlatterRim& looks) {
   std::vector<Vec3f> rim;
-  const double inner = kRimShare * radius_m;
+  const double inner = PlatterRim::kInnerShare * radius_m;
   std::copy_if(sample.begin(), sample.end(), std::back_inserter(rim), [&](const Vec3f& p) {
     const double r = std::hypot(double(p.x()), double(p.z()));
     return std::abs(double(p.y())) < PlatterReturns::kReach_m && r > inner && r < radius_m;
   });
   const PlatterReturns at_rim = measure_platter(rim, radius_m);
-  if (!at_rim.plane(most_sigma_m) || share_of_directions(rim) < kRoundShare) return std::nullopt;
+  if (!at_rim.plane(most_sigma_m) || looks.share_seen() < kRoundShare) return std::nullopt;
   return returns.plane(most_sigma_m) ? returns : at_rim;
 }
 
@@ -104,10 +100,10 @@ std::optional<PlatterReturns> platter_with_rim(const PlatterReturns& returns, do
 /// recording or the user; calibrated: so far out something turns, at least.
 std::optional<PlatterReturns> platter_in(const PlatterReturns& returns,
                                          const std::vector<Vec3f>& sample,
-                                         const std::optional<double>& known_m, bool calibrated,
-                                         double noise_m) {
+                                         const std::optional<double>& known_m,
+                                         const PlatterRim& rim, bool calibrated, double noise_m) {
   const double most_sigma_m = std::max(PlatterReturns::kMostSigma_m, 2.0 * noise_m);
-  if (known_m) return platter_with_rim(returns, most_sigma_m, sample, *known_m);
+  if (known_m) return platter_with_rim(returns, most_sigma_m, sample, *known_m, rim);
   // A calibration that knows no radius has looked for a platter in vain: only what is as thin as
   // the noise proves the opposite.
   const bool plane = returns.plane(calibrated ? noise_m + kTilt_m : most_sigma_m);
@@ -141,9 +137,22 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
   return {below, "no platter is seen, so that nothing is cropped below"};
 }
 
-/// cut: the frames may lack the platter.
-void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header, bool cut,
-                 const CropOptions& crop, ScanEstimate& estimate) {
+/// What frames of depth cameras show where a platter's rim would be.
+PlatterRim looks_at_rim(const PosedScan& scan, double radius_m) {
+  PlatterRim rim(radius_m);
+  const std::size_t count = std::min(kSampledFrames, scan.frames.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * scan.frames.size() / count;
+    const Frame& frame = scan.frames[i];
+    if (!frame.depth.pixels.empty())
+      rim.add(frame, scan.header.sensors[frame.info.sensor], scan.poses[i]);
+  }
+  return rim;
+}
+
+void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEstimate& estimate) {
+  const SequenceHeader& header = scan.header;
+  const CropOptions& crop = scan.crop;
   Cylinder cylinder;
   cylinder.height_m = crop.height_m;
   const std::optional<double> known = known_radius(header, crop);
@@ -162,9 +171,10 @@ void choose_crop(const std::vector<Vec3f>& sample, const SequenceHeader& header,
         "cropped sideways; give --crop-radius");
   }
   cylinder.radius_m = found.value_or(1e3);
-  auto platter = platter_in(returns, sample, known, calibrated.has_value(), estimate.noise_m);
+  const PlatterRim rim = looks_at_rim(scan, known.value_or(0.0));
+  auto platter = platter_in(returns, sample, known, rim, calibrated.has_value(), estimate.noise_m);
   // What is left at its height of frames that lack it stands for it.
-  if (known && cut && returns.count > 0) platter = returns;
+  if (known && returns.count > 0 && may_be_cut(scan.frames)) platter = returns;
   const bool stands = known && returns.count == 0;
   auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
@@ -215,16 +225,6 @@ std::optional<std::size_t> next_of_sensor(std::span<const Frame> frames, std::si
   }
   return std::nullopt;
 }
-
-/// What the estimate is made from.
-struct PosedScan {
-  std::span<const Frame> frames;
-  std::span<const Pose> poses;
-  const SequenceHeader& header;
-  const std::vector<RayTable>& rays;
-  const std::vector<std::optional<views::LightSheet>>& sheets;
-  const CropOptions& crop;
-};
 
 /// Statistics of single frames.
 class FrameSamples {
@@ -332,7 +332,8 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
                                    const CropOptions& crop_options) {
   ScanEstimate estimate;
   TURNSCAN_ASSIGN(estimate.sheets, find_sheets(frames, header, rays));
-  FrameSamples samples({frames, poses, header, rays, estimate.sheets, crop_options});
+  const PosedScan scan{frames, poses, header, rays, estimate.sheets, crop_options};
+  FrameSamples samples(scan);
   const std::size_t count = std::min(kSampledFrames, frames.size());
   TURNSCAN_TRY(samples.add(count));
   TURNSCAN_TRY(samples.summarise(estimate));
@@ -341,8 +342,7 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
     if (sensor.kind == SensorKind::kDepthCamera)
       estimate.noise_m = std::max(estimate.noise_m, sensor.depth_unit_m / std::sqrt(12.0));
   }
-  if (is_cropped(header, crop_options))
-    choose_crop(samples.points(), header, may_be_cut(frames), crop_options, estimate);
+  if (is_cropped(header, crop_options)) choose_crop(samples.points(), scan, estimate);
   return estimate;
 }
 
