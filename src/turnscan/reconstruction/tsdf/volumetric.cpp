@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <turnscan/geometry/mesh/cut_handles.hpp>
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/simplify.hpp>
@@ -23,6 +24,7 @@ constexpr std::size_t kSampledViews = 64;
 constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
 /// Of what the best measured piece has per vertex: clutter that stands still has 0.02 to 0.04.
 constexpr double kLeastSupport = 0.08;
+constexpr double kLongestLoopCells = 16.0;  ///< around a handle that nothing measured
 constexpr double kLeastSection_m = 0.0005;  ///< between the sections that look for a neck
 
 using mesh_refinement::MeshFit;
@@ -99,8 +101,10 @@ class VolumetricReconstruction {
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
-      if (options_.fit && !input_.measured_only)
+      if (options_.fit && !input_.measured_only) {
+        TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface.unseen); }));
+      }
       if (!encloses_volume(fitted.mesh)) continue;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
       refined.push_back(std::move(fitted.mesh));
@@ -136,6 +140,18 @@ class VolumetricReconstruction {
         filter_share_ = estimation::share_of_neighbours(input_.views, mesh, input_.noise_m);
       });
     return *filter_share_;
+  }
+
+  /// A handle or a tunnel that rests on no measurement is none.
+  Result<> cut_unseen_handles(MeshFit& fitted) const {
+    const float least =
+        mesh_refinement::kUnseenShare * mesh_refinement::typical_support(fitted.support);
+    std::vector<std::uint8_t> unseen(fitted.support.size());
+    for (std::size_t v = 0; v < unseen.size(); ++v) unseen[v] = fitted.support[v] < least ? 1 : 0;
+    TURNSCAN_TRY(cut_handles(fitted.mesh, std::move(unseen),
+                             kLongestLoopCells * scale_.volume.cell_m, context_));
+    fitted.support.resize(fitted.mesh.vertices.size(), 0.0f);
+    return {};
   }
 
   Result<> close_unseen(MeshFit& fitted, const UnseenSpace& unseen) const {
