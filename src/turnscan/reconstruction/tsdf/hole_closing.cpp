@@ -7,6 +7,7 @@
 #include <turnscan/reconstruction/tsdf/guessed_threads.hpp>
 #include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
 #include <turnscan/reconstruction/tsdf/outside_flood.hpp>
+#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {
@@ -30,11 +31,13 @@ void for_each_in_brick(const Body& body) {
 
 class HoleClosing {
  public:
-  HoleClosing(Volume& volume, const VolumeScale& scale, const RunContext& context)
-      : v_(volume), scale_(scale), context_(context), samples_(volume) {}
+  HoleClosing(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+              const RunContext& context)
+      : v_(volume), scale_(scale), round_(round), context_(context), samples_(volume) {}
 
   Result<> run() {
     if (scale_.floor_m) forget_below_floor();
+    if (!round_.none()) end_above_platter();
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
     for (int round = 0; round < kMostExtensions; ++round) {
@@ -50,10 +53,7 @@ class HoleClosing {
   }
 
  private:
-  /// First layer of samples that is looked up.
-  int floor_row() const {
-    return std::max(0, int(std::ceil((*scale_.floor_m - v_.origin_m.y()) / v_.cell_m)));
-  }
+  int floor_row() const { return floor_layer(v_, *scale_.floor_m); }
 
   /// What was measured there may be the platter.
   void forget_below_floor() {
@@ -68,6 +68,23 @@ class HoleClosing {
       for (int j = 0; j < kBrickSide && first + j < floor; ++j) {
         for (int c = 0; c < 64; ++c)
           v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
+      }
+    }
+  }
+
+  /// Where the bottom is round it touches the platter at most.
+  void end_above_platter() {
+    const auto& size = samples_.size();
+    for (int k = 0; k < size[2]; ++k) {
+      for (int i = 0; i < size[0]; ++i) {
+        if (!round_.column(i, k)) continue;
+        const std::size_t b = samples_.brick(i, 0, k);
+        if (v_.slot[b] < 0) v_.allocate(b, float(v_.truncation_m));
+        for (int j = 0; j < kBrickSide && v_.position(i, j, k).y() < 0.0; ++j) {
+          const auto s = std::size_t(samples_.at(i, j, k));
+          v_.value[s] = float(v_.truncation_m);
+          v_.weight[s] = 1.0f;
+        }
       }
     }
   }
@@ -345,7 +362,7 @@ class HoleClosing {
     }
   }
 
-  /// Walls go on straight down from the floor, and end at y = 0.
+  /// Walls go on straight down from the floor, but for round bottoms, and end at y = 0.
   void extend_walls_to_platter() {
     const int floor = floor_row();
     const auto& size = samples_.size();
@@ -360,7 +377,7 @@ class HoleClosing {
           if (s < 0) continue;
           const float under = -float(v_.position(i, j, k).y());
           float& own = v_.value[std::size_t(s)];
-          own = std::max(j < floor ? wall : own, under);
+          own = std::max(j < floor && !round_.column(i, k) ? wall : own, under);
         }
       }
     }
@@ -405,6 +422,7 @@ class HoleClosing {
 
   Volume& v_;
   const VolumeScale& scale_;
+  const RoundBottoms& round_;
   const RunContext& context_;
   VolumeSamples samples_;
   std::vector<std::uint8_t> has_unknown_;  // per brick with samples
@@ -413,9 +431,14 @@ class HoleClosing {
 
 }  // namespace
 
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const RunContext& context) {
+int floor_layer(const Volume& volume, double floor_m) {
+  return std::max(0, int(std::ceil((floor_m - volume.origin_m.y()) / volume.cell_m)));
+}
+
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+                     const RunContext& context) {
   context.begin_phase("closing", 0);
-  return HoleClosing(volume, scale, context).run();
+  return HoleClosing(volume, scale, round, context).run();
 }
 
 }  // namespace turnscan::tsdf

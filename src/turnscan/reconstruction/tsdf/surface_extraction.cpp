@@ -50,11 +50,12 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   marched.origin_m = volume.origin_m;
   marched.cell_m = volume.cell_m;
   if (scale.floor_m || !scale.platters.empty()) marched.flat_m = 0.0f;
-  ExtractedSurface out{{}, marched, UnseenSpace(volume)};
+  ExtractedSurface out{{}, marched, UnseenSpace(volume), {}};
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));
     set_inside(volume, hull);
-    return close_holes(volume, scale, context);
+    if (scale.floor_m) out.round = RoundBottoms(volume, floor_layer(volume, *scale.floor_m));
+    return close_holes(volume, scale, out.round, context);
   };
   TURNSCAN_TRY(timed(times, "closing", close));
   TURNSCAN_TRY(context.check());

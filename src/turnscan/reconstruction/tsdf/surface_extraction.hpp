@@ -3,6 +3,7 @@
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
+#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
 #include <turnscan/reconstruction/tsdf/sample_bits.hpp>
 
 namespace turnscan::tsdf {
@@ -26,6 +27,7 @@ struct ExtractedSurface {
   TriangleMesh mesh;  ///< closed, 2-manifold, outward; may be empty
   EvenOutScale grid;  ///< that it was marched on
   UnseenSpace unseen;
+  RoundBottoms round;
 };
 
 /// The zero set of what was integrated in and around the box, smoothed, its holes closed: what the

@@ -10,6 +10,8 @@
 
 namespace turnscan::tsdf {
 
+class RoundBottoms;
+
 /// A platter on which the object lay in one of several passes, in the object's frame.
 struct Platter {
   Vec3d up = Vec3d::UnitY();  ///< unit vector
@@ -69,10 +71,15 @@ class Volume {
 Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 
 /// Decides what no view saw: the harmonic function that continues what is known, positive beyond
-/// the volume; below the floor of a platter the walls go on down and end flat at y = 0. Of several
+/// the volume; below the floor of a platter the walls go on down and end flat at y = 0, but where
+/// the bottom is round. Of several
 /// passes, only what none of them saw ends on a platter, and flat. Enclosed free spaces that do not
 /// reach the outside are filled. Fails with kCancelled, and then leaves the volume half done.
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const RunContext& context);
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+                     const RunContext& context);
+
+/// The first layer of samples that is looked up above a platter.
+int floor_layer(const Volume& volume, double floor_m);
 
 /// For isosurface(). Fails as BrickGrid does.
 Result<BrickGrid> to_grid(const Volume& volume, std::size_t max_bytes);

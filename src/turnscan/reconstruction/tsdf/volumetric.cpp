@@ -103,7 +103,7 @@ class VolumetricReconstruction {
         }));
       if (options_.fit && !input_.measured_only) {
         TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
-        TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface.unseen); }));
+        TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface); }));
       }
       if (!encloses_volume(fitted.mesh)) continue;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
@@ -154,13 +154,14 @@ class VolumetricReconstruction {
     return {};
   }
 
-  Result<> close_unseen(MeshFit& fitted, const UnseenSpace& unseen) const {
+  Result<> close_unseen(MeshFit& fitted, const ExtractedSurface& surface) const {
     mesh_refinement::PlateClosing closing;
-    closing.unseen = [&](const Vec3f& p) { return unseen.contains(p); };
+    closing.unseen = [&](const Vec3f& p) { return surface.unseen.contains(p); };
     closing.cell_m = scale_.volume.cell_m;
     closing.stands = [&](const Vec3f& p) {
       const VolumeScale& volume = scale_.volume;
-      if (volume.floor_m) return double(p.y()) < *volume.floor_m;
+      if (volume.floor_m)
+        return double(p.y()) < *volume.floor_m && (p.y() < 0.0f || !surface.round.contains(p));
       return below_platters(volume.platters, p.cast<double>()) > -kPlatterCells * volume.cell_m;
     };
     return mesh_refinement::close_as_plate(fitted.mesh, fitted.support, closing, context_);

@@ -9,6 +9,7 @@
 #include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
+#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
 #include <turnscan/reconstruction/tsdf/view_store.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
@@ -328,7 +329,7 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   if (volume.brick_count() == 0) return TriangleMesh();
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
-  TURNSCAN_TRY(close_holes(volume, scale, context));
+  TURNSCAN_TRY(close_holes(volume, scale, RoundBottoms(), context));
   TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(1) << 30));
   return isosurface(grid, IsosurfaceOptions(), context);
 }

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
+
+namespace turnscan::tsdf {
+namespace {
+
+constexpr int kFloor = 5;  // layers of 1 mm; the first lies half of one below y = 0
+
+/// 48 mm wide, 32 high, around the axis; all is known but what is below the floor.
+template <class Distance>
+Volume known_above_floor(const Distance& distance) {
+  Volume volume;
+  volume.cell_m = 0.001;
+  volume.truncation_m = 0.004;
+  volume.origin_m = Vec3d(-0.024, -0.0005, -0.024);
+  volume.set_bricks({6, 4, 6});
+  for (std::size_t b = 0; b < volume.brick_count(); ++b) {
+    volume.allocate(b, float(volume.truncation_m));
+    const GridCoords at = volume.bricks.coords(b);
+    for (int c = 0; c < int(kBrickSamples); ++c) {
+      const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
+      const std::size_t s = volume.first_sample(b) + sample_in_brick(i, j, k);
+      const int layer = at[1] * kBrickSide + j;
+      volume.value[s] =
+          float(distance(volume.position(at[0] * kBrickSide + i, layer, at[2] * kBrickSide + k)));
+      volume.weight[s] = layer >= kFloor ? 1.0f : 0.0f;
+    }
+  }
+  return volume;
+}
+
+double upright(const Vec3d& p) { return std::hypot(p.x(), p.z()) - 0.012; }
+double resting_ball(const Vec3d& p) { return (p - Vec3d(0, 0.015, 0)).norm() - 0.015; }
+double widening(const Vec3d& p) { return 0.8 * (std::hypot(p.x(), p.z()) - 0.018 + 0.7 * p.y()); }
+
+TEST(RoundBottoms, AreWhereABallRests) {
+  const RoundBottoms round(known_above_floor(resting_ball), kFloor);
+  EXPECT_FALSE(round.none());
+  EXPECT_TRUE(round.contains(Vec3f(0.0f, 0.0f, 0.0f)));
+  EXPECT_TRUE(round.contains(Vec3f(0.008f, 0.0f, 0.004f)));
+  EXPECT_FALSE(round.contains(Vec3f(0.1f, 0.0f, 0.0f)));
+}
+
+TEST(RoundBottoms, AreNotUnderUprightAndWideningWalls) {
+  EXPECT_TRUE(RoundBottoms(known_above_floor(upright), kFloor).none());
+  EXPECT_TRUE(RoundBottoms(known_above_floor(widening), kFloor).none());
+  EXPECT_TRUE(RoundBottoms().none());
+  EXPECT_FALSE(RoundBottoms().contains(Vec3f::Zero()));
+}
+
+TEST(RoundBottoms, OfTwoThingsOnlyTheRoundOneHasOne) {
+  const auto both = [](const Vec3d& p) {
+    return std::min((p - Vec3d(-0.012, 0.010, 0)).norm() - 0.010,
+                    std::hypot(p.x() - 0.014, p.z()) - 0.006);
+  };
+  const RoundBottoms round(known_above_floor(both), kFloor);
+  EXPECT_TRUE(round.contains(Vec3f(-0.012f, 0.0f, 0.0f)));
+  EXPECT_FALSE(round.contains(Vec3f(0.014f, 0.0f, 0.0f)));
+}
+
+TEST(RoundBottoms, WhatWasNotSeenTellsNothing) {
+  Volume volume = known_above_floor(resting_ball);
+  std::fill(volume.weight.begin(), volume.weight.end(), 0.0f);
+  EXPECT_TRUE(RoundBottoms(volume, kFloor).none());
+}
+
+}  // namespace
+}  // namespace turnscan::tsdf
