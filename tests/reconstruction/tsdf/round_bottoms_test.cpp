@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
+#include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {
 namespace {
@@ -41,6 +42,30 @@ TEST(RoundBottoms, AreWhereABallRests) {
   EXPECT_TRUE(round.contains(Vec3f(0.0f, 0.0f, 0.0f)));
   EXPECT_TRUE(round.contains(Vec3f(0.008f, 0.0f, 0.004f)));
   EXPECT_FALSE(round.contains(Vec3f(0.1f, 0.0f, 0.0f)));
+}
+
+/// How far the inside reaches beyond a ball that rests on the platter, once holes are closed.
+double plinth_of_ball(bool round) {
+  Volume volume = known_above_floor(resting_ball);
+  VolumeScale scale;
+  scale.cell_m = volume.cell_m;
+  scale.truncation_m = volume.truncation_m;
+  scale.floor_m = 0.004;
+  const RoundBottoms bottoms = round ? RoundBottoms(volume, kFloor) : RoundBottoms();
+  EXPECT_TRUE(close_holes(volume, scale, bottoms, RunContext()));
+  double out = 0.0;
+  const VolumeSamples samples(volume);
+  for (int k = 0; k < samples.size()[2]; ++k)
+    for (int j = 0; j < samples.size()[1]; ++j)
+      for (int i = 0; i < samples.size()[0]; ++i)
+        if (samples.value(i, j, k) < 0.0f)
+          out = std::max(out, resting_ball(volume.position(i, j, k)));
+  return out;
+}
+
+TEST(RoundBottoms, GetNoPlinth) {
+  EXPECT_GT(plinth_of_ball(false), 0.0025);
+  EXPECT_LT(plinth_of_ball(true), 0.0015);
 }
 
 TEST(RoundBottoms, AreNotUnderUprightAndWideningWalls) {

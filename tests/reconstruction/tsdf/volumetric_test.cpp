@@ -79,22 +79,6 @@ TEST(Volumetric, KeepsFeetWhereNoPlatterIsSeenThoughItsRadiusIsKnown) {
   }
 }
 
-TEST(Volumetric, ARoundBottomGetsNoPlinth) {
-  const Vec3d center(0.0, 0.03, 0.0);
-  const auto resting = [&](const Vec3d& o, const Vec3d& d) { return to_ball(o, d, center, 0.03); };
-  Rig rig;
-  rig.platter = true;
-  MemorySequence recording = scan(resting, rig);
-  recording.header_value.turntable->radius_m = 0.12;
-  const auto result = reconstruct(recording, volumetric(), {}, RunContext());
-  ASSERT_TRUE(result) << result.error().text();
-  ASSERT_EQ(result->objects.size(), 1u);
-  const TriangleMesh& mesh = result->objects[0].mesh;
-  EXPECT_TRUE(check_mesh(mesh).watertight());
-  for (const Vec3f& v : mesh.vertices)
-    EXPECT_LT((v.cast<double>() - center).norm(), 0.0325) << v.transpose();
-}
-
 TEST(Volumetric, BothSidesOfAThinPlateSurvive) {
   for (const double thickness : {0.003, 0.005}) {  // pixels lie 2.3 mm apart
     const double half = 0.5 * thickness;

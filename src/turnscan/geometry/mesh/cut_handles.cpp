@@ -148,7 +148,8 @@ class HandleCutter {
     reached_[seed] = {0.0f, kNone};
     queue.emplace(0.0f, seed);
     while (!queue.empty()) {
-      const auto [distance, v] = queue.top();
+      const float distance = queue.top().first;
+      const std::uint32_t v = queue.top().second;
       queue.pop();
       if (distance > reached_[v].distance) continue;
       for_each_leaving(v, [&](std::uint32_t h) {

@@ -52,7 +52,7 @@ class LowestSurfaceSearch {
     if ((from < 0.0f) == (to < 0.0f)) return;
     float down = 0.0f, across = 0.0f;
     for (const GridCoords& s : {a, b}) {
-      const auto [i, j, k] = s;
+      const int i = s[0], j = s[1], k = s[2];
       if (!known(i, j - 1, k) || !known(i, j + 1, k) || !known(i, j, k)) return;
       const auto slope = [&](int di, int dj, int dk) {
         return samples_.value(i + di, j + dj, k + dk) - samples_.value(i - di, j - dj, k - dk);
