@@ -98,6 +98,19 @@ TEST(MeasureAxisOffset, ShowsATableThatWasMovedThoughItsTurnCloses) {
   EXPECT_NEAR((*offset)->shift_m, 0.005, 0.002);  // measured beside the object, above the platter
 }
 
+TEST(MeasureAxisOffset, SaysNothingOfABallWhichLiesAlikeAboutAnyAxis) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    testing::RigOptions o = testing::near_rig(int(kFrames), kTurns);
+    o.seed = seed;
+    o.platter = false;
+    o.objects = {*builtin_object("ball")};
+    const testing::Rig rig(o);
+    const auto offset = measure_axis_offset(letter_on(rig), {});
+    ASSERT_TRUE(offset) << offset.error().text();
+    EXPECT_FALSE(*offset && (*offset)->bad()) << (*offset)->tilt_rad * kDegreesPerRadian;
+  }
+}
+
 TEST(MeasureAxisOffset, SaysNothingOfALittleTurn) {
   const testing::Rig rig = turning_rig();
   const SequenceView all = letter_on(rig);

@@ -82,6 +82,7 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   if (!fit) return nothing_if_unseen(fit.error());
   AxisOffset out = checks::offset_between(*table, *fit);
   out.frames = positions.size();
+  if (out.bad() && fit->gain < checks::kSigmas * checks::kSigmas) return std::nullopt;
   return out;
 }
 

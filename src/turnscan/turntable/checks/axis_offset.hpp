@@ -22,8 +22,9 @@ struct AxisOffset {
 
 /// Compares up to 36 frames of the first sensor at the angles that the recording states. nullopt
 /// where that is no depth camera (profiles of a line scanner do not overlap), where it shows less
-/// than an eighth of a turn, or too little of an object. Fails with kMissingData when the recording
-/// has no turntable or no angles, kCancelled, and what reading fails with.
+/// than an eighth of a turn, too little of an object, or one whose shape leaves the axis open, as a
+/// ball's does: another axis fits no better than the recorded one. Fails with kMissingData when the
+/// recording has no turntable or no angles, kCancelled, and what reading fails with.
 Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
                                                       const RunContext& context,
                                                       PlatterMemory* memory = nullptr);

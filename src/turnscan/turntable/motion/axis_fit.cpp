@@ -1,9 +1,21 @@
 #include <cmath>
+#include <limits>
 #include <turnscan/turntable/motion/axis_fit.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/pairwise_solver.hpp>
 
 namespace turnscan::motion {
+
+namespace {
+
+double gain_over(const Result<MotionSolution>& start, const MotionSolution& found) {
+  if (!start || 2 * start->residuals < found.residuals)
+    return std::numeric_limits<double>::infinity();
+  const double less = start->rms_m * start->rms_m - found.rms_m * found.rms_m;
+  return less * double(found.residuals) / found.variance_m2;
+}
+
+}  // namespace
 
 Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
                          const std::vector<double>& angle_rad, const RunContext& context) {
@@ -28,9 +40,15 @@ Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
   fine.covariance = true;
   TURNSCAN_ASSIGN(const MotionSolution found,
                   solve_pairwise(data, rough.state, pairs, prior, fine, context));
+  SolveOptions held = fine;
+  held.hold_axis = true;
+  held.covariance = false;
+  const auto as_started = solve_pairwise(data, state, pairs, prior, held, context);
+  if (!as_started && as_started.error().code == ErrorCode::kCancelled)
+    return tl::unexpected<Error>(as_started.error());
   const Eigen::Matrix4d& c = found.covariance;
   return AxisFit{found.state.axis, found.state.center, std::sqrt(c(0, 0) + c(1, 1)),
-                 std::sqrt(c(2, 2) + c(3, 3))};
+                 std::sqrt(c(2, 2) + c(3, 3)), gain_over(as_started, found)};
 }
 
 }  // namespace turnscan::motion
