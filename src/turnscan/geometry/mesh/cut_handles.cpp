@@ -6,7 +6,6 @@
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_edit.hpp>
-#include <unordered_map>
 
 namespace turnscan {
 

@@ -8,11 +8,11 @@
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
+#include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/measured_points.hpp>
 #include <turnscan/reconstruction/tsdf/object_grouping.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
-#include <turnscan/reconstruction/tsdf/simplify_within.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 
@@ -174,8 +174,9 @@ class VolumetricReconstruction {
     if (most >= all && !options_.max_error_m) return {};
     TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&]() -> Result<TriangleMesh> {
                       if (!options_.max_error_m) return simplify(piece.mesh, {most, 1e30, false});
-                      return simplify_within(piece.mesh, options_.triangles ? most : 0,
-                                             *options_.max_error_m, context_);
+                      return mesh_refinement::simplify_within(piece.mesh,
+                                                              options_.triangles ? most : 0,
+                                                              *options_.max_error_m, context_);
                     }));
     MeshFitScale scale = fit_scale();
     scale.iterations = 0;

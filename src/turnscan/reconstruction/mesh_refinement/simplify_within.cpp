@@ -2,14 +2,14 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/simplify.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
-#include <turnscan/reconstruction/tsdf/simplify_within.hpp>
+#include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 
-namespace turnscan::tsdf {
+namespace turnscan::mesh_refinement {
 
 namespace {
 
 constexpr int kTries = 10;
-constexpr int kRings = 3;  ///< of triangles about a vertex that strays too far
+constexpr int kRingsKept = 3;  ///< of triangles about a vertex that strays too far
 /// Of the vertices: where more stray too far, the bound on the quadrics is too wide.
 constexpr double kFewStrays = 0.01;
 
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const TriangleMesh
 /// Marks the triangles of some rings about vertices.
 void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
                 std::vector<std::uint8_t>& keep) {
-  for (int ring = 0; ring < kRings; ++ring) {
+  for (int ring = 0; ring < kRingsKept; ++ring) {
     std::vector<std::size_t> touched;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& corners = mesh.triangles[t];
@@ -64,4 +64,4 @@ Result<TriangleMesh> simplify_within(const TriangleMesh& full, std::size_t trian
   return full;
 }
 
-}  // namespace turnscan::tsdf
+}  // namespace turnscan::mesh_refinement
