@@ -79,6 +79,7 @@ class HoleClosing {
       for (int i = 0; i < size[0]; ++i) {
         if (!round_.column(i, k)) continue;
         const std::size_t b = samples_.brick(i, 0, k);
+        if (v_.slot[b] < 0 && v_.uniform[b] != 0.0f) continue;
         if (v_.slot[b] < 0) v_.allocate(b, float(v_.truncation_m));
         for (int j = 0; j < kBrickSide && v_.position(i, j, k).y() < 0.0; ++j) {
           const auto s = std::size_t(samples_.at(i, j, k));
