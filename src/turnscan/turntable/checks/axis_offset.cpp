@@ -82,7 +82,9 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   if (!fit) return nothing_if_unseen(fit.error());
   AxisOffset out = checks::offset_between(*table, *fit);
   out.frames = positions.size();
-  if (out.bad() && fit->gain < checks::kSigmas * checks::kSigmas) return std::nullopt;
+  if (!out.bad()) return out;
+  TURNSCAN_ASSIGN(const double gain, motion::gain_over_start(*fit, *data, *table, placed, context));
+  if (gain < checks::kSigmas * checks::kSigmas) return std::nullopt;
   return out;
 }
 

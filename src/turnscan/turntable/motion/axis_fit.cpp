@@ -8,24 +8,36 @@ namespace turnscan::motion {
 
 namespace {
 
-double gain_over(const Result<MotionSolution>& start, const MotionSolution& found) {
-  if (!start || 2 * start->residuals < found.residuals)
-    return std::numeric_limits<double>::infinity();
-  const double less = start->rms_m * start->rms_m - found.rms_m * found.rms_m;
-  return less * double(found.residuals) / found.variance_m2;
+MotionState state_of(const MotionData& data, const TurntableInfo& table,
+                     const std::vector<double>& angle_rad) {
+  MotionState state;
+  state.axis = table.axis.normalized();
+  // The point of the axis beside the object: tilting about it moves the object least.
+  state.center = table.center_m + state.axis.dot(data.middle - table.center_m) * state.axis;
+  state.angle = angle_rad;
+  return state;
+}
+
+AnglePrior held_angles(std::size_t count) {
+  AnglePrior prior;
+  prior.held.assign(count, 1);
+  return prior;
+}
+
+SolveOptions fine_options(const MotionData& data) {
+  SolveOptions fine;
+  fine.iterations = 5;
+  fine.reach_m = 0.01;
+  fine.stride = coarse_stride(data, 2);
+  return fine;
 }
 
 }  // namespace
 
 Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
                          const std::vector<double>& angle_rad, const RunContext& context) {
-  MotionState state;
-  state.axis = start.axis.normalized();
-  // The point of the axis beside the object: tilting about it moves the object least.
-  state.center = start.center_m + state.axis.dot(data.middle - start.center_m) * state.axis;
-  state.angle = angle_rad;
-  AnglePrior prior;
-  prior.held.assign(angle_rad.size(), 1);
+  const MotionState state = state_of(data, start, angle_rad);
+  const AnglePrior prior = held_angles(angle_rad.size());
   const auto pairs = select_pairs(data, angle_rad, false);
   SolveOptions coarse;
   coarse.reach_m = 0.03;
@@ -33,22 +45,36 @@ Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
   coarse.stride = coarse_stride(data, 6);
   TURNSCAN_ASSIGN(const MotionSolution rough,
                   solve_pairwise(data, state, pairs, prior, coarse, context));
-  SolveOptions fine;
-  fine.iterations = 5;
-  fine.reach_m = 0.01;
-  fine.stride = coarse_stride(data, 2);
+  SolveOptions fine = fine_options(data);
   fine.covariance = true;
   TURNSCAN_ASSIGN(const MotionSolution found,
                   solve_pairwise(data, rough.state, pairs, prior, fine, context));
-  SolveOptions held = fine;
-  held.hold_axis = true;
-  held.covariance = false;
-  const auto as_started = solve_pairwise(data, state, pairs, prior, held, context);
-  if (!as_started && as_started.error().code == ErrorCode::kCancelled)
-    return tl::unexpected<Error>(as_started.error());
   const Eigen::Matrix4d& c = found.covariance;
-  return AxisFit{found.state.axis, found.state.center, std::sqrt(c(0, 0) + c(1, 1)),
-                 std::sqrt(c(2, 2) + c(3, 3)), gain_over(as_started, found)};
+  AxisFit out;
+  out.axis = found.state.axis;
+  out.center_m = found.state.center;
+  out.axis_sigma_rad = std::sqrt(c(0, 0) + c(1, 1));
+  out.center_sigma_m = std::sqrt(c(2, 2) + c(3, 3));
+  out.rms_m = found.rms_m;
+  out.residuals = found.residuals;
+  out.variance_m2 = found.variance_m2;
+  return out;
+}
+
+Result<double> gain_over_start(const AxisFit& fit, const MotionData& data,
+                               const TurntableInfo& start, const std::vector<double>& angle_rad,
+                               const RunContext& context) {
+  SolveOptions held = fine_options(data);
+  held.hold_axis = true;
+  const auto at_start =
+      solve_pairwise(data, state_of(data, start, angle_rad), select_pairs(data, angle_rad, false),
+                     held_angles(angle_rad.size()), held, context);
+  if (!at_start && at_start.error().code == ErrorCode::kCancelled)
+    return tl::unexpected<Error>(at_start.error());
+  if (!at_start || 2 * at_start->residuals < fit.residuals)
+    return std::numeric_limits<double>::infinity();
+  const double less = at_start->rms_m * at_start->rms_m - fit.rms_m * fit.rms_m;
+  return less * double(fit.residuals) / fit.variance_m2;
 }
 
 }  // namespace turnscan::motion
