@@ -23,6 +23,9 @@ class DisjointSets {
     if (a < b) parent_[b] = a;
     if (b < a) parent_[a] = b;
   }
+  /// Makes a number a set of its own again; the sets it was in hold only when all of their members
+  /// are.
+  void reset(std::uint32_t i) { parent_[i] = i; }
 
  private:
   std::vector<std::uint32_t> parent_;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/geometry/mesh/cut_handles.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
@@ -60,9 +61,8 @@ class HandleCutter {
         leaving_(mesh.vertices.size(), kNone),
         searched_(searched),
         reached_(mesh.vertices.size()),
-        parent_(mesh.triangles.size() + 1),
+        faces_(mesh.triangles.size() + 1),
         side_(mesh.triangles.size(), 0) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
     for (std::uint32_t h = 0; h < opposite_.size(); ++h) leaving_[origin(h)] = h;
   }
 
@@ -208,10 +208,12 @@ class HandleCutter {
     if (is_disc(ball_.size(), twice_edges, thrice_faces)) return out;
     std::sort(edges.begin(), edges.end());
     for (auto edge = edges.rbegin(); edge != edges.rend(); ++edge) {
-      if (!join_faces(face(edge->second), face(opposite_[edge->second]))) out.push_back(*edge);
+      const std::uint32_t a = face(edge->second), b = face(opposite_[edge->second]);
+      if (faces_.root(a) == faces_.root(b)) out.push_back(*edge);
+      faces_.join(a, b);
     }
     for (const auto& [along, h] : edges)
-      for (const std::uint32_t f : {face(h), face(opposite_[h])}) parent_[f] = f;
+      for (const std::uint32_t f : {face(h), face(opposite_[h])}) faces_.reset(f);
     std::reverse(out.begin(), out.end());
     return out;
   }
@@ -228,19 +230,6 @@ class HandleCutter {
   std::uint32_t face(std::uint32_t h) const {
     const auto& t = mesh_.triangles[h / 3];
     return in_ball(t[0]) && in_ball(t[1]) && in_ball(t[2]) ? h / 3 : outside();
-  }
-
-  std::uint32_t root(std::uint32_t f) {
-    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-    return f;
-  }
-
-  /// Whether they were not one yet.
-  bool join_faces(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[a] = b;
-    return a != b;
   }
 
   /// Along the tree to the start of a half edge, along it, and back, without what both ways share.
@@ -360,8 +349,8 @@ class HandleCutter {
   std::vector<std::uint8_t>& searched_;  ///< no loop is near
   std::vector<Reached> reached_;         ///< in the ball
   std::vector<std::uint32_t> ball_;
-  std::vector<std::uint32_t> parent_;  ///< per triangle and for the outside: union and find
-  std::vector<std::uint8_t> side_;     ///< per triangle, while a loop is tried
+  DisjointSets faces_;              ///< triangles and the outside, as the cotree joins them
+  std::vector<std::uint8_t> side_;  ///< per triangle, while a loop is tried
   std::vector<Loop> loops_;
 };
 

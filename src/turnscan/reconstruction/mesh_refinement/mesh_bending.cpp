@@ -157,6 +157,14 @@ float typical_support(const std::vector<float>& support) {
   return float(median(some, 1.0));
 }
 
+std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support) {
+  const float least = kUnseenShare * typical_support(support);
+  std::vector<std::uint8_t> out(support.size());
+  std::transform(support.begin(), support.end(), out.begin(),
+                 [&](float s) { return std::uint8_t(s < least); });
+  return out;
+}
+
 double stiffening(double noise_m, double spacing_m, double edge_m, float typical_support) {
   const double noisy =
       noise_m * spacing_m / (edge_m * edge_m * std::sqrt(std::max(1e-3, double(typical_support))));

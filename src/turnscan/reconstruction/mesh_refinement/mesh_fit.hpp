@@ -39,6 +39,8 @@ struct MeshFit {
 float typical_support(const std::vector<float>& support);
 /// Share of the typical support below which a vertex counts as seen by no view.
 inline constexpr float kUnseenShare = 0.02f;
+/// The vertices that so count, one flag each.
+std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support);
 
 /// How many times MeshFitScale::stiffness the fit takes, 1 or more: what noise leaves of the
 /// measurements falls with their number, and what a surface bends does not. Longer edges are

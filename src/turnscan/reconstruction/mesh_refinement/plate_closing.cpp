@@ -23,10 +23,9 @@ class PlateCloser {
   PlateCloser(TriangleMesh& mesh, const std::vector<float>& support, const PlateClosing& closing,
               const RunContext& context)
       : mesh_(mesh), closing_(closing), context_(context), neighbours_(mesh) {
-    const float least = kUnseenShare * typical_support(support);
-    loose_.resize(mesh.vertices.size());
+    loose_ = unseen_vertices(support);
     for (std::size_t v = 0; v < loose_.size(); ++v)
-      loose_[v] = support[v] < least && !closing_.stands(mesh.vertices[v]) ? 1 : 0;
+      if (loose_[v] && closing_.stands(mesh.vertices[v])) loose_[v] = 0;
   }
 
   Result<> run() {

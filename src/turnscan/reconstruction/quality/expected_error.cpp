@@ -25,7 +25,7 @@ constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 /// Along edges of the mesh, to the nearest vertex that was measured (Dijkstra 1959); metres.
 std::vector<float> way_to_measured(const TriangleMesh& mesh, const mesh::VertexNeighbours& beside,
                                    const std::vector<float>& support) {
-  const float least = mesh_refinement::kUnseenShare * mesh_refinement::typical_support(support);
+  const std::vector<std::uint8_t> unseen = mesh_refinement::unseen_vertices(support);
   std::vector<float> way(mesh.vertices.size(), std::numeric_limits<float>::max());
   using Entry = std::pair<float, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -35,7 +35,7 @@ std::vector<float> way_to_measured(const TriangleMesh& mesh, const mesh::VertexN
     queue.push({length, v});
   };
   for (std::uint32_t v = 0; v < way.size(); ++v)
-    if (support[v] >= least) reach(v, 0.0f);
+    if (!unseen[v]) reach(v, 0.0f);
   while (!queue.empty()) {
     const auto [length, v] = queue.top();
     queue.pop();

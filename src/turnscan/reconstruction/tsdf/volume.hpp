@@ -72,9 +72,9 @@ Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 
 /// Decides what no view saw: the harmonic function that continues what is known, positive beyond
 /// the volume; below the floor of a platter the walls go on down and end flat at y = 0, but where
-/// the bottom is round. Of several
-/// passes, only what none of them saw ends on a platter, and flat. Enclosed free spaces that do not
-/// reach the outside are filled. Fails with kCancelled, and then leaves the volume half done.
+/// the bottom is round. Of several passes, only what none of them saw ends on a platter, and flat.
+/// Enclosed free spaces that do not reach the outside are filled. Fails with kCancelled, and then
+/// leaves the volume half done.
 Result<> close_holes(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
                      const RunContext& context);
 

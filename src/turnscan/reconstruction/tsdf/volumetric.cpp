@@ -144,11 +144,7 @@ class VolumetricReconstruction {
 
   /// A handle or a tunnel that rests on no measurement is none.
   Result<> cut_unseen_handles(MeshFit& fitted) const {
-    const float least =
-        mesh_refinement::kUnseenShare * mesh_refinement::typical_support(fitted.support);
-    std::vector<std::uint8_t> unseen(fitted.support.size());
-    for (std::size_t v = 0; v < unseen.size(); ++v) unseen[v] = fitted.support[v] < least ? 1 : 0;
-    TURNSCAN_TRY(cut_handles(fitted.mesh, std::move(unseen),
+    TURNSCAN_TRY(cut_handles(fitted.mesh, mesh_refinement::unseen_vertices(fitted.support),
                              kLongestLoopCells * scale_.volume.cell_m, context_));
     fitted.support.resize(fitted.mesh.vertices.size(), 0.0f);
     return {};
