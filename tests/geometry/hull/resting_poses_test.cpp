@@ -89,5 +89,24 @@ TEST(CenterOfMass, OfAConeIsAQuarterOfItsHeight) {
   EXPECT_NEAR(center.head<1>().norm(), 0.0, 1e-6);
 }
 
+TEST(TippingDirection, IsTheMiddleOfTheWidestGap) {
+  const Vec3d center(0.01, 0.05, 0.02);
+  const std::vector<Vec3f> behind{{0.0f, 0.0f, 0.03f}, {0.0f, 0.0f, 0.01f}};
+  const auto direction = tipping_direction(center, behind, 0.001);
+  ASSERT_TRUE(direction);
+  EXPECT_NEAR((*direction - Vec3d::UnitX()).norm(), 0.0, 1e-6);
+}
+
+TEST(TippingDirection, IsNoneAboveTheHullAndAboveAContact) {
+  const Vec3d center(0.0, 0.05, 0.0);
+  const std::vector<Vec3f> tripod{{0.03f, 0, 0}, {-0.01f, 0, 0.02f}, {-0.01f, 0, -0.02f}};
+  EXPECT_FALSE(tipping_direction(center, tripod, 0.0));
+  EXPECT_TRUE(tipping_direction(center + Vec3d(-0.02, 0, 0), tripod, 0.0));
+  const std::vector<Vec3f> below{{0.002f, 0, 0}};
+  EXPECT_FALSE(tipping_direction(center, below, 0.003));
+  EXPECT_TRUE(tipping_direction(center, below, 0.001));
+  EXPECT_TRUE(tipping_direction(center, {}, 0.001));
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -121,6 +121,49 @@ TEST(PlateClosing, LeavesWhatStandsOnThePlatter) {
   EXPECT_GT(mesh.vertices[0].y(), before.vertices[0].y());
 }
 
+/// A ball, its caps cut off, whose lower cap lies some millimetres above y = 0.
+TriangleMesh hovering() {
+  TriangleMesh mesh = flat_capped();
+  for (Vec3f& p : mesh.vertices) p.y() += 0.021f;
+  return mesh;
+}
+
+float lowest(const TriangleMesh& mesh) {
+  float out = 1.0f;
+  for (const Vec3f& p : mesh.vertices) out = std::min(out, p.y());
+  return out;
+}
+
+TEST(PlateClosing, PutsWhatWouldTipOverOntoThePlatter) {
+  TriangleMesh free = hovering(), resting = free, high = free;
+  PlateClosing closing = anywhere();
+  closing.cell_m = 0.0005;
+  const std::vector<float> support = measured_beyond(free, kCap_m);
+  ASSERT_TRUE(close_as_plate(free, support, closing, {}));
+  ASSERT_GT(lowest(free), 0.001f);
+  closing.rests_below_m = 0.008;
+  ASSERT_TRUE(close_as_plate(resting, support, closing, {}));
+  EXPECT_NEAR(lowest(resting), 0.0f, 1e-6f);
+  closing.rests_below_m = 0.5 * lowest(free);
+  ASSERT_TRUE(close_as_plate(high, support, closing, {}));
+  EXPECT_EQ(high.vertices, free.vertices);
+}
+
+TEST(PlateClosing, LeavesWhatStandsByItselfWhereItIs) {
+  TriangleMesh free = hovering();
+  const std::vector<float> support = measured_beyond(free, kCap_m);
+  // Three feet around the middle.
+  const std::size_t half = free.vertices.size() / 2, ring = half + 1 + 28 * kSheetAround;
+  for (const std::size_t around : {0, 32, 64}) free.vertices[ring + around].y() = 0.0f;
+  TriangleMesh resting = free;
+  PlateClosing closing = anywhere();
+  closing.cell_m = 0.0005;
+  ASSERT_TRUE(close_as_plate(free, support, closing, {}));
+  closing.rests_below_m = 0.008;
+  ASSERT_TRUE(close_as_plate(resting, support, closing, {}));
+  EXPECT_EQ(resting.vertices, free.vertices);
+}
+
 TEST(PlateClosing, DoesNotPassThroughOtherSurface) {
   // Both sides lead inwards, and as plates they would meet beyond each other.
   const auto hollow = [](float r) { return 0.0006f + 0.5f * (std::max(r, kCap_m) - kCap_m); };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/geometry/hull/convex_hull.hpp>
 #include <turnscan/geometry/hull/resting_poses.hpp>
@@ -108,6 +109,25 @@ Vec3d center_of_mass(const TriangleMesh& mesh) {
     moment += part * (a + b + c) / 4.0;
   }
   return volume > 0.0 ? Vec3d(middle + moment / volume) : middle;
+}
+
+std::optional<Vec3d> tipping_direction(const Vec3d& center_of_mass, std::span<const Vec3f> contacts,
+                                       double tolerance_m) {
+  std::vector<double> angles;
+  for (const Vec3f& contact : contacts) {
+    const double x = contact.x() - center_of_mass.x(), z = contact.z() - center_of_mass.z();
+    if (std::hypot(x, z) <= tolerance_m) return std::nullopt;
+    angles.push_back(std::atan2(z, x));
+  }
+  std::sort(angles.begin(), angles.end());
+  double widest = 0.0, middle = 0.0;
+  for (std::size_t n = 0; n < angles.size(); ++n) {
+    const bool last = n + 1 == angles.size();
+    const double gap = (last ? angles[0] + 2.0 * std::numbers::pi : angles[n + 1]) - angles[n];
+    if (gap > widest) widest = gap, middle = angles[n] + 0.5 * gap;
+  }
+  if (!angles.empty() && widest < std::numbers::pi) return std::nullopt;
+  return Vec3d(std::cos(middle), 0.0, std::sin(middle));
 }
 
 std::vector<RestingPose> resting_poses(const TriangleMesh& mesh, const RestingOptions& options) {

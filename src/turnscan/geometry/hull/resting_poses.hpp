@@ -1,6 +1,8 @@
 #pragma once
 // The ways in which a body stands on a plane by itself.
 
+#include <optional>
+#include <span>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 
@@ -23,6 +25,13 @@ struct RestingOptions {
 /// Centre of mass of the volume that a closed mesh encloses, of one density throughout. The middle
 /// of its box where that volume is not positive.
 Vec3d center_of_mass(const TriangleMesh& mesh);
+
+/// The horizontal direction (unit, y = 0) in which a body tips over that touches a level plane at
+/// some points: the middle of their widest gap, as seen from its centre of mass; without points it
+/// is arbitrary. nullopt where the centre lies above their convex hull, or within tolerance_m of
+/// being above one of them.
+std::optional<Vec3d> tipping_direction(const Vec3d& center_of_mass, std::span<const Vec3f> contacts,
+                                       double tolerance_m);
 
 /// The lowest first. A body rests on those faces of its convex hull to which its centre of mass
 /// projects; on a ball, or the round side of a cylinder, it rolls, and such are left out. Empty

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/hull/resting_poses.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/winding_faults.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
@@ -10,9 +11,12 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr int kMostContacts = 4;    ///< solutions, each with the contacts of those before it
-constexpr int kContactRounds = 6;   ///< of averaging where the plate touches what was seen
-constexpr float kNearCells = 1.5f;  ///< the rim lies in what was seen
+constexpr int kMostContacts = 4;       ///< solutions, each with the contacts of those before it
+constexpr int kMostRests = 3;          ///< vertices that are put onto the platter
+constexpr float kTouchCells = 1.0f;    ///< above the platter touches it
+constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
+constexpr int kContactRounds = 6;      ///< of averaging where the plate touches what was seen
+constexpr float kNearCells = 1.5f;     ///< the rim lies in what was seen
 /// Of a membrane: as long as some 30 edges it is as stiff as a plate. Wide openings are spanned.
 constexpr double kTension = 0.001;
 
@@ -33,6 +37,7 @@ class PlateCloser {
     const std::vector<Vec3f> start = mesh_.vertices;
     const Marks before = winding_faults(mesh_, closing_.cell_m);
     TURNSCAN_TRY(bend(start));
+    for (int n = 0; n < kMostRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
     for (const float share : {0.5f, 0.0f}) {
       TURNSCAN_TRY(context_.check());
@@ -66,6 +71,37 @@ class PlateCloser {
       }
     }
     return {};
+  }
+
+  /// Puts a loose vertex onto the platter where the object would tip over without. Whether there is
+  /// one that can go there.
+  bool rest_on_platter() {
+    if (!closing_.rests_below_m) return false;
+    const float touching = kTouchCells * float(closing_.cell_m);
+    std::vector<Vec3f> contacts;
+    for (const Vec3f& p : mesh_.vertices)
+      if (p.y() < touching) contacts.push_back(p);
+    const Vec3d center = center_of_mass(mesh_);
+    const auto tipping = tipping_direction(center, contacts, kBalanceCells * closing_.cell_m);
+    if (!tipping) return false;
+    // Of those that are as low as the lowest the one below the centre of mass.
+    const auto rank = [&](std::uint32_t v) {
+      const Vec3d p = mesh_.vertices[v].cast<double>();
+      return std::pair(std::floor(p.y() / closing_.cell_m),
+                       std::hypot(p.x() - center.x(), p.z() - center.z()));
+    };
+    std::optional<std::uint32_t> lowest;
+    for (std::uint32_t v = 0; v < loose_.size(); ++v) {
+      const Vec3f& p = mesh_.vertices[v];
+      if (!loose_[v] || p.y() >= float(*closing_.rests_below_m)) continue;
+      if (!contacts.empty() && tipping->dot(p.cast<double>() - center) <= 0.0) continue;
+      if ((!lowest || rank(v) < rank(*lowest)) && free_share(p, {p.x(), 0.0f, p.z()}) == 1.0f)
+        lowest = v;
+    }
+    if (!lowest) return false;
+    mesh_.vertices[*lowest].y() = 0.0f;
+    loose_[*lowest] = 0;
+    return true;
   }
 
   /// All loose vertices that hang together with those.

@@ -154,6 +154,8 @@ class VolumetricReconstruction {
     mesh_refinement::PlateClosing closing;
     closing.unseen = [&](const Vec3f& p) { return surface.unseen.contains(p); };
     closing.cell_m = scale_.volume.cell_m;
+    if (scale_.volume.floor_m)
+      closing.rests_below_m = *scale_.volume.floor_m + scale_.volume.truncation_m;
     closing.stands = [&](const Vec3f& p) {
       const VolumeScale& volume = scale_.volume;
       if (volume.floor_m)
