@@ -39,6 +39,28 @@ TEST(SeenPast, IsNothingOfThinPartsAndFlyingPixels) {
   EXPECT_EQ(seen_past(scan(legs, {36, kNoise_m, 0.5})), 0.0);
 }
 
+/// A level plate beside the table, 30 mm above the platter, in front of what a camera that stands
+/// still sees.
+MemorySequence with_plate_beside(MemorySequence sequence) {
+  const views::DepthView first = views_of(sequence).front();
+  const SensorInfo& sensor = sequence.header_value.sensors.front();
+  const CameraIntrinsics& camera = sensor.intrinsics;
+  const Vec3d up = (first.rotation * Vec3f::UnitY()).cast<double>();
+  const double height_m = 0.03 + up.dot(first.translation.cast<double>());
+  for (Frame& frame : sequence.data)
+    for (int y = 50; y < 62; ++y)
+      for (int x = 100; x < 120; ++x) {
+        const Vec3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+        frame.depth.at(x, y) =
+            std::uint16_t((height_m / up.dot(ray) - sensor.depth_bias_m) / sensor.depth_unit_m);
+      }
+  return sequence;
+}
+
+TEST(SeenPast, IsNothingOfWhatDoesNotTurn) {
+  EXPECT_EQ(seen_past(with_plate_beside(scan(carton, {72, kNoise_m}))), 0.0);
+}
+
 TEST(SeenPast, GrowsWithHowFarSomeViewsOutlinesRetreat) {
   const MemorySequence sharp = scan(carton, {36, kNoise_m});
   const double by4 = seen_past(with_retreating_outlines(sharp, 4)),

@@ -57,17 +57,21 @@ std::optional<Facing> facing(const Witnesses& views, const Vec3f& p, float reach
   return Facing{-outward.normalized().cast<float>(), near};
 }
 
-/// How far from p on all places are contested.
-double contested_depth(const Witnesses& views, const Vec3f& p, const Facing& facing, float reach,
-                       double step_m) {
-  int step = 0;
-  for (; step < kMostSteps; ++step) {
-    const Vec3f q = p + float((step + 1) * step_m) * facing.inward;
-    const auto past = std::count_if(views.begin(), views.end(), [&](const views::DepthView* view) {
+/// How far from p on all places are contested; nullopt where more views see past p than measured
+/// it: what stands still beside the table turns with it to where all others see nothing.
+std::optional<double> contested_depth(const Witnesses& views, const Vec3f& p, const Facing& facing,
+                                      float reach, double step_m) {
+  const auto views_past = [&](const Vec3f& q) {
+    return std::count_if(views.begin(), views.end(), [&](const views::DepthView* view) {
       const Testimony t = ask(*view, q);
       return t.free && *t.free > reach;
     });
-    if (double(past) < kContested * facing.views) break;
+  };
+  if (views_past(p) > facing.views) return std::nullopt;
+  int step = 0;
+  for (; step < kMostSteps; ++step) {
+    const Vec3f q = p + float((step + 1) * step_m) * facing.inward;
+    if (double(views_past(q)) < kContested * facing.views) break;
   }
   return step * step_m;
 }
@@ -85,7 +89,7 @@ double depth_seen_past(std::span<const views::DepthView> views, std::span<const 
   parallel_for(kPlaces, 16, [&](std::size_t i) {
     const Vec3f& p = points[mix64(i) % points.size()];
     if (const auto faced = facing(witnesses, p, reach))
-      depths[i] = contested_depth(witnesses, p, *faced, reach, kStep * spacing_m);
+      depths[i] = contested_depth(witnesses, p, *faced, reach, kStep * spacing_m).value_or(-1.0);
   });
   std::erase(depths, -1.0);
   if (depths.size() < kFewestPlaces) return 0.0;
