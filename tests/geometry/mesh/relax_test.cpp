@@ -28,13 +28,19 @@ void blow_up(TriangleMesh& mesh, const std::vector<std::uint8_t>& where, std::ui
   }
 }
 
+RelaxOptions tight(double tension) {
+  RelaxOptions options;
+  options.tension = tension;
+  return options;
+}
+
 TEST(Relax, ContinuesAPlaneExactly) {
   for (const double tension : {0.0, 0.3, 1.0}) {
     TriangleMesh mesh = plane(40);
     const TriangleMesh flat = mesh;
     const auto movable = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.3f);
     blow_up(mesh, movable, 1);
-    const auto relaxed = relax(mesh, movable, {tension}, RunContext());
+    const auto relaxed = relax(mesh, movable, tight(tension), RunContext());
     ASSERT_TRUE(relaxed) << relaxed.error().text();
     EXPECT_EQ(relaxed->triangles, mesh.triangles);
     for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
@@ -49,7 +55,7 @@ TEST(Relax, APlateContinuesTheCurvatureOfASphereAndAFilmDoesNot) {
   const auto movable = within(mesh, pole, 0.5f);
   blow_up(mesh, movable, 2);
   const auto height = [&](double tension) {
-    const auto relaxed = relax(mesh, movable, {tension}, RunContext());
+    const auto relaxed = relax(mesh, movable, tight(tension), RunContext());
     float top = 0.0f;
     for (const Vec3f& v : relaxed->vertices) top = std::max(top, v.dot(pole));
     return top;
@@ -69,6 +75,29 @@ TEST(Relax, LeavesFixedVerticesAlone) {
     if (movable[v] != 0) continue;
     ASSERT_EQ(relaxed->vertices[v], mesh.vertices[v]);
   }
+}
+
+TEST(Relax, HoldsVerticesByTheirWeights) {
+  TriangleMesh mesh = plane(40);
+  const auto movable = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.3f);
+  const auto middle = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.001f);
+  const auto v = std::size_t(std::find(middle.begin(), middle.end(), 1) - middle.begin());
+  ASSERT_LT(v, middle.size());
+  mesh.vertices[v].z() = 1.0f;
+  const auto height = [&](float weight) {
+    RelaxOptions options;
+    options.hold.assign(mesh.vertices.size(), 0.0f);
+    options.hold[v] = weight;
+    const auto relaxed = relax(mesh, movable, options, RunContext());
+    EXPECT_TRUE(relaxed);
+    return relaxed->vertices[v].z();
+  };
+  EXPECT_NEAR(height(0.0f), 0.0f, 1e-5f);
+  EXPECT_NEAR(height(1e6f), 1.0f, 1e-4f);
+  // A plate gives way to a pull in proportion: w (1 - z) = z / compliance.
+  const float soft = height(0.1f), hard = height(0.5f);
+  EXPECT_GT(soft, 0.01f);
+  EXPECT_NEAR(0.1f * (1.0f - soft) / soft, 0.5f * (1.0f - hard) / hard, 1e-3f);
 }
 
 TEST(Relax, SolvesRegionsApartAndLeavesWhatNothingHolds) {
@@ -136,9 +165,9 @@ TEST(Relax, IsTheSameForOneAndTwoThreads) {
   for (std::size_t v = 0; v < movable.size(); ++v) movable[v] |= other[v];
   for (Vec3f& v : mesh.vertices) v.z() = std::sin(5.0f * v.x()) * v.y();
   set_thread_count(1);
-  const auto one = relax(mesh, movable, {0.1}, RunContext());
+  const auto one = relax(mesh, movable, tight(0.1), RunContext());
   set_thread_count(2);
-  const auto two = relax(mesh, movable, {0.1}, RunContext());
+  const auto two = relax(mesh, movable, tight(0.1), RunContext());
   set_thread_count(0);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->vertices, two->vertices);
@@ -148,8 +177,12 @@ TEST(Relax, FailsByName) {
   const TriangleMesh mesh = plane(4);
   const std::vector<std::uint8_t> movable(mesh.vertices.size(), 0);
   EXPECT_EQ(relax(mesh, {1, 0}, {}, RunContext()).error().code, ErrorCode::kInvalidOption);
+  RelaxOptions short_of_weights;
+  short_of_weights.hold = {1.0f};
+  EXPECT_EQ(relax(mesh, movable, short_of_weights, RunContext()).error().code,
+            ErrorCode::kInvalidOption);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(relax(mesh, movable, {nan}, RunContext()).error().code, ErrorCode::kInvalidOption);
+  EXPECT_EQ(relax(mesh, movable, tight(nan), RunContext()).error().code, ErrorCode::kInvalidOption);
   const RunContext context;
   context.cancel();
   EXPECT_EQ(relax(mesh, movable, {}, context).error().code, ErrorCode::kCancelled);

@@ -134,7 +134,8 @@ Result<TriangleMesh> drop_flat_pieces(const TriangleMesh& mesh) {
 Result<FilledMesh> fill_holes(const TriangleMesh& mesh, const FillHolesOptions& options,
                               const RunContext& context) {
   TURNSCAN_TRY(validate_mesh(mesh));
-  RelaxOptions relaxing{options.tension};
+  RelaxOptions relaxing;
+  relaxing.tension = options.tension;
   TURNSCAN_TRY(describe(relaxing).check());
   const MeshReport report = check_mesh(mesh);
   if (!report.manifold || !report.oriented) {

@@ -75,6 +75,9 @@ struct RelaxOptions {
   /// 0: thin plate (continues slope and curvature of the surroundings), 1: membrane (least area,
   /// as a soap film); in between a mixture.
   double tension = 0.0;
+  /// Per vertex, 0 or more: a movable one is held where it is with this weight of its squared
+  /// distance from there. Empty: none is.
+  std::vector<float> hold = {};
 };
 OptionTable describe(RelaxOptions& options);
 

@@ -43,17 +43,19 @@ std::vector<std::vector<std::uint32_t>> find_regions(const mesh::VertexNeighbour
 }
 
 /// Minimises (1 - tension) * sum over vertices |sum over neighbours (x_i - x_j)|^2 / degree
-/// + tension * sum over edges |x_i - x_j|^2 over one region (Kobbelt, Campagna, Vorsatz, Seidel
-/// 1998, "Interactive multi-resolution modeling on arbitrary meshes").
+/// + tension * sum over edges |x_i - x_j|^2 + sum over vertices hold |x - start|^2 over one region
+/// (Kobbelt, Campagna, Vorsatz, Seidel 1998, "Interactive multi-resolution modeling on arbitrary
+/// meshes").
 class PlateSystem {
  public:
   PlateSystem(const TriangleMesh& mesh, const mesh::VertexNeighbours& adjacency,
               const std::vector<std::uint32_t>& region, const std::vector<std::uint32_t>& place,
-              double tension)
+              const RelaxOptions& options)
       : mesh_(mesh), adjacency_(adjacency), region_(region), place_(place) {
     origin_ = mesh.vertices[region[0]].cast<double>();
     right_ = sparse::Columns3::Zero(Eigen::Index(region.size()), 3);
-    assemble(tension);
+    assemble(options.tension);
+    if (!options.hold.empty()) hold(options.hold);
   }
 
   Result<> solve(const RunContext& context, std::vector<Vec3f>& vertices) {
@@ -85,6 +87,16 @@ class PlateSystem {
       const bool hub = adjacency_.of(v).size() > kLargestPlateDegree;
       if (!hub && tension < 1.0) add_plate(v, 1.0 - tension);
       if (hub || tension > 0.0) add_membrane(v, hub ? 1.0 : tension);
+    }
+  }
+
+  void hold(const std::vector<float>& weights) {
+    for (std::size_t i = 0; i < region_.size(); ++i) {
+      const std::uint32_t v = region_[i];
+      if (weights[v] <= 0.0f) continue;
+      triplets_.emplace_back(int(i), int(i), double(weights[v]));
+      right_.row(Eigen::Index(i)) +=
+          double(weights[v]) * (mesh_.vertices[v].cast<double>() - origin_).transpose();
     }
   }
 
@@ -150,6 +162,11 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
                 "relax: {} marks for {} vertices; give one for each vertex", movable.size(),
                 mesh.vertices.size());
   }
+  if (!options.hold.empty() && options.hold.size() != mesh.vertices.size()) {
+    return fail(ErrorCode::kInvalidOption,
+                "relax: {} weights for {} vertices; give one for each vertex or none",
+                options.hold.size(), mesh.vertices.size());
+  }
   const mesh::VertexNeighbours adjacency(mesh);
   const auto regions = find_regions(adjacency, movable);
   std::vector<std::uint32_t> place(mesh.vertices.size(), mesh::kNone);
@@ -160,7 +177,7 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
   std::vector<Result<>> solved(regions.size());
   parallel_for(regions.size(), 1, [&](std::size_t r) {
     if (context.cancelled()) return;
-    PlateSystem system(mesh, adjacency, regions[r], place, options.tension);
+    PlateSystem system(mesh, adjacency, regions[r], place, options);
     solved[r] = system.solve(context, relaxed.vertices);
   });
   TURNSCAN_TRY(context.check());

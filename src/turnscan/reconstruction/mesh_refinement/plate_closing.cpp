@@ -20,6 +20,10 @@ constexpr float kNearCells = 1.5f;     ///< the rim lies in what was seen
 /// Of a membrane: as long as some 30 edges it is as stiff as a plate. Wide openings are spanned.
 constexpr double kTension = 0.001;
 
+/// Of islands in what nothing measured: of a few mixed pixels they are no more than a hint.
+constexpr float kWeakIsland = 0.5f;    ///< support of the best vertex, of the typical one
+constexpr float kSmallIsland = 20.0f;  ///< typical vertices with as much support together
+
 using Marks = std::vector<std::uint8_t>;
 
 class PlateCloser {
@@ -28,6 +32,8 @@ class PlateCloser {
               const RunContext& context)
       : mesh_(mesh), closing_(closing), context_(context), neighbours_(mesh) {
     loose_ = unseen_vertices(support);
+    hold_.assign(loose_.size(), 0.0f);
+    loosen_islands(support);
     for (std::size_t v = 0; v < loose_.size(); ++v)
       if (loose_[v] && closing_.stands(mesh.vertices[v])) loose_[v] = 0;
   }
@@ -39,6 +45,7 @@ class PlateCloser {
     TURNSCAN_TRY(bend(start));
     for (int n = 0; n < kMostRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
+    for (const std::uint32_t v : rests_) loose_[v] = 1;
     for (const float share : {0.5f, 0.0f}) {
       TURNSCAN_TRY(context_.check());
       if (!draw_back(start, share, before)) break;
@@ -48,12 +55,41 @@ class PlateCloser {
   }
 
  private:
+  /// Groups of vertices with little support that lie apart from all else that was measured: the
+  /// plate is drawn to them by as much, and not dented by single ones.
+  void loosen_islands(const std::vector<float>& support) {
+    const float typical = typical_support(support);
+    Marks visited = loose_;
+    std::vector<std::uint32_t> island;
+    for (std::uint32_t seed = 0; seed < visited.size(); ++seed) {
+      if (visited[seed]) continue;
+      visited[seed] = 1;
+      island.assign(1, seed);
+      for (std::size_t i = 0; i < island.size(); ++i)
+        neighbours_.each(island[i], [&](std::uint32_t other) {
+          if (!visited[other]) island.push_back(other);
+          visited[other] = 1;
+        });
+      float best = 0.0f, sum = 0.0f;
+      for (const std::uint32_t v : island) {
+        best = std::max(best, support[v] / typical);
+        sum += support[v] / typical;
+      }
+      if (best >= kWeakIsland || sum >= kSmallIsland) continue;
+      for (const std::uint32_t v : island) {
+        loose_[v] = 1;
+        hold_[v] = support[v] / typical;
+      }
+    }
+  }
+
   /// Solves for the plate until no more vertices touch what was seen.
   Result<> bend(const std::vector<Vec3f>& start) {
     Marks free = loose_;
     contact_.assign(loose_.size(), 0);
     RelaxOptions plate;
     plate.tension = kTension;
+    plate.hold = hold_;
     for (int round = 0; round < kMostContacts; ++round) {
       TURNSCAN_ASSIGN(const TriangleMesh bent, relax(mesh_, free, plate, context_));
       Marks touches(loose_.size(), 0);
@@ -101,6 +137,7 @@ class PlateCloser {
     if (!lowest) return false;
     mesh_.vertices[*lowest].y() = 0.0f;
     loose_[*lowest] = 0;
+    rests_.push_back(*lowest);
     return true;
   }
 
@@ -168,8 +205,10 @@ class PlateCloser {
   const PlateClosing& closing_;
   const RunContext& context_;
   MeshNeighbours neighbours_;
-  Marks loose_;    ///< may move
-  Marks contact_;  ///< stays at the border of what was seen
+  Marks loose_;                       ///< may move
+  std::vector<float> hold_;           ///< how strongly where it was; 0 = not
+  Marks contact_;                     ///< stays at the border of what was seen
+  std::vector<std::uint32_t> rests_;  ///< put onto the platter
 };
 
 }  // namespace

@@ -20,7 +20,8 @@ struct PlateClosing {
   double cell_m = 0.001;  ///< the voxel size; unseen() is as coarse
 };
 
-/// Moves vertices with less than a fiftieth of the typical support to where they continue the rest
+/// Moves vertices with less than a fiftieth of the typical support, and small weak groups of others
+/// in their midst in proportion to their support, to where they continue the rest
 /// tangentially with least bending (relax()), but not farther than where no view looked: what
 /// would pass on stays at the border, and the others are solved again. Parts that would pass
 /// through other surface (winding_faults()) move half as far, or not. An object that would tip over
