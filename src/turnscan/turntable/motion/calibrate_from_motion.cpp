@@ -61,6 +61,7 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
                                       std::size_t max_samples, const RunContext& context) {
   MotionDataOptions loading;
   loading.detect = detect;
+  loading.level = true;
   // What turns checks the platter; edges of stereo cameras are rough (0.73 on a D435's table).
   loading.detect.min_agreement = std::min(detect.min_agreement, kLeastAgreement);
   loading.detect.min_confidence = std::min(detect.min_confidence, kLeastConfidence);

@@ -40,6 +40,7 @@ class FrameLoader {
       TURNSCAN_ASSIGN(foreground_, find_foreground(sequence_, options_, data_, context_));
     }
     TURNSCAN_TRY(read_all());
+    if (options_.level && data_.platter) level_frames();
     return finish();
   }
 
@@ -108,6 +109,9 @@ class FrameLoader {
     const double fx = data_.camera.fx, noise = data_.noise_m;
     DepthForeground depth = extract_foreground(raw.depth, sequence_.header().sensors.front(),
                                                data_.camera, rays_, foreground_);
+    if (data_.platter)
+      frame.platter =
+          see_platter(raw.depth, sequence_.header().sensors.front(), rays_, *data_.platter, noise);
     drop_mixed_pixels(depth, fx, noise);
     if (data_.correlated_noise) {
       const auto before = double(depth.pixels.size());
@@ -121,6 +125,25 @@ class FrameLoader {
     if (!key) return;
     correct_chord_sag(depth, fx, noise);
     frame.surface = trimmed(depth);
+  }
+
+  /// A platter that wobbles carries the object with it.
+  void level_frames() {
+    std::vector<std::optional<PlatterSight>> sights;
+    for (const MotionFrame& frame : data_.frames) sights.push_back(frame.platter);
+    const auto levelling = level(sights, *data_.platter);
+    if (!levelling) return;
+    data_.platter->axis = levelling->axis;
+    for (std::size_t i = 0; i < data_.frames.size(); ++i) {
+      MotionFrame& frame = data_.frames[i];
+      const Pose& T = levelling->T_level_sensor[i];
+      for (SurfaceSample& sample : frame.samples) {
+        sample.p = (T * sample.p.cast<double>()).cast<float>();
+        sample.n = (T.linear() * sample.n.cast<double>()).cast<float>();
+      }
+      frame.surface.T_camera_level = T.inverse();
+      frame.raw_surface.T_camera_level = T.inverse();
+    }
   }
 
   /// As it was measured, but for what the sensor's own filter does to curved surfaces.
@@ -209,6 +232,11 @@ Eigen::Vector2d pixel_of(const CameraIntrinsics& camera, const Vec3d& p) {
 
 bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p, double reach_m,
                                      Vec3d& found) const {
+  if (surface.T_camera_level) {
+    if (!find_in_image(surface, *surface.T_camera_level * p, reach_m, found)) return false;
+    found = surface.T_camera_level->inverse() * found;
+    return true;
+  }
   if (!projective) {
     std::uint32_t index = 0;
     float squared = 0.0f;
@@ -216,6 +244,11 @@ bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p
     found = surface.points[index].cast<double>();
     return true;
   }
+  return find_in_image(surface, p, reach_m, found);
+}
+
+bool MotionData::find_in_image(const FrameSurface& surface, const Vec3d& p, double reach_m,
+                               Vec3d& found) const {
   if (!(p.z() > 0.0)) return false;
   const Eigen::Vector2d uv = pixel_of(camera, p);
   const double fx = uv.x() - surface.left, fy = uv.y() - surface.top;
@@ -234,7 +267,8 @@ bool MotionData::find_correspondence(const FrameSurface& surface, const Vec3d& p
 }
 
 bool MotionData::within_outline(const FrameSurface& surface, const Vec3d& p) const {
-  const Eigen::Vector2d uv = pixel_of(camera, p);
+  const Vec3d q = surface.T_camera_level ? *surface.T_camera_level * p : p;
+  const Eigen::Vector2d uv = pixel_of(camera, q);
   const auto x = std::size_t(uv.x() - surface.left), y = std::size_t(uv.y() - surface.top);
   const std::size_t i = y * std::size_t(surface.width) + x, below = i + std::size_t(surface.width);
   return surface.inner[i] != 0 && surface.inner[i + 1] != 0 && surface.inner[below] != 0 &&

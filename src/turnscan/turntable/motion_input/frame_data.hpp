@@ -7,7 +7,7 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/geometry/search/knn.hpp>
-#include <turnscan/turntable/detection/detect.hpp>
+#include <turnscan/turntable/motion_input/platter_sight.hpp>
 #include <vector>
 
 namespace turnscan::motion {
@@ -26,6 +26,9 @@ struct FrameSurface {
   std::vector<std::uint8_t> inner;
   KdTree tree;
   std::vector<Vec3f> points;
+  /// Of a depth image of a frame that was levelled: from the frame in which all else is to the
+  /// camera's.
+  std::optional<Pose> T_camera_level;
 
   bool empty() const { return z.empty() && points.empty(); }
 };
@@ -39,6 +42,7 @@ struct MotionFrame {
   FrameSurface surface;      ///< smoothed; empty unless a key frame
   FrameSurface raw_surface;  ///< of depth images: not smoothed, without mixed pixels
   double inner_share = 1.0;  ///< of the foreground's pixels, those that drop_outline() leaves
+  std::optional<PlatterSight> platter;  ///< where it is seen; of depth images
 };
 
 struct MotionData {
@@ -72,6 +76,10 @@ struct MotionData {
   /// Whether all pixels that find_correspondence uses for p, which it finds, are inner ones.
   /// Precondition: surface.inner is set.
   bool within_outline(const FrameSurface& surface, const Vec3d& p) const;
+
+ private:
+  bool find_in_image(const FrameSurface& surface, const Vec3d& p, double reach_m,
+                     Vec3d& found) const;
 };
 
 struct MotionDataOptions {
@@ -79,6 +87,7 @@ struct MotionDataOptions {
   std::size_t max_keys = 160;
   std::optional<TurntableInfo> hint;  ///< used where no platter is seen
   bool use_platter = true;            ///< false: do not look for one
+  bool level = false;                 ///< take the tilt of a platter that wobbles out of all frames
   PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: look for it
 };
 

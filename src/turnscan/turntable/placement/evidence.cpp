@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
@@ -24,6 +25,16 @@ constexpr double kBiasSigma = 0.003;
 constexpr double kMedianPerUnknown = 0.87;
 /// Of a model's unknowns, metres: only what nothing shows stays at zero.
 constexpr double kValueSigma_m = 0.1, kCalibrationSigma_m = 0.002, kHeldSigma_m = 1e-7;
+
+/// Biases that belong to no model: two of turns, and of the platter's axis two in the sensor's
+/// frame and two in the table's.
+constexpr Eigen::Index kBiases = 6;
+constexpr double kPlatterBias_rad = 1.0 * kRadiansPerDegree;
+/// What hides the platter, and light that comes by way of the object, change with the turn.
+constexpr double kTiltFloor_rad = 0.1 * kRadiansPerDegree;
+constexpr std::size_t kLeastTilts = 12;
+
+using TiltRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
 Twist log_of(const Pose& motion, const Vec3d& middle, double lever_m) {
   const Eigen::AngleAxisd turn(motion.linear());
@@ -63,6 +74,15 @@ double rank_of(const Matrix6d& information) {
   return double((values.array() > 1e-6 * values[5]).count());
 }
 
+/// By how much the unknowns of a model turn the platter's axis in the table frame, (x, z).
+TiltRows tilted_by(ModelKind kind, const Basis& basis, double lever_m) {
+  TiltRows out = TiltRows::Zero(2, basis.cols());
+  if (kind == ModelKind::kObject) return out;  // It moves on the platter.
+  out.row(0) = basis.row(2) / lever_m;
+  out.row(1) = -basis.row(0) / lever_m;
+  return out;
+}
+
 double sigma_of(const DisturbanceModel& model) {
   if (model.held) return kHeldSigma_m;
   return model.kind == ModelKind::kCalibration ? kCalibrationSigma_m : kValueSigma_m;
@@ -94,6 +114,33 @@ Evidence::Evidence(const Keyframes& frames, const PoseGraph& graph,
     add_floor(twist, frames.lever_m);
     twists_.push_back(twist);
   }
+  find_tilts(frames, believed);
+}
+
+/// They scatter as successive ones differ.
+void Evidence::find_tilts(const Keyframes& frames, const std::vector<Pose>& believed) {
+  std::vector<double> steps;
+  std::optional<Vec3d> last;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto& sight = frames.data.frames[i].platter;
+    if (!sight) continue;
+    if (!last) {
+      beside_axis_.col(0) = sight->axis.unitOrthogonal();
+      beside_axis_.col(1) = sight->axis.cross(beside_axis_.col(0));
+    }
+    PlatterTilt tilt;
+    tilt.frame = i;
+    tilt.to_level.row(0) = believed[i].linear().row(0);
+    tilt.to_level.row(1) = believed[i].linear().row(2);
+    tilt.level = tilt.to_level * sight->axis;
+    tilts_.push_back(tilt);
+    if (last) steps.push_back((sight->axis - *last).squaredNorm() / 4.0);
+    last = sight->axis;
+  }
+  if (tilts_.size() < kLeastTilts) tilts_.clear();
+  // Of two degrees of freedom.
+  tilt_sigma_ = std::sqrt(median(steps) / std::numbers::ln2);
+  tilt_sigma_ = std::hypot(tilt_sigma_, kTiltFloor_rad);
 }
 
 /// What single pairs say of an unknown scatters by more than independent noise would make it.
@@ -110,28 +157,35 @@ void Evidence::find_excess(const PoseGraph& graph) {
   excess_ *= 2.0;
 }
 
-/// The normal equations of some models: two biases, then their unknowns.
+/// The normal equations of some models: the biases, then their unknowns.
 struct Evidence::System {
-  std::vector<Basis> basis;     ///< per frame
-  std::vector<Basis> between;   ///< per pair
-  std::vector<Basis> weighted;  ///< the same times the information
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
+  std::vector<Basis> basis;             ///< per frame
+  std::vector<Basis> between;           ///< per pair
+  std::vector<Basis> weighted;          ///< the same times the information
+  std::vector<TiltRows> tilted;         ///< per tilt, over its deviation
+  Eigen::MatrixXd matrix, tilt_matrix;  ///< of all, and of the tilts alone
+  Eigen::VectorXd right, tilt_right;
   Eigen::LDLT<Eigen::MatrixXd> factors;
 };
 
 Evidence::System Evidence::system_of(const std::vector<DisturbanceModel>& models) const {
-  Eigen::Index n = 2;
+  Eigen::Index n = kBiases;
   for (const DisturbanceModel& model : models) n += unknowns_of(model.kind);
   System out;
   out.basis.assign(model_frames_.size(), Basis::Zero(6, n));
   Eigen::VectorXd weak = Eigen::VectorXd::Zero(n);
   weak.head<2>().setConstant(std::pow(kBiasSigma * scene_.lever_m, -2));
-  Eigen::Index at = 2;
+  weak.segment<4>(2).setConstant(std::pow(kPlatterBias_rad, -2));
+  out.tilted.assign(tilts_.size(), TiltRows::Zero(2, n));
+  Eigen::Index at = kBiases;
   for (const DisturbanceModel& model : models) {
     const Eigen::Index count = unknowns_of(model.kind);
     for (std::size_t i = 0; i < out.basis.size(); ++i)
       out.basis[i].middleCols(at, count) = basis_of(model, model_frames_[i], scene_);
+    for (std::size_t k = 0; k < tilts_.size(); ++k)
+      out.tilted[k].middleCols(at, count) =
+          tilted_by(model.kind, out.basis[tilts_[k].frame].middleCols(at, count), scene_.lever_m) /
+          tilt_sigma_;
     weak.segment(at, count).setConstant(std::pow(sigma_of(model), -2));
     at += count;
   }
@@ -149,6 +203,17 @@ Evidence::System Evidence::system_of(const std::vector<DisturbanceModel>& models
     out.between.push_back(std::move(between));
     out.weighted.push_back(std::move(weighted));
   }
+  out.tilt_matrix = Eigen::MatrixXd::Zero(n, n);
+  out.tilt_right = Eigen::VectorXd::Zero(n);
+  for (std::size_t k = 0; k < tilts_.size(); ++k) {
+    TiltRows& rows = out.tilted[k];
+    rows.middleCols(2, 2) = tilts_[k].to_level * beside_axis_ / tilt_sigma_;
+    rows.middleCols(4, 2) = Eigen::Matrix2d::Identity() / tilt_sigma_;
+    out.tilt_matrix.noalias() += rows.transpose() * rows;
+    out.tilt_right.noalias() += rows.transpose() * tilts_[k].level / tilt_sigma_;
+  }
+  out.matrix += out.tilt_matrix;
+  out.right += out.tilt_right;
   out.factors.compute(out.matrix);
   return out;
 }
@@ -183,6 +248,13 @@ double Evidence::gain_of(const System& system, const DisturbanceModel& candidate
     mixed.noalias() += system.weighted[k].transpose() * between;
     right.noalias() += between.transpose() * t.right;
   }
+  for (std::size_t k = 0; k < tilts_.size(); ++k) {
+    const TiltRows rows =
+        tilted_by(candidate.kind, basis[tilts_[k].frame], scene_.lever_m) / tilt_sigma_;
+    own.noalias() += rows.transpose() * rows;
+    mixed.noalias() += system.tilted[k].transpose() * rows;
+    right.noalias() += rows.transpose() * tilts_[k].level / tilt_sigma_;
+  }
   own -= mixed.transpose() * system.factors.solve(mixed);
   right -= mixed.transpose() * system.factors.solve(system.right);
   return right.dot(own.ldlt().solve(right));
@@ -201,9 +273,10 @@ ModelFit Evidence::fit(std::vector<DisturbanceModel> models) const {
   const System system = system_of(models);
   const Eigen::VectorXd values = system.factors.solve(system.right);
   ModelFit out;
-  out.gain = values.dot(system.right);
+  out.tilt_gain = 2.0 * values.dot(system.tilt_right) - values.dot(system.tilt_matrix * values);
+  out.gain = values.dot(system.right) - out.tilt_gain;
   out.spread = spread_of(system, values);
-  Eigen::Index at = 2;
+  Eigen::Index at = kBiases;
   for (DisturbanceModel& model : models) {
     const Eigen::Index count = unknowns_of(model.kind);
     model.values = values.segment(at, count);

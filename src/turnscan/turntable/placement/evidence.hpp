@@ -16,9 +16,17 @@ struct RelativeTwist {
   double shown = 0.0;      ///< how many of the six unknowns it says something of
 };
 
+/// What a frame shows of the platter's tilt: the level parts (x, z) of its axis in the table frame.
+struct PlatterTilt {
+  std::size_t frame = 0;
+  Eigen::Matrix<double, 2, 3> to_level = Eigen::Matrix<double, 2, 3>::Zero();  ///< from the sensor
+  Eigen::Vector2d level = Eigen::Vector2d::Zero();
+};
+
 struct ModelFit {
   std::vector<DisturbanceModel> models;  ///< with values
-  double gain = 0.0;                     ///< of chi square by all of them together
+  double gain = 0.0;                     ///< of chi square by all of them together, of pairs
+  double tilt_gain = 0.0;                ///< and of the platter's tilts
   double spread = 1.0;                   ///< of what a pair says beside them, over what is expected
   std::vector<double> sizes_m;           ///< of each model: how far it moves the object's points
 };
@@ -43,6 +51,7 @@ class Evidence {
   struct System;
 
   void find_excess(const PoseGraph& graph);
+  void find_tilts(const Keyframes& frames, const std::vector<Pose>& believed);
   System system_of(const std::vector<DisturbanceModel>& models) const;
   double spread_of(const System& system, const Eigen::VectorXd& values) const;
   double gain_of(const System& system, const DisturbanceModel& candidate) const;
@@ -50,6 +59,10 @@ class Evidence {
   std::vector<ModelFrame> model_frames_;
   ModelScene scene_;
   std::vector<RelativeTwist> twists_;
+  std::vector<PlatterTilt> tilts_;
+  /// Directions in which the axis may seem to lean, sensor frame.
+  Eigen::Matrix<double, 3, 2> beside_axis_ = Eigen::Matrix<double, 3, 2>::Zero();
+  double tilt_sigma_ = 1.0;  ///< of one of them, rad
   double excess_ = 1.0, scale_m_ = 0.0;
 };
 

@@ -20,9 +20,14 @@ constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 10.0;
 /// have to explain more than there is under a sensor's own errors. In undisturbed recordings
 /// wobbles seem to explain up to 27 freely, and 19 where frames are.
 constexpr double kClearWobble = 60.0, kClearWobbleHere = 40.0;
+/// One that leans less is no more than a shift that a sensor's errors may feign, and must explain
+/// as much as other disturbances.
+constexpr double kLeastWobble_rad = 0.1 * kRadiansPerDegree;
 /// Frames that see the same side see it at the same place of a wobble, and the others share little:
 /// their mismatch tells nothing of it, but may not grow by more than this.
 constexpr double kMostMismatch = 1.02;
+/// Nor by more than this where the platter's tilts alone explain as much as a clear disturbance.
+constexpr double kClearTilts = 100.0, kMostMismatchTilted = 1.1;
 /// Keyframes on either side of an event: a few that are off, by errors that they share, are no
 /// other place.
 constexpr std::size_t kLeastBeside = 5;
@@ -36,18 +41,24 @@ constexpr double kLeastCalibration_m = 0.0015;
 constexpr double kLargestWobble_rad = 3.0 * kRadiansPerDegree;
 constexpr ConstraintWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
 
+using Penalty = double (*)(const DisturbanceModel& model, double lever_m);
+
 /// By which disturbances are compared.
-double full_penalty_of(const DisturbanceModel& model) {
+double full_penalty_of(const DisturbanceModel& model, double = 0.0) {
   return kGainPerUnknown * double(unknowns_of(model.kind)) + kClearGain;
 }
 
-/// From which on one is believed.
-double penalty_of(const DisturbanceModel& model) {
-  return model.kind == ModelKind::kWobble ? kClearWobble : full_penalty_of(model);
+bool leans(const DisturbanceModel& model, double lever_m) {
+  return model.kind == ModelKind::kWobble && wobble_rad(model, lever_m) > kLeastWobble_rad;
 }
 
-double penalty_here(const DisturbanceModel& model) {
-  return model.kind == ModelKind::kWobble
+/// From which on one is believed.
+double penalty_of(const DisturbanceModel& model, double lever_m) {
+  return leans(model, lever_m) ? kClearWobble : full_penalty_of(model);
+}
+
+double penalty_here(const DisturbanceModel& model, double lever_m) {
+  return leans(model, lever_m)
              ? kClearWobbleHere
              : kGainPerUnknownHere * double(unknowns_of(model.kind)) + kClearGainHere;
 }
@@ -155,11 +166,11 @@ class ModelSearch {
     return out;
   }
 
-  /// How clearly models explain what a fit without them leaves.
-  static double gain_over(const ModelFit& with, const ModelFit& without, const Models& set,
-                          double (*penalty)(const DisturbanceModel&)) {
-    double gain = (with.gain - without.gain) / with.spread;
-    for (const DisturbanceModel& model : set) gain -= penalty(model);
+  /// How clearly the last models of a fit explain what one without them leaves.
+  double gain_over(const ModelFit& with, const ModelFit& without, Penalty penalty) const {
+    double gain = (with.gain - without.gain) / with.spread + with.tilt_gain - without.tilt_gain;
+    for (std::size_t k = without.models.size(); k < with.models.size(); ++k)
+      gain -= penalty(with.models[k], frames_.scene.lever_m);
     return gain;
   }
 
@@ -198,10 +209,10 @@ class ModelSearch {
       auto models = zeroed;
       models.insert(models.end(), set.begin(), set.end());
       const ModelFit freely = free.fit(models), shown = here.fit(models);
-      const double gain = gain_over(freely, free_before, set, full_penalty_of);
+      const double gain = gain_over(freely, free_before, full_penalty_of);
       if (!(gain > most) || freely.sizes_m.back() < kLeastSize_m) continue;
-      if (!(gain_over(freely, free_before, set, penalty_of) > 0.0)) continue;
-      if (!(gain_over(shown, here_before, set, penalty_here) > 0.0)) continue;
+      if (!(gain_over(freely, free_before, penalty_of) > 0.0)) continue;
+      if (!(gain_over(shown, here_before, penalty_here) > 0.0)) continue;
       most = gain;
       const auto added = std::ptrdiff_t(set.size());
       starts = {Models(freely.models.end() - added, freely.models.end()),
@@ -225,8 +236,10 @@ class ModelSearch {
       models_.insert(models_.end(), start.begin(), start.end());
       TURNSCAN_TRY(refine());
       const double here = mismatch(keyframes_, poses());
-      const double cost = wobbles ? -gain_when_refined(before.size()) : here;
-      if (!(cost < least) || !all_plausible() || here > kMostMismatch * without) continue;
+      const RefinedGain gain = wobbles ? gain_when_refined(before.size()) : RefinedGain();
+      const double cost = wobbles ? -gain.all : here;
+      const double most = gain.tilts > kClearTilts ? kMostMismatchTilted : kMostMismatch;
+      if (!(cost < least) || !all_plausible() || here > most * without) continue;
       least = cost;
       best = models_;
     }
@@ -238,12 +251,17 @@ class ModelSearch {
     return true;
   }
 
+  struct RefinedGain {
+    double all = 0.0;    ///< over what must be explained
+    double tilts = 0.0;  ///< of the platter alone
+  };
+
   /// How clearly the models after the first ones explain what those leave, where all have come to.
-  double gain_when_refined(std::size_t first) const {
+  RefinedGain gain_when_refined(std::size_t first) const {
     const Evidence evidence = evidence_here(kFine, true);
     const auto at = models_.begin() + std::ptrdiff_t(first);
-    const Models fewer(models_.begin(), at), added(at, models_.end());
-    return gain_over(evidence.fit(models_), evidence.fit(fewer), added, penalty_here);
+    const ModelFit fewer = evidence.fit(Models(models_.begin(), at)), all = evidence.fit(models_);
+    return {gain_over(all, fewer, penalty_here), all.tilt_gain - fewer.tilt_gain};
   }
 
   /// Drops models that the others can do without; a slip stands for what it explains as well.
@@ -252,7 +270,7 @@ class ModelSearch {
     ModelFit best = evidence.fit(models_);
     const auto simpler = [&](Models models, double least) {
       ModelFit fit = evidence.fit(std::move(models));
-      if (fit.gain < least) return false;
+      if (fit.gain + fit.spread * fit.tilt_gain < least) return false;
       best = std::move(fit);
       return true;
     };
@@ -260,14 +278,15 @@ class ModelSearch {
       changed = false;
       for (std::size_t k = 1; k < best.models.size() && !changed; ++k) {
         const ModelKind kind = best.models[k].kind;
-        const double worth = best.spread * penalty_of(best.models[k]);
+        const double worth = best.spread * penalty_of(best.models[k], frames_.scene.lever_m);
         Models fewer = best.models;
         fewer.erase(fewer.begin() + std::ptrdiff_t(k));
-        changed = simpler(fewer, best.gain - worth);
+        const double all = best.gain + best.spread * best.tilt_gain;
+        changed = simpler(fewer, all - worth);
         if (changed || (kind != ModelKind::kObject && kind != ModelKind::kSensor)) continue;
         Models slip = best.models;
         slip[k] = model_of(ModelKind::kSlip, slip[k].first, slip[k].last);
-        changed = simpler(slip, best.gain - worth + best.spread * penalty_of(slip[k]));
+        changed = simpler(slip, all - worth + best.spread * full_penalty_of(slip[k]));
       }
     }
     models_ = std::move(best.models);

@@ -1,0 +1,159 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/median.hpp>
+#include <turnscan/turntable/motion_input/platter_sight.hpp>
+
+namespace turnscan::motion {
+
+namespace {
+
+constexpr double kWithinRim = 0.93;  ///< farther out pixels mix with what lies behind
+constexpr double kMostTilt_rad = 3.0 * kRadiansPerDegree;
+constexpr std::size_t kLeastPixels = 200;
+constexpr double kTukeySigmas = 4.0;
+constexpr int kRounds = 8;
+/// Of the platter's radius: what is seen of it must spread so far in each direction (rms).
+constexpr double kLeastSpread = 0.15;
+
+/// Of tilts that tell a wobble, rms.
+constexpr double kLeastWobble_rad = 0.1 * kRadiansPerDegree, kWobbleOverNoise = 2.5;
+constexpr double kLeastShare = 0.8;  ///< of the frames, those that show the platter
+/// Of a circle through the tilts, what they may be off it (rms), in its radius.
+constexpr double kRoundest = 0.35;
+
+/// The platter's frame: y along its axis.
+struct PlatterPlane {
+  std::vector<Vec3d> points;
+  Vec3d plane = Vec3d::Zero();  ///< y = plane . (x, z, 1)
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+
+  void solve(double limit) {
+    normal.setZero();
+    Vec3d right = Vec3d::Zero();
+    for (const Vec3d& p : points) {
+      const Vec3d row(p.x(), p.z(), 1.0);
+      const double off = (p.y() - plane.dot(row)) / limit;
+      if (std::abs(off) >= 1.0) continue;
+      const double keep = 1.0 - off * off, weight = keep * keep;
+      normal += weight * row * row.transpose();
+      right += weight * p.y() * row;
+    }
+    plane = normal.ldlt().solve(right);
+  }
+
+  double scatter() const {
+    std::vector<double> off;
+    off.reserve(points.size());
+    for (const Vec3d& p : points)
+      off.push_back(std::abs(p.y() - plane.dot(Vec3d(p.x(), p.z(), 1.0))));
+    return 1.4826 * median(off);
+  }
+};
+
+/// Middle of the circle through points (Kasa 1976), where they lie on one; else their mean, which
+/// is the origin.
+Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Vec3d right = Vec3d::Zero();
+  for (const Eigen::Vector2d& p : points) {
+    const Vec3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    normal += row * row.transpose();
+    right += row * p.squaredNorm();
+  }
+  const Vec3d found = normal.ldlt().solve(right);
+  const Eigen::Vector2d middle = found.head<2>();
+  const double radius = std::sqrt(std::max(0.0, found.z() + middle.squaredNorm()));
+  double squares = 0.0;
+  for (const Eigen::Vector2d& p : points) squares += std::pow((p - middle).norm() - radius, 2);
+  const bool round = std::sqrt(squares / double(points.size())) < kRoundest * radius;
+  return round && middle.norm() < radius ? middle : Eigen::Vector2d::Zero();
+}
+
+}  // namespace
+
+std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInfo& sensor,
+                                        const RayTable& rays, const DetectedPlatter& platter,
+                                        double noise_m) {
+  if (depth.pixels.size() != rays.x().size()) return std::nullopt;
+  Eigen::Matrix3d R;  // from the platter's frame to the sensor's
+  R.col(1) = platter.axis;
+  R.col(0) = platter.axis.unitOrthogonal();
+  R.col(2) = R.col(0).cross(R.col(1));
+  const double reach = kWithinRim * platter.radius_m;
+  const double steep = std::max(0.1, std::abs(platter.axis.dot(platter.center_m.normalized())));
+  const double gate = std::tan(kMostTilt_rad) * reach + kTukeySigmas * noise_m * steep;
+  PlatterPlane fit;
+  for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+    const std::uint16_t value = depth.pixels[i];
+    if (value == kNoReturn || value == kOutsideCrop) continue;
+    const double z = value * sensor.depth_unit_m + sensor.depth_bias_m;
+    const Vec3d p = R.transpose() * (Vec3d(rays.x()[i] * z, rays.y()[i] * z, z) - platter.center_m);
+    if (std::abs(p.y()) < gate && p.x() * p.x() + p.z() * p.z() < reach * reach)
+      fit.points.push_back(p);
+  }
+  if (fit.points.size() < kLeastPixels) return std::nullopt;
+  double limit = gate;
+  for (int round = 0; round < kRounds; ++round) {
+    fit.solve(limit);
+    if (!fit.plane.allFinite()) return std::nullopt;
+    limit = std::clamp(kTukeySigmas * fit.scatter(), 0.5 * limit, gate);
+  }
+  const double count = fit.normal(2, 2);
+  const Eigen::Matrix2d spread =
+      fit.normal.topLeftCorner<2, 2>() / count -
+      fit.normal.topRightCorner<2, 1>() * fit.normal.bottomLeftCorner<1, 2>() / (count * count);
+  const double least =
+      0.5 * (spread.trace() - std::hypot(spread(0, 0) - spread(1, 1), 2.0 * spread(0, 1)));
+  if (!(count >= double(kLeastPixels)) || !(least > std::pow(kLeastSpread * reach, 2)))
+    return std::nullopt;
+  PlatterSight out;
+  out.axis = R * Vec3d(-fit.plane.x(), 1.0, -fit.plane.y()).normalized();
+  out.height_m = fit.plane.z();
+  out.slope_sigma = fit.scatter() / std::sqrt(count * least);
+  return out;
+}
+
+std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& sights,
+                               const DetectedPlatter& platter) {
+  Eigen::Matrix<double, 3, 2> beside;
+  beside.col(0) = platter.axis.unitOrthogonal();
+  beside.col(1) = beside.col(0).cross(platter.axis);
+  std::vector<Eigen::Vector2d> tilts;
+  std::vector<std::size_t> at;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    if (!sights[i]) continue;
+    at.push_back(i);
+    tilts.push_back(beside.transpose() * sights[i]->axis);
+    mean += tilts.back();
+  }
+  if (at.empty() || double(at.size()) < kLeastShare * double(sights.size())) return std::nullopt;
+  mean /= double(at.size());
+  double squares = 0.0, steps = 0.0;
+  for (std::size_t k = 0; k < tilts.size(); ++k) {
+    tilts[k] -= mean;
+    squares += tilts[k].squaredNorm();
+    if (k > 0) steps += (tilts[k] - tilts[k - 1]).squaredNorm() / 2.0;
+  }
+  const double scatter = std::sqrt(squares / double(at.size()));
+  const double noise = std::sqrt(steps / double(std::max<std::size_t>(1, at.size() - 1)));
+  if (scatter < std::max(kLeastWobble_rad, kWobbleOverNoise * noise)) return std::nullopt;
+  Levelling out;
+  out.axis = (platter.axis + beside * middle_of(tilts)).normalized();
+  for (std::size_t i = 0, k = 0; i < sights.size(); ++i) {
+    while (k + 1 < at.size() && at[k + 1] <= i) ++k;
+    const bool next = k + 1 < at.size() && at[k + 1] - i < (at[k] > i ? at[k] - i : i - at[k]);
+    const Vec3d axis = (platter.axis + beside * tilts[next ? k + 1 : k]).normalized();
+    const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(axis, out.axis).toRotationMatrix();
+    Pose T = Pose::Identity();
+    T.linear() = R;
+    T.translation() = platter.center_m - R * platter.center_m;
+    out.T_level_sensor.push_back(T);
+  }
+  return out;
+}
+
+}  // namespace turnscan::motion
