@@ -71,6 +71,21 @@ TEST(CalibrateRun, NotesACorrectionThatHasNoPlaceInTheCalibration) {
   EXPECT_TRUE(found.notes.empty());
 }
 
+TEST(CalibrationChecks, TheMisfitIsThatOfTheWorseCheckAtArmsLength) {
+  CalibrationChecks checks;
+  EXPECT_EQ(checks.misfit_m(), 0.0);
+  checks.closure.emplace();
+  checks.closure->shift_m = 0.003;
+  checks.closure->turn_rad = 0.04;
+  EXPECT_NEAR(checks.misfit_m(), 0.005, 1e-12);
+  checks.closure->turn_rad = std::nan("");
+  EXPECT_NEAR(checks.misfit_m(), 0.003, 1e-12) << "a round object's turn";
+  checks.axis_offset.emplace();
+  checks.axis_offset->shift_m = 0.006;
+  checks.axis_offset->tilt_rad = 0.08;
+  EXPECT_NEAR(checks.misfit_m(), 0.010, 1e-12);
+}
+
 TEST(CalibrationChoiceOf, RecordedKeepsWhatTheRecordingSays) {
   const MemorySequence sequence = empty_sequence(1);
   const auto choice = choose_calibration(sequence, {"recorded", {}, false}, RunContext());

@@ -17,6 +17,10 @@ namespace turnscan {
 
 namespace {
 
+/// A calibration that the checks speak against takes precedence over another one if they find it
+/// off by so much less.
+constexpr double kClearlyLess = 0.4;
+
 struct FreeWay {
   FreeMethod method;
   FreeScheme scheme;
@@ -277,6 +281,10 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
     TURNSCAN_ASSIGN(const auto checks, check_calibration(*better, memory, context));
     if (!doubt_of(checks) || !found->poses.empty()) return found;
+    if (checks.misfit_m() < kClearlyLess * out.checks.misfit_m()) {
+      found->note += "; it fits better than the recorded one, but not well";
+      return found;
+    }
     failure = "the one from motion does not fit either";
   }
   out.note = fmt::format("{}, but no better one was found ({})", *why, failure);
@@ -324,6 +332,18 @@ Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
 }
 
 }  // namespace
+
+double CalibrationChecks::misfit_m() const {
+  constexpr double kArm_m = 0.1;
+  double out = 0.0;
+  // The turn is not known of a round object.
+  if (closure)
+    out = std::hypot(closure->shift_m,
+                     std::isfinite(closure->turn_rad) ? kArm_m * closure->turn_rad : 0.0);
+  if (axis_offset)
+    out = std::max(out, std::hypot(axis_offset->shift_m, kArm_m * axis_offset->tilt_rad));
+  return out;
+}
 
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,

@@ -17,6 +17,10 @@ namespace turnscan {
 struct CalibrationChecks {
   std::optional<ClosureError> closure;
   std::optional<AxisOffset> axis_offset;  ///< only where the closure is good
+
+  /// How far a point 0.1 m from the axis lies from where the calibration has it, by the worse of
+  /// the two; 0 where neither was measured.
+  double misfit_m() const;
 };
 
 struct CalibrationChoice {
