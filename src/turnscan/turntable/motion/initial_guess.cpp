@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
@@ -49,6 +51,35 @@ std::vector<double> costs_of_speeds(const MotionData& data, const MotionState& a
     costs[k] = sum / double(pairs.size());
   });
   return costs;
+}
+
+/// From one key frame to the next.
+double key_step_s(const MotionData& data) {
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)
+    steps.push_back(data.frames[data.keys[k + 1]].time_s - data.frames[data.keys[k]].time_s);
+  return median(steps);
+}
+
+/// Pairs of frames that are compared, and the fewest that tell something.
+constexpr std::size_t kRecurrencePairs = 16, kLeastRecurringPairs = 4;
+/// Of how frames that do not show the same view differ, what those do that do, at most.
+constexpr double kRecurs = 0.6;
+/// And of the least such, those of other turns.
+constexpr double kAsDeep = 1.5;
+/// How much worse pairs that are about so far apart may fit at the speed at which views come back.
+constexpr double kLittleWorse = 1.5, kPlainTurn = 5.0 * kRadiansPerDegree;
+/// A speed that pairs next to each other tell may be so many times too high or low.
+constexpr double kFarthestSpeed = 3.0;
+
+/// The least cost of frames that are so many key frames apart, as if nothing had turned.
+double recurrence_cost(const MotionData& data, const MotionState& state, std::size_t gap) {
+  const auto pairs = spread_pairs(data, gap, kRecurrencePairs);
+  if (pairs.size() < kLeastRecurringPairs) return 1.0;
+  std::vector<double> costs;
+  for (const FramePair& pair : pairs)
+    costs.push_back(pair_cost(data, state, pair, 0.0, data.inlier_gate_m(), 300));
+  return median(costs);
 }
 
 /// Best turn between two frames near a guess, by golden section after a coarse walk.
@@ -126,10 +157,7 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
 }
 
 double guess_speed(const MotionData& data, const MotionState& axis) {
-  std::vector<double> steps;
-  for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)
-    steps.push_back(data.frames[data.keys[k + 1]].time_s - data.frames[data.keys[k]].time_s);
-  const double dt = median(steps);
+  const double dt = key_step_s(data);
   if (!(dt > 0.0)) return 0.0;
   double best = 0.0, reach = 60.0 * kRadiansPerDegree / dt;
   for (std::size_t gap = 1; gap < data.keys.size(); gap *= 2) {
@@ -145,6 +173,48 @@ double guess_speed(const MotionData& data, const MotionState& axis) {
     reach = 3.0 * step;
     if (std::abs(best) * span > 20.0 * kRadiansPerDegree) break;
   }
+  return best;
+}
+
+std::optional<double> recurrence_speed(const MotionData& data, const MotionState& state,
+                                       double guess) {
+  const double dt = key_step_s(data);
+  const std::size_t n = data.keys.size();
+  std::vector<double> cost(n, 1.0);
+  parallel_for(n, 1, [&](std::size_t gap) {
+    if (gap > 0) cost[gap] = recurrence_cost(data, state, gap);
+  });
+  std::vector<double> known;
+  for (const double c : cost)
+    if (c < 1.0) known.push_back(c);
+  const double usual = median(known);
+  double deepest = usual;
+  for (std::size_t gap = 2; gap + 1 < n; ++gap)
+    if (cost[gap] < cost[gap - 1] && cost[gap] <= cost[gap + 1])
+      deepest = std::min(deepest, cost[gap]);
+  const double most = std::min(kRecurs * usual, kAsDeep * deepest);
+  std::optional<double> best;
+  for (std::size_t gap = 2; gap + 1 < n; ++gap) {
+    // A dip that may go on beyond the last gap that is known is none yet.
+    if (cost[gap] > most || cost[gap] > cost[gap - 1] || cost[gap] > cost[gap + 1] ||
+        cost[gap + 1] == 1.0)
+      continue;
+    const double left = cost[gap - 1] - cost[gap], right = cost[gap + 1] - cost[gap];
+    const double middle = double(gap) + 0.5 * (left - right) / std::max(left + right, 1e-9);
+    const double speed = std::copysign(kTurn / (middle * dt), guess);
+    const auto apart = [&](double s) { return std::abs(std::log(s / guess)); };
+    if (apart(speed) < std::log(kFarthestSpeed) && (!best || apart(speed) < apart(*best)))
+      best = speed;
+  }
+  if (!best) return best;
+  // An object that looks alike from two sides comes back after half a turn, but does not turn so.
+  const double step = std::abs(guess * dt);
+  const auto gap = std::clamp<std::size_t>(std::size_t(std::lround(kPlainTurn / step)), 1, 8);
+  if (gap >= n) return std::nullopt;
+  const auto pairs = spread_pairs(data, gap, 24);
+  if (pairs.empty()) return std::nullopt;
+  const auto costs = costs_of_speeds(data, state, pairs, {guess, *best});
+  if (costs[1] > kLittleWorse * costs[0]) return std::nullopt;
   return best;
 }
 

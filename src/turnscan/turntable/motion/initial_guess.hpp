@@ -1,6 +1,7 @@
 #pragma once
 // A first guess of axis, speed and angles, good enough for least squares.
 
+#include <optional>
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/turntable/motion/motion_state.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
@@ -16,6 +17,14 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
 /// pairs next to each other first, over all speeds up to 60 degrees between them, then pairs twice
 /// as far apart, near the best so far.
 double guess_speed(const MotionData& data, const MotionState& axis);
+
+/// The speed at which a turn lasts as long as it takes until the same view comes back; where
+/// several views do, as those of an object that looks alike from two sides, the one next to
+/// `guess`. Frames are compared as they are, so that an axis that is some millimetres off matters
+/// little. guess: not 0, at most three times too high or low. nullopt: no view comes back, or
+/// frames next to each other fit clearly worse at that speed than at the guess.
+std::optional<double> recurrence_speed(const MotionData& data, const MotionState& state,
+                                       double guess);
 
 /// Angles of all frames by following the key frames one after the other, from what `angle` predicts
 /// for each step; frames between key frames are interpolated in time. step_sigma: relative standard

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kMostStarts = 6;    ///< that are solved with care
 constexpr std::size_t kSieveStride = 12;  ///< of the samples that the others are judged by
+/// Logarithm of the ratio of two speeds that are not the same.
+constexpr double kMisled = 0.15;
 
 class Initialisation {
  public:
@@ -83,8 +85,10 @@ class Initialisation {
   }
 
   /// Moves the start's axis and angles; leaves them where no equation helps.
-  Result<> solve_roughly(Start& start, std::size_t stride, int iterations) const {
+  Result<> solve_roughly(Start& start, std::size_t stride, int iterations,
+                         bool hold_angles = false) const {
     SolveOptions options;
+    options.hold_angles = hold_angles;
     options.iterations = iterations;
     options.reach_m = 0.03;
     options.floor_m = 0.004;
@@ -135,7 +139,11 @@ class Initialisation {
   }
 
   Result<> start_from_times(Start start, std::vector<Start>& starts) const {
-    const double seen = guess_speed(data_, start.state);
+    double seen = guess_speed(data_, start.state);
+    const auto recurs = seen != 0.0 ? recurrence_speed(data_, start.state, seen) : std::nullopt;
+    // Where the axis is off, frames next to each other are best turned by too little.
+    const bool misled = recurs && std::abs(std::log(*recurs / seen)) > kMisled;
+    if (misled) seen = *recurs;
     const double speed = seen != 0.0 ? seen : known_speed_.value_or(0.0);
     if (speed == 0.0)
       return fail(ErrorCode::kMissingData,
@@ -146,7 +154,8 @@ class Initialisation {
     const double t0 = data_.frames.front().time_s;
     for (std::size_t i = 0; i < start.state.angle.size(); ++i)
       start.state.angle[i] = speed * (data_.frames[i].time_s - t0);
-    if (seen != 0.0) track_angles(data_, start.state, 0.3);
+    if (misled) TURNSCAN_TRY(solve_roughly(start, coarse_stride(data_, 6), 6, true));
+    if (seen != 0.0) track_angles(data_, start.state, misled ? 0.05 : 0.3);
     starts.push_back(std::move(start));
     return {};
   }

@@ -3,6 +3,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_adjustment.hpp>
+#include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/motor_law.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
@@ -16,6 +17,8 @@ namespace {
 constexpr std::size_t kLeastBundleFrames = 24;
 /// turn_contrast() below which the object looks the same from all sides.
 constexpr double kLeastTurnContrast = 0.02;
+/// Logarithm of the ratio of two speeds that may be the same, if the table slipped.
+constexpr double kSameSpeed = 0.1;
 /// What a platter is believed with, and from how many standard deviations on it is not.
 constexpr double kLargestLean = 0.5 * kRadiansPerDegree, kLargestShift_m = 0.003;
 constexpr double kDisagreement = 6.0;
@@ -126,11 +129,19 @@ class Refinement {
   /// Whether the turn can be seen. What a round object's angles were fitted to is its noise: they
   /// are those of the prior then.
   Result<> judge_turn(const SolveOptions& options) {
-    out_.turn_observable =
-        out_.source == AngleSource::kNothing || turn_contrast(data_, state_) > kLeastTurnContrast;
+    out_.turn_observable = out_.source == AngleSource::kNothing ||
+                           turn_contrast(data_, state_) > kLeastTurnContrast || view_comes_back();
     if (out_.turn_observable) return {};
     TURNSCAN_TRY(reset_to_prior());
     return solve(options, false);
+  }
+
+  /// After a turn at about the speed that was found.
+  bool view_comes_back() const {
+    const double speed = out_.prior.speed_rad_s;
+    if (out_.source != AngleSource::kTimes || speed == 0.0) return false;
+    const auto recurs = recurrence_speed(data_, state_, speed);
+    return recurs && std::abs(std::log(*recurs / speed)) < kSameSpeed;
   }
 
   /// Back to what times or angles say.
