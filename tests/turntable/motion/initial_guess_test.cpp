@@ -23,7 +23,8 @@ std::optional<double> found_from(const std::string& object, double turns, double
   state.axis = rig.truth().axis;
   state.center = rig.truth().center_m + Vec3d(0.005, 0.0, 0.0);
   const double speed = turns * kTurn / 60.0;
-  const auto found = motion::recurrence_speed(*data, state, factor * speed);
+  const auto found =
+      motion::recurrence_speed(*data, motion::recurrence_costs(*data), state, factor * speed);
   return found ? std::optional(*found / speed) : std::nullopt;
 }
 

@@ -72,13 +72,13 @@ constexpr double kLittleWorse = 1.5, kPlainTurn = 5.0 * kRadiansPerDegree;
 /// A speed that pairs next to each other tell may be so many times too high or low.
 constexpr double kFarthestSpeed = 3.0;
 
-/// The least cost of frames that are so many key frames apart, as if nothing had turned.
-double recurrence_cost(const MotionData& data, const MotionState& state, std::size_t gap) {
+/// The usual cost of frames that are so many key frames apart, as if nothing had turned.
+double recurrence_cost(const MotionData& data, std::size_t gap) {
   const auto pairs = spread_pairs(data, gap, kRecurrencePairs);
   if (pairs.size() < kLeastRecurringPairs) return 1.0;
   std::vector<double> costs;
   for (const FramePair& pair : pairs)
-    costs.push_back(pair_cost(data, state, pair, 0.0, data.inlier_gate_m(), 300));
+    costs.push_back(pair_cost(data, MotionState(), pair, 0.0, data.inlier_gate_m(), 300));
   return median(costs);
 }
 
@@ -176,14 +176,18 @@ double guess_speed(const MotionData& data, const MotionState& axis) {
   return best;
 }
 
-std::optional<double> recurrence_speed(const MotionData& data, const MotionState& state,
-                                       double guess) {
-  const double dt = key_step_s(data);
-  const std::size_t n = data.keys.size();
-  std::vector<double> cost(n, 1.0);
-  parallel_for(n, 1, [&](std::size_t gap) {
-    if (gap > 0) cost[gap] = recurrence_cost(data, state, gap);
+std::vector<double> recurrence_costs(const MotionData& data) {
+  std::vector<double> out(data.keys.size(), 1.0);
+  parallel_for(out.size(), 1, [&](std::size_t gap) {
+    if (gap > 0) out[gap] = recurrence_cost(data, gap);
   });
+  return out;
+}
+
+std::optional<double> recurrence_speed(const MotionData& data, const std::vector<double>& cost,
+                                       const MotionState& state, double guess) {
+  const double dt = key_step_s(data);
+  const std::size_t n = cost.size();
   std::vector<double> known;
   for (const double c : cost)
     if (c < 1.0) known.push_back(c);

@@ -5,6 +5,7 @@
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/turntable/motion/motion_state.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
+#include <vector>
 
 namespace turnscan::motion {
 
@@ -18,13 +19,16 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
 /// as far apart, near the best so far.
 double guess_speed(const MotionData& data, const MotionState& axis);
 
-/// The speed at which a turn lasts as long as it takes until the same view comes back; where
-/// several views do, as those of an object that looks alike from two sides, the one next to
-/// `guess`. Frames are compared as they are, so that an axis that is some millimetres off matters
-/// little. guess: not 0, at most three times too high or low. nullopt: no view comes back, or
-/// frames next to each other fit clearly worse at that speed than at the guess.
-std::optional<double> recurrence_speed(const MotionData& data, const MotionState& state,
-                                       double guess);
+/// How badly frames that are so many key frames apart (the position) fit each other as they are, 1
+/// at most: no axis enters.
+std::vector<double> recurrence_costs(const MotionData& data);
+
+/// The speed at which a turn lasts as long as it takes until the same view comes back, by
+/// recurrence_costs(); where several views do, as those of an object that looks alike from two
+/// sides, the one next to `guess`. guess: not 0, at most three times too high or low. nullopt: no
+/// view comes back, or frames next to each other fit clearly worse at that speed than at the guess.
+std::optional<double> recurrence_speed(const MotionData& data, const std::vector<double>& cost,
+                                       const MotionState& state, double guess);
 
 /// Angles of all frames by following the key frames one after the other, from what `angle` predicts
 /// for each step; frames between key frames are interpolated in time. step_sigma: relative standard

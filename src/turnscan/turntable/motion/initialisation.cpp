@@ -25,6 +25,7 @@ class Initialisation {
     if (options.use_table) table_ = header.turntable;
     known_speed_ = options.speed_rad_s;
     if (!known_speed_ && table_) known_speed_ = table_->speed_rad_s;
+    if (source_ == AngleSource::kTimes) recurrence_ = recurrence_costs(data);
   }
 
   Result<InitialMotion> run() {
@@ -140,7 +141,8 @@ class Initialisation {
 
   Result<> start_from_times(Start start, std::vector<Start>& starts) const {
     double seen = guess_speed(data_, start.state);
-    const auto recurs = seen != 0.0 ? recurrence_speed(data_, start.state, seen) : std::nullopt;
+    const auto recurs =
+        seen != 0.0 ? recurrence_speed(data_, recurrence_, start.state, seen) : std::nullopt;
     // Where the axis is off, frames next to each other are best turned by too little.
     const bool misled = recurs && std::abs(std::log(*recurs / seen)) > kMisled;
     if (misled) seen = *recurs;
@@ -198,6 +200,7 @@ class Initialisation {
   std::optional<TurntableInfo> table_;  ///< the recording's, where it is to be used
   std::optional<double> known_speed_;
   AngleSource source_;
+  std::vector<double> recurrence_;  ///< of frames with times alone
 };
 
 }  // namespace

@@ -140,7 +140,7 @@ class Refinement {
   bool view_comes_back() const {
     const double speed = out_.prior.speed_rad_s;
     if (out_.source != AngleSource::kTimes || speed == 0.0) return false;
-    const auto recurs = recurrence_speed(data_, state_, speed);
+    const auto recurs = recurrence_speed(data_, recurrence_costs(data_), state_, speed);
     return recurs && std::abs(std::log(*recurs / speed)) < kSameSpeed;
   }
 

@@ -109,7 +109,7 @@ class FrameLoader {
     const double fx = data_.camera.fx, noise = data_.noise_m;
     DepthForeground depth = extract_foreground(raw.depth, sequence_.header().sensors.front(),
                                                data_.camera, rays_, foreground_);
-    if (data_.platter)
+    if (data_.platter && (options_.sights || options_.level))
       frame.platter =
           see_platter(raw.depth, sequence_.header().sensors.front(), rays_, *data_.platter, noise);
     drop_mixed_pixels(depth, fx, noise);

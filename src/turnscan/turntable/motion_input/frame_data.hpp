@@ -87,6 +87,7 @@ struct MotionDataOptions {
   std::size_t max_keys = 160;
   std::optional<TurntableInfo> hint;  ///< used where no platter is seen
   bool use_platter = true;            ///< false: do not look for one
+  bool sights = false;                ///< tell how each frame shows the platter
   bool level = false;                 ///< take the tilt of a platter that wobbles out of all frames
   PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: look for it
 };

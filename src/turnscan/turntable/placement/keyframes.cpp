@@ -41,6 +41,7 @@ Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
   motion::MotionDataOptions loading;
   loading.hint = table_at(T_table_sensor[positions.front()], sequence.header());
   loading.memory = memory;
+  loading.sights = true;
   auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
   if (!data) {
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;
