@@ -59,17 +59,13 @@ class PlateCloser {
   /// plate is drawn to them by as much, and not dented by single ones.
   void loosen_islands(const std::vector<float>& support) {
     const float typical = typical_support(support);
-    Marks visited = loose_;
+    Marks apart(loose_.size());
+    for (std::size_t v = 0; v < apart.size(); ++v) apart[v] = loose_[v] ? 0 : 1;
     std::vector<std::uint32_t> island;
-    for (std::uint32_t seed = 0; seed < visited.size(); ++seed) {
-      if (visited[seed]) continue;
-      visited[seed] = 1;
-      island.assign(1, seed);
-      for (std::size_t i = 0; i < island.size(); ++i)
-        neighbours_.each(island[i], [&](std::uint32_t other) {
-          if (!visited[other]) island.push_back(other);
-          visited[other] = 1;
-        });
+    for (std::uint32_t seed = 0; seed < apart.size(); ++seed) {
+      if (!apart[seed]) continue;
+      island.clear();
+      take_group(seed, apart, island);
       float best = 0.0f, sum = 0.0f;
       for (const std::uint32_t v : island) {
         best = std::max(best, support[v] / typical);
@@ -141,18 +137,24 @@ class PlateCloser {
     return true;
   }
 
+  /// Moves a vertex, and all that hang together with it, from the marked ones to a list.
+  void take_group(std::uint32_t seed, Marks& marked, std::vector<std::uint32_t>& group) const {
+    const auto take = [&](std::uint32_t v) {
+      if (!marked[v]) return;
+      marked[v] = 0;
+      group.push_back(v);
+    };
+    std::size_t i = group.size();
+    for (take(seed); i < group.size(); ++i) neighbours_.each(group[i], take);
+  }
+
   /// All loose vertices that hang together with those.
   Marks loose_around(const Marks& seeds) const {
-    Marks out(loose_.size(), 0);
-    std::vector<std::uint32_t> queue;
-    const auto add = [&](std::uint32_t v) {
-      if (!loose_[v] || out[v]) return;
-      out[v] = 1;
-      queue.push_back(v);
-    };
+    Marks left = loose_, out(loose_.size(), 0);
+    std::vector<std::uint32_t> taken;
     for (std::uint32_t v = 0; v < seeds.size(); ++v)
-      if (seeds[v]) add(v);
-    for (std::size_t i = 0; i < queue.size(); ++i) neighbours_.each(queue[i], add);
+      if (seeds[v]) take_group(v, left, taken);
+    for (const std::uint32_t v : taken) out[v] = 1;
     return out;
   }
 
