@@ -116,6 +116,25 @@ TEST(MeasureClosure, WhatNoiseAloneShowsCondemnsNoCalibration) {
   EXPECT_TRUE(closure.bad());
 }
 
+TEST(MeasureClosure, PairsThatDisagreeAmongEachOtherCondemnNoCalibration) {
+  ClosureError closure{.turn_rad = 0.056, .shift_m = 0.0009, .noise_m = 0.0013, .pairs = 2};
+  EXPECT_TRUE(closure.bad());
+  closure.turn_sigma_rad = 0.038;
+  EXPECT_FALSE(closure.bad());
+  closure = {.turn_rad = 0.0, .shift_m = 0.0022, .noise_m = 0.0006, .pairs = 6};
+  EXPECT_TRUE(closure.bad());
+  closure.excess_sigma_m2 = 3e-6;
+  EXPECT_FALSE(closure.bad());
+}
+
+TEST(MeasureClosure, SaysHowFarChanceMovesItsPairs) {
+  const auto closure = measure_closure(recording(), {});
+  ASSERT_TRUE(closure && *closure);
+  EXPECT_GT((*closure)->turn_sigma_rad, 0.0);
+  EXPECT_GT((*closure)->excess_sigma_m2, 0.0);
+  EXPECT_LT(std::abs((*closure)->turn_rad), 4.0 * (*closure)->turn_sigma_rad);
+}
+
 TEST(MeasureClosure, SaysWhenTheNoiseWasNotMeasured) {
   ClosureError closure{.shift_m = 0.0027, .noise_m = 0.0024, .pairs = 2};
   EXPECT_EQ(closure.noise_text(), "noise alone makes 2.40 mm");

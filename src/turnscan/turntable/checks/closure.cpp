@@ -23,6 +23,11 @@ constexpr std::size_t kMostPairs = 6;
 /// by a tenth of what it does half a turn apart, or less.
 constexpr double kSameView = 12.0 / kDegreesPerRadian;
 constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
+/// How many deviations of what few, noisy pairs show are taken for chance.
+constexpr double kChance = 2.5;
+/// Deviation of a median of normal values over that of their mean, and over their median one.
+constexpr double kMedianOverMean = 1.25;
+constexpr double kMadToSigma = 1.4826;
 
 struct TurnPair {
   std::size_t first, second;
@@ -107,6 +112,52 @@ std::optional<PairClosure> compare_frames(const MotionFrame& first, const Motion
   return PairClosure{shown ? moved_by_turn / lever : std::nan(""), shift};
 }
 
+struct Measured {
+  double value, sigma;
+};
+
+/// The median, and its deviation from how far the values lie from it.
+Measured median_of(std::vector<double> values) {
+  const double middle = median(values);
+  std::vector<double> off;
+  for (const double value : values) off.push_back(std::abs(value - middle));
+  return {middle, kMedianOverMean * kMadToSigma * median(off) / std::sqrt(double(values.size()))};
+}
+
+double squared(double value) { return value * value; }
+
+/// turns, shifts: of pairs a turn apart; those of neighbours, which nothing but noise turns and
+/// shifts, tell how far chance alone moves a pair, also where the pairs are few.
+ClosureError closure_of(const std::vector<PairClosure>& pairs,
+                        const std::vector<PairClosure>& neighbours) {
+  ClosureError out;
+  out.pairs = pairs.size();
+  std::vector<double> turns, shifts, squares, noises, noise_squares;
+  for (const PairClosure& pair : pairs) {
+    if (std::isfinite(pair.turn_rad)) turns.push_back(pair.turn_rad);
+    shifts.push_back(pair.shift_m);
+    squares.push_back(squared(pair.shift_m));
+  }
+  double noise_turns = 0.0, count = 0.0;
+  for (const PairClosure& pair : neighbours) {
+    if (std::isfinite(pair.turn_rad)) noise_turns += squared(pair.turn_rad), count += 1.0;
+    noises.push_back(pair.shift_m);
+    noise_squares.push_back(squared(pair.shift_m));
+  }
+  out.shift_m = median(shifts);
+  out.noise_m = median(noises);
+  out.excess_sigma_m2 = median_of(squares).sigma;
+  if (!noises.empty())
+    out.excess_sigma_m2 = std::hypot(out.excess_sigma_m2, median_of(noise_squares).sigma);
+  const Measured turn = turns.empty() ? Measured{std::nan(""), 0.0} : median_of(turns);
+  out.turn_rad = turn.value;
+  out.turn_sigma_rad = turn.sigma;
+  if (count > 0.0 && !turns.empty())
+    out.turn_sigma_rad = std::max(
+        turn.sigma, kMedianOverMean * std::sqrt(noise_turns / count / double(turns.size())));
+  return out;
+}
+
 /// The frames of the pairs, in the order of their positions.
 std::vector<std::size_t> positions_of(const std::vector<TurnPair>& pairs) {
   std::vector<std::size_t> out;
@@ -127,7 +178,7 @@ Result<std::optional<ClosureError>> compare_pairs(const std::vector<TurnPair>& p
                                                   const TurntableInfo& table,
                                                   const MotionData& data,
                                                   const RunContext& context) {
-  std::vector<double> turns, shifts, noises;
+  std::vector<PairClosure> found, neighbours;
   const auto frame_at = [&](std::size_t position) -> const MotionFrame& {
     const auto at = std::lower_bound(positions.begin(), positions.end(), position);
     return data.frames[std::size_t(at - positions.begin())];
@@ -140,13 +191,12 @@ Result<std::optional<ClosureError>> compare_pairs(const std::vector<TurnPair>& p
     };
     const auto closure = between(pair.second);
     if (!closure) continue;
+    found.push_back(*closure);
     const auto noise = pair.beside != pair.first ? between(pair.beside) : std::nullopt;
-    noises.push_back(noise ? noise->shift_m : 0.0);
-    if (std::isfinite(closure->turn_rad)) turns.push_back(closure->turn_rad);
-    shifts.push_back(closure->shift_m);
+    if (noise) neighbours.push_back(*noise);
   }
-  if (shifts.size() < 2) return std::nullopt;
-  return ClosureError{median(turns, std::nan("")), median(shifts), median(noises), shifts.size()};
+  if (found.size() < 2) return std::nullopt;
+  return closure_of(found, neighbours);
 }
 
 }  // namespace
@@ -156,9 +206,12 @@ Result<std::optional<ClosureError>> compare_pairs(const std::vector<TurnPair>& p
 namespace turnscan {
 
 bool ClosureError::bad() const {
-  const double squared = shift_m * shift_m - noise_m * noise_m;
-  return squared > 0.0015 * 0.0015 ||
-         (std::isfinite(turn_rad) && std::abs(turn_rad) * kDegreesPerRadian > 1.0);
+  using checks::kChance;
+  constexpr double kMost_m = 0.0015;
+  const double excess = shift_m * shift_m - noise_m * noise_m;
+  return excess > kMost_m * kMost_m + kChance * excess_sigma_m2 ||
+         (std::isfinite(turn_rad) &&
+          std::abs(turn_rad) > std::hypot(1.0 / kDegreesPerRadian, kChance * turn_sigma_rad));
 }
 
 std::string ClosureError::noise_text() const {

@@ -18,7 +18,12 @@ struct ClosureError {
   double noise_m = 0.0;   ///< the same of a frame and the next one, less than 12 degrees on, which
                           ///< hardly more than noise sets apart; 0 where there are none
   std::size_t pairs = 0;  ///< pairs of frames that were compared
-  bool bad() const;       ///< over 1.5 mm beyond the noise (squares), or 1 degree
+  /// Standard deviations of turn_rad, and of shift_m squared minus noise_m squared, from how the
+  /// pairs and the neighbours differ among each other.
+  double turn_sigma_rad = 0.0, excess_sigma_m2 = 0.0;
+  /// Over 1.5 mm beyond the noise (squares), or 1 degree, and more than chance makes of so few
+  /// pairs.
+  bool bad() const;
   /// "noise alone makes 0.31 mm", or that it was not measured.
   std::string noise_text() const;
 };

@@ -57,6 +57,11 @@ double share_seen_through(const Keyframes& frames, const std::vector<Pose>& pose
 
 std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vector<Pose>& poses) {
   if (!frames.data.projective) return {};
+  // Whatever stands in front of the object is seen, too: a frame with few points is a plate edge
+  // on, whose neighbours see past most of them.
+  std::vector<double> counts;
+  for (const auto& frame : frames.data.frames) counts.push_back(double(frame.samples.size()));
+  const double usual_count = std::max(1.0, median(counts));
   std::vector<double> share(frames.size(), 0.0);
   parallel_for(frames.size(), 1, [&](std::size_t i) {
     std::vector<double> shares;
@@ -67,7 +72,8 @@ std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vecto
       if (std::abs(turn_between(poses[i], poses[std::size_t(k)])) > 0.9) continue;
       shares.push_back(share_seen_through(frames, poses, {std::uint32_t(i), std::uint32_t(k)}));
     }
-    share[i] = median(shares);
+    const double points = double(frames.data.frames[i].samples.size());
+    share[i] = median(shares) * std::min(1.0, points / usual_count);
   });
   std::vector<double> sorted = share;
   const double usual = median(sorted);
