@@ -45,6 +45,12 @@ struct SensorPlace {
   std::optional<CameraCorrection> camera;
 };
 
+/// A table that slipped at one moment of a recording.
+struct TableSlip {
+  std::size_t first_frame = 0;  ///< position of the first frame after it
+  double turn_rad = 0.0;        ///< beside its even turn, signed as the angles
+};
+
 /// The turntable in the frame of sensor 0. A standard deviation that is not known is NaN. The
 /// texts `..._found` say for people how the figure was found; empty: it is not known.
 struct Calibration {
@@ -61,6 +67,7 @@ struct Calibration {
   /// One per frame of the recording, in order; empty where only the place is known.
   std::vector<double> angles_rad;
   std::vector<double> angle_sigma_rad;
+  std::vector<TableSlip> slips;   ///< which the angles follow; they are not saved
   std::optional<double> start_s;  ///< when the table began to turn, in the frames' time
 
   double residual_rms_m = std::numeric_limits<double>::quiet_NaN();

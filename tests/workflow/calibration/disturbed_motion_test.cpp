@@ -56,6 +56,26 @@ TEST(SettleDisturbances, FindsTheAxisFromTheLongestTimeInWhichNothingMoved) {
     EXPECT_NEAR(found->angles_rad[i], before.true_angle(i), 0.5 * kRadiansPerDegree) << i;
 }
 
+TEST(SettleDisturbances, NamesTheSlipThatTheAnglesFollow) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  testing::RigOptions o = testing::near_rig(kFrames, 1.4);
+  o.objects = {*builtin_object("letter-a")};
+  const double at = (kMovedAt - 0.5) / o.fps;
+  o.angle = [even = o.angle, at](double t) {
+    return even(t) + (t < at ? 0.0 : 12.0 * kRadiansPerDegree);
+  };
+  const testing::Rig recording(o);
+  auto found = calibrate_from_motion(recording, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  const auto placement = settle_disturbances(recording, {}, {}, *found, nullptr, {});
+  ASSERT_TRUE(placement) << placement.error().text();
+  ASSERT_EQ(placement->disturbances.size(), 1u);
+  const Disturbance& slip = placement->disturbances.front();
+  EXPECT_EQ(slip.kind, DisturbanceKind::kSlip);
+  EXPECT_EQ(slip.first_frame, kMovedAt);
+  EXPECT_TRUE(slip.text.starts_with("the table slipped ahead by 12")) << slip.text;
+}
+
 TEST(SettleDisturbances, WidensTheDeviationsWhereTooLittleRemains) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const testing::Rig before = turning_rig(0.0), after = turning_rig(0.008);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kStandingSigma = 2e-5;  // radians from frame to frame while the table stands
 constexpr double kTransientWalk = 0.5;  // of the speed in a second, while the table starts or stops
+constexpr double kSlipSigma = 0.2;      // radians, of how far a table slips
 
 class AnglePriorRows {
  public:
@@ -53,7 +54,15 @@ class AnglePriorRows {
       add_(std::array{PriorTerm{i + 1, 1.0}, PriorTerm{i, -1.0}}, angle(i + 1) - angle(i),
            1.0 / (kStandingSigma * kStandingSigma));
     }
-    for (int i = 1; i + 1 < n_; ++i) add_change(i);
+    // Gaps between frames, in which the table turned evenly or slipped.
+    for (int i = 0, even = -1; i + 1 < n_; ++i) {
+      if (slips(i)) {
+        add_slip(i);
+        continue;
+      }
+      if (even >= 0) add_change(even, i);
+      even = i;
+    }
     if (!prior_.stated_rad_s) return;
     const double span = time(n_ - 1) - time(0);
     const double sigma = std::max(1e-3 * std::abs(*prior_.stated_rad_s) * span, 1e-4);
@@ -61,20 +70,43 @@ class AnglePriorRows {
          1.0 / (sigma * sigma));
   }
 
-  /// The change of speed at frame i.
-  void add_change(int i) {
-    const double h = time(i) - time(i - 1), g = time(i + 1) - time(i);
+  /// Somewhere between frame i and the next one of these frames.
+  bool slips(int i) const {
+    const auto first = prior_.slips.begin() + std::ptrdiff_t(frames_[std::size_t(i)]);
+    const auto end = prior_.slips.begin() + std::ptrdiff_t(frames_[std::size_t(i) + 1]);
+    return !prior_.slips.empty() && std::any_of(first, end, [](auto flag) { return flag != 0; });
+  }
+
+  double gap(int i) const { return time(i + 1) - time(i); }
+  double speed(int i) const { return (angle(i + 1) - angle(i)) / gap(i); }
+
+  void add_slip(int i) {
+    const double g = gap(i), sigma = kSlipSigma / g;
+    if (!(g > 0.0)) return;
+    const double error = speed(i) - prior_.speed_rad_s;
+    cost_ += std::pow(error / sigma, 2) + 2.0 * std::log(sigma);
+    add_(std::array{PriorTerm{i + 1, 1.0 / g}, PriorTerm{i, -1.0 / g}}, error,
+         1.0 / (sigma * sigma));
+  }
+
+  /// The change of speed from the gap after frame a to that after frame b; between them the table
+  /// slipped if they are not neighbours.
+  void add_change(int a, int b) {
+    const double h = gap(a), g = gap(b);
     if (!(h > 0.0 && g > 0.0)) return;
-    const double error = (angle(i + 1) - angle(i)) / g - (angle(i) - angle(i - 1)) / h;
-    const double speed = std::abs(prior_.speed_rad_s);
-    const double sigma = (is(prior_.transient, i) ? kTransientWalk : prior_.speed_walk) * speed *
-                         std::sqrt(0.5 * (g + h));
+    const double error = speed(b) - speed(a);
+    const double between = 0.5 * (time(b) + time(b + 1) - time(a) - time(a + 1));
+    const double usual = std::abs(prior_.speed_rad_s);
+    const double sigma =
+        (is(prior_.transient, b) ? kTransientWalk : prior_.speed_walk) * usual * std::sqrt(between);
     // A start or a stop is a large change at one moment.
     const double robust = 1.0 / (1.0 + std::pow(error / (4.0 * sigma), 2));
+    const double worth = robust / (sigma * sigma);
     cost_ += 16.0 * std::log1p(std::pow(error / (4.0 * sigma), 2)) + 2.0 * std::log(sigma);
-    add_(std::array{PriorTerm{i + 1, 1.0 / g}, PriorTerm{i, -1.0 / g - 1.0 / h},
-                    PriorTerm{i - 1, 1.0 / h}},
-         error, robust / (sigma * sigma));
+    // Of neighbouring gaps the two terms in the middle are of the same angle.
+    add_(std::array{PriorTerm{b + 1, 1.0 / g}, PriorTerm{b, -1.0 / g}, PriorTerm{a + 1, -1.0 / h},
+                    PriorTerm{a, 1.0 / h}},
+         error, worth);
   }
 
   const MotionData& data_;

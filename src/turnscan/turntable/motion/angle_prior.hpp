@@ -19,6 +19,7 @@ struct AnglePrior {
   std::vector<std::uint8_t>
       transient;                       ///< per frame: the table starts or stops there; may be empty
   std::vector<std::uint8_t> still;     ///< per frame: the table stands, at the start or the end
+  std::vector<std::uint8_t> slips;     ///< per frame: it slips before the next one; may be empty
   std::optional<double> stated_rad_s;  ///< mean speed that the user stated
   double nominal_sigma_rad = 0.0;      ///< of the frames' own angles; 0: none
   double nominal_sign = 1.0;

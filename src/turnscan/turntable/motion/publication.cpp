@@ -195,18 +195,48 @@ class Publication {
     return out;
   }
 
+  bool is_steady(std::size_t frame) const {
+    const auto& transient = motion_.prior.transient;
+    return transient.empty() || transient[frame] == 0;
+  }
+
+  bool slips_after(std::size_t frame) const {
+    const auto& slips = motion_.prior.slips;
+    return !slips.empty() && slips[frame] != 0;
+  }
+
   /// Between slips and halts; all frames where those leave nothing.
   std::vector<Stretch> steady_stretches(std::size_t first, std::size_t last) const {
-    const auto& transient = motion_.prior.transient;
     std::vector<Stretch> out;
-    for (std::size_t i = first; i <= last && !transient.empty(); ++i) {
-      if (transient[i] != 0) continue;
+    for (std::size_t i = first; i <= last; ++i) {
+      if (!is_steady(i)) continue;
       std::size_t end = i;
-      while (end < last && transient[end + 1] == 0) ++end;
+      while (end < last && is_steady(end + 1) && !slips_after(end)) ++end;
       if (end - i >= kLeastStretch) out.push_back(regression(i, end));
       i = end;
     }
     if (out.empty()) out.push_back(regression(first, last));
+    return out;
+  }
+
+  /// Each at the largest of the steps between the frames of which it is known to lie between two.
+  std::vector<TableSlip> slips_beside(double speed_rad_s) const {
+    const auto& frames = data_.frames;
+    std::vector<TableSlip> out;
+    for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
+      if (!slips_after(i)) continue;
+      TableSlip slip;
+      double largest = 0.0;
+      for (; i + 1 < frames.size() && slips_after(i); ++i) {
+        const double turn = state_.angle[i + 1] - state_.angle[i] -
+                            speed_rad_s * (frames[i + 1].time_s - frames[i].time_s);
+        slip.turn_rad += turn;
+        if (std::abs(turn) < largest) continue;
+        largest = std::abs(turn);
+        slip.first_frame = frames[i + 1].position;
+      }
+      out.push_back(slip);
+    }
     return out;
   }
 
@@ -223,15 +253,54 @@ class Publication {
     return (state_.angle[b] - state_.angle[a]) / (data_.frames[b].time_s - data_.frames[a].time_s);
   }
 
-  /// Of the mean speed, as the speeds of the quarters tell it.
-  double uneven_sigma(std::size_t first, std::size_t last) const {
+  /// The slope that they share.
+  static double speed_of(const std::vector<Stretch>& lines) {
+    double along = 0.0, squares = 0.0;
+    for (const Stretch& line : lines) along += line.along, squares += line.squares;
+    return along / squares;
+  }
+
+  /// The angles of the steady stretches alone, joined.
+  std::vector<double> steady_angles(double speed_rad_s) const {
+    std::vector<double> out = state_.angle;
+    for (std::size_t i = 0; i + 1 < out.size(); ++i) {
+      out[i + 1] = out[i] + state_.angle[i + 1] - state_.angle[i];
+      if (slips_after(i) || !is_steady(i) || !is_steady(i + 1))
+        out[i + 1] = out[i] + speed_rad_s * (data_.frames[i + 1].time_s - data_.frames[i].time_s);
+    }
+    return out;
+  }
+
+  /// Variance of the mean speed, as the speeds of the quarters tell it.
+  double variance_of_quarters(const std::vector<double>& angle, std::size_t first,
+                              std::size_t last) const {
     double sum = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t a = first + k * (last - first) / 4,
+                        b = first + (k + 1) * (last - first) / 4;
       const double speed =
-          slope(first + k * (last - first) / 4, first + (k + 1) * (last - first) / 4);
+          (angle[b] - angle[a]) / (data_.frames[b].time_s - data_.frames[a].time_s);
       sum += speed, squares += speed * speed;
     }
-    return std::sqrt(std::max(0.0, squares / 4.0 - sum * sum / 16.0) / 3.0);
+    return std::max(0.0, squares / 4.0 - sum * sum / 16.0) / 3.0;
+  }
+
+  /// Of the speed: what the angles' errors make of it, and how far it changes beyond them.
+  double speed_sigma(double angle_sigma_rad, const std::vector<Stretch>& lines, bool mean,
+                     std::size_t first, std::size_t last) const {
+    double spans = 0.0;
+    for (const Stretch& line : lines)
+      spans += std::pow(data_.frames[line.last].time_s - data_.frames[line.first].time_s, 2);
+    const double seconds = data_.frames[last].time_s - data_.frames[first].time_s;
+    // The quarters' share of an angle's error, of which each has two.
+    const double of_angles = 8.0 * std::pow(angle_sigma_rad / seconds, 2);
+    const double quarters =
+        last < first + 4 * kLeastStretch
+            ? 0.0
+            : variance_of_quarters(mean ? state_.angle : steady_angles(speed_of(lines)), first,
+                                   last);
+    return std::sqrt(angle_sigma_rad * angle_sigma_rad / spans +
+                     std::max(0.0, quarters - of_angles));
   }
 
   /// The steady speed: the slope of the angles over time once the table runs, a slip or a halt left
@@ -248,16 +317,12 @@ class Publication {
     while (last > stretch + 3 * n / 4 && slope(last - stretch, last) / middle < 0.93) --last;
     const bool mean = uneven(first, last);
     const auto lines = mean ? std::vector{regression(first, last)} : steady_stretches(first, last);
-    double along = 0.0, squares = 0.0, spans = 0.0, sigma = 0.0;
-    for (const Stretch& line : lines) {
-      along += line.along, squares += line.squares;
-      spans += std::pow(frames[line.last].time_s - frames[line.first].time_s, 2);
-    }
-    const double speed = mean ? slope(first, last) : along / squares;
+    double sigma = 0.0;
+    const double speed = mean ? slope(first, last) : speed_of(lines);
     out.table.speed_rad_s = speed;
+    out.slips = slips_beside(speed);
     for (std::size_t i = first; i <= last; ++i) sigma = std::max(sigma, solution_.angle_sigma[i]);
-    out.speed_sigma_rad_s =
-        std::hypot(sigma / std::sqrt(spans), mean ? uneven_sigma(first, last) : 0.0);
+    out.speed_sigma_rad_s = speed_sigma(sigma, lines, mean, first, last);
     out.speed_found = !motion_.turn_observable ? "stated"
                       : mean                   ? "mean of an uneven turn"
                                                : "slope of the angles over time";

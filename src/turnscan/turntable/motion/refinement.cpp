@@ -175,6 +175,7 @@ class Refinement {
       find_standstills(state_, out_.prior);
     }
     if (data_.keys.size() < kLeastEvidenceFrames) return {};
+    TURNSCAN_TRY(find_slips(data_, out_.solution, options, out_.prior, state_, context_));
     return choose_speed_walk(data_, out_.solution, options, out_.prior, state_, context_);
   }
 

@@ -4,7 +4,9 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/placement/disturbance_text.hpp>
 
-namespace turnscan::placement {
+namespace turnscan {
+
+namespace placement {
 
 namespace {
 
@@ -124,4 +126,19 @@ Disturbance tell_hidden(const FrameSequence& sequence, std::size_t first, std::s
   return out;
 }
 
-}  // namespace turnscan::placement
+}  // namespace placement
+
+Disturbance disturbance_of(const TableSlip& slip, const Calibration& calibration,
+                           const FrameSequence& recording) {
+  Disturbance out;
+  out.kind = DisturbanceKind::kSlip;
+  out.first_frame = slip.first_frame;
+  out.last_frame = recording.frames().size() - 1;
+  out.size_m = std::abs(slip.turn_rad) * placement::ModelScene().lever_m;
+  out.text = fmt::format(
+      "{} at {}", placement::slip_text(slip.turn_rad, calibration.table.speed_rad_s.value_or(1.0)),
+      placement::moment_of(recording, slip.first_frame));
+  return out;
+}
+
+}  // namespace turnscan

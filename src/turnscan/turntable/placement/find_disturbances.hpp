@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <turnscan/core/calibration.hpp>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
@@ -44,5 +45,9 @@ Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence
                                                    const std::vector<Pose>& T_table_sensor,
                                                    const RunContext& context,
                                                    PlatterMemory* memory = nullptr);
+
+/// What a slip that the angles of a calibration follow did to its recording.
+Disturbance disturbance_of(const TableSlip& slip, const Calibration& calibration,
+                           const FrameSequence& recording);
 
 }  // namespace turnscan

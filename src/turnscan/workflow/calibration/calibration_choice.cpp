@@ -221,6 +221,7 @@ Calibration with_recorded_table(const TurntableInfo& table, const Calibration& f
   out.speed_sigma_rad_s = found.speed_sigma_rad_s;
   out.speed_found = found.speed_found, out.angles_found = found.angles_found;
   out.angles_rad = found.angles_rad, out.angle_sigma_rad = found.angle_sigma_rad;
+  out.slips = found.slips;
   out.start_s = found.start_s;
   return out;
 }
@@ -259,6 +260,7 @@ Result<CalibrationChoice> completed(const FrameSequence& sequence,
   TURNSCAN_ASSIGN(const auto calibrated, with_calibration(sequence, *turned->calibration));
   TURNSCAN_ASSIGN(auto placement,
                   workflow::disturbances_of(*calibrated, std::nullopt, &memory, context));
+  workflow::put_slips_first(*turned->calibration, sequence, placement);
   correct(std::move(placement), *turned);
   return std::move(*turned);
 }

@@ -65,6 +65,7 @@ void extend(const FrameSequence& recording, const Positions& rest, const Calibra
       return *found.table.speed_rad_s * seconds;
     return before.angles_rad[to] - before.angles_rad[from];
   };
+  for (TableSlip& slip : found.slips) slip.first_frame = rest[slip.first_frame];
   std::size_t next = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     while (next + 1 < rest.size() && rest[next] < i) ++next;
@@ -114,6 +115,14 @@ Result<Placement> disturbances_with(const Calibration& found, const FrameSequenc
 
 }  // namespace
 
+void put_slips_first(const Calibration& calibration, const FrameSequence& recording,
+                     Placement& placement) {
+  std::vector<Disturbance> slips;
+  for (const TableSlip& slip : calibration.slips)
+    slips.push_back(disturbance_of(slip, calibration, recording));
+  placement.disturbances.insert(placement.disturbances.begin(), slips.begin(), slips.end());
+}
+
 bool has_poses(const FrameSequence& sequence) {
   const auto& frames = sequence.frames();
   return std::all_of(frames.begin(), frames.end(),
@@ -142,10 +151,12 @@ Result<Placement> settle_disturbances(const FrameSequence& recording,
     if (settled) {
       TURNSCAN_ASSIGN(Placement again, disturbances_with(*settled, recording, memory, context));
       found = std::move(*settled);
+      put_slips_first(found, recording, again);
       return again;
     }
   }
   widen(placement, found);
+  put_slips_first(found, recording, placement);
   return placement;
 }
 

@@ -113,13 +113,16 @@ void say_calibration(const ScanKnowledge& known, Sentences& out) {
 void say_disturbances(const ScanKnowledge& known, Sentences& out) {
   if (known.choice == nullptr) return;
   const CalibrationChoice& choice = *known.choice;
-  const bool corrected = !choice.poses.empty() || !choice.left_out.empty();
-  for (const Disturbance& disturbance : choice.disturbances)
+  const bool moved = !choice.poses.empty() || !choice.left_out.empty();
+  const bool follows_slips = choice.calibration && !choice.calibration->slips.empty();
+  for (const Disturbance& disturbance : choice.disturbances) {
+    const bool corrected = moved || (follows_slips && disturbance.kind == DisturbanceKind::kSlip);
     out.push_back({"disturbance", corrected ? Level::kGood : Level::kBad,
                    fmt::format("{}; {}", disturbance.text,
                                corrected ? "its frames were put right or left out"
                                          : "nothing was done about it"),
                    disturbance.size_m * 1e3, "mm"});
+  }
 }
 
 void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) {
