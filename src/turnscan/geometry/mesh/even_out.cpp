@@ -19,8 +19,8 @@ constexpr int kPasses = 2;
 
 class EdgeCollapser {
  public:
-  EdgeCollapser(const TriangleMesh& mesh, const EvenOutScale& scale)
-      : p_(mesh.vertices), t_(mesh.triangles), flat_(scale.flat_m) {
+  EdgeCollapser(TriangleMesh mesh, const EvenOutScale& scale)
+      : p_(std::move(mesh.vertices)), t_(std::move(mesh.triangles)), flat_(scale.flat_m) {
     const std::size_t n = p_.size();
     sample_.resize(n);
     parallel_for(n, 4096, [&](std::size_t v) {
@@ -148,14 +148,15 @@ class EdgeCollapser {
 
 }  // namespace
 
-Result<TriangleMesh> even_out(const TriangleMesh& mesh, const EvenOutScale& scale,
+Result<TriangleMesh> even_out(TriangleMesh mesh, const EvenOutScale& scale,
                               const RunContext& context) {
   TURNSCAN_TRY(validate_mesh(mesh));
   if (!(scale.cell_m > 0.0)) throw std::invalid_argument("even_out: cell_m must be positive");
-  EdgeCollapser collapser(mesh, scale);
+  std::string name = std::move(mesh.name);
+  EdgeCollapser collapser(std::move(mesh), scale);
   collapser.run(context);
   TURNSCAN_TRY(context.check());
-  return collapser.take(mesh.name);
+  return collapser.take(std::move(name));
 }
 
 }  // namespace turnscan

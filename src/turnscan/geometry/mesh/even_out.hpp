@@ -21,8 +21,9 @@ struct EvenOutScale {
 /// Vertices are joined edge by edge, only where the surface stays a closed 2-manifold (the link
 /// condition: the two have no neighbours in common but the two beside their edge) and no triangle
 /// turns by more than about 60 degrees. The mesh must be closed and 2-manifold; attributes other
-/// than positions are dropped. Fails with kFormat as validate_mesh does, kCancelled. Deterministic.
-Result<TriangleMesh> even_out(const TriangleMesh& mesh, const EvenOutScale& scale,
+/// than positions are dropped. Works in the memory of the mesh that it is given. Fails with kFormat
+/// as validate_mesh does, kCancelled. Deterministic.
+Result<TriangleMesh> even_out(TriangleMesh mesh, const EvenOutScale& scale,
                               const RunContext& context);
 
 }  // namespace turnscan

@@ -46,11 +46,12 @@ class VolumetricReconstruction {
     if (box.empty())
       return fail(ErrorCode::kTooFewPoints, "volumetric: no frame has a point on the object");
     TURNSCAN_ASSIGN(
-        const ExtractedSurface surface,
+        ExtractedSurface surface,
         extract_surface(integrator, scale_.volume, input_.views, box, out_.stages, context_));
     TURNSCAN_ASSIGN(std::vector<TriangleMesh> components, split_components(surface.mesh));
-    for (const auto& object : group_objects(std::move(components), grouping_rules(min_share)))
-      TURNSCAN_TRY(refine(object, surface));
+    surface.mesh = {};  // it is as large as all else
+    for (auto& object : group_objects(std::move(components), grouping_rules(min_share)))
+      TURNSCAN_TRY(refine(std::move(object), surface));
     for (VolumetricPiece& piece : out_.pieces) {
       TURNSCAN_TRY(reduce_triangles(piece));
       TURNSCAN_TRY(color(piece));
@@ -86,12 +87,12 @@ class VolumetricReconstruction {
   }
 
   /// Evens out and fits the components of an object, and makes one piece of them.
-  Result<> refine(const ObjectComponents& object, const ExtractedSurface& surface) {
+  Result<> refine(ObjectComponents object, const ExtractedSurface& surface) {
     VolumetricPiece piece;
     std::vector<TriangleMesh> refined;
-    for (const TriangleMesh& component : object.components) {
+    for (TriangleMesh& component : object.components) {
       TURNSCAN_ASSIGN(const TriangleMesh even, timed("even out", [&] {
-                        return even_out(component, surface.grid, context_);
+                        return even_out(std::move(component), surface.grid, context_);
                       }));
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
