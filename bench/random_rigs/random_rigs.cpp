@@ -31,22 +31,25 @@ struct Errors {
   double axis = 0.0, line = 0.0, height = 0.0, angles = 0.0, speed = 0.0;
 };
 
-/// A turn that all angles share turns the finished object, and changes nothing else.
+/// Of the angles with a stated deviation. A turn that they share turns the finished object, and
+/// changes nothing else.
 void judge_angles(const Calibration& found, const VirtualScan& truth, Errors& out) {
-  std::vector<double> errors;
-  double mean = 0.0;
+  std::vector<double> errors, sigmas;
+  double shared = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < found.angles_rad.size(); ++i) {
+    const double sigma = found.angle_sigma_rad[i];
+    if (!(sigma > 0.0)) continue;  // the first angle is what the others are counted from
     errors.push_back(found.angles_rad[i] - truth.angle_rad(i));
-    mean += errors.back() / double(found.angles_rad.size());
+    sigmas.push_back(sigma);
+    shared += errors.back() / (sigma * sigma), weights += 1.0 / (sigma * sigma);
   }
-  double ratios = 0.0, count = 0.0;
+  double squares = 0.0, ratios = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    out.angles_deg += std::pow((errors[i] - mean) * kDegreesPerRadian, 2) / double(errors.size());
-    if (i == 0 || !(found.angle_sigma_rad[i] > 0.0)) continue;
-    ratios += std::pow(errors[i] / found.angle_sigma_rad[i], 2), ++count;
+    const double error = errors[i] - shared / weights;
+    squares += error * error, ratios += std::pow(error / sigmas[i], 2);
   }
-  out.angles_deg = std::sqrt(out.angles_deg);
-  out.angles = count > 0.0 ? std::sqrt(ratios / count) : std::nan("");
+  out.angles_deg = std::sqrt(squares / double(errors.size())) * kDegreesPerRadian;
+  out.angles = std::sqrt(ratios / double(errors.size()));
 }
 
 /// Of the motor: a slip or a halt takes few frames.

@@ -180,6 +180,34 @@ TEST(CalibrateFromMotion, ASlipIsOneStepBetweenTwoFramesOfAnEvenTurn) {
   EXPECT_LT(mean_angle_error_deg(rig, *found), 0.15);
 }
 
+/// Of the angles, each over what is stated of it, beside a turn that all share.
+double angle_errors_over_stated(const testing::Rig& rig, const Calibration& c) {
+  double shared = 0.0, weights = 0.0, squares = 0.0;
+  for (std::size_t i = 1; i < c.angles_rad.size(); ++i) {
+    const double weight = 1.0 / (c.angle_sigma_rad[i] * c.angle_sigma_rad[i]);
+    shared += weight * (c.angles_rad[i] - rig.true_angle(i)), weights += weight;
+  }
+  for (std::size_t i = 1; i < c.angles_rad.size(); ++i)
+    squares += std::pow(
+        (c.angles_rad[i] - rig.true_angle(i) - shared / weights) / c.angle_sigma_rad[i], 2);
+  return std::sqrt(squares / double(c.angles_rad.size() - 1));
+}
+
+TEST(CalibrateFromMotion, SaysWhereNoSurfaceJoinsTheViewsBeforeASlipToThoseAfterIt) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  testing::RigOptions o = rig_options("letter-a", 60, 0.95);
+  o.fps = 5.0;
+  const double speed = 0.95 * 2.0 * std::numbers::pi / 12.0, slip = 40.0 * kRadiansPerDegree;
+  // It is seen edge on then.
+  o.angle = [=](double t) { return speed * t + (t < 8.4 ? 0.0 : slip); };
+  const testing::Rig rig(o);
+  const auto found = calibrate_from_motion(rig, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  EXPECT_EQ(found->undetermined, std::vector<std::string>{"angles"});
+  EXPECT_LT(angle_errors_over_stated(rig, *found), 2.0);
+  EXPECT_EQ(found->notes.size(), 1u);
+}
+
 TEST(CalibrateFromMotion, FollowsAHaltOfAFastTurn) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   testing::RigOptions o = rig_options("doll", 60, 1.1);

@@ -12,6 +12,12 @@
 
 namespace turnscan::motion {
 
+/// Views before and after it show no surface in common.
+struct Break {
+  std::size_t frame = 0;  ///< the first after it
+  double turn_rad = 0.0;  ///< by which views after it may be turned against those before
+};
+
 struct AnglePrior {
   bool timed = false;        ///< the speed is a random walk over the frames' times
   double speed_rad_s = 0.0;  ///< typical, for its scale
@@ -20,6 +26,7 @@ struct AnglePrior {
       transient;                       ///< per frame: the table starts or stops there; may be empty
   std::vector<std::uint8_t> still;     ///< per frame: the table stands, at the start or the end
   std::vector<std::uint8_t> slips;     ///< per frame: it slips before the next one; may be empty
+  std::optional<Break> unjoined;       ///< the angles go on there as the speed did; no equation
   std::optional<double> stated_rad_s;  ///< mean speed that the user stated
   double nominal_sigma_rad = 0.0;      ///< of the frames' own angles; 0: none
   double nominal_sign = 1.0;

@@ -47,7 +47,10 @@ class SlipSearch {
       TURNSCAN_ASSIGN(Trial best, best_gap(*bump, context));
       const double needed = is_transient(bump->peak) ? kClearEvidence : kSlipEvidence;
       if (best.evidence() + needed > without.minus_2_log_evidence) return {};
-      if (cost_across(best) > kMostCostAcross) return {};
+      if (cost_across(best) > kMostCostAcross) {
+        prior_.unjoined = Break{frame(bump->first + 1), slip_of(best)};
+        return {};
+      }
       state_ = std::move(best.solution.state);
       prior_ = std::move(best.prior);
     }
@@ -73,6 +76,12 @@ class SlipSearch {
   double time(std::size_t k) const { return data_.frames[frame(k)].time_s; }
   double speed(std::size_t k) const {
     return (state_.angle[frame(k + 1)] - state_.angle[frame(k)]) / (time(k + 1) - time(k));
+  }
+
+  double slip_of(const Trial& trial) const {
+    const auto& angle = trial.solution.state.angle;
+    return angle[frame(trial.gap + 1)] - angle[frame(trial.gap)] -
+           prior_.speed_rad_s * (time(trial.gap + 1) - time(trial.gap));
   }
 
   bool is_transient(std::size_t k) const {

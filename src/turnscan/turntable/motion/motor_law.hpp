@@ -19,8 +19,8 @@ void find_standstills(const MotionState& state, AnglePrior& prior);
 /// Marks in prior.slips where a table that turns evenly before and after, and slips between two key
 /// frames, is clearly more probable than one that turns unevenly, and sets state to the solution
 /// with them. At most three slips of about a degree or more, and only where views on both sides
-/// show the same surface; prior.transient is cleared there. solution, options: as of
-/// choose_speed_walk. Needs prior.speed_rad_s. Fails as solve_pairwise.
+/// show the same surface: else prior.unjoined is set; prior.transient is cleared there. solution,
+/// options: as of choose_speed_walk. Needs prior.speed_rad_s. Fails as solve_pairwise.
 Result<> find_slips(const MotionData& data, const MotionSolution& solution, SolveOptions options,
                     AnglePrior& prior, MotionState& state, const RunContext& context);
 

@@ -157,12 +157,19 @@ class Publication {
     }
     out.angles_found =
         motion_.turn_observable ? "motion of each frame" : "the law of the motor alone";
-    if (!motion_.turn_observable) out.undetermined.emplace_back("angles");
+    if (!motion_.turn_observable || motion_.prior.unjoined) out.undetermined.emplace_back("angles");
+    if (const auto& unjoined = motion_.prior.unjoined)
+      out.notes.push_back(fmt::format(
+          "views before and after {:.1f} s show no surface in common: how far the table turned "
+          "between them is known to {:.0f} deg only; let it turn farther, or a second time",
+          data_.frames[unjoined->frame].time_s, std::abs(unjoined->turn_rad) * kDegreesPerRadian));
   }
 
   /// As for the axis: what silhouettes shift, a few hundredths of a pixel.
   double angle_sigma(std::size_t i) const {
-    return std::hypot(solution_.angle_sigma[i],
+    const auto& unjoined = motion_.prior.unjoined;
+    const double apart = unjoined && i >= unjoined->frame ? unjoined->turn_rad : 0.0;
+    return std::hypot(apart, solution_.angle_sigma[i],
                       motion_.turn_observable ? 0.03 * data_.spacing_m / data_.extent_m : 0.0);
   }
 

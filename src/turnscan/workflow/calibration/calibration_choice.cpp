@@ -82,6 +82,7 @@ CalibrationChoice chosen_from_motion(Calibration found, const std::string& why) 
       found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
   if (!found.undetermined.empty())
     out.note += fmt::format("; not determined: {}", fmt::join(found.undetermined, ", "));
+  for (const std::string& note : found.notes) out.note += "; " + note;
   out.calibration = std::move(found);
   return out;
 }
