@@ -19,6 +19,12 @@ struct ReachCell {
   bool inside = false;  ///< one of them lies in the cylinder
   bool reached = false;
   double farthest_m = 0.0;  ///< of its points, from the axis
+
+  void add(const ReachCell& part) {
+    points += part.points;
+    inside |= part.inside;
+    farthest_m = std::max(farthest_m, part.farthest_m);
+  }
 };
 
 std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -26,32 +32,27 @@ std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
          std::uint64_t(z + kHalf);
 }
 
-struct KeyedPoint {
-  std::uint64_t key;
-  float from_axis;
-};
-
 /// In ascending order of their keys.
 std::vector<ReachCell> cells_of(const std::vector<Vec3f>& p_table, const Cylinder& cylinder,
                                 double cell_m) {
-  std::vector<KeyedPoint> keyed;
+  // Neighbouring pixels mostly see the same cell: that leaves little to sort.
+  std::vector<ReachCell> runs;
   for (const Vec3f& p : p_table) {
     const double r = std::hypot(double(p.x()), double(p.z()));
     if (p.y() < cylinder.margin_m + cell_m || p.y() > cylinder.height_m ||
         r > kFarthest * cylinder.radius_m)
       continue;
     const auto at = [&](float x) { return std::int64_t(std::floor(double(x) / cell_m)); };
-    keyed.push_back({cell_key(at(p.x()), at(p.y()), at(p.z())), float(r)});
+    const std::uint64_t key = cell_key(at(p.x()), at(p.y()), at(p.z()));
+    if (runs.empty() || runs.back().key != key) runs.push_back({key});
+    runs.back().add({key, 1, r < cylinder.radius_m, false, r});
   }
-  std::sort(keyed.begin(), keyed.end(),
-            [](const KeyedPoint& a, const KeyedPoint& b) { return a.key < b.key; });
+  std::sort(runs.begin(), runs.end(),
+            [](const ReachCell& a, const ReachCell& b) { return a.key < b.key; });
   std::vector<ReachCell> cells;
-  for (const KeyedPoint& p : keyed) {
-    if (cells.empty() || cells.back().key != p.key) cells.push_back({p.key});
-    ReachCell& cell = cells.back();
-    ++cell.points;
-    cell.inside |= p.from_axis < cylinder.radius_m;
-    cell.farthest_m = std::max(cell.farthest_m, double(p.from_axis));
+  for (const ReachCell& run : runs) {
+    if (cells.empty() || cells.back().key != run.key) cells.push_back({run.key});
+    cells.back().add(run);
   }
   return cells;
 }
