@@ -72,9 +72,10 @@ class AnglePriorRows {
 
   /// Somewhere between frame i and the next one of these frames.
   bool slips(int i) const {
+    if (prior_.slips.empty()) return false;
     const auto first = prior_.slips.begin() + std::ptrdiff_t(frames_[std::size_t(i)]);
     const auto end = prior_.slips.begin() + std::ptrdiff_t(frames_[std::size_t(i) + 1]);
-    return !prior_.slips.empty() && std::any_of(first, end, [](auto flag) { return flag != 0; });
+    return std::any_of(first, end, [](auto flag) { return flag != 0; });
   }
 
   double gap(int i) const { return time(i + 1) - time(i); }
