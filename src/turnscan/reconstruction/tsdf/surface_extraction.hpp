@@ -30,7 +30,8 @@ struct ExtractedSurface {
   RoundBottoms round;
 };
 
-/// The zero set of what was integrated in and around the box, smoothed, its holes closed: what the
+/// The zero set of what was integrated in and around the box, but for forget_doubtful_surface(),
+/// smoothed, its holes closed: what the
 /// views looked at in vain is inside (no_return_hull()), the rest is close_holes()'s. Adds to
 /// the seconds of the stages "distances", "closing" and "extraction". Fails with kResourceLimit,
 /// kCancelled.
