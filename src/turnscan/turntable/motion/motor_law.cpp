@@ -88,8 +88,9 @@ class SlipSearch {
     return !prior_.transient.empty() && prior_.transient[frame(k)] != 0;
   }
 
-  /// Where the table starts, stops or slips as far as is known.
+  /// Where the table starts, stops or slips as far as is known, and between two passes.
   bool is_known(std::size_t k) const {
+    if (data_.frames[frame(k)].pass != data_.frames[frame(k + 1)].pass) return true;
     if (!prior_.slips.empty() && prior_.slips[frame(k)] != 0) return true;
     if (!is_transient(k)) return false;
     const auto& transient = prior_.transient;
