@@ -3,7 +3,6 @@
 #include <numbers>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
-#include <turnscan/reconstruction/tsdf/view_store.hpp>
 
 namespace turnscan::tsdf {
 namespace {
@@ -158,32 +157,6 @@ TEST(Integrator, RefusesMoreThanItsMemory) {
   fine.cell_m = 1e-5;
   Integrator many(fine);
   EXPECT_EQ(many.integrate(walls(), {}).error().code, ErrorCode::kResourceLimit);
-}
-
-TEST(ViewStore, KeepsBoundedlyManyViewsEvenlySpreadOverEverySensor) {
-  ViewStore store;
-  views::DepthView view;
-  view.pixels.assign(4, 0);
-  for (std::uint32_t v = 0; v < 5000; ++v) {
-    view.translation.x() = float(v);
-    store.add(view, v % 2);
-  }
-  EXPECT_LE(store.views().size(), tsdf::ViewStore::kMostViews);
-  EXPECT_GE(store.views().size(), tsdf::ViewStore::kMostViews / 2);
-  EXPECT_EQ(store.stride(), 8u);
-  int odd = 0;
-  for (const views::DepthView& kept : store.views()) odd += int(kept.translation.x()) % 2;
-  EXPECT_NEAR(odd, double(store.views().size()) / 2, 2);
-  for (std::size_t v = 2; v < store.views().size(); ++v)
-    EXPECT_FLOAT_EQ(store.views()[v].translation.x() - store.views()[v - 2].translation.x(), 16);
-}
-
-TEST(ViewStore, KeepsFewerViewsWhenTheyAreLarge) {
-  ViewStore store;
-  views::DepthView view;
-  view.pixels.assign(std::size_t(1) << 18, 0);  // 1 MB
-  for (int v = 0; v < 600; ++v) store.add(view, 0);
-  EXPECT_LE(store.views().size(), 256u);
 }
 
 }  // namespace

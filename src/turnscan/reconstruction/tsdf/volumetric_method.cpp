@@ -10,10 +10,10 @@
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
 #include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
-#include <turnscan/reconstruction/tsdf/view_store.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>
+#include <turnscan/reconstruction/views/view_store.hpp>
 #include <turnscan/turntable/crop/live_crop.hpp>
 
 namespace turnscan::tsdf {
@@ -116,7 +116,7 @@ class VolumetricMethod final : public Method {
   std::map<std::uint32_t, views::ProfileGroups> profiles_;  ///< per sensor: of line scanners
   std::vector<views::DepthView> pending_;
   std::vector<std::uint32_t> pending_sensor_;
-  ViewStore kept_;
+  views::ViewStore kept_;
   VolumetricScale scale_;
   mutable std::mutex mutex_;  ///< guards what follows
   Integrator integrator_;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace turnscan::tsdf {
+namespace turnscan::views {
 
 /// Views spread evenly over a scan: every one, or every 2nd, 4th, ... of each sensor, so that
 /// memory does not grow with the scan.
@@ -14,16 +14,16 @@ class ViewStore {
   static constexpr std::size_t kMostViews = 1024, kFewViews = 64;
   static constexpr std::size_t kMostBytes = std::size_t(256) << 20;
 
-  void add(views::DepthView view, std::uint32_t sensor);
-  const std::vector<views::DepthView>& views() const { return views_; }
+  void add(DepthView view, std::uint32_t sensor);
+  const std::vector<DepthView>& views() const { return views_; }
   /// How many of the scan's views one of these stands for.
   std::uint32_t stride() const { return stride_; }
-  std::vector<views::DepthView> take() { return std::move(views_); }
+  std::vector<DepthView> take() { return std::move(views_); }
 
  private:
   void thin();
 
-  std::vector<views::DepthView> views_;
+  std::vector<DepthView> views_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>>
       key_;                          ///< per view: sensor, its number there
   std::vector<std::uint32_t> seen_;  ///< per sensor
@@ -31,4 +31,4 @@ class ViewStore {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace turnscan::tsdf
+}  // namespace turnscan::views

@@ -1,16 +1,16 @@
-#include <turnscan/reconstruction/tsdf/view_store.hpp>
+#include <turnscan/reconstruction/views/view_store.hpp>
 
-namespace turnscan::tsdf {
+namespace turnscan::views {
 
 namespace {
 
-std::size_t bytes_of(const views::DepthView& view) {
+std::size_t bytes_of(const DepthView& view) {
   return view.pixels.size() * sizeof(view.pixels[0]) + view.colors.size() * sizeof(Rgb);
 }
 
 }  // namespace
 
-void ViewStore::add(views::DepthView view, std::uint32_t sensor) {
+void ViewStore::add(DepthView view, std::uint32_t sensor) {
   if (seen_.size() <= sensor) seen_.resize(std::size_t(sensor) + 1, 0);
   const std::uint32_t number = seen_[sensor]++;
   if (number % stride_ != 0) return;
@@ -34,4 +34,4 @@ void ViewStore::thin() {
   key_.resize(kept);
 }
 
-}  // namespace turnscan::tsdf
+}  // namespace turnscan::views
