@@ -25,7 +25,8 @@ struct TwoSensorScan : testing::MemorySequence {
   std::vector<double> angles;
 };
 
-TwoSensorScan scan_of(const std::string& object, const std::vector<Stand>& stands, int frames) {
+TwoSensorScan scan_of(const std::string& object, const std::vector<Stand>& stands, int frames,
+                      double slip_at_s = 0.0, double slip_rad = 0.0) {
   ScannerParameters p;
   p.name = "camera";
   p.columns = 120, p.rows = 105;
@@ -42,6 +43,8 @@ TwoSensorScan scan_of(const std::string& object, const std::vector<Stand>& stand
   }
   o.motion.frames = frames;
   o.motion.turns = 1.1;
+  o.motion.slip_at_s = slip_at_s;
+  o.motion.slip_rad = slip_rad;
   o.measure.noise = "gaussian:1mm";
   o.record.calibration = RecordedCalibration::kNone;
   o.record.angles = false;
@@ -102,6 +105,18 @@ TEST(MotionOfSeveralSensors, SaysWhenTheObjectShowsNoHeading) {
   EXPECT_NE(
       std::find(found->undetermined.begin(), found->undetermined.end(), "heading of sensor 1"),
       found->undetermined.end());
+}
+
+TEST(MotionOfSeveralSensors, NamesTheFrameOfTheWholeRecordingAfterASlip) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  constexpr double kSlipAt_s = 1.0;
+  const TwoSensorScan scan = scan_of("doll", {{}, {100.0, 15.0, 0.7}}, 60, kSlipAt_s, 0.2);
+  const auto found = calibrate_from_motion(scan, {}, {}, {});
+  ASSERT_TRUE(found) << found.error().text();
+  ASSERT_EQ(found->slips.size(), 1u);
+  const std::size_t first = found->slips[0].first_frame;
+  EXPECT_EQ(scan.frames()[first].sensor, 0u);
+  EXPECT_NEAR(scan.frames()[first].time_s, kSlipAt_s, 0.05);
 }
 
 TEST(MotionOfSeveralSensors, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {

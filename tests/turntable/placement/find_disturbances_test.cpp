@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/sequence_views.hpp>
@@ -145,24 +146,37 @@ TEST(FindDisturbances, LeavesTheSpeedAloneWhereNothingShowsIt) {
   EXPECT_TRUE(found_in(sequence).disturbances.empty());
 }
 
-TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
-  const testing::Rig rig = turning_rig("letter-a");
-  SequenceView sequence = calibrated(rig);
-  const TurntableInfo table = rig.truth();
+/// Raw depths of pixels around the one that sees the middle of the object, right and down of it;
+/// near: of something in front of it.
+using DepthInFront = std::function<std::uint16_t(double right, double down, std::uint16_t near)>;
+
+/// From frame 20 to 25 pixels within `left`, `above` and so on of the middle change.
+SequenceView changed_in_front(const testing::Rig& rig, int left, int right, int above, int below,
+                              const DepthInFront& depth) {
+  SequenceView out = calibrated(rig);
   const CameraIntrinsics camera = rig.header().sensors[0].intrinsics;
-  const Vec3d middle = table.center_m + 0.1 * table.axis;
+  const Vec3d middle = rig.truth().center_m + 0.1 * rig.truth().axis;
   const double unit = rig.header().sensors[0].depth_unit_m;
-  sequence.set_map([=](Frame frame, std::size_t i) -> Result<Frame> {
+  out.set_map([=](Frame frame, std::size_t i) -> Result<Frame> {
     if (i < 20 || i > 25) return frame;
     const Eigen::Vector2d at = camera.project(middle);
-    for (int y = int(at.y()) - 30; y < int(at.y()) + 20; ++y) {
-      for (int x = int(at.x()) - 20; x < int(at.x()) + 20; ++x) {
+    for (int y = int(at.y()) - above; y < int(at.y()) + below; ++y) {
+      for (int x = int(at.x()) - left; x < int(at.x()) + right; ++x) {
+        if (y < 0 || x < 0 || y >= camera.height || x >= camera.width) continue;
         const double z = middle.z() - 0.08 + 0.00003 * (x - at.x()) * (x - at.x());
-        frame.depth.pixels[std::size_t(y * camera.width + x)] = std::uint16_t(z / unit);
+        frame.depth.pixels[std::size_t(y * camera.width + x)] =
+            depth(x - at.x(), y - at.y(), std::uint16_t(z / unit));
       }
     }
     return frame;
   });
+  return out;
+}
+
+TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
+  const testing::Rig rig = turning_rig("letter-a");
+  const SequenceView sequence = changed_in_front(
+      rig, 20, 20, 30, 20, [](double, double, std::uint16_t near) { return near; });
   const Placement found = found_in(sequence);
   ASSERT_FALSE(found.disturbances.empty());
   EXPECT_EQ(found.disturbances[0].kind, DisturbanceKind::kHidden);
@@ -172,26 +186,12 @@ TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
 
 TEST(FindDisturbances, TakesWhatIsLeftOfAPlateSeenEdgeOnForNoHand) {
   const testing::Rig rig = turning_rig("letter-a");
-  SequenceView sequence = calibrated(rig);
-  const TurntableInfo table = rig.truth();
-  const CameraIntrinsics camera = rig.header().sensors[0].intrinsics;
-  const Vec3d middle = table.center_m + 0.1 * table.axis;
-  const double unit = rig.header().sensors[0].depth_unit_m;
   // Hardly anything returns, and what does mixes the edge with what is behind it.
-  sequence.set_map([=](Frame frame, std::size_t i) -> Result<Frame> {
-    if (i < 20 || i > 25) return frame;
-    const Eigen::Vector2d at = camera.project(middle);
-    for (int y = int(at.y()) - 90; y < int(at.y()) + 90; ++y) {
-      for (int x = int(at.x()) - 90; x < int(at.x()) + 90; ++x) {
-        const bool edge = std::abs(x - at.x()) < 3 && std::abs(y - at.y()) < 6;
-        const double z = middle.z() - 0.08 + 0.00003 * (x - at.x()) * (x - at.x());
-        if (y >= 0 && x >= 0 && y < camera.height && x < camera.width)
-          frame.depth.pixels[std::size_t(y * camera.width + x)] =
-              edge ? std::uint16_t(z / unit) : std::uint16_t(0);
-      }
-    }
-    return frame;
-  });
+  const SequenceView sequence =
+      changed_in_front(rig, 90, 90, 90, 90, [](double right, double down, std::uint16_t near) {
+        const bool edge = std::abs(right) < 3 && std::abs(down) < 6;
+        return edge ? near : std::uint16_t(0);
+      });
   EXPECT_TRUE(found_in(sequence).left_out.empty());
 }
 

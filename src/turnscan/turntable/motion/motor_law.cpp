@@ -25,17 +25,24 @@ constexpr double kBumpPeak = 2.0, kBumpEnd = 0.1;
 constexpr double kMostCostAcross = 0.3;
 constexpr std::size_t kSpanAcross = 3, kBeside = 12, kCostSamples = 250;
 
+/// With which priors are compared, so that nothing else differs. solution: with one of them.
+SolveOptions trial_options(SolveOptions options, const MotionSolution& solution) {
+  options.scale_m = solution.scale_m;
+  options.variance_m2 = solution.variance_m2;
+  options.iterations = 4;
+  options.reach_m = std::max(0.004, 12.0 * solution.scale_m);
+  return options;
+}
+
 /// Finds slips in the angles that were fitted without them.
 class SlipSearch {
  public:
   SlipSearch(const MotionData& data, const MotionSolution& solution, SolveOptions options,
              AnglePrior& prior, MotionState& state)
-      : data_(data), options_(std::move(options)), prior_(prior), state_(state) {
-    options_.scale_m = solution.scale_m;
-    options_.variance_m2 = solution.variance_m2;
-    options_.iterations = 4;
-    options_.reach_m = std::max(0.004, 12.0 * solution.scale_m);
-  }
+      : data_(data),
+        options_(trial_options(std::move(options), solution)),
+        prior_(prior),
+        state_(state) {}
 
   Result<> run(const RunContext& context) {
     for (std::size_t n = 0; n < kMostSlips; ++n) {
@@ -245,10 +252,7 @@ Result<> choose_speed_walk(const MotionData& data, const MotionSolution& solutio
                            SolveOptions options, AnglePrior& prior, MotionState& state,
                            const RunContext& context) {
   const auto pairs = select_pairs(data, state.angle, false);
-  options.scale_m = solution.scale_m;
-  options.variance_m2 = solution.variance_m2;
-  options.iterations = 4;
-  options.reach_m = std::max(0.004, 12.0 * solution.scale_m);
+  options = trial_options(std::move(options), solution);
   std::optional<MotionSolution> best;
   double speed_walk = prior.speed_walk;
   for (const double share : {2e-4, 1e-3, 2.5e-3, 6e-3, 1.5e-2}) {

@@ -292,9 +292,10 @@ class Publication {
     return std::max(0.0, squares / 4.0 - sum * sum / 16.0) / 3.0;
   }
 
-  /// Of the speed: what the angles' errors make of it, and how far it changes beyond them.
-  double speed_sigma(double angle_sigma_rad, const std::vector<Stretch>& lines, bool mean,
-                     std::size_t first, std::size_t last) const {
+  /// Of the speed: what the angles' errors make of it, and how far it changes beyond them. lines:
+  /// that it is the slope of; angle: from first to last, without what it leaves out.
+  double speed_sigma(double angle_sigma_rad, const std::vector<Stretch>& lines,
+                     const std::vector<double>& angle, std::size_t first, std::size_t last) const {
     double spans = 0.0;
     for (const Stretch& line : lines)
       spans += std::pow(data_.frames[line.last].time_s - data_.frames[line.first].time_s, 2);
@@ -302,10 +303,7 @@ class Publication {
     // The quarters' share of an angle's error, of which each has two.
     const double of_angles = 8.0 * std::pow(angle_sigma_rad / seconds, 2);
     const double quarters =
-        last < first + 4 * kLeastStretch
-            ? 0.0
-            : variance_of_quarters(mean ? state_.angle : steady_angles(speed_of(lines)), first,
-                                   last);
+        last < first + 4 * kLeastStretch ? 0.0 : variance_of_quarters(angle, first, last);
     return std::sqrt(angle_sigma_rad * angle_sigma_rad / spans +
                      std::max(0.0, quarters - of_angles));
   }
@@ -329,7 +327,8 @@ class Publication {
     out.table.speed_rad_s = speed;
     out.slips = slips_beside(speed);
     for (std::size_t i = first; i <= last; ++i) sigma = std::max(sigma, solution_.angle_sigma[i]);
-    out.speed_sigma_rad_s = speed_sigma(sigma, lines, mean, first, last);
+    out.speed_sigma_rad_s =
+        speed_sigma(sigma, lines, mean ? state_.angle : steady_angles(speed), first, last);
     out.speed_found = !motion_.turn_observable ? "stated"
                       : mean                   ? "mean of an uneven turn"
                                                : "slope of the angles over time";

@@ -86,6 +86,7 @@ class SensorMerger {
     TURNSCAN_TRY(check_moments());
     TURNSCAN_TRY(calibrate_each());
     Calibration out = found_[0]->calibration;
+    for (TableSlip& slip : out.slips) slip.first_frame = views_[0].positions()[slip.first_frame];
     out.angles_rad.assign(sequence_.frames().size(), 0.0);
     out.angle_sigma_rad.assign(sequence_.frames().size(), std::nan(""));
     put_angles(0, 0.0, out);

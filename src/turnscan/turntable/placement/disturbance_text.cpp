@@ -43,10 +43,11 @@ std::string speed_text(const FrameSequence& sequence, const ModelFrames& frames,
   return fmt::format("{}, by {:.4f} deg/s", text, seen / seconds * kDegreesPerRadian);
 }
 
-std::string slip_text(double more_rad, double turn_rad) {
-  return fmt::format("the table slipped {} by {:.1f} deg",
+/// turn_rad: of the table, or its speed, for the direction.
+std::string slip_text(double more_rad, double turn_rad, const std::string& at) {
+  return fmt::format("the table slipped {} by {:.1f} deg at {}",
                      more_rad * turn_rad > 0.0 ? "ahead" : "back",
-                     std::abs(more_rad) * kDegreesPerRadian);
+                     std::abs(more_rad) * kDegreesPerRadian, at);
 }
 
 std::string wobble_text(const DisturbanceModel& model, double lever_m) {
@@ -85,7 +86,7 @@ std::string text_of(const FrameSequence& sequence, const ModelFrames& frames,
     case ModelKind::kSpeed:
       return speed_text(sequence, frames, more);
     case ModelKind::kSlip:
-      return slip_text(more, turn) + " at " + at;
+      return slip_text(more, turn, at);
     case ModelKind::kHalt:
       return fmt::format("the table slowed down or stopped between {} and {}",
                          moment_of(sequence, model.last), at);
@@ -135,9 +136,8 @@ Disturbance disturbance_of(const TableSlip& slip, const Calibration& calibration
   out.first_frame = slip.first_frame;
   out.last_frame = recording.frames().size() - 1;
   out.size_m = std::abs(slip.turn_rad) * placement::ModelScene().lever_m;
-  out.text = fmt::format(
-      "{} at {}", placement::slip_text(slip.turn_rad, calibration.table.speed_rad_s.value_or(1.0)),
-      placement::moment_of(recording, slip.first_frame));
+  out.text = placement::slip_text(slip.turn_rad, calibration.table.speed_rad_s.value_or(1.0),
+                                  placement::moment_of(recording, slip.first_frame));
   return out;
 }
 
