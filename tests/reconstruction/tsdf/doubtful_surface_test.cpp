@@ -6,6 +6,7 @@
 namespace turnscan::tsdf {
 namespace {
 
+constexpr float kWeak = 1.5f;           ///< weight of the weak sample; the others' is 100
 constexpr std::uint32_t kDepth = 5040;  ///< of the weak sample, in 0.1 mm
 
 /// Parallel rays along z, 2 mm apart, that all measure one depth.
@@ -40,7 +41,7 @@ Volume volume_with_a_weak_sample() {
   volume.allocate(0, 0.0005f);
   std::fill(volume.weight.begin(), volume.weight.end(), 100.0f);
   volume.value[weak_sample(volume)] = -0.0005f;
-  volume.weight[weak_sample(volume)] = 4.0f;
+  volume.weight[weak_sample(volume)] = kWeak;
   return volume;
 }
 
@@ -57,7 +58,7 @@ TEST(ForgetDoubtfulSurface, MakesUnknownWhatOnlyPixelsBesideAStepMeasured) {
 }
 
 TEST(ForgetDoubtfulSurface, KeepsWhatOneViewMeasuredClearOfSteps) {
-  EXPECT_EQ(weight_after({view_beside_a_step(), plain_view(kDepth)}), 4.0f);
+  EXPECT_EQ(weight_after({view_beside_a_step(), plain_view(kDepth)}), kWeak);
 }
 
 TEST(ForgetDoubtfulSurface, TakesNoViewForAWitnessThatMeasuredSomethingElse) {

@@ -41,8 +41,9 @@ struct Thickness {
   double spread = 0.0;   ///< extent across by extent along: 1 on a surface, 0 on a line
 };
 
-/// Points that spread less than this lie on lines, of which a ball must hold several before its
-/// points a square metre are those of the surface.
+/// Points of line scanners that spread less than this lie on lines, of which a ball must hold
+/// several before its points a square metre are those of the surface. On thin rods those of other
+/// sensors do, too, in balls of any size.
 constexpr double kOnALine = 0.5;
 
 /// So many points of a neighbourhood give its thickness to some percent; of more, every n-th is
@@ -216,7 +217,8 @@ namespace {
 /// Of samples: thickness_of(r) gives the function from a random key to the thickness of the cloud
 /// within r of the sample that the key picks, or nullopt where r is too small for a grid.
 template <class ThicknessOf>
-CloudStatistics statistics(double start_radius_m, const ThicknessOf& thickness_of) {
+CloudStatistics statistics(double start_radius_m, double least_spread,
+                           const ThicknessOf& thickness_of) {
   constexpr std::size_t kSamples = 1500;
   CloudStatistics out;
   double r = start_radius_m;
@@ -233,7 +235,7 @@ CloudStatistics statistics(double start_radius_m, const ThicknessOf& thickness_o
     out.noise_m = median(sigmas);
     const double density = median(densities);
     out.spacing_m = density > 0.0 ? 1.0 / std::sqrt(density) : 0.0;
-    if (density > 0.0 && out.noise_m < r / 4.5 && median(spreads) > kOnALine) break;
+    if (density > 0.0 && out.noise_m < r / 4.5 && median(spreads) > least_spread) break;
   }
   return out;
 }
@@ -243,7 +245,7 @@ CloudStatistics statistics(double start_radius_m, const ThicknessOf& thickness_o
 CloudStatistics cloud_statistics(const voxels::MergedCloud& merged, double start_radius_m) {
   using ThicknessAt = std::function<Thickness(std::uint64_t)>;
   const auto& points = merged.cloud.points;
-  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+  return statistics(start_radius_m, kOnALine, [&](double r) -> std::optional<ThicknessAt> {
     auto built = voxels::VoxelGrid::build(points, r, RunContext());
     if (!built) return std::nullopt;
     const auto grid = std::make_shared<const voxels::VoxelGrid>(std::move(*built));
@@ -260,7 +262,7 @@ CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, doub
   for (std::size_t i = 0; i < measurements.size(); ++i)
     sum.push_back((i > 0 ? sum.back() : 0) + std::uint64_t(measurements.count(i)));
   if (sum.empty()) return {};
-  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+  return statistics(start_radius_m, kOnALine, [&](double r) -> std::optional<ThicknessAt> {
     return [&, r](std::uint64_t key) {
       const auto at = std::upper_bound(sum.begin(), sum.end(), key % sum.back());
       const Vec3f p = measurements.point(std::size_t(at - sum.begin()));
@@ -269,7 +271,8 @@ CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, doub
   });
 }
 
-CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m) {
+CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m,
+                                     bool profiles) {
   using ThicknessAt = std::function<Thickness(std::uint64_t)>;
   const auto& points = merged.cloud.points;
   const auto& frame = merged.cloud.frame;
@@ -277,7 +280,8 @@ CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double s
   std::vector<Vec3f> towards_sensor;
   for (const Viewpoint& viewpoint : merged.viewpoints)
     towards_sensor.push_back(viewpoint.direction_from(middle).cast<float>());
-  return statistics(start_radius_m, [&](double r) -> std::optional<ThicknessAt> {
+  const double least_spread = profiles ? kOnALine : 0.0;
+  return statistics(start_radius_m, least_spread, [&](double r) -> std::optional<ThicknessAt> {
     auto built = voxels::VoxelGrid::build(points, r, RunContext());
     if (!built) return std::nullopt;
     const auto grid = std::make_shared<const voxels::VoxelGrid>(std::move(*built));

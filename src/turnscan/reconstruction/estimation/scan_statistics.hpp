@@ -33,7 +33,9 @@ CloudStatistics cloud_statistics(const voxels::MergedCloud& merged, double start
 
 /// The same, of each neighbourhood only what was seen from about the same side: both faces of a
 /// thin wall together are thick. Needs the frame of each point, and the frames' viewpoints.
-CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m);
+/// profiles: of line scanners; of others a neighbourhood may be one line of points, on a thin rod.
+CloudStatistics one_sided_statistics(const voxels::MergedCloud& merged, double start_radius_m,
+                                     bool profiles);
 
 /// The same of measurements in cells. What is thinner than the cells may look thinner than it is.
 CloudStatistics cloud_statistics(const voxels::MeasuredCells& measurements, double start_radius_m);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/doubtful_surface.hpp>
 
@@ -12,7 +11,7 @@ namespace {
 constexpr std::size_t kViewsAsked = 256;
 /// Doubted is what has less than this share of the usual weight beside a surface, less as many
 /// measurements as no chance brings together: of few frames nothing is.
-constexpr float kDoubtedShare = 0.1f, kUndoubted = 3.0f;
+constexpr float kDoubtedShare = 0.05f, kUndoubted = 3.0f;
 constexpr float kStepTruncations = 2;     ///< of a depth step
 constexpr float kDoubtedDistance = 0.9f;  ///< of the truncation: what is farther is free
 
@@ -21,7 +20,7 @@ float weight_beside_surface(const Volume& volume) {
   for (std::size_t s = 0; s < volume.value.size(); s += 7)
     if (volume.weight[s] > 0.0f && std::abs(volume.value[s]) < float(volume.cell_m))
       weights.push_back(volume.weight[s]);
-  return float(median(weights));
+  return typical_weight(weights);
 }
 
 class Doubts {

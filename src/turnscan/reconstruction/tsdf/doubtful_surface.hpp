@@ -6,7 +6,7 @@
 
 namespace turnscan::tsdf {
 
-/// Makes samples unknown that few views measured (three less than a tenth of the usual weight
+/// Makes samples unknown that few views measured (three less than a twentieth of the usual weight
 /// beside a surface), all of them with pixels beside a depth step of more than two truncations:
 /// these may be mixtures of both sides, and of many frames enough put surface into the same place
 /// of a hollow. Where something is, pixels farther from the rim mostly show it, too. Looks at up to

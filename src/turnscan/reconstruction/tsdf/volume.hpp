@@ -66,6 +66,12 @@ class Volume {
   std::vector<std::size_t> allocated_bricks() const;
 };
 
+/// The weight of a usual measurement's sample, of those of samples beside a surface: half of their
+/// sum is in weights of at least that. Mixed pixels of many frames give more and more samples a
+/// little weight, so that a median over the samples would not grow with the frames. Sorts them; 0
+/// where there are none.
+float typical_weight(std::vector<float>& weights);
+
 /// Averages known samples with their known neighbours, by their weights. Fails with kCancelled, and
 /// then leaves the volume as it was after the last whole round.
 Result<> smooth(Volume& volume, int rounds, const RunContext& context);

@@ -11,8 +11,8 @@ namespace {
 /// One view that saw past a sample outweighs this many measured distances: passing through is
 /// certain, being behind a surface is not.
 constexpr float kFreeWeight = 0.5f;
-constexpr float kLeastWeight = 0.3f;  // below, a sample counts as not seen
-constexpr float kLeastShare = 0.02f;  // of the typical weight, likewise
+constexpr float kLeastWeight = 0.3f;   // below, a sample counts as not seen
+constexpr float kLeastShare = 0.008f;  // of the typical weight, likewise
 /// But so much is enough, however many views saw other places: what few of many frames saw deep in
 /// a hollow is no less sure than it would be with those few alone.
 constexpr float kEnoughWeight = 1.0f;
@@ -27,8 +27,7 @@ std::size_t place_in_parts(std::size_t sample) {
   return (i >> 2 | j >> 2 << 1 | k >> 2 << 2) << 6 | (i & 3) | (j & 3) << 2 | (k & 3) << 4;
 }
 
-/// Typical weight of a sample beside a surface: the median.
-float typical_weight(const std::vector<const BrickSums*>& all, float cell) {
+float weight_beside_surface(const std::vector<const BrickSums*>& all, float cell) {
   std::vector<float> weights;
   for (const BrickSums* sums : all) {
     for (std::size_t sample = 0; sample < kBrickSamples; sample += 7) {
@@ -38,10 +37,7 @@ float typical_weight(const std::vector<const BrickSums*>& all, float cell) {
       if (w > 0.0f && std::abs(part.distance[i]) < w * cell) weights.push_back(w);
     }
   }
-  if (weights.empty()) return 0.0f;
-  const auto middle = weights.begin() + std::ptrdiff_t(weights.size() / 2);
-  std::nth_element(weights.begin(), middle, weights.end());
-  return *middle;
+  return typical_weight(weights);
 }
 
 /// A brick's samples.
@@ -117,7 +113,7 @@ LeastWeights Integrator::least_weights() const {
     }
   }
   const float share =
-      std::max(kLeastShare * typical_weight(all, float(scale_.cell_m)), kLeastWeight);
+      std::max(kLeastShare * weight_beside_surface(all, float(scale_.cell_m)), kLeastWeight);
   return {std::min(share, std::max(kEnoughWeight, kEnoughShareOfViews * views_)),
           std::min(share, kEnoughWeight)};
 }

@@ -43,7 +43,7 @@ Disagreement disagreement(const VolumetricInput& input, double noise_m, bool ima
   Disagreement out;
   if (sample.cloud.size() < 100) return out;
   const double start_m = 3.0 * std::max(input.spacing_m, noise_m);
-  out.thickness_m = estimation::one_sided_statistics(sample, start_m).noise_m;
+  out.thickness_m = estimation::one_sided_statistics(sample, start_m, input.profiles).noise_m;
   if (images)
     out.seen_past_m =
         estimation::depth_seen_past(input.views, sample.cloud.points, noise_m, input.spacing_m);
