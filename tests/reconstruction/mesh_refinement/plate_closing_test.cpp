@@ -162,7 +162,7 @@ TEST(PlateClosing, PutsWhatWouldTipOverOntoThePlatter) {
   closing.cell_m = 0.0005;
   const std::vector<float> support = measured_beyond(free, kCap_m);
   ASSERT_TRUE(close_as_plate(free, support, closing, {}));
-  ASSERT_GT(lowest(free), 0.001f);
+  ASSERT_GT(lowest(free), 0.0009f);
   closing.rests_below_m = 0.008;
   ASSERT_TRUE(close_as_plate(resting, support, closing, {}));
   EXPECT_NEAR(lowest(resting), 0.0f, 1e-6f);

@@ -17,8 +17,9 @@ constexpr float kTouchCells = 1.0f;    ///< above the platter touches it
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
 constexpr int kContactRounds = 6;      ///< of averaging where the plate touches what was seen
 constexpr float kNearCells = 1.5f;     ///< the rim lies in what was seen
-/// Of a membrane: as long as some 30 edges it is as stiff as a plate. Wide openings are spanned.
-constexpr double kTension = 0.001;
+/// Of a membrane: as long as some 60 edges it is as stiff as a plate. Wide openings are spanned,
+/// and the undersides of limbs stay round.
+constexpr double kTension = 0.0003;
 
 /// Of islands in what nothing measured: of a few mixed pixels they are no more than a hint.
 constexpr float kWeakIsland = 0.5f;    ///< support of the best vertex, of the typical one
