@@ -198,6 +198,25 @@ TEST(PlateClosing, DoesNotPassThroughOtherSurface) {
   EXPECT_GT(mesh.vertices[0].y(), 0.0f);
 }
 
+TEST(PlateClosing, OnlyWhatWouldPassThroughOtherSurfaceStaysBack) {
+  TriangleMesh mesh = flat_capped();
+  const float flat = ball_height(kCap_m);
+  const auto first = std::uint32_t(mesh.vertices.size());
+  for (const Vec3f& p : {Vec3f(0.0f, 0.0003f, 0.0f), Vec3f(0.002f, 0.0003f, 0.0f),
+                         Vec3f(0.0f, 0.0003f, 0.002f), Vec3f(0.0005f, 0.002f, 0.0005f)})
+    mesh.vertices.push_back(p + Vec3f(0.01f, flat, 0.0f));
+  for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, {0u, 3u, 1u}, {1u, 3u, 2u}, {2u, 3u, 0u}})
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  PlateClosing closing = anywhere();
+  closing.cell_m = 0.0002;
+  std::vector<float> support = measured_beyond(mesh, kCap_m);
+  std::fill(support.begin() + first, support.end(), 1.0f);
+  ASSERT_TRUE(close_as_plate(mesh, support, closing, {}));
+  const std::vector<std::uint8_t> faults = winding_faults(mesh, closing.cell_m);
+  EXPECT_EQ(std::count(faults.begin(), faults.end(), 1), 0);
+  EXPECT_GT(mesh.vertices[0].y(), flat + 0.7f * (ball_height(0.0f) - flat));
+}
+
 TEST(PlateClosing, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
   TriangleMesh one = flat_capped(), two = one, none = one;
   const std::vector<float> support = measured_beyond(one, kCap_m);

@@ -15,8 +15,10 @@ constexpr int kMostContacts = 4;       ///< solutions, each with the contacts of
 constexpr int kMostRests = 3;          ///< vertices that are put onto the platter
 constexpr float kTouchCells = 1.0f;    ///< above the platter touches it
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
-constexpr int kContactRounds = 6;      ///< of averaging where the plate touches what was seen
-constexpr float kNearCells = 1.5f;     ///< the rim lies in what was seen
+/// Around what passes through other surface.
+constexpr int kRingsDrawnBack[] = {6, 12, 24, 48};
+constexpr int kContactRounds = 6;   ///< of averaging where the plate touches what was seen
+constexpr float kNearCells = 1.5f;  ///< the rim lies in what was seen
 /// Of a membrane: as long as some 60 edges it is as stiff as a plate. Wide openings are spanned,
 /// and the undersides of limbs stay round.
 constexpr double kTension = 0.0003;
@@ -47,9 +49,14 @@ class PlateCloser {
     for (int n = 0; n < kMostRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
     for (const std::uint32_t v : rests_) loose_[v] = 1;
+    bool crosses = true;
+    for (const int rings : kRingsDrawnBack) {
+      TURNSCAN_TRY(context_.check());
+      if (crosses) crosses = draw_back_around(start, rings, before);
+    }
     for (const float share : {0.5f, 0.0f}) {
       TURNSCAN_TRY(context_.check());
-      if (!draw_back(start, share, before)) break;
+      if (crosses) crosses = draw_back(start, share, before);
     }
     mesh_.normals.clear();
     return {};
@@ -190,15 +197,40 @@ class PlateCloser {
     }
   }
 
-  /// Parts that pass through surface where none did before go back to a share of their way. Whether
-  /// there were any.
-  bool draw_back(const std::vector<Vec3f>& start, float share, const Marks& before) {
+  /// The vertices of triangles that pass through surface where none did before.
+  Marks crossing(const Marks& before) const {
     const Marks faults = winding_faults(mesh_, closing_.cell_m);
-    Marks crossing(loose_.size(), 0);
+    Marks out(loose_.size(), 0);
     for (std::size_t t = 0; t < faults.size(); ++t)
       if (faults[t] && !before[t])
-        for (const std::uint32_t v : mesh_.triangles[t]) crossing[v] = 1;
-    const Marks back = loose_around(crossing);
+        for (const std::uint32_t v : mesh_.triangles[t]) out[v] = 1;
+    return out;
+  }
+
+  /// What passes through surface goes back to where it was, and so many rings around it less and
+  /// less far. Whether anything did.
+  bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
+    const Marks from = crossing(before);
+    if (std::find(from.begin(), from.end(), 1) == from.end()) return false;
+    std::vector<float> back(from.begin(), from.end()), next(back.size());
+    for (int ring = 1; ring < rings; ++ring) {
+      parallel_for(back.size(), 1024, [&](std::size_t v) {
+        next[v] = back[v];
+        neighbours_.each(v, [&](std::uint32_t u) {
+          next[v] = std::max(next[v], back[u] - 1.0f / float(rings));
+        });
+      });
+      back.swap(next);
+    }
+    for (std::size_t v = 0; v < back.size(); ++v)
+      if (loose_[v]) mesh_.vertices[v] += back[v] * (start[v] - mesh_.vertices[v]);
+    return true;
+  }
+
+  /// Parts in which something passes through surface go back to a share of their way. Whether
+  /// there were any.
+  bool draw_back(const std::vector<Vec3f>& start, float share, const Marks& before) {
+    const Marks back = loose_around(crossing(before));
     for (std::size_t v = 0; v < back.size(); ++v)
       if (back[v]) mesh_.vertices[v] = start[v] + share * (mesh_.vertices[v] - start[v]);
     return std::find(back.begin(), back.end(), 1) != back.end();

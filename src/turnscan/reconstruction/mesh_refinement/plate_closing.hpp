@@ -23,10 +23,11 @@ struct PlateClosing {
 /// Moves vertices with less than a fiftieth of the typical support, and small weak groups of others
 /// in their midst in proportion to their support, to where they continue the rest
 /// tangentially with least bending (relax()), but not farther than where no view looked: what
-/// would pass on stays at the border, and the others are solved again. Parts that would pass
-/// through other surface (winding_faults()) move half as far, or not. An object that would tip over
-/// as it touches the platter touches it in one or more places more. Fails with kCancelled, and as
-/// relax() does.
+/// would pass on stays at the border, and the others are solved again. What would pass
+/// through other surface (winding_faults()) does not move, and what is around it less far; where
+/// that does not help, all that hangs together with it moves half as far, or not. An object that
+/// would tip over as it touches the platter touches it in one or more places more. Fails with
+/// kCancelled, and as relax() does.
 Result<> close_as_plate(TriangleMesh& mesh, const std::vector<float>& support,
                         const PlateClosing& closing, const RunContext& context);
 
