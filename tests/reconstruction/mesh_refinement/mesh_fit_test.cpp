@@ -280,6 +280,22 @@ TEST(FittedOffsets, ABluntTipIsNotFlattened) {
   EXPECT_NEAR(all[std::size_t(tip - mesh.vertices.begin())], 0.0, 0.00003);
 }
 
+TEST(FittedOffsets, WhereLittleWasMeasuredABallStaysRound) {
+  const TriangleMesh mesh = ball_mesh();
+  VertexMeasurements measured;
+  for (const Vec3f& p : mesh.vertices)
+    measured.support.push_back(p.y() > float(kCenter.y()) ? 1.0f : 0.03f);
+  measured.offset.assign(mesh.vertices.size(), 0.0f);
+  MeshFitScale scale;
+  scale.noise_m = 0.003;  // much noise: the surface is as stiff as it can be
+  const auto all =
+      fitted_offsets(mesh, MeshNeighbours(mesh), vertex_normals(mesh), measured, scale);
+  float most = 0.0f;  // the poles, where the mesh ends, are left out
+  for (std::size_t v = all.size() / 4; v < 3 * all.size() / 4; ++v)
+    most = std::max(most, std::abs(all[v]));
+  EXPECT_LT(most, 1e-6f);
+}
+
 TEST(Stiffening, GrowsWithNoiseAndFallsWithMeasurementsWithinBounds) {
   const auto of = [](double noise_m, float support) {
     return stiffening(noise_m, 0.002, 0.001, support);

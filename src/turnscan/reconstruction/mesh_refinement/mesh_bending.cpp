@@ -17,8 +17,8 @@ constexpr float kCreaseSupport = 0.15f;
 constexpr double kStiffer = 1.31, kMostStiffer = 4.0;
 /// Chebyshev iteration: eigenvalues of the system scaled by its diagonal, the largest that the
 /// bending's off-diagonals lead to and the smallest that the rounds resolve.
-constexpr float kLargest = 5.7f, kSmallest = kLargest / 100.0f;
-constexpr int kRounds = 80;
+constexpr float kLargestEigenvalue = 5.7f, kSmallestEigenvalue = kLargestEigenvalue / 100.0f;
+constexpr int kChebyshevRounds = 80;
 /// Rounds of averaging with the neighbours that tell a vertex how its surroundings bend.
 constexpr int kSteadyRounds = 30;
 
@@ -50,9 +50,10 @@ class OffsetSolver {
         diagonal[v] += (stiff_[u] + coupling_[u]) / (neighbours_.count(u) * neighbours_.count(u));
       });
     });
-    constexpr float kMiddle = 0.5f * (kLargest + kSmallest), kHalf = 0.5f * (kLargest - kSmallest);
+    constexpr float kMiddle = 0.5f * (kLargestEigenvalue + kSmallestEigenvalue);
+    constexpr float kHalf = kLargestEigenvalue - kMiddle;
     float length = 1.0f / kMiddle, momentum = 0.0f;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kChebyshevRounds; ++round) {
       parallel_for(n, kGrain, [&](std::size_t v) {
         rest[v] = stiff_[v] * bend_[v] +
                   (stiff_[v] + coupling_[v]) * (neighbours_.mean(delta, v, 0.0f) - delta[v]);
@@ -123,8 +124,9 @@ class OffsetSolver {
     });
   }
 
-  /// What was measured and bends as its surroundings do, a ball or a leg, is left as it is: only
-  /// deviations from that cost. Creases are no measure of what lies beside them.
+  /// What bends as its surroundings do, a ball or a leg, is left as it is, measured or not: only
+  /// deviations from that cost. Creases, and what was not measured, are no measure of what lies
+  /// beside them.
   void subtract_steady_bends() {
     const std::size_t n = bend_.size();
     std::vector<float> sum(n), weight(n);
@@ -143,7 +145,7 @@ class OffsetSolver {
       weight.swap(next_weight);
     }
     parallel_for(n, kGrain, [&](std::size_t v) {
-      bend_[v] -= weight[v] > 1e-6f ? seen_[v] * sum[v] / weight[v] : 0.0f;
+      bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f;
     });
   }
 
