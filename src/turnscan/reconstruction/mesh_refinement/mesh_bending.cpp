@@ -144,9 +144,8 @@ class OffsetSolver {
       sum.swap(next_sum);
       weight.swap(next_weight);
     }
-    parallel_for(n, kGrain, [&](std::size_t v) {
-      bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f;
-    });
+    parallel_for(n, kGrain,
+                 [&](std::size_t v) { bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f; });
   }
 
   const TriangleMesh& mesh_;
