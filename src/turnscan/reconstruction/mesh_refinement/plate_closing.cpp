@@ -212,18 +212,15 @@ class PlateCloser {
   bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
     const Marks from = crossing(before);
     if (std::find(from.begin(), from.end(), 1) == from.end()) return false;
-    std::vector<float> back(from.begin(), from.end()), next(back.size());
+    // How many of the rings take a vertex in falls by one from each ring to the next.
+    std::vector<float> reached(from.begin(), from.end()), back = reached;
     for (int ring = 1; ring < rings; ++ring) {
-      parallel_for(back.size(), 1024, [&](std::size_t v) {
-        next[v] = back[v];
-        neighbours_.each(v, [&](std::uint32_t u) {
-          next[v] = std::max(next[v], back[u] - 1.0f / float(rings));
-        });
-      });
-      back.swap(next);
+      reached = neighbours_.filtered(std::move(reached), 1,
+                                     [](float a, float b) { return std::max(a, b); });
+      for (std::size_t v = 0; v < back.size(); ++v) back[v] += reached[v];
     }
     for (std::size_t v = 0; v < back.size(); ++v)
-      if (loose_[v]) mesh_.vertices[v] += back[v] * (start[v] - mesh_.vertices[v]);
+      if (loose_[v]) mesh_.vertices[v] += back[v] / float(rings) * (start[v] - mesh_.vertices[v]);
     return true;
   }
 
