@@ -176,6 +176,7 @@ TEST(TakeSteps, ThatFoldNothingAreTakenWhole) {
 }
 
 /// A roof: vertices 1 mm apart, a ridge along z at column kRidge, sides that fall by 45 degrees.
+/// The same again 20 mm below, so that the mesh is closed.
 constexpr std::uint32_t kRidge = 20, kColumns = 41, kRows = 60;
 struct Roof {
   TriangleMesh mesh;
@@ -184,19 +185,39 @@ struct Roof {
   MeshFitScale scale;
 
   Roof() {
-    for (std::uint32_t r = 0; r < kRows; ++r) {
-      for (std::uint32_t c = 0; c < kColumns; ++c) {
-        const float x = 0.001f * (float(c) - float(kRidge));
-        mesh.vertices.emplace_back(x, -std::abs(x), 0.001f * float(r));
-        normals.emplace_back(Vec3f(x == 0.0f ? 0.0f : std::copysign(1.0f, x), 1, 0).normalized());
-        if (r + 1 == kRows || c + 1 == kColumns) continue;
-        const std::uint32_t v = r * kColumns + c;
-        mesh.triangles.push_back({v, v + kColumns, v + 1});
-        mesh.triangles.push_back({v + 1, v + kColumns, v + kColumns + 1});
-      }
+    add_sheet(0.0f, false);
+    add_sheet(-0.02f, true);
+    std::vector<std::uint32_t> border;
+    for (std::uint32_t c = 0; c + 1 < kColumns; ++c) border.push_back(c);
+    for (std::uint32_t r = 0; r + 1 < kRows; ++r) border.push_back((r + 1) * kColumns - 1);
+    for (std::uint32_t c = kColumns - 1; c > 0; --c) border.push_back((kRows - 1) * kColumns + c);
+    for (std::uint32_t r = kRows - 1; r > 0; --r) border.push_back(r * kColumns);
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      const std::uint32_t a = border[i], b = border[(i + 1) % border.size()],
+                          below = kRows * kColumns;
+      mesh.triangles.push_back({a, b, a + below});
+      mesh.triangles.push_back({b, b + below, a + below});
     }
     measured.support.assign(mesh.vertices.size(), 1.0f);
     measured.offset.assign(mesh.vertices.size(), 0.0f);
+  }
+  void add_sheet(float y, bool faces_down) {
+    const auto first = std::uint32_t(mesh.vertices.size());
+    for (std::uint32_t r = 0; r < kRows; ++r) {
+      for (std::uint32_t c = 0; c < kColumns; ++c) {
+        const float x = 0.001f * (float(c) - float(kRidge));
+        mesh.vertices.emplace_back(x, y - std::abs(x), 0.001f * float(r));
+        const Vec3f up(x == 0.0f ? 0.0f : std::copysign(1.0f, x), 1, 0);
+        normals.push_back((faces_down ? -1.0f : 1.0f) * up.normalized());
+        if (r + 1 == kRows || c + 1 == kColumns) continue;
+        const std::uint32_t v = first + r * kColumns + c;
+        for (std::array<std::uint32_t, 3> t : {std::array{v, v + kColumns, v + 1},
+                                               std::array{v + 1, v + kColumns, v + kColumns + 1}}) {
+          if (faces_down) std::swap(t[1], t[2]);
+          mesh.triangles.push_back(t);
+        }
+      }
+    }
   }
   /// Offsets along the ridge, its ends left out.
   std::vector<double> ridge() const {
@@ -250,7 +271,7 @@ TEST(FittedOffsets, NoiseAFewEdgesWideThatTheMeshBeganWithIsAveragedAway) {
   for (std::uint32_t r = 0; r < kRows; ++r)
     for (std::uint32_t c = 0; c < kColumns; ++c)
       noise.push_back(0.0001f * float(standard_normal(hash_key(r / 3, c / 3, 3))));
-  for (std::size_t v = 0; v < noise.size(); ++v)
+  for (std::size_t v = 0; v < noise.size(); ++v)  // of the upper sheet
     roof.mesh.vertices[v] += noise[v] * roof.normals[v];
   const std::vector<float> all =
       fitted_offsets(roof.mesh, MeshNeighbours(roof.mesh), roof.normals, roof.measured, roof.scale);
@@ -277,7 +298,7 @@ TEST(FittedOffsets, ABluntTipIsNotFlattened) {
       fitted_offsets(mesh, MeshNeighbours(mesh), vertex_normals(mesh), measured, scale);
   const auto tip = std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
                                     [](const Vec3f& a, const Vec3f& b) { return a.x() < b.x(); });
-  EXPECT_NEAR(all[std::size_t(tip - mesh.vertices.begin())], 0.0, 0.00003);
+  EXPECT_NEAR(all[std::size_t(tip - mesh.vertices.begin())], 0.0, 0.00006);
 }
 
 TEST(FittedOffsets, WhereLittleWasMeasuredABallStaysRound) {
@@ -315,13 +336,39 @@ TEST(FittedOffsets, AnEdgeKeepsItsShape) {
   for (const double d : roof.ridge()) EXPECT_GT(d, 0.001);  // most of the way in one step
 }
 
-TEST(FittedOffsets, WhereMeasurementsEndThereIsNoEdge) {
+TEST(FittedOffsets, ACliffWhereMeasurementsEndMovesNothing) {
   Roof roof;
   for (std::uint32_t r = 0; r < kRows; ++r) {
-    for (std::uint32_t c = kRidge + 1; c < kColumns; ++c)
+    for (std::uint32_t c = kRidge; c < kColumns; ++c)
       roof.measured.support[r * kColumns + c] = 0.0f;
   }
-  for (const double d : roof.ridge()) EXPECT_LT(d, -0.0002);  // rounded
+  const std::vector<float> all =
+      fitted_offsets(roof.mesh, MeshNeighbours(roof.mesh), roof.normals, roof.measured, roof.scale);
+  for (std::uint32_t r = 15; r + 15 < kRows; ++r)
+    for (std::uint32_t c = 6; c < kRidge; ++c) EXPECT_NEAR(all[r * kColumns + c], 0.0f, 0.00008f);
+}
+
+TEST(FittedOffsets, AWideHollowThatWasSeldomMeasuredIsFilled) {
+  Roof roof;
+  std::vector<float> depth(roof.mesh.vertices.size(), 0.0f);
+  for (std::uint32_t r = 0; r < kRows; ++r) {
+    for (std::uint32_t c = 0; c < kColumns; ++c) {
+      const std::uint32_t v = r * kColumns + c;
+      const double along = double(r) / double(kRows - 1), across = double(c) / double(kRidge);
+      if (c < kRidge)
+        depth[v] =
+            0.0005f *
+            float(std::pow(std::sin(std::numbers::pi * along) * std::sin(std::numbers::pi * across),
+                           2));
+      roof.mesh.vertices[v] -= depth[v] * roof.normals[v];
+      roof.measured.support[v] = 0.3f;
+      roof.measured.offset[v] = 0.3f * depth[v];
+    }
+  }
+  const std::vector<float> all =
+      fitted_offsets(roof.mesh, MeshNeighbours(roof.mesh), roof.normals, roof.measured, roof.scale);
+  const std::size_t middle = kRows / 2 * kColumns + kRidge / 2;
+  EXPECT_NEAR(all[middle], depth[middle], 0.25f * depth[middle]);
 }
 
 /// Share of the edges whose two triangles face away from each other.
@@ -357,7 +404,7 @@ TEST(MeshFit, TheBrimOfAHatIsNotFolded) {
   };
   const auto result = reconstruct(scan(hat, {60, 0.002}), volumetric(), {}, RunContext());
   ASSERT_TRUE(result) << result.error().text();
-  EXPECT_LT(folded_share(result->objects[0].mesh), 0.0004);
+  EXPECT_LT(folded_share(result->objects[0].mesh), 0.0005);
 }
 
 }  // namespace

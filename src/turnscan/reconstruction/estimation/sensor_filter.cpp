@@ -179,4 +179,7 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
   return share_from(all, 6.0, kMostMiss, double(unit_m), noise_m);
 }
 
+/// Along rows and down columns, of each the root of the variance.
+double noise_left_by_filter(double share) { return covariances(share)[0]; }
+
 }  // namespace turnscan::estimation

@@ -19,4 +19,8 @@ std::optional<double> share_of_neighbours(std::span<const views::DepthView> view
 double share_of_neighbours(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                            double noise_m);
 
+/// Standard deviation of depths behind the filter, of independent ones of deviation 1 before it: 1,
+/// down to 1/3 where three by three pixels are averaged.
+double noise_left_by_filter(double share);
+
 }  // namespace turnscan::estimation

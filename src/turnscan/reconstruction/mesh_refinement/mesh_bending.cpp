@@ -14,11 +14,16 @@ constexpr std::size_t kGrain = 4096;
 /// Support from which on a bend beside a vertex may be a crease: a pixel or two on an edge.
 constexpr float kCreaseSupport = 0.15f;
 /// Fitted to scans of 36 to 460 frames.
-constexpr double kStiffer = 1.31, kMostStiffer = 4.0;
-/// Chebyshev iteration: eigenvalues of the system scaled by its diagonal, the largest that the
-/// bending's off-diagonals lead to and the smallest that the rounds resolve.
-constexpr float kLargestEigenvalue = 5.7f, kSmallestEigenvalue = kLargestEigenvalue / 100.0f;
-constexpr int kChebyshevRounds = 80;
+constexpr double kStiffer = 1.31, kMostStiffer = 16.0;
+/// Conjugate gradients: they end when so little of the residual is left, or after so many rounds.
+constexpr double kTolerance = 1e-4;
+constexpr int kMostRounds = 80;
+/// Weight with which each vertex stays where it is, in measurements of the usual number: what is
+/// hardly measured is known from the volume, too.
+constexpr float kStay = 0.05f;
+/// A few vertices that were not measured are filled in by their surroundings; patches wider than
+/// twice so many rings are not part of the surface that was seen.
+constexpr int kGapRings = 3;
 /// Rounds of averaging with the neighbours that tell a vertex how its surroundings bend.
 constexpr int kSteadyRounds = 30;
 
@@ -32,43 +37,15 @@ class OffsetSolver {
         normals_(normals),
         measured_(measured),
         scale_(scale),
-        typical_(typical_support(measured.support)) {}
+        typical_(typical_support(measured.support)),
+        stay_(std::max(1e-6f, kStay * typical_)) {}
 
-  /// By Chebyshev iteration (Golub and Varga 1961) with the diagonal as preconditioner: as many
-  /// rounds of damped Jacobi leave noise that is a few edges wide.
   std::vector<float> offsets() {
     bends();
     weights();
     subtract_steady_bends();
-    const std::size_t n = bend_.size();
-    std::vector<float> own(n), diagonal(n), delta(n), rest(n), step(n);
-    parallel_for(n, kGrain, [&](std::size_t v) {
-      const float support = measured_.support[v];
-      own[v] = support > 1e-3f ? measured_.offset[v] / support : 0.0f;
-      diagonal[v] = support + stiff_[v] + coupling_[v] + 1e-6f;
-      neighbours_.each(v, [&](std::uint32_t u) {
-        diagonal[v] += (stiff_[u] + coupling_[u]) / (neighbours_.count(u) * neighbours_.count(u));
-      });
-    });
-    constexpr float kMiddle = 0.5f * (kLargestEigenvalue + kSmallestEigenvalue);
-    constexpr float kHalf = kLargestEigenvalue - kMiddle;
-    float length = 1.0f / kMiddle, momentum = 0.0f;
-    for (int round = 0; round < kChebyshevRounds; ++round) {
-      parallel_for(n, kGrain, [&](std::size_t v) {
-        rest[v] = stiff_[v] * bend_[v] +
-                  (stiff_[v] + coupling_[v]) * (neighbours_.mean(delta, v, 0.0f) - delta[v]);
-      });
-      parallel_for(n, kGrain, [&](std::size_t v) {
-        float gradient = measured_.support[v] * (own[v] - delta[v]) + rest[v];
-        neighbours_.each(v, [&](std::uint32_t u) { gradient -= rest[u] / neighbours_.count(u); });
-        step[v] = gradient / diagonal[v] + momentum * step[v];
-        delta[v] += length * step[v];
-      });
-      const float share = kHalf * length;
-      momentum = (round == 0 ? 0.5f : 0.25f) * share * share;
-      length = 1.0f / (kMiddle - momentum / length);
-    }
-    return delta;
+    forget_unseen_bends();
+    return solve();
   }
 
  private:
@@ -107,9 +84,10 @@ class OffsetSolver {
     stiff_.resize(bend_.size());
     coupling_.resize(bend_.size());
     fade_.resize(bend_.size());
-    const float stiffness = float(scale_.stiffness * stiffening(scale_.noise_m, scale_.spacing_m,
-                                                                scale_.edge_m, typical_)) *
-                            typical_;
+    const float stiffness =
+        float(scale_.stiffness * stiffening(scale_.correlation * scale_.noise_m, scale_.spacing_m,
+                                            scale_.edge_m, typical_)) *
+        typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
       // Where less was measured than usual, only a larger bend is more than noise.
       const float around =
@@ -148,12 +126,108 @@ class OffsetSolver {
                  [&](std::size_t v) { bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f; });
   }
 
+  /// Where nothing was measured the mesh ends in cliffs and webs: its bends there are no reason for
+  /// what was measured beside them to move.
+  void forget_unseen_bends() {
+    const auto least = [](float a, float b) { return std::min(a, b); };
+    const auto most = [](float a, float b) { return std::max(a, b); };
+    std::vector<float> known(bend_.size());
+    parallel_for(known.size(), kGrain, [&](std::size_t v) {
+      known[v] = std::min(1.0f, measured_.support[v] / (kUnseenShare * typical_));
+    });
+    known = neighbours_.filtered(std::move(known), kGapRings, most);
+    known = neighbours_.filtered(std::move(known), kGapRings + 1, least);
+    parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
+  }
+
+  /// Adds what a force on the bend at each vertex does to the vertices.
+  void add_forces(const std::vector<float>& force, std::vector<float>& to) const {
+    parallel_for(to.size(), kGrain, [&](std::size_t v) {
+      float sum = to[v] + force[v];
+      neighbours_.each(v, [&](std::uint32_t u) { sum -= force[u] / neighbours_.count(u); });
+      to[v] = sum;
+    });
+  }
+
+  /// The left side of the normal equations.
+  void apply(const std::vector<float>& delta, std::vector<float>& force,
+             std::vector<float>& out) const {
+    parallel_for(delta.size(), kGrain, [&](std::size_t v) {
+      force[v] = (stiff_[v] + coupling_[v]) * (delta[v] - neighbours_.mean(delta, v, 0.0f));
+      out[v] = (measured_.support[v] + stay_) * delta[v];
+    });
+    add_forces(force, out);
+  }
+
+  std::vector<float> diagonal() const {
+    std::vector<float> out(bend_.size());
+    parallel_for(out.size(), kGrain, [&](std::size_t v) {
+      out[v] = measured_.support[v] + stay_ + stiff_[v] + coupling_[v];
+      neighbours_.each(v, [&](std::uint32_t u) {
+        out[v] += (stiff_[u] + coupling_[u]) / (neighbours_.count(u) * neighbours_.count(u));
+      });
+    });
+    return out;
+  }
+
+  /// The right side: where no vertex has moved.
+  std::vector<float> residual() const {
+    std::vector<float> force(bend_.size()), out(bend_.size());
+    parallel_for(out.size(), kGrain, [&](std::size_t v) {
+      force[v] = stiff_[v] * bend_[v];
+      out[v] = measured_.support[v] > 1e-3f ? measured_.offset[v] : 0.0f;
+    });
+    add_forces(force, out);
+    return out;
+  }
+
+  /// In chunks of the same length for any number of threads.
+  static double dot(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0.0;
+    for (const double part :
+         parallel_chunks<double>(a.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+           double of_chunk = 0.0;
+           for (std::size_t v = begin; v < end; ++v) of_chunk += double(a[v]) * double(b[v]);
+           return of_chunk;
+         }))
+      sum += part;
+    return sum;
+  }
+
+  /// Conjugate gradients with the inverse diagonal as preconditioner (Hestenes and Stiefel 1952).
+  /// Waves that are long and hardly measured need them: iterations with fixed steps leave those as
+  /// the volume had them.
+  std::vector<float> solve() const {
+    const std::size_t n = bend_.size();
+    const std::vector<float> scale = diagonal();
+    std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), force(n),
+                                       image(n);
+    double before = 0.0, first = 0.0;
+    for (int round = 0; round < kMostRounds; ++round) {
+      parallel_for(n, kGrain, [&](std::size_t v) { scaled[v] = left[v] / scale[v]; });
+      const double now = dot(left, scaled);
+      if (round == 0) first = now;
+      if (!(now > kTolerance * kTolerance * first)) break;
+      const float turn = round == 0 ? 0.0f : float(now / before);
+      parallel_for(n, kGrain,
+                   [&](std::size_t v) { direction[v] = scaled[v] + turn * direction[v]; });
+      apply(direction, force, image);
+      const float along = float(now / dot(direction, image));
+      parallel_for(n, kGrain, [&](std::size_t v) {
+        delta[v] += along * direction[v];
+        left[v] -= along * image[v];
+      });
+      before = now;
+    }
+    return delta;
+  }
+
   const TriangleMesh& mesh_;
   const MeshNeighbours& neighbours_;
   const std::vector<Vec3f>& normals_;
   const VertexMeasurements& measured_;
   const MeshFitScale& scale_;
-  float typical_;
+  float typical_, stay_;
   std::vector<float> bend_, stiff_, coupling_, fade_, seen_;
 };
 
@@ -181,9 +255,9 @@ double stiffening(double noise_m, double spacing_m, double edge_m, float typical
 }
 
 /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +
-/// sum c (mean of the neighbours' d - d)^2. A bend that is too large to be noise is a crease, and
-/// m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves with its
-/// neighbours rather than each vertex with its own noise.
+/// sum c (mean of the neighbours' d - d)^2 + sum s d^2. A bend that is too large to be noise is a
+/// crease, and m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
+/// with its neighbours rather than each vertex with its own noise.
 std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
                                   const std::vector<Vec3f>& normals,
                                   const VertexMeasurements& measured, const MeshFitScale& scale) {

@@ -10,7 +10,10 @@
 namespace turnscan::mesh_refinement {
 
 struct MeshFitScale {
-  double noise_m = 0.001;     ///< of a depth along its ray
+  double noise_m = 0.001;  ///< of a depth along its ray
+  /// Noise of means over many pixels, over that of means of independent ones: more than 1 where a
+  /// filter gave neighbours errors in common (estimation/sensor_filter.hpp).
+  double correlation = 1.0;
   double spacing_m = 0.0024;  ///< of the points of one frame
   double edge_m = 0.001;      ///< usual length of the mesh's edges
   double reach_m = 0.0013;    ///< measurements farther across the normal do not count

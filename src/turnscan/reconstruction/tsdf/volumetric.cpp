@@ -94,10 +94,10 @@ class VolumetricReconstruction {
       TURNSCAN_ASSIGN(const TriangleMesh even, timed("even out", [&] {
                         return even_out(std::move(component), surface.grid, context_);
                       }));
+      const double share = filter_share(even);
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
-      const double share = filter_share(fitted.mesh);
       if (options_.sharpen && share > 0.0)
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
@@ -218,6 +218,7 @@ class VolumetricReconstruction {
     const VolumeScale& volume = scale_.volume;
     MeshFitScale scale;
     scale.noise_m = input_.noise_m;
+    scale.correlation = 1.0 / estimation::noise_left_by_filter(filter_share_.value_or(0.0));
     scale.spacing_m = input_.spacing_m;
     scale.edge_m = volume.cell_m;
     scale.reach_m = scale_.fit_reach_m;
