@@ -123,17 +123,17 @@ std::array<double, 2> expected_of_second(double share) {
   return {1.0 - (8.0 * one - 2.0 * two) / (6.0 * none), 1.0 - 8.0 * two / (6.0 * none)};
 }
 
-/// The share whose ratios are nearest to those of the differences. variances: of a difference of
-/// independent values. 0 where there are too few, where rounding or the surface makes them, or
-/// where no share misses the ratios by less than most_miss.
-double share_from(Differences& all, double variances, double most_miss, double unit_m,
-                  double noise_m) {
-  if (all.over[0].size() < kFewest) return 0.0;
+/// The share whose ratios are nearest to those of the differences; 0 where no share misses them by
+/// less than most_miss. variances: of a difference of independent values. nullopt where there are
+/// too few, or where rounding or the surface makes them.
+std::optional<double> share_from(Differences& all, double variances, double most_miss,
+                                 double unit_m, double noise_m) {
+  if (all.over[0].size() < kFewest) return std::nullopt;
   std::array<double, kApart> deviation{};
   for (std::size_t n = 0; n < deviation.size(); ++n)
     deviation[n] = spread(all.over[n]) * unit_m / std::sqrt(variances);
   // Less than a unit is mostly rounding.
-  if (!(deviation[2] > unit_m) || deviation[2] > kNoiseSlack * noise_m) return 0.0;
+  if (!(deviation[2] > unit_m) || deviation[2] > kNoiseSlack * noise_m) return std::nullopt;
   const double one = std::pow(deviation[0] / deviation[2], 2),
                two = std::pow(deviation[1] / deviation[2], 2);
   double best = 0.0, least = 1e30;
@@ -162,7 +162,6 @@ std::optional<double> share_of_neighbours(std::span<const views::DepthView> view
     if (nearly_same_place(views[v], views[v + 1])) own[i] = differences(views[v], views[v + 1]);
   });
   Differences all = joined(own);
-  if (all.over[0].size() < kFewest) return std::nullopt;
   return share_from(all, 12.0, 1e30, double(views[0].unit_m), noise_m);
 }
 
@@ -176,7 +175,7 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
     if (!view.parallel && view.unit_m == unit_m) own[i] = differences(view, mesh, noise_m);
   });
   Differences all = joined(own);
-  return share_from(all, 6.0, kMostMiss, double(unit_m), noise_m);
+  return share_from(all, 6.0, kMostMiss, double(unit_m), noise_m).value_or(0.0);
 }
 
 /// Along rows and down columns, of each the root of the variance.
