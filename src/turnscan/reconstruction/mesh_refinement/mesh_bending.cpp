@@ -18,9 +18,9 @@ constexpr double kStiffer = 1.31, kMostStiffer = 16.0;
 /// Conjugate gradients: they end when so little of the residual is left, or after so many rounds.
 constexpr double kTolerance = 1e-4;
 constexpr int kMostRounds = 80;
-/// Weight with which each vertex stays where it is, in measurements of the usual number: what is
-/// hardly measured is known from the volume, too.
-constexpr float kStay = 0.05f;
+/// Weight with which each vertex stays where it is, in measurements: what is hardly measured is
+/// known from the volume, too.
+constexpr float kStay = 0.3f;
 /// A few vertices that were not measured are filled in by their surroundings; patches wider than
 /// twice so many rings are not part of the surface that was seen.
 constexpr int kGapRings = 3;
@@ -37,8 +37,7 @@ class OffsetSolver {
         normals_(normals),
         measured_(measured),
         scale_(scale),
-        typical_(typical_support(measured.support)),
-        stay_(std::max(1e-6f, kStay * typical_)) {}
+        typical_(typical_support(measured.support)) {}
 
   std::vector<float> offsets() {
     bends();
@@ -154,7 +153,7 @@ class OffsetSolver {
              std::vector<float>& out) const {
     parallel_for(delta.size(), kGrain, [&](std::size_t v) {
       force[v] = (stiff_[v] + coupling_[v]) * (delta[v] - neighbours_.mean(delta, v, 0.0f));
-      out[v] = (measured_.support[v] + stay_) * delta[v];
+      out[v] = (measured_.support[v] + kStay) * delta[v];
     });
     add_forces(force, out);
   }
@@ -162,7 +161,7 @@ class OffsetSolver {
   std::vector<float> diagonal() const {
     std::vector<float> out(bend_.size());
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
-      out[v] = measured_.support[v] + stay_ + stiff_[v] + coupling_[v];
+      out[v] = measured_.support[v] + kStay + stiff_[v] + coupling_[v];
       neighbours_.each(v, [&](std::uint32_t u) {
         out[v] += (stiff_[u] + coupling_[u]) / (neighbours_.count(u) * neighbours_.count(u));
       });
@@ -227,7 +226,7 @@ class OffsetSolver {
   const std::vector<Vec3f>& normals_;
   const VertexMeasurements& measured_;
   const MeshFitScale& scale_;
-  float typical_, stay_;
+  float typical_;
   std::vector<float> bend_, stiff_, coupling_, fade_, seen_;
 };
 
@@ -255,8 +254,8 @@ double stiffening(double noise_m, double spacing_m, double edge_m, float typical
 }
 
 /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +
-/// sum c (mean of the neighbours' d - d)^2 + sum s d^2. A bend that is too large to be noise is a
-/// crease, and m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
+/// sum c (mean of the neighbours' d - d)^2 + kStay sum d^2. A bend that is too large to be noise is
+/// a crease, and m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
 /// with its neighbours rather than each vertex with its own noise.
 std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
                                   const std::vector<Vec3f>& normals,
