@@ -139,23 +139,25 @@ class OffsetSolver {
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
   }
 
-  /// Adds what a force on the bend at each vertex does to the vertices.
-  void add_forces(const std::vector<float>& force, std::vector<float>& to) const {
+  /// Adds what a force on the bend at each vertex, here each neighbour's part of it, does to the
+  /// vertices.
+  void add_forces(const std::vector<float>& part, std::vector<float>& to) const {
     parallel_for(to.size(), kGrain, [&](std::size_t v) {
-      float sum = to[v] + force[v];
-      neighbours_.each(v, [&](std::uint32_t u) { sum -= force[u] / neighbours_.count(u); });
+      float sum = to[v] + neighbours_.count(v) * part[v];
+      neighbours_.each(v, [&](std::uint32_t u) { sum -= part[u]; });
       to[v] = sum;
     });
   }
 
   /// The left side of the normal equations.
-  void apply(const std::vector<float>& delta, std::vector<float>& force,
+  void apply(const std::vector<float>& delta, std::vector<float>& part,
              std::vector<float>& out) const {
     parallel_for(delta.size(), kGrain, [&](std::size_t v) {
-      force[v] = (stiff_[v] + coupling_[v]) * (delta[v] - neighbours_.mean(delta, v, 0.0f));
+      part[v] = (stiff_[v] + coupling_[v]) * (delta[v] - neighbours_.mean(delta, v, 0.0f)) /
+                std::max(1.0f, neighbours_.count(v));
       out[v] = (measured_.support[v] + kStay) * delta[v];
     });
-    add_forces(force, out);
+    add_forces(part, out);
   }
 
   std::vector<float> diagonal() const {
@@ -171,12 +173,12 @@ class OffsetSolver {
 
   /// The right side: where no vertex has moved.
   std::vector<float> residual() const {
-    std::vector<float> force(bend_.size()), out(bend_.size());
+    std::vector<float> part(bend_.size()), out(bend_.size());
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
-      force[v] = stiff_[v] * bend_[v];
+      part[v] = stiff_[v] * bend_[v] / std::max(1.0f, neighbours_.count(v));
       out[v] = measured_.support[v] > 1e-3f ? measured_.offset[v] : 0.0f;
     });
-    add_forces(force, out);
+    add_forces(part, out);
     return out;
   }
 
@@ -199,7 +201,7 @@ class OffsetSolver {
   std::vector<float> solve() const {
     const std::size_t n = bend_.size();
     const std::vector<float> scale = diagonal();
-    std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), force(n),
+    std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), part(n),
                                        image(n);
     double before = 0.0, first = 0.0;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -210,7 +212,7 @@ class OffsetSolver {
       const float turn = round == 0 ? 0.0f : float(now / before);
       parallel_for(n, kGrain,
                    [&](std::size_t v) { direction[v] = scaled[v] + turn * direction[v]; });
-      apply(direction, force, image);
+      apply(direction, part, image);
       const float along = float(now / dot(direction, image));
       parallel_for(n, kGrain, [&](std::size_t v) {
         delta[v] += along * direction[v];
