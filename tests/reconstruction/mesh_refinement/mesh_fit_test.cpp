@@ -265,6 +265,23 @@ TEST(FittedOffsets, FewMeasurementsAreSmoothedMoreThanMany) {
   EXPECT_LT(left(100.0f), 0.0004);
 }
 
+TEST(FittedOffsets, ErrorsInCommonAreSmoothedMore) {
+  const auto left = [](double correlation) {
+    Roof roof;
+    roof.scale.correlation = correlation;
+    for (std::uint32_t r = 0; r < kRows; ++r)  // alike in three by three vertices
+      for (std::uint32_t c = 0; c < kColumns; ++c)
+        roof.measured.offset[r * kColumns + c] =
+            0.0005f * float(standard_normal(hash_key(r / 3, c / 3, 4)));
+    const std::vector<float> all = fitted_offsets(roof.mesh, MeshNeighbours(roof.mesh),
+                                                  roof.normals, roof.measured, roof.scale);
+    std::vector<double> flat;
+    for (std::uint32_t r = 10; r + 10 < kRows; ++r) flat.push_back(double(all[r * kColumns + 8]));
+    return spread(flat);
+  };
+  EXPECT_LT(left(3.0), 0.85 * left(1.0));
+}
+
 TEST(FittedOffsets, NoiseAFewEdgesWideThatTheMeshBeganWithIsAveragedAway) {
   Roof roof;
   std::vector<float> noise;
