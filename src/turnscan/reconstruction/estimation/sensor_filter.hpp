@@ -13,7 +13,7 @@ namespace turnscan::estimation {
 
 /// From differences between consecutive views from nearly the same place: their noise has the
 /// filter's correlation. nullopt where too few views are that near, as with few frames a turn,
-/// and where the differences show how the surface turned.
+/// and where the differences are mostly rounding or show how the surface turned.
 std::optional<double> share_of_neighbours(std::span<const views::DepthView> views, double noise_m);
 
 /// From differences between views and the mesh that they make.

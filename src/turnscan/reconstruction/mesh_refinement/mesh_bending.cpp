@@ -73,7 +73,7 @@ class OffsetSolver {
                    ? 1.0f
                    : std::min(1.0f, measured_.support[v] / kCreaseSupport);
     });
-    return neighbours_.filtered(std::move(out), 1, [](float a, float b) { return std::min(a, b); });
+    return neighbours_.least(std::move(out), 1);
   }
 
   /// Stiffness m and coupling c of fitted_offsets(), per vertex.
@@ -128,14 +128,12 @@ class OffsetSolver {
   /// Where nothing was measured the mesh ends in cliffs and webs: its bends there are no reason for
   /// what was measured beside them to move.
   void forget_unseen_bends() {
-    const auto least = [](float a, float b) { return std::min(a, b); };
-    const auto most = [](float a, float b) { return std::max(a, b); };
     std::vector<float> known(bend_.size());
     parallel_for(known.size(), kGrain, [&](std::size_t v) {
       known[v] = std::min(1.0f, measured_.support[v] / (kUnseenShare * typical_));
     });
-    known = neighbours_.filtered(std::move(known), kGapRings, most);
-    known = neighbours_.filtered(std::move(known), kGapRings + 1, least);
+    known = neighbours_.largest(std::move(known), kGapRings);
+    known = neighbours_.least(std::move(known), kGapRings + 1);
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
   }
 

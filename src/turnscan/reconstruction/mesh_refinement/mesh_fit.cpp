@@ -98,10 +98,8 @@ class MeshFitter {
       const float spread = std::clamp(times, 1.0f, kMostSpread);
       spread_[v] = spread * spread;
     });
-    const auto least = [](float a, float b) { return std::min(a, b); };
-    const auto most = [](float a, float b) { return std::max(a, b); };
-    spread_ = neighbours_.filtered(std::move(spread_), kRimRings, least);
-    spread_ = neighbours_.filtered(std::move(spread_), kRimRings, most);
+    spread_ = neighbours_.least(std::move(spread_), kRimRings);
+    spread_ = neighbours_.largest(std::move(spread_), kRimRings);
   }
 
   /// With every stride-th view.

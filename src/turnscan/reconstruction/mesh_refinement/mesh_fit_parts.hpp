@@ -24,10 +24,9 @@ struct MeshNeighbours {
   void each(std::size_t v, const Visit& visit) const {
     for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) visit(list[k]);
   }
-  /// choose(a, b) over each vertex and its neighbours, so many rings of them: a minimum or maximum
-  /// filter.
-  std::vector<float> filtered(std::vector<float> values, int rings,
-                              float (*choose)(float, float)) const;
+  /// The least and the largest value of each vertex and its neighbours, so many rings of them.
+  std::vector<float> least(std::vector<float> values, int rings) const;
+  std::vector<float> largest(std::vector<float> values, int rings) const;
 };
 
 /// What was measured around each vertex.

@@ -36,6 +36,19 @@ bool shorten_folding(const TriangleMesh& mesh, std::vector<Vec3f>& step, float t
   return any;
 }
 
+template <class Choose>
+std::vector<float> filtered(const MeshNeighbours& neighbours, std::vector<float> values, int rings,
+                            const Choose& choose) {
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<float> out = values;
+    parallel_for(values.size(), 4096, [&](std::size_t v) {
+      neighbours.each(v, [&](std::uint32_t other) { out[v] = choose(out[v], values[other]); });
+    });
+    values.swap(out);
+  }
+  return values;
+}
+
 }  // namespace
 
 MeshNeighbours::MeshNeighbours(const TriangleMesh& mesh) : begin(mesh.vertices.size() + 1, 0) {
@@ -51,16 +64,12 @@ MeshNeighbours::MeshNeighbours(const TriangleMesh& mesh) : begin(mesh.vertices.s
   }
 }
 
-std::vector<float> MeshNeighbours::filtered(std::vector<float> values, int rings,
-                                            float (*choose)(float, float)) const {
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<float> out = values;
-    parallel_for(values.size(), 4096, [&](std::size_t v) {
-      each(v, [&](std::uint32_t other) { out[v] = choose(out[v], values[other]); });
-    });
-    values.swap(out);
-  }
-  return values;
+std::vector<float> MeshNeighbours::least(std::vector<float> values, int rings) const {
+  return filtered(*this, std::move(values), rings, [](float a, float b) { return std::min(a, b); });
+}
+
+std::vector<float> MeshNeighbours::largest(std::vector<float> values, int rings) const {
+  return filtered(*this, std::move(values), rings, [](float a, float b) { return std::max(a, b); });
 }
 
 void take_steps(TriangleMesh& mesh, std::vector<Vec3f> step) {

@@ -215,8 +215,7 @@ class PlateCloser {
     // How many of the rings take a vertex in falls by one from each ring to the next.
     std::vector<float> reached(from.begin(), from.end()), back = reached;
     for (int ring = 1; ring < rings; ++ring) {
-      reached = neighbours_.filtered(std::move(reached), 1,
-                                     [](float a, float b) { return std::max(a, b); });
+      reached = neighbours_.largest(std::move(reached), 1);
       for (std::size_t v = 0; v < back.size(); ++v) back[v] += reached[v];
     }
     for (std::size_t v = 0; v < back.size(); ++v)
