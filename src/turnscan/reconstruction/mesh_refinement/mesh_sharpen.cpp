@@ -16,9 +16,11 @@ constexpr std::size_t kMostDrawnBytes = std::size_t(64) << 20;
 constexpr float kApart_m = 0.06f;
 /// Each vertex goes with those around it: alone, rims would become saws.
 constexpr int kRings = 8;
-constexpr float kLeast_m = 1e-4f;   // shorter steps are mostly what noise left on the surface
-constexpr float kTrusted = 0.005f;  // of the usual support; with less vertices go less far
-constexpr float kUnseen = 1e-4f;    // with less they stay
+constexpr float kLeast_m = 1e-4f;  // shorter steps are mostly what noise left on the surface
+/// Of the usual support; with less vertices go less far. Inwards they need more: the far side of a
+/// rod, which no view measured, is no farther away because its near side is nearer.
+constexpr float kTrusted = 0.005f, kTrustedInwards = 0.1f;
+constexpr float kUnseen = 1e-4f;  // with less they stay
 
 void put(views::DepthView& view, std::size_t at, float z) {
   const float raw = std::round((z - view.bias_m) / view.unit_m);
@@ -115,7 +117,9 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
       step[v].setZero();
       continue;
     }
-    const float trust = std::min(1.0f, weight[v] / (kTrusted * typical));
+    const float inwards = std::max(0.0f, -step[v].dot(normals[v]) / step[v].norm());
+    const float trusted = std::lerp(kTrusted, kTrustedInwards, inwards);
+    const float trust = std::min(1.0f, weight[v] / (trusted * typical));
     step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kLeast_m) / step[v].norm();
   }
   return step;
