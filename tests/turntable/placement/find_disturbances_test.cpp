@@ -150,20 +150,26 @@ TEST(FindDisturbances, LeavesTheSpeedAloneWhereNothingShowsIt) {
 /// near: of something in front of it.
 using DepthInFront = std::function<std::uint16_t(double right, double down, std::uint16_t near)>;
 
-/// From frame 20 to 25 pixels within `left`, `above` and so on of the middle change.
-SequenceView changed_in_front(const testing::Rig& rig, int left, int right, int above, int below,
+/// Where and when pixels change.
+struct InFront {
+  int left, right, above, below;  ///< pixels from the one that sees the middle
+  double nearer_m = 0.08;         ///< than the middle
+  std::function<bool(std::size_t frame)> when = [](std::size_t i) { return i >= 20 && i <= 25; };
+};
+
+SequenceView changed_in_front(const testing::Rig& rig, const InFront& what,
                               const DepthInFront& depth) {
   SequenceView out = calibrated(rig);
   const CameraIntrinsics camera = rig.header().sensors[0].intrinsics;
   const Vec3d middle = rig.truth().center_m + 0.1 * rig.truth().axis;
   const double unit = rig.header().sensors[0].depth_unit_m;
   out.set_map([=](Frame frame, std::size_t i) -> Result<Frame> {
-    if (i < 20 || i > 25) return frame;
+    if (!what.when(i)) return frame;
     const Eigen::Vector2d at = camera.project(middle);
-    for (int y = int(at.y()) - above; y < int(at.y()) + below; ++y) {
-      for (int x = int(at.x()) - left; x < int(at.x()) + right; ++x) {
+    for (int y = int(at.y()) - what.above; y < int(at.y()) + what.below; ++y) {
+      for (int x = int(at.x()) - what.left; x < int(at.x()) + what.right; ++x) {
         if (y < 0 || x < 0 || y >= camera.height || x >= camera.width) continue;
-        const double z = middle.z() - 0.08 + 0.00003 * (x - at.x()) * (x - at.x());
+        const double z = middle.z() - what.nearer_m + 0.00003 * (x - at.x()) * (x - at.x());
         frame.depth.pixels[std::size_t(y * camera.width + x)] =
             depth(x - at.x(), y - at.y(), std::uint16_t(z / unit));
       }
@@ -176,7 +182,7 @@ SequenceView changed_in_front(const testing::Rig& rig, int left, int right, int 
 TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
   const testing::Rig rig = turning_rig("letter-a");
   const SequenceView sequence = changed_in_front(
-      rig, 20, 20, 30, 20, [](double, double, std::uint16_t near) { return near; });
+      rig, {20, 20, 30, 20}, [](double, double, std::uint16_t near) { return near; });
   const Placement found = found_in(sequence);
   ASSERT_FALSE(found.disturbances.empty());
   EXPECT_EQ(found.disturbances[0].kind, DisturbanceKind::kHidden);
@@ -184,11 +190,21 @@ TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
   EXPECT_LT(largest_error(found.T_table_sensor, poses_of(sequence)), 0.001);
 }
 
+TEST(FindDisturbances, TakesAnObjectsEndBeyondThePlatterForNoHand) {
+  const testing::Rig rig = turning_rig("letter-a");
+  // It turns past between sensor and platter, and hides what frames 20 to 25 see.
+  InFront end{20, 20, 30, 20, 0.25};
+  end.when = [](std::size_t i) { return i >= 10 && i <= 35 && (i < 20 || i > 25); };
+  const SequenceView sequence =
+      changed_in_front(rig, end, [](double, double, std::uint16_t near) { return near; });
+  EXPECT_TRUE(found_in(sequence).left_out.empty());
+}
+
 TEST(FindDisturbances, TakesWhatIsLeftOfAPlateSeenEdgeOnForNoHand) {
   const testing::Rig rig = turning_rig("letter-a");
   // Hardly anything returns, and what does mixes the edge with what is behind it.
   const SequenceView sequence =
-      changed_in_front(rig, 90, 90, 90, 90, [](double right, double down, std::uint16_t near) {
+      changed_in_front(rig, {90, 90, 90, 90}, [](double right, double down, std::uint16_t near) {
         const bool edge = std::abs(right) < 3 && std::abs(down) < 6;
         return edge ? near : std::uint16_t(0);
       });

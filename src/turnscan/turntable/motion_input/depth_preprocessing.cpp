@@ -74,6 +74,7 @@ DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& se
   surface.width = foreground.right - foreground.left;
   surface.height = foreground.bottom - foreground.top;
   surface.z.assign(std::size_t(surface.width) * std::size_t(surface.height), 0.0f);
+  if (foreground.plane) surface.covered.assign(surface.z.size(), 0);
   if (depth.width != camera.width || depth.height != camera.height) return out;
   for (int y = 0; y < surface.height; ++y) {
     for (int x = 0; x < surface.width; ++x) {
@@ -83,8 +84,13 @@ DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& se
       if (value == kNoReturn || value == kOutsideCrop) continue;
       const auto z = float(value * sensor.depth_unit_m + sensor.depth_bias_m);
       const Vec3f p(rays.x()[pixel] * z, rays.y()[pixel] * z, z);
-      if (!(z > 0.0f) || !foreground.contains(pixel, p)) continue;
+      if (!(z > 0.0f)) continue;
       const auto i = std::size_t(y) * std::size_t(surface.width) + std::size_t(x);
+      if (!foreground.contains(pixel, p)) {
+        if (foreground.plane && double(z) < foreground.center.z() && foreground.beside(p))
+          surface.covered[i] = 1;
+        continue;
+      }
       surface.z[i] = z;
       out.pixels.push_back(std::int32_t(i));
     }
@@ -140,19 +146,27 @@ void correct_filter_sag(DepthForeground& depth, double fx, double noise_m) {
 FrameSurface trimmed(const DepthForeground& depth) {
   const FrameSurface& surface = depth.surface;
   int left = surface.width, top = surface.height, right = 0, bottom = 0;
-  for (const std::int32_t i : depth.pixels) {
-    const int x = int(i) % surface.width, y = int(i) / surface.width;
+  const auto take_in = [&](int i) {
+    const int x = i % surface.width, y = i / surface.width;
     left = std::min(left, x), right = std::max(right, x + 1);
     top = std::min(top, y), bottom = std::max(bottom, y + 1);
-  }
+  };
   FrameSurface out;
   if (depth.pixels.empty()) return out;
+  for (const std::int32_t i : depth.pixels) take_in(int(i));
+  for (std::size_t i = 0; i < surface.covered.size(); ++i)
+    if (surface.covered[i] != 0) take_in(int(i));
   out.left = surface.left + left, out.top = surface.top + top;
   out.width = right - left, out.height = bottom - top;
-  for (int y = top; y < bottom; ++y) {
-    const float* row = &surface.z[std::size_t(y) * std::size_t(surface.width)];
-    out.z.insert(out.z.end(), row + left, row + right);
-  }
+  const auto trim = [&](const auto& all, auto& into) {
+    if (all.empty()) return;
+    for (int y = top; y < bottom; ++y) {
+      const auto row = all.begin() + std::ptrdiff_t(y) * surface.width;
+      into.insert(into.end(), row + left, row + right);
+    }
+  };
+  trim(surface.z, out.z);
+  trim(surface.covered, out.covered);
   return out;
 }
 

@@ -205,6 +205,11 @@ bool Foreground::contains(std::size_t pixel, const Vec3f& p) const {
          (d - h * plane->normal).squaredNorm() < radius_m * radius_m;
 }
 
+bool Foreground::beside(const Vec3f& p) const {
+  const Vec3d d = p.cast<double>() - center;
+  return (d - plane->normal.dot(d) * plane->normal).squaredNorm() > radius_m * radius_m;
+}
+
 Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,
                                    MotionData& data, const RunContext& context) {
   return ForegroundSearch(sequence, options, data, context).run();

@@ -18,6 +18,8 @@ struct Foreground {
 
   /// Whether a pixel (its position in the image) that sees p (sensor frame) belongs to the object.
   bool contains(std::size_t pixel, const Vec3f& p) const;
+  /// With a plane: whether p lies farther than radius_m from the axis.
+  bool beside(const Vec3f& p) const;
 };
 
 /// From the mean of up to 36 frames spread over the recording: the platter, else options.hint, else

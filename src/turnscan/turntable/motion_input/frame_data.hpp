@@ -24,6 +24,9 @@ struct FrameSurface {
   std::vector<float> z;                          ///< metres; 0 where there is no foreground
   /// Pixels within outlines; of raw surfaces that have outlines.
   std::vector<std::uint8_t> inner;
+  /// Pixels that see something nearer than the axis outside the foreground's cylinder, as an end of
+  /// an object that is wider than its platter; of key frames whose foreground is a cylinder.
+  std::vector<std::uint8_t> covered;
   KdTree tree;
   std::vector<Vec3f> points;
   /// Of a depth image of a frame that was levelled: from the frame in which all else is to the

@@ -16,7 +16,8 @@ constexpr double kGap_m = 0.012, kNoises = 6.0;
 /// of them where the sensor filters its image (drop_outline).
 constexpr int kBeside = 3, kBesideFiltered = 6;
 
-/// Whether the ray through q goes on for a gap before it meets the surface, or misses it.
+/// Whether the ray through q goes on for a gap before it meets the surface, or misses it, and
+/// nothing beside the platter stands in its way.
 bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, const Vec3d& q,
                   double gap) {
   const Eigen::Vector2d uv = frames.data.camera.project(q);
@@ -29,8 +30,9 @@ bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, 
   const int left = std::max(0, x - beside), right = std::min(surface.width - 1, x + beside);
   for (int v = top; v <= bottom; ++v) {
     for (int u = left; u <= right; ++u) {
-      const float z = surface.z[std::size_t(v) * std::size_t(surface.width) + std::size_t(u)];
-      if (z > 0.0f && z < q.z() + gap) return false;
+      const auto i = std::size_t(v) * std::size_t(surface.width) + std::size_t(u);
+      if (surface.z[i] > 0.0f && surface.z[i] < q.z() + gap) return false;
+      if (!surface.covered.empty() && surface.covered[i] != 0) return false;
     }
   }
   return true;
