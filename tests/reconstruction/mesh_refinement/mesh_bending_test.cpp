@@ -175,14 +175,26 @@ TEST(FittedOffsets, WhereLittleWasMeasuredABallStaysRound) {
 
 TEST(Stiffening, GrowsWithNoiseAndFallsWithMeasurementsWithinBounds) {
   const auto of = [](double noise_m, float support) {
-    return stiffening(noise_m, 0.002, 0.001, support);
+    return stiffening(noise_m, 1.0, 0.002, 0.001, support);
   };
   EXPECT_GT(of(0.002, 2.0f), of(0.001, 2.0f));
   EXPECT_GT(of(0.001, 1.0f), of(0.001, 2.0f));
   EXPECT_EQ(of(0.001, 1e6f), 1.0);
   EXPECT_EQ(of(0.0, 1.0f), 1.0);
   EXPECT_EQ(of(0.1, 0.0f), of(1.0, 0.0f));
-  EXPECT_GT(stiffening(0.001, 0.002, 0.001, 2.0f), stiffening(0.001, 0.002, 0.0012, 2.0f));
+  EXPECT_GT(stiffening(0.001, 1.0, 0.002, 0.001, 2.0f),
+            stiffening(0.001, 1.0, 0.002, 0.0012, 2.0f));
+}
+
+TEST(Stiffening, CountsErrorsInCommonForMoreTheLargerTheyAre) {
+  const auto times_more = [](double noise_m) {
+    return stiffening(noise_m, 3.0, 0.002, 0.001, 4.0f) /
+           stiffening(noise_m, 1.0, 0.002, 0.001, 4.0f);
+  };
+  EXPECT_GE(times_more(0.001), 3.0);
+  EXPECT_GT(times_more(0.0015), 1.5 * times_more(0.001));
+  EXPECT_EQ(stiffening(0.0, 3.0, 0.002, 0.001, 4.0f), 1.0);
+  EXPECT_EQ(stiffening(0.1, 3.0, 0.002, 0.001, 4.0f), stiffening(1.0, 3.0, 0.002, 0.001, 4.0f));
 }
 
 TEST(FittedOffsets, AnEdgeKeepsItsShape) {

@@ -15,9 +15,13 @@ constexpr std::size_t kGrain = 4096;
 constexpr float kCreaseSupport = 0.15f;
 /// Fitted to scans of 36 to 460 frames.
 constexpr double kStiffer = 1.31, kMostStiffer = 16.0;
-/// Conjugate gradients: they end when so little of the residual is left, or after so many rounds.
+/// The same where neighbours have errors in common.
+constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMostStifferInCommon = 32.0;
+/// Conjugate gradients: they end when so little of the residual is left, or after so many rounds,
+/// more of them where the surface is many times as stiff: they grow with the root of the condition.
 constexpr double kTolerance = 1e-4;
 constexpr int kMostRounds = 80;
+constexpr double kRoundsSufficeFor = 8.0;  // times
 /// Weight with which each vertex stays where it is, in measurements: what is hardly measured is
 /// known from the volume, too.
 constexpr float kStay = 0.3f;
@@ -83,10 +87,9 @@ class OffsetSolver {
     stiff_.resize(bend_.size());
     coupling_.resize(bend_.size());
     fade_.resize(bend_.size());
-    const float stiffness =
-        float(scale_.stiffness * stiffening(scale_.correlation * scale_.noise_m, scale_.spacing_m,
-                                            scale_.edge_m, typical_)) *
-        typical_;
+    stiffer_ =
+        stiffening(scale_.noise_m, scale_.correlation, scale_.spacing_m, scale_.edge_m, typical_);
+    const float stiffness = float(scale_.stiffness * stiffer_) * typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
       // Where less was measured than usual, only a larger bend is more than noise.
       const float around =
@@ -202,7 +205,8 @@ class OffsetSolver {
     std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), part(n),
                                        image(n);
     double before = 0.0, first = 0.0;
-    for (int round = 0; round < kMostRounds; ++round) {
+    const int most = int(kMostRounds * std::sqrt(std::max(1.0, stiffer_ / kRoundsSufficeFor)));
+    for (int round = 0; round < most; ++round) {
       parallel_for(n, kGrain, [&](std::size_t v) { scaled[v] = left[v] / scale[v]; });
       const double now = dot(left, scaled);
       if (round == 0) first = now;
@@ -227,6 +231,7 @@ class OffsetSolver {
   const VertexMeasurements& measured_;
   const MeshFitScale& scale_;
   float typical_;
+  double stiffer_ = 1.0;
   std::vector<float> bend_, stiff_, coupling_, fade_, seen_;
 };
 
@@ -247,10 +252,15 @@ std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support) {
   return out;
 }
 
-double stiffening(double noise_m, double spacing_m, double edge_m, float typical_support) {
-  const double noisy =
+double stiffening(double noise_m, double correlation, double spacing_m, double edge_m,
+                  float typical_support) {
+  const double alone =
       noise_m * spacing_m / (edge_m * edge_m * std::sqrt(std::max(1e-3, double(typical_support))));
-  return std::clamp(kStiffer * noisy, 1.0, kMostStiffer);
+  const double all = correlation * alone;
+  const double in_common =
+      kStifferInCommon * (std::pow(all, kPowerInCommon) - std::pow(alone, kPowerInCommon));
+  return std::max(std::clamp(kStiffer * all, 1.0, kMostStiffer),
+                  std::min(in_common, kMostStifferInCommon));
 }
 
 /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +

@@ -45,10 +45,12 @@ inline constexpr float kUnseenShare = 0.02f;
 /// The vertices that so count, one flag each.
 std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support);
 
-/// How many times MeshFitScale::stiffness the fit takes, 1 or more: what noise leaves of the
-/// measurements falls with their number, and what a surface bends does not. Longer edges are
-/// stiffer as they are.
-double stiffening(double noise_m, double spacing_m, double edge_m, float typical_support);
+/// How many times MeshFitScale::stiffness the fit takes, 1 to 32: what noise leaves of the
+/// measurements falls with their number, and what a surface bends does not. Errors that neighbours
+/// have in common leave waves wider than the mesh's edges, which need more of it the larger they
+/// are. Longer edges are stiffer as they are.
+double stiffening(double noise_m, double correlation, double spacing_m, double edge_m,
+                  float typical_support);
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
 /// the measurements around each vertex and its tangent plane, of the views that face it, and a

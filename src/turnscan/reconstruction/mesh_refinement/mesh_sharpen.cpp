@@ -2,6 +2,7 @@
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
+#include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/vertex_observations.hpp>
 #include <turnscan/reconstruction/views/view_drawing.hpp>
@@ -16,11 +17,16 @@ constexpr std::size_t kMostDrawnBytes = std::size_t(64) << 20;
 constexpr float kApart_m = 0.06f;
 /// Each vertex goes with those around it: alone, rims would become saws.
 constexpr int kRings = 8;
-constexpr float kLeast_m = 1e-4f;  // shorter steps are mostly what noise left on the surface
-/// Of the usual support; with less vertices go less far. Inwards they need more: the far side of a
-/// rod, which no view measured, is no farther away because its near side is nearer.
-constexpr float kTrusted = 0.005f, kTrustedInwards = 0.1f;
-constexpr float kUnseen = 1e-4f;  // with less they stay
+constexpr float kLeast_m = 1e-4f;   // shorter steps are mostly what noise left on the surface
+constexpr float kTrusted = 0.005f;  // of the usual support; with less vertices go less far
+constexpr float kUnseen = 1e-4f;    // with less they stay
+/// Inwards the far side of what is thin, which no view measured, needs more support: it is no
+/// farther away because its near side is nearer.
+constexpr float kTrustedInwards = 0.1f;
+/// Where the other side is so many times the points' spacing away, what is there is thin.
+constexpr double kThinSpacings = 5.0;
+/// Normals of two sides: their cosine at most.
+constexpr float kOtherSide = -0.5f;
 
 void put(views::DepthView& view, std::size_t at, float z) {
   const float raw = std::round((z - view.bias_m) / view.unit_m);
@@ -91,6 +97,29 @@ void blend(std::vector<T>& values, const MeshNeighbours& neighbours, const T& ze
   values.swap(out);
 }
 
+/// Tells where another side of the mesh lies behind a vertex.
+class ThinParts {
+ public:
+  ThinParts(const std::vector<Vec3f>& vertices, const std::vector<Vec3f>& normals, double reach_m)
+      : vertices_(vertices), normals_(normals), reach_m_(float(reach_m)), tree_(vertices) {}
+
+  bool contain(std::size_t v) const {
+    std::vector<std::pair<std::uint32_t, float>> near;
+    tree_.radius(vertices_[v], reach_m_, near);
+    return std::any_of(near.begin(), near.end(), [&](const auto& other) {
+      const std::uint32_t u = other.first;
+      return normals_[u].dot(normals_[v]) < kOtherSide &&
+             (vertices_[u] - vertices_[v]).dot(normals_[v]) < 0.0f;
+    });
+  }
+
+ private:
+  const std::vector<Vec3f>& vertices_;
+  const std::vector<Vec3f>& normals_;
+  float reach_m_;
+  KdTree tree_;
+};
+
 /// The step of each vertex to where the filter would make of it what was measured.
 std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
                                     const VertexMeasurements& measured,
@@ -110,18 +139,21 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
     blend(step, neighbours, Vec3f(Vec3f::Zero()));
     blend(weight, neighbours, 0.0f);
   }
-  for (std::size_t v = 0; v < n; ++v) {
+  const ThinParts thin(mesh.vertices, normals, kThinSpacings * scale.spacing_m);
+  parallel_for(n, 1024, [&](std::size_t v) {
     const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
     if (!(weight[v] > kUnseen * typical) || !(length > kLeast_m) ||
         below_floor(mesh.vertices[v], scale)) {
       step[v].setZero();
-      continue;
+      return;
     }
-    const float inwards = std::max(0.0f, -step[v].dot(normals[v]) / step[v].norm());
-    const float trusted = std::lerp(kTrusted, kTrustedInwards, inwards);
+    float trusted = kTrusted;
+    const float inwards = -step[v].dot(normals[v]) / step[v].norm();
+    if (inwards > 0.0f && weight[v] < kTrustedInwards * typical && thin.contain(v))
+      trusted = std::lerp(kTrusted, kTrustedInwards, inwards);
     const float trust = std::min(1.0f, weight[v] / (trusted * typical));
     step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kLeast_m) / step[v].norm();
-  }
+  });
   return step;
 }
 

@@ -81,8 +81,8 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
-  const double stiffer =
-      mesh_refinement::stiffening(scale.noise_m, scale.spacing_m, scale.edge_m, float(typical));
+  const double stiffer = mesh_refinement::stiffening(scale.noise_m, 1.0, scale.spacing_m,
+                                                     scale.edge_m, float(typical));
   const double noise_share = kNoiseShare / std::pow(stiffer, kLessNoise);
   const bool filtered = scale.pixels == Pixels::kFiltered;
   std::optional<ThinWalls> walls;

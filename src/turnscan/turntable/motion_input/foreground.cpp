@@ -199,15 +199,13 @@ class ForegroundSearch {
 
 bool Foreground::contains(std::size_t pixel, const Vec3f& p) const {
   if (!plane) return p.z() < nearer_than[pixel];
-  const Vec3d d = p.cast<double>() - center;
-  const double h = plane->normal.dot(d);
-  return h > margin_m && h < 3.0 * radius_m + 0.1 &&
-         (d - h * plane->normal).squaredNorm() < radius_m * radius_m;
+  const double h = plane->normal.dot(p.cast<double>() - center);
+  return h > margin_m && h < 3.0 * radius_m + 0.1 && !beside(p);
 }
 
 bool Foreground::beside(const Vec3f& p) const {
   const Vec3d d = p.cast<double>() - center;
-  return (d - plane->normal.dot(d) * plane->normal).squaredNorm() > radius_m * radius_m;
+  return (d - plane->normal.dot(d) * plane->normal).squaredNorm() >= radius_m * radius_m;
 }
 
 Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,

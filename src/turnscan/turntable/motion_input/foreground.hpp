@@ -18,7 +18,7 @@ struct Foreground {
 
   /// Whether a pixel (its position in the image) that sees p (sensor frame) belongs to the object.
   bool contains(std::size_t pixel, const Vec3f& p) const;
-  /// With a plane: whether p lies farther than radius_m from the axis.
+  /// With a plane: whether p lies radius_m from the axis, or farther.
   bool beside(const Vec3f& p) const;
 };
 
