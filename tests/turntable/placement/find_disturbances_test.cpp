@@ -150,6 +150,8 @@ TEST(FindDisturbances, LeavesTheSpeedAloneWhereNothingShowsIt) {
 /// near: of something in front of it.
 using DepthInFront = std::function<std::uint16_t(double right, double down, std::uint16_t near)>;
 
+std::uint16_t solid(double, double, std::uint16_t near) { return near; }
+
 /// Where and when pixels change.
 struct InFront {
   int left, right, above, below;  ///< pixels from the one that sees the middle
@@ -181,8 +183,7 @@ SequenceView changed_in_front(const testing::Rig& rig, const InFront& what,
 
 TEST(FindDisturbances, LeavesOutFramesThatSomethingHides) {
   const testing::Rig rig = turning_rig("letter-a");
-  const SequenceView sequence = changed_in_front(
-      rig, {20, 20, 30, 20}, [](double, double, std::uint16_t near) { return near; });
+  const SequenceView sequence = changed_in_front(rig, {20, 20, 30, 20}, solid);
   const Placement found = found_in(sequence);
   ASSERT_FALSE(found.disturbances.empty());
   EXPECT_EQ(found.disturbances[0].kind, DisturbanceKind::kHidden);
@@ -195,8 +196,7 @@ TEST(FindDisturbances, TakesAnObjectsEndBeyondThePlatterForNoHand) {
   // It turns past between sensor and platter, and hides what frames 20 to 25 see.
   InFront end{20, 20, 30, 20, 0.25};
   end.when = [](std::size_t i) { return i >= 10 && i <= 35 && (i < 20 || i > 25); };
-  const SequenceView sequence =
-      changed_in_front(rig, end, [](double, double, std::uint16_t near) { return near; });
+  const SequenceView sequence = changed_in_front(rig, end, solid);
   EXPECT_TRUE(found_in(sequence).left_out.empty());
 }
 

@@ -41,7 +41,9 @@ class OffsetSolver {
         normals_(normals),
         measured_(measured),
         scale_(scale),
-        typical_(typical_support(measured.support)) {}
+        typical_(typical_support(measured.support)),
+        stiffer_(stiffening(scale.noise_m, scale.correlation, scale.spacing_m, scale.edge_m,
+                            typical_)) {}
 
   std::vector<float> offsets() {
     bends();
@@ -87,8 +89,6 @@ class OffsetSolver {
     stiff_.resize(bend_.size());
     coupling_.resize(bend_.size());
     fade_.resize(bend_.size());
-    stiffer_ =
-        stiffening(scale_.noise_m, scale_.correlation, scale_.spacing_m, scale_.edge_m, typical_);
     const float stiffness = float(scale_.stiffness * stiffer_) * typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
       // Where less was measured than usual, only a larger bend is more than noise.
@@ -231,7 +231,7 @@ class OffsetSolver {
   const VertexMeasurements& measured_;
   const MeshFitScale& scale_;
   float typical_;
-  double stiffer_ = 1.0;
+  double stiffer_;
   std::vector<float> bend_, stiff_, coupling_, fade_, seen_;
 };
 

@@ -74,7 +74,7 @@ DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& se
   surface.width = foreground.right - foreground.left;
   surface.height = foreground.bottom - foreground.top;
   surface.z.assign(std::size_t(surface.width) * std::size_t(surface.height), 0.0f);
-  if (foreground.plane) surface.covered.assign(surface.z.size(), 0);
+  if (foreground.plane) out.covered.assign(surface.z.size(), 0);
   if (depth.width != camera.width || depth.height != camera.height) return out;
   for (int y = 0; y < surface.height; ++y) {
     for (int x = 0; x < surface.width; ++x) {
@@ -88,7 +88,7 @@ DepthForeground extract_foreground(const DepthImage& depth, const SensorInfo& se
       const auto i = std::size_t(y) * std::size_t(surface.width) + std::size_t(x);
       if (!foreground.contains(pixel, p)) {
         if (foreground.plane && double(z) < foreground.center.z() && foreground.beside(p))
-          surface.covered[i] = 1;
+          out.covered[i] = 1;
         continue;
       }
       surface.z[i] = z;
@@ -143,7 +143,7 @@ void correct_filter_sag(DepthForeground& depth, double fx, double noise_m) {
   subtract_bending(depth, 1.0 / 3.0, fx, noise_m);
 }
 
-FrameSurface trimmed(const DepthForeground& depth) {
+FrameSurface trimmed(const DepthForeground& depth, const std::vector<std::uint8_t>& covered) {
   const FrameSurface& surface = depth.surface;
   int left = surface.width, top = surface.height, right = 0, bottom = 0;
   const auto take_in = [&](int i) {
@@ -154,8 +154,8 @@ FrameSurface trimmed(const DepthForeground& depth) {
   FrameSurface out;
   if (depth.pixels.empty()) return out;
   for (const std::int32_t i : depth.pixels) take_in(int(i));
-  for (std::size_t i = 0; i < surface.covered.size(); ++i)
-    if (surface.covered[i] != 0) take_in(int(i));
+  for (std::size_t i = 0; i < covered.size(); ++i)
+    if (covered[i] != 0) take_in(int(i));
   out.left = surface.left + left, out.top = surface.top + top;
   out.width = right - left, out.height = bottom - top;
   const auto trim = [&](const auto& all, auto& into) {
@@ -166,7 +166,7 @@ FrameSurface trimmed(const DepthForeground& depth) {
     }
   };
   trim(surface.z, out.z);
-  trim(surface.covered, out.covered);
+  trim(covered, out.covered);
   return out;
 }
 

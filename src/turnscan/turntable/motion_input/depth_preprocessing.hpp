@@ -9,6 +9,7 @@ namespace turnscan::motion {
 struct DepthForeground {
   FrameSurface surface;
   std::vector<std::int32_t> pixels;
+  std::vector<std::uint8_t> covered;  ///< as FrameSurface has it, of z's shape
 };
 
 /// Pixels of the foreground, in metres. All are empty when the image is not of the camera's size.
@@ -34,8 +35,9 @@ void correct_chord_sag(DepthForeground& depth, double fx, double noise_m);
 /// direction. The pixels move back by as much.
 void correct_filter_sag(DepthForeground& depth, double fx, double noise_m);
 
-/// The surface without margins that show nothing.
-FrameSurface trimmed(const DepthForeground& depth);
+/// The surface without margins that show nothing. covered: depth.covered, for a surface that is to
+/// keep it and the pixels that it marks; or empty.
+FrameSurface trimmed(const DepthForeground& depth, const std::vector<std::uint8_t>& covered = {});
 
 /// Sets surface.inner: not the pixels along outlines and depth steps, since what a pixel beside one
 /// shows is mixed with what lies beyond. Behind a Kinect v2's filter over 3 x 3 pixels depth there

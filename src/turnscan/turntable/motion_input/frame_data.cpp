@@ -118,16 +118,13 @@ class FrameLoader {
       drop_outline(depth, fx, noise);
       frame.inner_share = double(depth.pixels.size()) / std::max(before, 1.0);
     }
-    std::vector<std::uint8_t> covered;
-    covered.swap(depth.surface.covered);
     frame.raw_surface = raw_surface(depth);
     if (!data_.correlated_noise) mark_inner(frame.raw_surface, fx, noise);
     smooth_depth(depth, fx, noise);
     sample_depth(data_, rays_, depth, seed, samples_per_frame(key), frame, cloud);
     if (!key) return;
     correct_chord_sag(depth, fx, noise);
-    depth.surface.covered.swap(covered);
-    frame.surface = trimmed(depth);
+    frame.surface = trimmed(depth, depth.covered);
   }
 
   /// A platter that wobbles carries the object with it.
