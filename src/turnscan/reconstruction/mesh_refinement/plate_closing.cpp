@@ -4,7 +4,7 @@
 #include <turnscan/geometry/hull/resting_poses.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/winding_faults.hpp>
-#include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
 
 namespace turnscan::mesh_refinement {
@@ -197,14 +197,8 @@ class PlateCloser {
     }
   }
 
-  /// The vertices of triangles that pass through surface where none did before.
   Marks crossing(const Marks& before) const {
-    const Marks faults = winding_faults(mesh_, closing_.cell_m);
-    Marks out(loose_.size(), 0);
-    for (std::size_t t = 0; t < faults.size(); ++t)
-      if (faults[t] && !before[t])
-        for (const std::uint32_t v : mesh_.triangles[t]) out[v] = 1;
-    return out;
+    return crossing_vertices(mesh_, before, closing_.cell_m);
   }
 
   /// What passes through surface goes back to where it was, and so many rings around it less and
@@ -212,14 +206,9 @@ class PlateCloser {
   bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
     const Marks from = crossing(before);
     if (std::find(from.begin(), from.end(), 1) == from.end()) return false;
-    // How many of the rings take a vertex in falls by one from each ring to the next.
-    std::vector<float> reached(from.begin(), from.end()), back = reached;
-    for (int ring = 1; ring < rings; ++ring) {
-      reached = neighbours_.largest(std::move(reached), 1);
-      for (std::size_t v = 0; v < back.size(); ++v) back[v] += reached[v];
-    }
+    const std::vector<float> back = fading_around(neighbours_, from, rings);
     for (std::size_t v = 0; v < back.size(); ++v)
-      if (loose_[v]) mesh_.vertices[v] += back[v] / float(rings) * (start[v] - mesh_.vertices[v]);
+      if (loose_[v]) mesh_.vertices[v] += back[v] * (start[v] - mesh_.vertices[v]);
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
 #include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
@@ -21,6 +22,8 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kSampledViews = 64;
+/// Sides that passed through each other farther than this are drawn apart.
+constexpr double kUntangleCells = 0.5;
 constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
 /// Of what the best measured piece has per vertex: clutter that stands still has 0.02 to 0.04.
 constexpr double kLeastSupport = 0.08;
@@ -102,6 +105,11 @@ class VolumetricReconstruction {
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
+      // Behind what is thin a filtering sensor measures the depths of both sides mixed.
+      TURNSCAN_TRY(timed("untangle", [&] {
+        return mesh_refinement::untangle(fitted.mesh, even.vertices,
+                                         kUntangleCells * scale_.volume.cell_m, context_);
+      }));
       if (options_.fit && !input_.measured_only) {
         TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface); }));

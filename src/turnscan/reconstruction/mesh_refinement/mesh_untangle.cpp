@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
+
+namespace turnscan::mesh_refinement {
+
+namespace {
+
+constexpr int kSmallSteps = 8;
+constexpr float kSmallStep = 0.3f;
+constexpr int kSmallStepRings = 6;
+constexpr int kWholeWayRings[] = {12, 24, 48};
+
+bool any(const std::vector<std::uint8_t>& marks) {
+  return std::find(marks.begin(), marks.end(), 1) != marks.end();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
+                                            const std::vector<std::uint8_t>& faults_before,
+                                            double spacing_m) {
+  const std::vector<std::uint8_t> faults = winding_faults(mesh, spacing_m);
+  std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < faults.size(); ++t)
+    if (faults[t] && !faults_before[t])
+      for (const std::uint32_t v : mesh.triangles[t]) out[v] = 1;
+  return out;
+}
+
+std::vector<float> fading_around(const MeshNeighbours& neighbours,
+                                 const std::vector<std::uint8_t>& marked, int rings) {
+  // How many of the rings take a vertex in falls by one from each ring to the next.
+  std::vector<float> reached(marked.begin(), marked.end()), out = reached;
+  for (int ring = 1; ring < rings; ++ring) {
+    reached = neighbours.largest(std::move(reached), 1);
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] += reached[v];
+  }
+  for (float& share : out) share /= float(rings);
+  return out;
+}
+
+Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, double spacing_m,
+                  const RunContext& context) {
+  const std::vector<std::uint8_t> none(mesh.triangles.size(), 0);
+  if (!any(crossing_vertices(mesh, none, spacing_m))) return {};
+  TriangleMesh unmoved;
+  unmoved.vertices = start;
+  unmoved.triangles = mesh.triangles;
+  const std::vector<std::uint8_t> before = winding_faults(unmoved, spacing_m);
+  const MeshNeighbours neighbours(mesh);
+  // Whether there was anything to draw back.
+  const auto draw_back = [&](float step, int rings) -> Result<bool> {
+    TURNSCAN_TRY(context.check());
+    const std::vector<std::uint8_t> crossing = crossing_vertices(mesh, before, spacing_m);
+    if (!any(crossing)) return false;
+    const std::vector<float> share = fading_around(neighbours, crossing, rings);
+    for (std::size_t v = 0; v < share.size(); ++v)
+      mesh.vertices[v] += step * share[v] * (start[v] - mesh.vertices[v]);
+    return true;
+  };
+  for (int n = 0; n < kSmallSteps; ++n) {
+    TURNSCAN_ASSIGN(const bool drawn, draw_back(kSmallStep, kSmallStepRings));
+    if (!drawn) return {};
+  }
+  for (const int rings : kWholeWayRings) {
+    TURNSCAN_ASSIGN(const bool drawn, draw_back(1.0f, rings));
+    if (!drawn) return {};
+  }
+  if (any(crossing_vertices(mesh, before, spacing_m))) mesh.vertices = start;
+  return {};
+}
+
+}  // namespace turnscan::mesh_refinement

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tests/reconstruction/mesh_refinement/lens_mesh.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
+
+namespace turnscan::mesh_refinement {
+namespace {
+
+constexpr double kSpacing_m = 0.001;
+constexpr float kHalfThickness_m = 0.003f;
+
+/// 6 mm thick.
+TriangleMesh sheet() {
+  return testing::lens([](float) { return kHalfThickness_m; });
+}
+
+/// Both sides within so far from the axis pass through each other by as much as they were apart.
+TriangleMesh crossed(float radius_m) {
+  TriangleMesh mesh = sheet();
+  for (Vec3f& p : mesh.vertices)
+    if (std::hypot(p.x(), p.z()) < radius_m) p.y() = -p.y();
+  return mesh;
+}
+
+std::ptrdiff_t faults(const TriangleMesh& mesh) {
+  const auto marks = winding_faults(mesh, kSpacing_m);
+  return std::count(marks.begin(), marks.end(), 1);
+}
+
+TEST(UntangleMesh, TwoSidesThatPassedThroughEachOtherLieNearEachOther) {
+  TriangleMesh mesh = crossed(0.012f);
+  ASSERT_GT(faults(mesh), 0);
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, kSpacing_m, RunContext()));
+  EXPECT_EQ(faults(mesh), 0);
+  // The middles of both sides.
+  const float apart = mesh.vertices[0].y() - mesh.vertices[mesh.vertices.size() / 2].y();
+  EXPECT_GT(apart, -float(kSpacing_m));
+  EXPECT_LT(apart, kHalfThickness_m);
+}
+
+TEST(UntangleMesh, WhatLiesApartFromTheFaultsStays) {
+  TriangleMesh mesh = crossed(0.012f);
+  const TriangleMesh before = mesh;
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, kSpacing_m, RunContext()));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3f& p = before.vertices[v];
+    if (std::hypot(p.x(), p.z()) < 0.02f) continue;
+    ASSERT_EQ(mesh.vertices[v], p) << v;
+  }
+}
+
+TEST(UntangleMesh, AMeshThatDoesNotPassThroughItselfStaysAsItIs) {
+  TriangleMesh mesh = sheet();
+  std::vector<Vec3f> start = mesh.vertices;
+  for (Vec3f& p : start) p *= 1.1f;
+  ASSERT_TRUE(untangle(mesh, start, kSpacing_m, RunContext()));
+  EXPECT_EQ(mesh.vertices, sheet().vertices);
+}
+
+TEST(UntangleMesh, WhatPassedThroughItselfBeforeStays) {
+  TriangleMesh mesh = crossed(0.012f);
+  const TriangleMesh before = mesh;
+  ASSERT_TRUE(untangle(mesh, before.vertices, kSpacing_m, RunContext()));
+  EXPECT_EQ(mesh.vertices, before.vertices);
+}
+
+TEST(UntangleMesh, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
+  TriangleMesh one = crossed(0.012f), many = one, none = one;
+  set_thread_count(1);
+  ASSERT_TRUE(untangle(one, sheet().vertices, kSpacing_m, RunContext()));
+  set_thread_count(0);
+  ASSERT_TRUE(untangle(many, sheet().vertices, kSpacing_m, RunContext()));
+  EXPECT_EQ(one.vertices, many.vertices);
+  const RunContext context;
+  context.cancel();
+  const auto result = untangle(none, sheet().vertices, kSpacing_m, context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+}
+
+TEST(FadingAround, FallsByAsMuchWithEachRingOfNeighbours) {
+  const TriangleMesh mesh = sheet();
+  std::vector<std::uint8_t> marked(mesh.vertices.size(), 0);
+  marked[0] = 1;  // the middle of a disc of rings
+  const std::vector<float> share = fading_around(MeshNeighbours(mesh), marked, 4);
+  for (int ring = 0; ring <= 6; ++ring) {
+    const std::size_t v = ring == 0 ? 0 : std::size_t(1 + (ring - 1) * testing::kSheetAround);
+    EXPECT_FLOAT_EQ(share[v], std::max(0.0f, 1.0f - 0.25f * float(ring))) << ring;
+  }
+}
+
+}  // namespace
+}  // namespace turnscan::mesh_refinement
