@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <turnscan/geometry/mesh/winding_faults.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 
@@ -6,16 +7,16 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr int kSmallSteps = 8;
+constexpr std::size_t kSmallSteps = 8;
 constexpr float kSmallStep = 0.3f;
 constexpr int kSmallStepRings = 6;
 constexpr int kWholeWayRings[] = {12, 24, 48};
 
-bool any(const std::vector<std::uint8_t>& marks) {
+}  // namespace
+
+bool any_marked(const std::vector<std::uint8_t>& marks) {
   return std::find(marks.begin(), marks.end(), 1) != marks.end();
 }
-
-}  // namespace
 
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
                                             const std::vector<std::uint8_t>& faults_before,
@@ -42,32 +43,24 @@ std::vector<float> fading_around(const MeshNeighbours& neighbours,
 
 Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, double spacing_m,
                   const RunContext& context) {
-  const std::vector<std::uint8_t> none(mesh.triangles.size(), 0);
-  if (!any(crossing_vertices(mesh, none, spacing_m))) return {};
+  if (!any_marked(winding_faults(mesh, spacing_m))) return {};
   TriangleMesh unmoved;
   unmoved.vertices = start;
   unmoved.triangles = mesh.triangles;
   const std::vector<std::uint8_t> before = winding_faults(unmoved, spacing_m);
   const MeshNeighbours neighbours(mesh);
-  // Whether there was anything to draw back.
-  const auto draw_back = [&](float step, int rings) -> Result<bool> {
+  for (std::size_t n = 0; n < kSmallSteps + std::size(kWholeWayRings); ++n) {
     TURNSCAN_TRY(context.check());
     const std::vector<std::uint8_t> crossing = crossing_vertices(mesh, before, spacing_m);
-    if (!any(crossing)) return false;
-    const std::vector<float> share = fading_around(neighbours, crossing, rings);
+    if (!any_marked(crossing)) return {};
+    const bool small = n < kSmallSteps;
+    const float step = small ? kSmallStep : 1.0f;
+    const std::vector<float> share = fading_around(
+        neighbours, crossing, small ? kSmallStepRings : kWholeWayRings[n - kSmallSteps]);
     for (std::size_t v = 0; v < share.size(); ++v)
       mesh.vertices[v] += step * share[v] * (start[v] - mesh.vertices[v]);
-    return true;
-  };
-  for (int n = 0; n < kSmallSteps; ++n) {
-    TURNSCAN_ASSIGN(const bool drawn, draw_back(kSmallStep, kSmallStepRings));
-    if (!drawn) return {};
   }
-  for (const int rings : kWholeWayRings) {
-    TURNSCAN_ASSIGN(const bool drawn, draw_back(1.0f, rings));
-    if (!drawn) return {};
-  }
-  if (any(crossing_vertices(mesh, before, spacing_m))) mesh.vertices = start;
+  if (any_marked(crossing_vertices(mesh, before, spacing_m))) mesh.vertices = start;
   return {};
 }
 

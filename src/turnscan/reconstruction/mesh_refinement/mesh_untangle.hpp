@@ -9,6 +9,9 @@
 
 namespace turnscan::mesh_refinement {
 
+/// Whether any flag is set.
+bool any_marked(const std::vector<std::uint8_t>& marks);
+
 /// One flag per vertex: of triangles with winding_faults() of that spacing, but for those that had
 /// some before.
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,

@@ -42,7 +42,7 @@ class PlateCloser {
   }
 
   Result<> run() {
-    if (std::find(loose_.begin(), loose_.end(), 1) == loose_.end()) return {};
+    if (!any_marked(loose_)) return {};
     const std::vector<Vec3f> start = mesh_.vertices;
     const Marks before = winding_faults(mesh_, closing_.cell_m);
     TURNSCAN_TRY(bend(start));
@@ -104,7 +104,7 @@ class PlateCloser {
         touches[v] = share < 1.0f ? 1 : 0;
       });
       const Marks again = loose_around(touches);
-      if (std::find(again.begin(), again.end(), 1) == again.end()) break;
+      if (!any_marked(again)) break;
       for (std::size_t v = 0; v < free.size(); ++v) {
         contact_[v] |= touches[v];
         free[v] = again[v] && !contact_[v] ? 1 : 0;
@@ -205,7 +205,7 @@ class PlateCloser {
   /// less far. Whether anything did.
   bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
     const Marks from = crossing(before);
-    if (std::find(from.begin(), from.end(), 1) == from.end()) return false;
+    if (!any_marked(from)) return false;
     const std::vector<float> back = fading_around(neighbours_, from, rings);
     for (std::size_t v = 0; v < back.size(); ++v)
       if (loose_[v]) mesh_.vertices[v] += back[v] * (start[v] - mesh_.vertices[v]);
@@ -218,7 +218,7 @@ class PlateCloser {
     const Marks back = loose_around(crossing(before));
     for (std::size_t v = 0; v < back.size(); ++v)
       if (back[v]) mesh_.vertices[v] = start[v] + share * (mesh_.vertices[v] - start[v]);
-    return std::find(back.begin(), back.end(), 1) != back.end();
+    return any_marked(back);
   }
 
   TriangleMesh& mesh_;
