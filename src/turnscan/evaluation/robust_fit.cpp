@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 
 namespace turnscan::artefact {
 
@@ -42,8 +43,7 @@ std::optional<Plane> fit_plane(const std::vector<Vec3d>& points, const Plane& st
   plane.point /= double(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const Vec3d& p : points) covariance += (p - plane.point) * (p - plane.point).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  plane.unit = solver.eigenvectors().col(0);
+  plane.unit = estimation::symmetric_eigen(covariance).vectors.col(0);
   if (plane.unit.dot(start.unit) < 0.0) plane.unit = -plane.unit;
   return plane;
 }

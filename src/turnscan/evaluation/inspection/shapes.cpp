@@ -1,9 +1,9 @@
 #include <turnscan/evaluation/inspection/shapes.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 
 namespace turnscan {
@@ -47,9 +47,9 @@ std::optional<PlaneFit> plane_through(std::span<const Vec3d> points) {
   for (const Vec3d& p : points) fit.point += p / double(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3d& p : points) spread += (p - fit.point) * (p - fit.point).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  if (!(solver.eigenvalues()[1] > 1e-12 * solver.eigenvalues()[2])) return std::nullopt;
-  fit.normal = solver.eigenvectors().col(0);
+  const auto eigen = estimation::symmetric_eigen(spread);
+  if (!(eigen.values[1] > 1e-12 * eigen.values[2])) return std::nullopt;
+  fit.normal = eigen.vectors.col(0);
   double low = 0.0, high = 0.0, squares = 0.0;
   for (const Vec3d& p : points) {
     const double away = fit.normal.dot(p - fit.point);

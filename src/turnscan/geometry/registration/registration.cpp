@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/registration/registration.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
@@ -135,15 +135,15 @@ class PointToPlaneIcp {
   Step move_along_firm_directions(const Matrix6& normal_matrix, const Vector6& right,
                                   const Vec3d& center, double length) const {
     Step step;
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(normal_matrix);
+    const auto eigen = estimation::symmetric_eigen(normal_matrix);
     Vector6 move = Vector6::Zero();
     for (int i = 0; i < 6; ++i) {
-      if (!(eigen.eigenvalues()[i] > kHeldEigenvalue * eigen.eigenvalues()[5])) {
+      if (!(eigen.values[i] > kHeldEigenvalue * eigen.values[5])) {
         ++step.held_directions;
         continue;
       }
-      const Vector6 direction = eigen.eigenvectors().col(i);
-      move += direction * (direction.dot(right) / eigen.eigenvalues()[i]);
+      const Vector6 direction = eigen.vectors.col(i);
+      move += direction * (direction.dot(right) / eigen.values[i]);
     }
     const Vec3d turn = move.head<3>() / length;
     const double angle = turn.norm();

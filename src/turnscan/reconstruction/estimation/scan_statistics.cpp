@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/voxels/voxel_grid.hpp>
@@ -104,8 +104,7 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
   if (n < 8.0) return {};
   const Vec3d mean = sum / n;
   const Eigen::Matrix3d covariance = squares / n - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  const Vec3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Vec3d extent = symmetric_eigenvalues(covariance).cwiseMax(0.0).cwiseSqrt();
   return {extent[0], n * double(step) / (std::numbers::pi * r * r),
           extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }

@@ -1,6 +1,6 @@
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
 
-#include <Eigen/Cholesky>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 
 namespace turnscan::passes {
 
@@ -93,7 +93,7 @@ Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
     // A point of b moves with the motion; a point of a moves the other way, as seen from b.
     sums.add(b, a, T, Eigen::Isometry3f::Identity(), true, center.cast<float>(), float(reach));
     sums.add(a, b, back, T, false, center.cast<float>(), float(reach));
-    Eigen::Matrix<double, 6, 6> m =
+    estimation::Matrix6d m =
         sums.matrix.selfadjointView<Eigen::Upper>().toDenseMatrix().cast<double>();
     const double weight = m.block<3, 3>(3, 3).trace();
     if (!(weight > 0.0)) return T_a_b;
@@ -101,7 +101,8 @@ Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
     const double lever = 0.25 * bounds(a.samples.points).size().norm();
     m.diagonal().head<3>().array() += 1e-3 * weight * lever * lever;
     m.diagonal().tail<3>().array() += 1e-3 * weight;
-    T_a_b = motion_about(center, m.ldlt().solve(sums.vector.cast<double>())) * T_a_b;
+    const Vec6 right = sums.vector.cast<double>();
+    T_a_b = motion_about(center, estimation::solve_ldlt(m, right)) * T_a_b;
   }
   T_a_b.linear() = Eigen::Quaterniond(T_a_b.linear()).normalized().toRotationMatrix();
   return T_a_b;

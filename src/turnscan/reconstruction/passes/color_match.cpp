@@ -1,9 +1,9 @@
 #include <turnscan/reconstruction/passes/color_match.hpp>
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <map>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 
 namespace turnscan::passes {
 
@@ -107,7 +107,7 @@ ShadingFit::ShadingFit(std::span<const Pair> pairs, float scale) {
     if (!(weight > 0.0)) return;
     // So that what the pairs do not show is 0.
     matrix.diagonal().array() += 1e-4 * weight;
-    coefficients_ = matrix.ldlt().solve(vector).cast<float>();
+    coefficients_ = estimation::solve_ldlt(matrix, vector).cast<float>();
   }
 }
 

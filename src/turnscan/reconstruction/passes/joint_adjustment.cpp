@@ -1,10 +1,10 @@
 #include <turnscan/reconstruction/passes/joint_adjustment.hpp>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
 #include <turnscan/reconstruction/passes/color_match.hpp>
 
@@ -264,7 +264,7 @@ class JointAdjustment {
     accumulate();
     Eigen::MatrixXd damped = normal_;
     damped.diagonal() *= 1.0 + 1e-9;
-    const Eigen::VectorXd x = damped.ldlt().solve(gradient_);
+    const Eigen::VectorXd x = estimation::solve_ldlt(damped, gradient_);
     double largest = 0.0;
     for (std::size_t k = 1; k < passes_.size(); ++k) {
       const Eigen::Matrix<double, 6, 1> own = x.segment<6>(Eigen::Index(6 * (k - 1)));
@@ -299,8 +299,7 @@ class JointAdjustment {
     accumulate();
     Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(normal_.rows(), normal_.cols());
     for (const auto& [key, g] : blocks) middle += g * g.transpose();
-    const Eigen::MatrixXd inverse =
-        normal_.ldlt().solve(Eigen::MatrixXd::Identity(normal_.rows(), normal_.cols()));
+    const Eigen::MatrixXd inverse = estimation::DenseLdlt(normal_).inverse();
     Eigen::MatrixXd covariance = inverse * middle * inverse;
     add_systematic(covariance);
     for (std::size_t k = 0; k < passes_.size(); ++k) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/rotation_between.hpp>
 #include <turnscan/reconstruction/passes/motion_votes.hpp>
 
 namespace turnscan::passes {
@@ -136,7 +137,7 @@ std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad) {
   for (int i = 0; i < directions; ++i) {
     const double y = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - y * y);
     const Vec3d up(r * std::cos(golden * i), y, r * std::sin(golden * i));
-    const Eigen::Quaterniond tip = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitY(), up);
+    const Eigen::Quaterniond tip = rotation_between(Vec3d::UnitY(), up);
     for (int k = 0; k < spins; ++k)
       out.push_back((tip * Eigen::AngleAxisd(2.0 * pi * k / spins, Vec3d::UnitY()))
                         .toRotationMatrix()

@@ -1,10 +1,10 @@
 #include <turnscan/reconstruction/passes/surface_colors.hpp>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 
 namespace turnscan::passes {
 
@@ -114,7 +114,7 @@ class ColorsOfPass {
     }
     // So that what no point shows is 0.
     all.matrix.diagonal().array() += 1e-3 * (all.count + 1.0);
-    return all.matrix.ldlt().solve(all.vector);
+    return estimation::solve_ldlt(all.matrix, all.vector);
   }
 
   static void add_changes(const std::vector<Sighting>& seen, Sums& sums) {

@@ -1,9 +1,8 @@
 #include <turnscan/reconstruction/passes/undetermined.hpp>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
 
 namespace turnscan::passes {
@@ -34,17 +33,14 @@ Matrix6 displacement_metric(const PreparedPass& pass, const Pose& T_first_pass,
 /// metre, by how well they are known.
 struct KnownDirections {
   Matrix6 root;  ///< L; y = L^T x
-  Eigen::SelfAdjointEigenSolver<Matrix6> eigen;
+  estimation::SymmetricEigen<6> eigen;
 
   KnownDirections(const PreparedPass& pass, const Adjustment& adjustment)
-      : root(Eigen::LLT<Matrix6>(
-                 displacement_metric(pass, adjustment.T_first_pass[1], adjustment.center))
-                 .matrixL()),
-        eigen(root.transpose() * adjustment.covariances[1] * root) {}
-  double sigma(int k) const { return std::sqrt(std::max(0.0, eigen.eigenvalues()[k])); }
-  Vec6 motion_of(const Vec6& y) const {
-    return root.transpose().triangularView<Eigen::Upper>().solve(y);
-  }
+      : root(estimation::cholesky_root(
+            displacement_metric(pass, adjustment.T_first_pass[1], adjustment.center))),
+        eigen(estimation::congruent_eigen(root, adjustment.covariances[1])) {}
+  double sigma(int k) const { return std::sqrt(std::max(0.0, eigen.values[k])); }
+  Vec6 motion_of(const Vec6& y) const { return estimation::solve_lower_transposed(root, y); }
 };
 
 std::string direction_text(const Vec6& x, double lever_m) {
@@ -66,9 +62,9 @@ Pose determined_part(const PreparedPass& pass, const Adjustment& adjustment, con
                      double max_sigma_m) {
   const KnownDirections known(pass, adjustment);
   // What pairs of points say about each direction, of which noise says a little of any.
-  const auto l = known.root.triangularView<Eigen::Lower>();
-  const Matrix6 half = l.solve(adjustment.information[1]);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> said(l.solve(Matrix6(half.transpose())));
+  const Matrix6 half = estimation::solve_lower(known.root, adjustment.information[1]);
+  const auto said =
+      estimation::symmetric_eigen(estimation::solve_lower(known.root, Matrix6(half.transpose())));
   const Matrix6 covariance = known.root.transpose() * adjustment.covariances[1] * known.root;
   const Pose step = adjustment.T_first_pass[1] * from.inverse();
   const Eigen::AngleAxisd turn(step.linear());
@@ -76,8 +72,8 @@ Pose determined_part(const PreparedPass& pass, const Adjustment& adjustment, con
   x << turn.angle() * turn.axis(), step * adjustment.center - adjustment.center;
   Vec6 y = known.root.transpose() * x;
   for (int k = 0; k < 6; ++k) {
-    const Vec6 direction = said.eigenvectors().col(k);
-    const bool held = said.eigenvalues()[k] > kHeld * said.eigenvalues()[5] &&
+    const Vec6 direction = said.vectors.col(k);
+    const bool held = said.values[k] > kHeld * said.values[5] &&
                       direction.dot(covariance * direction) < max_sigma_m * max_sigma_m;
     if (!held) y -= direction.dot(y) * direction;
   }
@@ -91,7 +87,7 @@ std::string undetermined_direction(const PreparedPass& pass, const Adjustment& a
   const KnownDirections known(pass, adjustment);
   const double sigma = known.sigma(5);
   if (sigma < max_sigma_m) return {};
-  const Vec6 x = known.motion_of(known.eigen.eigenvectors().col(5));
+  const Vec6 x = known.motion_of(known.eigen.vectors.col(5));
   return fmt::format("its shape leaves open how it {}: known to {:.2f} mm only",
                      direction_text(x, 0.3 * pass.extent_m), sigma * 1e3);
 }

@@ -1,5 +1,5 @@
-#include <Eigen/Eigenvalues>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/points/normals.hpp>
 
 namespace turnscan::points {
@@ -48,8 +48,7 @@ Vec3f normal_of(const Candidates& c, std::size_t i, const Neighbourhood& n) {
     return towards.norm() > 0.0 ? Vec3f(towards.normalized().cast<float>()) : Vec3f::UnitY();
   const Vec3d mean = n.sum / n.weight;
   const Eigen::Matrix3d covariance = n.squares / n.weight - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Vec3d normal = solver.eigenvectors().col(0);
+  const Vec3d normal = estimation::symmetric_eigen(covariance).vectors.col(0);
   return (normal.dot(towards) < 0.0 ? Vec3d(-normal) : normal).cast<float>();
 }
 

@@ -1,8 +1,8 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/points/refine.hpp>
 #include <turnscan/reconstruction/points/refine_kernel.hpp>
 
@@ -54,19 +54,19 @@ class Projector {
  private:
   /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge lets slope and curvature
   /// fade where too few points carry them.
-  static Eigen::Matrix<double, 6, 1> fit(const Moments& s) {
-    Eigen::Matrix<double, 6, 6> a;
+  static estimation::Vector6d fit(const Moments& s) {
+    estimation::Matrix6d a;
     a << s[0], s[1], s[2], s[3], s[4], s[5],    //
         s[1], s[3], s[4], s[6], s[7], s[8],     //
         s[2], s[4], s[5], s[7], s[8], s[9],     //
         s[3], s[6], s[7], s[10], s[11], s[12],  //
         s[4], s[7], s[8], s[11], s[12], s[13],  //
         s[5], s[8], s[9], s[12], s[13], s[14];
-    Eigen::Matrix<double, 6, 1> b;
+    estimation::Vector6d b;
     b << s[15], s[16], s[17], s[18], s[19], s[20];
     for (int k = 1; k < 3; ++k) a(k, k) += 0.1;
     for (int k = 3; k < 6; ++k) a(k, k) += 0.2;
-    return a.ldlt().solve(b);
+    return estimation::solve_ldlt(a, b);
   }
 
   Moments collect(const Site& site, const Vec3d& u, const Vec3d& v, double height) const {

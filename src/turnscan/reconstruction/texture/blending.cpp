@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/texture/blending.hpp>
 #include <turnscan/reconstruction/texture/charts.hpp>
 #include <turnscan/reconstruction/texture/light.hpp>
@@ -120,13 +120,13 @@ Shift shift_of(const ShiftSums& s) {
   if (!(s.n >= 24.0f)) return out;
   Eigen::Matrix2d gradients;
   gradients << double(s.xx), double(s.xy), double(s.xy), double(s.yy);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(gradients);
+  const auto eigen = estimation::symmetric_eigen(gradients);
   const Eigen::Vector2d right(double(s.xe), double(s.ye));
   double explained = 0.0, squared = 0.0;
   for (int i = 0; i < 2; ++i) {
-    const double value = solver.eigenvalues()[i];
+    const double value = eigen.values[i];
     if (!(value > double(s.n) * kNoise * kNoise)) continue;
-    const double d = solver.eigenvectors().col(i).dot(right) / value;
+    const double d = eigen.vectors.col(i).dot(right) / value;
     squared += d * d;
     explained += d * d * value;
     out.known = true;

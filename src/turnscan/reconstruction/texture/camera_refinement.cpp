@@ -1,8 +1,8 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/texture/camera_refinement.hpp>
 #include <turnscan/reconstruction/texture/motion_evidence.hpp>
@@ -277,7 +277,7 @@ class Refiner {
       evidence_.information(i, i) += 1.0 / (sigma * sigma);
       right[i] -= from_start[i] / (sigma * sigma);
     }
-    const Motion motion = evidence_.information.ldlt().solve(right);
+    const Motion motion = estimation::solve_ldlt(evidence_.information, right);
     if (!motion.allFinite()) return {};
     T_ = pose_of(motion) * T_;
     place();

@@ -1,7 +1,7 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/texture/charts.hpp>
 #include <turnscan/reconstruction/texture/exposure.hpp>
 #include <turnscan/reconstruction/texture/light.hpp>
@@ -66,7 +66,7 @@ Eigen::VectorXd balanced(const Eigen::MatrixXd& weight, const Eigen::MatrixXd& r
   for (int round = 0; round < kStayRounds; ++round) {
     Eigen::MatrixXd stayed = matrix;
     stayed.diagonal().array() += error * error / (kUsualGain * kUsualGain);
-    gains = stayed.ldlt().solve(right);
+    gains = estimation::solve_ldlt(stayed, right);
     const Eigen::MatrixXd fitted = gains.replicate(1, n) - gains.transpose().replicate(n, 1);
     const double squared = weight.cwiseProduct((ratio - fitted).cwiseAbs2()).sum();
     error = std::max(kLeastPairError, std::sqrt(squared / std::max(weight.sum(), 1e-9)));

@@ -1,7 +1,6 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/texture/motion_evidence.hpp>
 
 namespace turnscan::texture {
@@ -13,25 +12,25 @@ constexpr double kLeastDeviations = 2.0;
 }  // namespace
 
 DeterminedMotion determined_part(const MotionEvidence& evidence, const Motion& motion) {
-  const Eigen::LDLT<MotionMatrix> inverse(evidence.information);
-  const MotionMatrix spread = inverse.solve(MotionMatrix(evidence.information + evidence.shared) *
-                                            inverse.solve(MotionMatrix::Identity()));
+  const MotionMatrix inverse =
+      estimation::solve_ldlt(evidence.information, MotionMatrix(MotionMatrix::Identity()));
+  const MotionMatrix spread = estimation::solve_ldlt(
+      evidence.information, MotionMatrix((evidence.information + evidence.shared) * inverse));
   // With covariance = K K^T, K^-1 motion has the covariance 1, and so it has when it is rotated to
   // the axes of the movement in the images.
-  const MotionMatrix K = Eigen::LLT<MotionMatrix>(0.5 * (spread + spread.transpose())).matrixL();
-  const Eigen::SelfAdjointEigenSolver<MotionMatrix> axes(K.transpose() * evidence.image * K);
-  const Motion deviations =
-      axes.eigenvectors().transpose() * K.triangularView<Eigen::Lower>().solve(motion);
+  const MotionMatrix K = estimation::cholesky_root(0.5 * (spread + spread.transpose()));
+  const auto axes = estimation::congruent_eigen(K, evidence.image);
+  const Motion deviations = axes.vectors.transpose() * estimation::solve_lower(K, motion);
   DeterminedMotion out;
   Motion kept = Motion::Zero();
   for (int i = 0; i < 6; ++i) {
-    out.deviation_px += std::max(0.0, axes.eigenvalues()[i]);
+    out.deviation_px += std::max(0.0, axes.values[i]);
     if (!(std::abs(deviations[i]) > kLeastDeviations)) continue;
     kept[i] = deviations[i];
     ++out.directions;
   }
   out.deviation_px = std::sqrt(out.deviation_px);
-  out.motion = K * (axes.eigenvectors() * kept);
+  out.motion = K * (axes.vectors * kept);
   out.open = motion - out.motion;
   return out;
 }

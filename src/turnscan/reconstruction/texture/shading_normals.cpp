@@ -1,7 +1,7 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/texture/charts.hpp>
 #include <turnscan/reconstruction/texture/light.hpp>
 #include <turnscan/reconstruction/texture/shading_normals.hpp>
@@ -130,7 +130,7 @@ Vec3f tilt_of(const TiltSums& sums) {
   if (!(sums.count > 0.0f)) return Vec3f::Zero();
   Eigen::Matrix3f matrix = sums.matrix / sums.count;
   matrix.diagonal().array() += kStays;
-  const Vec3f tilt = matrix.ldlt().solve(sums.right / sums.count);
+  const Vec3f tilt = estimation::solve_ldlt(matrix, Vec3f(sums.right / sums.count));
   const float size = tilt.norm();
   return size > kMostTilt ? Vec3f(tilt * (kMostTilt / size)) : tilt;
 }

@@ -1,8 +1,8 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/median.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>
 #include <turnscan/reconstruction/views/scan_surface.hpp>
 
@@ -74,8 +74,7 @@ std::optional<LightSheet> find_sheet(const FramePoints& points) {
     seen.push_back(d - d.dot(away) * away);
     squares += seen.back() * seen.back().transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
-  const Vec3d line = solver.eigenvectors().col(2), thick = away.cross(line);
+  const Vec3d line = estimation::symmetric_eigen(squares).vectors.col(2), thick = away.cross(line);
   std::vector<double> width, thickness;
   for (const Vec3d& d : seen) {
     width.push_back(std::abs(line.dot(d)));

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/rotation_between.hpp>
 #include <turnscan/simulator/scene/hand.hpp>
 
 namespace turnscan {
@@ -21,7 +22,7 @@ void add_capsule(TriangleMesh& mesh, const Vec3d& a, const Vec3d& b, double ra, 
                  Rgb color) {
   constexpr std::uint32_t kRings = 6, kAround = 24;  // of each cap
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  const Eigen::Quaterniond R = Eigen::Quaterniond::FromTwoVectors(Vec3d::UnitZ(), b - a);
+  const Eigen::Quaterniond R = rotation_between(Vec3d::UnitZ(), b - a);
   for (std::uint32_t ring = 0; ring <= 2 * kRings + 1; ++ring) {
     const bool at_a = ring <= kRings;
     const double polar = 0.25 * kTurn * (at_a ? ring : ring - 1) / kRings;

@@ -1,9 +1,9 @@
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/depth/gauge_ball.hpp>
 #include <turnscan/turntable/detection/plane_fit.hpp>
 
@@ -97,7 +97,7 @@ class BallFinder {
       }
     }
     if (4 * count < 3 * (2 * half + 1) * (2 * half + 1)) return std::nullopt;
-    const Vec3d n = sum.ldlt().solve(right);
+    const Vec3d n = estimation::solve_ldlt(sum, right);
     if (!n.allFinite() || !(n.norm() > 0.0)) return std::nullopt;
     return Vec3d(-n.normalized());
   }

@@ -1,7 +1,6 @@
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <turnscan/core/units.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/picked_points.hpp>
 
 namespace turnscan {
@@ -98,7 +97,7 @@ Circle least_squares_circle(std::span<const Vec3d> points, Circle circle) {
   for (int i = 0; i < 200 && damping < 1e12; ++i) {
     Matrix6 damped = system.normal;
     damped.diagonal() += damping * system.normal.diagonal();
-    const Vector6 step = damped.ldlt().solve(system.right);
+    const Vector6 step = estimation::solve_ldlt(damped, system.right);
     const Circle next = moved(circle, step);
     CircleSystem after = linearise(points, next);
     if (!(after.squares <= system.squares)) {
@@ -163,7 +162,7 @@ Result<PickedCircle> fit_picked_points(std::span<const Vec3d> points, const Vec3
   const CircleSystem system = linearise(points, out.circle);
   const double surplus = 2.0 * double(points.size()) - 6.0;
   const double variance = surplus > 0.0 ? system.squares / surplus : std::nan("");
-  const Matrix6 covariance = variance * system.normal.inverse();
+  const Matrix6 covariance = variance * estimation::inverse_lu(system.normal);
   out.axis_sigma_rad = std::sqrt(covariance(0, 0) + covariance(1, 1));
   out.center_sigma_m = std::sqrt(covariance(2, 2) + covariance(3, 3));
   out.height_sigma_m = std::sqrt(covariance(4, 4));

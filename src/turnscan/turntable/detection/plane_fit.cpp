@@ -1,9 +1,9 @@
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/plane_fit.hpp>
 
 namespace turnscan::detection {
@@ -170,7 +170,7 @@ std::optional<PlaneEstimate> fit_plane(const ScanPixels& scan, const RayTable& r
       normal += weight * ray * ray.transpose();
       right += weight / z * ray;
     }
-    m = normal.ldlt().solve(right);
+    m = estimation::solve_ldlt(normal, right);
     if (!m.allFinite() || !(m.norm() > 1e-9)) return std::nullopt;
     sizes.clear();
     for (const std::int32_t i : pixels) {

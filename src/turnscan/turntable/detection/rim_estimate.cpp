@@ -1,8 +1,7 @@
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/rim_estimate.hpp>
 
 namespace turnscan::detection {
@@ -41,7 +40,7 @@ class RimAscent {
     for (int i = 0; i < most; ++i) {
       RimEquations::Matrix damped = system_.information;
       damped.diagonal() *= 1.0 + damping_;
-      const RimEquations::Vector step = damped.ldlt().solve(system_.score);
+      const RimEquations::Vector step = estimation::solve_ldlt(damped, system_.score);
       if (!step.allFinite()) return;
       const RimState next = moved(state_, step);
       const RimEquations there = linearise(data_, next.model, next.edge);
@@ -164,7 +163,7 @@ double empty_share(const std::vector<RimPixel>& pixels) {
 /// scores of the sectors scatter by it: the sandwich estimator over clusters (Liang and Zeger
 /// 1986). Not less than the likelihood's own covariance.
 Eigen::Matrix4d covariance_of(const RimEquations& equations) {
-  const RimEquations::Matrix own = equations.information.inverse();
+  const RimEquations::Matrix own = estimation::inverse_lu(equations.information);
   RimEquations::Matrix scatter = RimEquations::Matrix::Zero();
   double sectors = 0.0;
   for (const RimEquations::Vector& score : equations.sector_score) {

@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -6,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/rim_fit.hpp>
 
 namespace turnscan::detection {
@@ -108,7 +108,7 @@ std::optional<RimCircle> refine(const std::vector<RimPoint>& points, const Circl
     system = linearise(points, circle, i < 5 ? 2.5 : 1.5);
     if (system.points < 12) return std::nullopt;
     if (radius_m) hold_radius(*radius_m, circle, system);
-    const Eigen::Vector4d step = system.normal.ldlt().solve(system.right);
+    const Eigen::Vector4d step = estimation::solve_ldlt(system.normal, system.right);
     if (!step.allFinite()) return std::nullopt;
     circle.center += step.head<2>();
     circle.radius_m += step[2];

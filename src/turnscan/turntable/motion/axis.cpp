@@ -1,7 +1,6 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 
 namespace turnscan::motion {
@@ -24,9 +23,8 @@ Eigen::Vector4d way_between(const AxisEstimate& from, const AxisEstimate& to) {
 
 /// Estimated covariances of nested data may contradict each other.
 Eigen::Matrix4d without_negative(const Eigen::Matrix4d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(matrix);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         eigen.eigenvectors().transpose();
+  const auto eigen = estimation::symmetric_eigen(matrix);
+  return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
 }
 
 }  // namespace
@@ -80,12 +78,13 @@ AxisEstimate combine_nested(const AxisEstimate& all, const AxisEstimate& part,
   const Eigen::Matrix4d own = per.asDiagonal() * bias * per.asDiagonal();
   const Eigen::Matrix4d noise =
       without_negative(per.asDiagonal() * (part.covariance - all.covariance) * per.asDiagonal());
-  const Eigen::LDLT<Eigen::Matrix4d> between(noise + own);
-  const Eigen::Vector4d step =
-      unit.asDiagonal() * own * between.solve(per.asDiagonal() * way_between(all, part));
+  const Eigen::Matrix4d between = noise + own;
+  const Eigen::Vector4d way = per.asDiagonal() * way_between(all, part);
+  const Eigen::Vector4d step = unit.asDiagonal() * own * estimation::solve_ldlt(between, way);
   AxisEstimate out = all;
   move_axis(step, out.axis, out.center);
-  out.covariance += unit.asDiagonal() * (own - own * between.solve(own)) * unit.asDiagonal();
+  out.covariance +=
+      unit.asDiagonal() * (own - own * estimation::solve_ldlt(between, own)) * unit.asDiagonal();
   return out;
 }
 

@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion/axis_search.hpp>
 
 namespace turnscan::motion {
@@ -95,7 +95,7 @@ class AxisSearch {
       for (const Vec3f& n : surface.normals)
         spread += n.cast<double>() * n.cast<double>().transpose();
     const Vec3d up = Vec3d::UnitY();
-    Vec3d view = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    Vec3d view = estimation::symmetric_eigen(spread).vectors.col(2);
     view -= view.dot(up) * up;
     view = view.norm() > 0.05 ? Vec3d(view.normalized()) : Vec3d::UnitZ();
     const Vec3d right = up.cross(view);

@@ -150,7 +150,7 @@ BundleSystem::Dense BundleSystem::with_prior(const BundleState& at, const AngleP
 
 double BundleSystem::minus_2_log_evidence(const BundleState& at, const AnglePrior& prior) const {
   const Dense system = with_prior(at, prior);
-  const Eigen::LDLT<Eigen::MatrixXd> factors(system.matrix);
+  const estimation::DenseLdlt factors(system.matrix);
   const Eigen::VectorXd step = factors.solve(system.right);
   std::vector<double> angle = at.knot_angle;
   for (std::size_t k = 0; k < angle.size(); ++k) angle[k] += step[Index(k)];
@@ -158,7 +158,7 @@ double BundleSystem::minus_2_log_evidence(const BundleState& at, const AnglePrio
   const double lost = step.dot(pulled) - 2.0 * right_.dot(step);
   const AddPriorRow none = [](std::span<const PriorTerm>, double, double) {};
   return lost / variance_ + add_angle_prior(data_, knots_.frames(), angle, prior, none) +
-         (factors.vectorD().array() / variance_).log().sum();
+         (factors.diagonal().array() / variance_).log().sum();
 }
 
 Result<> BundleSystem::solve(const BundleState& at, const AnglePrior& prior, bool hold_angles) {
@@ -169,7 +169,7 @@ Result<> BundleSystem::solve(const BundleState& at, const AnglePrior& prior, boo
   }
   factors_.compute(system.matrix);
   step_ = factors_.solve(system.right);
-  if (factors_.info() != Eigen::Success || !step_.allFinite())
+  if (!factors_.succeeded() || !step_.allFinite())
     return fail(ErrorCode::kLibrary, "motion: the system of equations cannot be solved");
   return {};
 }
@@ -182,9 +182,6 @@ std::vector<std::optional<double>> BundleSystem::heights() const {
   return out;
 }
 
-Eigen::MatrixXd BundleSystem::inverse() const {
-  const Index size = factors_.rows();
-  return factors_.solve(Eigen::MatrixXd::Identity(size, size));
-}
+Eigen::MatrixXd BundleSystem::inverse() const { return factors_.inverse(); }
 
 }  // namespace turnscan::motion

@@ -2,7 +2,7 @@
 // The normal equations of bundle adjustment: axis and knots' angles, the surfels' heights
 // eliminated.
 
-#include <Eigen/Cholesky>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion/angle_prior.hpp>
 #include <turnscan/turntable/motion/surfels.hpp>
 
@@ -86,7 +86,7 @@ class BundleSystem {
   Eigen::VectorXd right_, step_;
   Eigen::VectorXd total_, sums_;  ///< per surfel: of the weights, and of the weighted distances
   Eigen::MatrixXf rows_;  ///< per surfel: what its height changes by with each unknown, weighted
-  Eigen::LDLT<Eigen::MatrixXd> factors_;
+  estimation::DenseLdlt factors_;
 };
 
 }  // namespace turnscan::motion

@@ -1,9 +1,10 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
+#include <turnscan/core/rotation_between.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion_input/platter_sight.hpp>
 
 namespace turnscan::motion {
@@ -41,7 +42,7 @@ struct PlatterPlane {
       normal += weight * row * row.transpose();
       right += weight * p.y() * row;
     }
-    plane = normal.ldlt().solve(right);
+    plane = estimation::solve_ldlt(normal, right);
   }
 
   double scatter() const {
@@ -63,7 +64,7 @@ Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& points) {
     normal += row * row.transpose();
     right += row * p.squaredNorm();
   }
-  const Vec3d found = normal.ldlt().solve(right);
+  const Vec3d found = estimation::solve_ldlt(normal, right);
   const Eigen::Vector2d middle = found.head<2>();
   const double radius = std::sqrt(std::max(0.0, found.z() + middle.squaredNorm()));
   double squares = 0.0;
@@ -147,7 +148,7 @@ std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& s
     while (k + 1 < at.size() && at[k + 1] <= i) ++k;
     const bool next = k + 1 < at.size() && at[k + 1] - i < (at[k] > i ? at[k] - i : i - at[k]);
     const Vec3d axis = (platter.axis + beside * tilts[next ? k + 1 : k]).normalized();
-    const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(axis, out.axis).toRotationMatrix();
+    const Eigen::Matrix3d R = rotation_between(axis, out.axis).toRotationMatrix();
     Pose T = Pose::Identity();
     T.linear() = R;
     T.translation() = platter.center_m - R * platter.center_m;

@@ -1,10 +1,9 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 #include <turnscan/core/random.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion_input/point_sampling.hpp>
 
 namespace turnscan::motion {
@@ -42,7 +41,7 @@ std::optional<Normal> normal_at(const std::vector<float>& z, int width, int heig
   }
   const int all = (2 * reach + 1) * (2 * reach + 1);
   if (4 * count < 3 * all) return std::nullopt;
-  const Vec3d m = sum.ldlt().solve(right);
+  const Vec3d m = estimation::solve_ldlt(sum, right);
   // A mixed pixel lies off the plane of its neighbours.
   double squares = 0.0;
   for (int v = -reach; v <= reach; ++v) {
@@ -94,10 +93,10 @@ std::optional<SurfaceSample> plane_at(const FrameSurface& surface, const Vec3f& 
     const Vec3d d = surface.points[i].cast<double>() - mean;
     spread += d * d.transpose() / double(neighbours);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
-  const Vec3d& e = eigen.eigenvalues();
+  const auto eigen = estimation::symmetric_eigen(spread);
+  const Vec3d& e = eigen.values;
   if (!(e[1] > 0.0) || e[0] > 0.05 * e[1]) return std::nullopt;
-  Vec3d n = eigen.eigenvectors().col(0);
+  Vec3d n = eigen.vectors.col(0);
   if (n.dot(viewpoint.direction_from(p.cast<double>())) < 0.0) n = -n;
   return SurfaceSample{p, n.cast<float>(),
                        float(std::sqrt(std::max(e[0], 0.0) / e[1] / double(neighbours)))};

@@ -1,8 +1,8 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <turnscan/core/pose.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion_input/still_surface.hpp>
 
 namespace turnscan::motion {
@@ -80,7 +80,7 @@ class Continuation {
     });
     if (count < kLeastKnown) return false;
     normal.diagonal().head<2>().array() += 1.0;  // known pixels in a line say nothing across it
-    const double inverse = normal.ldlt().solve(right)[2];
+    const double inverse = estimation::solve_ldlt(normal, right)[2];
     return inverse > 0.0 &&
            std::abs(1.0 / inverse - double(in_.candidate[i])) < double(in_.tolerance[i]);
   }

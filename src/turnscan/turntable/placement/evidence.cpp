@@ -1,7 +1,3 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion/robust.hpp>
 #include <turnscan/turntable/placement/evidence.hpp>
 
@@ -62,15 +59,14 @@ void add_floor(RelativeTwist& twist, double lever_m) {
   Twist floor;
   floor << turn, turn, turn, kShiftFloor_m, kShiftFloor_m, kShiftFloor_m;
   const Matrix6d both = Matrix6d::Identity() + twist.information * floor.cwiseAbs2().asDiagonal();
-  const Eigen::PartialPivLU<Matrix6d> solver(both);
-  const Matrix6d information = solver.solve(twist.information);
+  const Matrix6d information = estimation::solve_lu(both, twist.information);
   twist.information = 0.5 * (information + information.transpose());
-  twist.right = solver.solve(twist.right);
+  twist.right = estimation::solve_lu(both, twist.right);
 }
 
 /// How many of its eigenvalues say something.
 double rank_of(const Matrix6d& information) {
-  const Twist values = Eigen::SelfAdjointEigenSolver<Matrix6d>(information).eigenvalues();
+  const Twist values = estimation::symmetric_eigen(information).values;
   return double((values.array() > 1e-6 * values[5]).count());
 }
 
@@ -165,7 +161,7 @@ struct Evidence::System {
   std::vector<TiltRows> tilted;         ///< per tilt, over its deviation
   Eigen::MatrixXd matrix, tilt_matrix;  ///< of all, and of the tilts alone
   Eigen::VectorXd right, tilt_right;
-  Eigen::LDLT<Eigen::MatrixXd> factors;
+  estimation::DenseLdlt factors;
 };
 
 Evidence::System Evidence::system_of(const std::vector<DisturbanceModel>& models) const {
@@ -226,8 +222,7 @@ double Evidence::spread_of(const System& system, const Eigen::VectorXd& values) 
     if (t.shown < 1.0) continue;
     const Twist left = t.right - system.weighted[k] * values;
     // What it leaves, with the pseudo-inverse of the information.
-    ratios.push_back(left.dot(t.information.completeOrthogonalDecomposition().solve(left)) /
-                     t.shown);
+    ratios.push_back(left.dot(estimation::solve_least_norm(t.information, left)) / t.shown);
   }
   return std::max(1.0, median(ratios) / kMedianPerUnknown);
 }
@@ -257,7 +252,7 @@ double Evidence::gain_of(const System& system, const DisturbanceModel& candidate
   }
   own -= mixed.transpose() * system.factors.solve(mixed);
   right -= mixed.transpose() * system.factors.solve(system.right);
-  return right.dot(own.ldlt().solve(right));
+  return right.dot(estimation::solve_ldlt(own, right));
 }
 
 std::vector<double> Evidence::gains(const std::vector<DisturbanceModel>& models,

@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/placement/pair_constraints.hpp>
 
 namespace turnscan::placement {
@@ -84,12 +84,12 @@ void find_shown(Keyframes& frames, const std::vector<PairConstraint>& constraint
   Matrix6d sum = Matrix6d::Zero();
   double noise = 0.0;
   for (const PairConstraint& c : constraints) sum += c.normal, noise += c.normal_noise;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(sum);
+  const auto eigen = estimation::symmetric_eigen(sum);
   const double all = sum.bottomRightCorner<3, 3>().trace();
   const double limit = std::max(kLeastShare * all, kNoiseShare * noise);
   Twist shown;
-  for (int k = 0; k < 6; ++k) shown[k] = eigen.eigenvalues()[k] > limit ? 1.0 : 0.0;
-  frames.shown = eigen.eigenvectors() * shown.asDiagonal() * eigen.eigenvectors().transpose();
+  for (int k = 0; k < 6; ++k) shown[k] = eigen.values[k] > limit ? 1.0 : 0.0;
+  frames.shown = eigen.vectors * shown.asDiagonal() * eigen.vectors.transpose();
 }
 
 std::vector<FramePair> successive_pairs(const Keyframes& frames, const std::vector<Pose>& poses) {

@@ -1,7 +1,7 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/motion/robust.hpp>
 #include <turnscan/turntable/placement/pose_graph.hpp>
 
@@ -58,8 +58,7 @@ class FreeSolver {
     for (std::size_t i = 0; i < frames_.size(); ++i)
       right.segment<6>(Eigen::Index(6 * i)) -= weak * offset_[i];
     matrix.diagonal().array() += weak;
-    const Eigen::LDLT<Eigen::MatrixXd> factors(matrix);
-    const Eigen::VectorXd moved = factors.solve(right);
+    const Eigen::VectorXd moved = estimation::solve_ldlt(matrix, right);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       const Twist twist = moved.segment<6>(Eigen::Index(6 * i));
       offset_[i] += twist;

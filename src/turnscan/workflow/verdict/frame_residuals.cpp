@@ -4,6 +4,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/geometry/search/pseudo_normals.hpp>
@@ -51,7 +52,7 @@ Motion motion_of(const std::vector<Sample>& samples) {
       A += weight * s.answer * s.answer.transpose();
       b += weight * s.distance_m * s.answer;
     }
-    moved = A.ldlt().solve(b);
+    moved = estimation::solve_ldlt(A, b);
   }
   return moved;
 }

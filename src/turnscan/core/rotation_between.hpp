@@ -1,0 +1,14 @@
+#pragma once
+// The shortest rotation from one direction to another.
+
+#include <Eigen/Geometry>
+#include <turnscan/core/pose.hpp>
+
+namespace turnscan {
+
+/// The shortest rotation that takes the direction `from` to the direction `to`; about any axis
+/// across them where they are opposite. Both may have any length above 0. To the last bit as
+/// Eigen::Quaterniond::FromTwoVectors, whose matrix decompositions take ten seconds to compile.
+Eigen::Quaterniond rotation_between(const Vec3d& from, const Vec3d& to);
+
+}  // namespace turnscan
