@@ -55,12 +55,18 @@ turnscan_package(studio turnscan-studio graphics
   "desktop program of turnscan, a turntable scanner"
   "Shows what a depth sensor sees, records and reconstructs what stands on a\nturntable, compares and edits meshes, and simulates scanners."
   "turnscan (= ${PROJECT_VERSION})")
-turnscan_package(python python3-turnscan python
-  "turntable scanning and reconstruction for Python 3"
-  "Recordings, simulation, calibration, reconstruction and evaluation of turnscan\nas a Python module, with numpy's arrays."
-  "turnscan (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
-    "${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/postinst;${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/prerm")
+if(TARGET turnscan_python)
+  # The module is for the Python that it was built with.
+  get_directory_property(minor DIRECTORY "${PROJECT_SOURCE_DIR}/python"
+                         DEFINITION Python_VERSION_MINOR)
+  math(EXPR next_minor "${minor} + 1")
+  turnscan_package(python python3-turnscan python
+    "turntable scanning and reconstruction for Python 3"
+    "Recordings, simulation, calibration, reconstruction and evaluation of turnscan\nas a Python module, with numpy's arrays."
+    "turnscan (= ${PROJECT_VERSION}), python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      "${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/postinst;${CMAKE_CURRENT_LIST_DIR}/python3-turnscan/prerm")
+endif()
 turnscan_package(development libturnscan-dev libdevel
   "turntable scanning and reconstruction (development files)"
   "Headers, static libraries and the CMake package of turnscan."

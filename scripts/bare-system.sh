@@ -1,0 +1,70 @@
+# Sourced by scripts that try turnscan where nothing is installed: a bare system of another release,
+# in a folder. As root.
+
+# make_bare SUITE FOLDER: bookworm, trixie, or noble (which needs ubuntu-keyring).
+make_bare() {
+  local suite=$1 folder=$2 mirror rest=()
+  case $suite in
+    bookworm | trixie | sid)
+      # The same mirror as this system's, if it is Debian's.
+      mirror=$(awk '$1 == "URIs:" && $2 ~ /\/debian\/?$/ {print $2; exit}
+                    $1 == "deb" && $2 ~ /\/debian\/?$/ {print $2; exit}' \
+        /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null || true)
+      mirror=${mirror:-http://deb.debian.org/debian}
+      ;;
+    noble)
+      mirror=http://archive.ubuntu.com/ubuntu
+      # Debian's debootstrap makes all of Ubuntu's releases by one script.
+      rest=(/usr/share/debootstrap/scripts/gutsy)
+      ;;
+    *) echo "unknown suite '$suite'; known: bookworm trixie noble" >&2 && return 2 ;;
+  esac
+  if ! debootstrap --variant=minbase --components=main${rest:+,universe} "$suite" "$folder" "$mirror" \
+    ${rest[@]:+"${rest[@]}"} >"$folder.log"; then
+    tail -n 5 "$folder.log" >&2
+    return 1
+  fi
+  rm -f "$folder.log"
+  cp /etc/resolv.conf "$folder/etc/resolv.conf"
+  enter_bare "$folder"
+}
+
+enter_bare() {
+  mount -t proc proc "$1/proc"
+  mount --bind /dev "$1/dev"
+  mount --bind /dev/pts "$1/dev/pts"
+  mount -t tmpfs tmpfs "$1/dev/shm"
+}
+
+# remove_bare FOLDER: never what is mounted in it.
+remove_bare() {
+  local mounted
+  for mounted in dev/shm dev/pts dev proc ccache; do
+    if mountpoint -q "$1/$mounted"; then umount "$1/$mounted" || umount --lazy "$1/$mounted"; fi
+  done
+  if grep -q " $1/" /proc/self/mounts; then
+    echo "$1 is still in use, and is left" >&2
+    return 1
+  fi
+  rm -rf --one-file-system "$1"
+}
+
+# inside FOLDER COMMAND...
+inside() {
+  local folder=$1
+  shift
+  chroot "$folder" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 TERM=dumb "$@"
+}
+
+install_inside() {
+  local folder=$1
+  shift
+  inside "$folder" apt-get update -qq
+  inside "$folder" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    -o Dpkg::Use-Pty=0 "$@" >/dev/null
+}
+
+# In MB, as the packages state it.
+installed_size() {
+  inside "$1" dpkg-query -W -f='${Installed-Size}\n' | awk '{sum += $1} END {printf "%d\n", sum / 1024}'
+}
