@@ -60,6 +60,12 @@ py::object evaluate_mesh(const MeshObject& mesh, const MeshObject& reference,
 
 }  // namespace
 
+WriteMeshOptions mesh_options_of(const std::string& up) {
+  WriteMeshOptions options;
+  unwrap(describe(options).set("up", up));
+  return options;
+}
+
 void bind_meshes(py::module_& module) {
   py::class_<MeshObject>(module, "Mesh")
       .def(py::init(&make_mesh), py::arg("vertices"), py::arg("triangles"),
@@ -67,10 +73,12 @@ void bind_meshes(py::module_& module) {
       .def_static("load", &load_mesh, py::arg("path"), py::arg("unit") = py::none())
       .def(
           "save",
-          [](const MeshObject& self, const std::string& path) {
-            call(py::none(), [&](const RunContext&) { return write_mesh(path, *self.mesh); });
+          [](const MeshObject& self, const std::string& path, const std::string& up) {
+            const WriteMeshOptions options = mesh_options_of(up);
+            call(py::none(),
+                 [&](const RunContext&) { return write_mesh(path, *self.mesh, options); });
           },
-          py::arg("path"))
+          py::arg("path"), py::arg("up") = "auto")
       .def_property_readonly("vertices",
                              [](const py::object& self) {
                                return view_of(self.cast<MeshObject&>().mesh->vertices, self);

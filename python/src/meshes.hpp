@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 
 #include "errors.hpp"
 
@@ -11,6 +12,9 @@ namespace turnscan::python {
 struct MeshObject {
   std::shared_ptr<const TriangleMesh> mesh;
 };
+
+/// Of the argument of save(); raises what the field's check says.
+WriteMeshOptions mesh_options_of(const std::string& up);
 
 void bind_meshes(py::module_& module);
 

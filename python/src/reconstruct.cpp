@@ -24,9 +24,10 @@ struct RunObject {
 };
 
 ReconstructFiles files_for(const std::string& mesh, const std::string& report,
-                           const std::string& page) {
+                           const std::string& page, const std::string& up) {
   ReconstructFiles files;
   files.mesh = mesh;
+  files.mesh_options = mesh_options_of(up);
   files.report = report;
   files.page = page;
   return files;
@@ -110,15 +111,15 @@ void bind_reconstruct(py::module_& module) {
       .def(
           "save",
           [](const RunObject& self, const std::string& path, const std::string& report,
-             const std::string& page) {
+             const std::string& page, const std::string& up) {
+            const ReconstructFiles files = files_for(path, report, page, up);
             return call(py::none(), [&](const RunContext& context) {
-              const ReconstructFiles files = files_for(path, report, page);
               const auto fine = check_outputs(files);
               if (!fine) return Result<std::vector<std::string>>(tl::unexpected(fine.error()));
               return write_outputs(files, self.run, self.options, context);
             });
           },
-          py::arg("path"), py::arg("report") = "", py::arg("page") = "");
+          py::arg("path"), py::arg("report") = "", py::arg("page") = "", py::arg("up") = "auto");
   module.def("_reconstruct", &reconstruct_frames, py::arg("recordings"),
              py::arg("calibration") = "auto", py::arg("turntable") = "",
              py::arg("allow_open") = false, py::arg("progress") = py::none());

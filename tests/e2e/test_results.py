@@ -2,21 +2,43 @@
 for every number of threads, and files that say the same as flags."""
 
 import json
-import re
 import struct
 import zipfile
+from xml.etree import ElementTree
 
 import harness
 from harness import COARSE, FAILED, SMALL_PICTURE, USAGE, ply_cube, shared_demo, shared_recording
 
 
-def stl_size_mm(path):
+def stl_box_mm(path):
+    """Lowest and highest coordinates, as a slicer reads them."""
     data = path.read_bytes()
     count = struct.unpack_from("<I", data, 80)[0]
     assert len(data) == 84 + 50 * count
     corners = [struct.unpack_from("<3f", data, 84 + 50 * t + 12 * (1 + v))
                for t in range(count) for v in range(3)]
-    return [max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)]
+    return box_of(corners)
+
+
+def box_of(points):
+    return [(min(p[i] for p in points), max(p[i] for p in points)) for i in range(3)]
+
+
+def threemf_box_mm(path):
+    """The same of all items of a 3MF's build, each where its transform puts it."""
+    space = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+    with zipfile.ZipFile(path) as package:
+        name = next(n for n in package.namelist() if n.endswith(".model"))
+        model = ElementTree.fromstring(package.read(name))
+    assert model.get("unit") == "millimeter"
+    objects = {o.get("id"): [[float(v.get(a)) for a in "xyz"] for v in o.iter(f"{space}vertex")]
+               for o in model.iter(f"{space}object")}
+    points = []
+    for item in model.iter(f"{space}item"):
+        m = [float(n) for n in item.get("transform", "1 0 0 0 1 0 0 0 1 0 0 0").split()]
+        points += [[sum(p[k] * m[3 * k + i] for k in range(3)) + m[9 + i] for i in range(3)]
+                   for p in objects[item.get("objectid")]]
+    return box_of(points)
 
 
 def coloured_blocks(*blocks):
@@ -93,17 +115,50 @@ class Reconstruct(harness.TestCase):
             self.assertEqual(len(notes), 0 if apart else 1, notes)
             self.assertEqual("two things that touch" in out, not apart)
 
-    def test_stl_and_3mf_are_in_millimetres(self):
+    def test_stl_and_3mf_are_in_millimetres_z_up_and_stand_on_zero(self):
+        for name, box in (("m.stl", stl_box_mm), ("m.3mf", threemf_box_mm)):
+            self.ok("reconstruct", self.rec, *COARSE, "-o", name)
+            sides = box(self.dir / name)
+            for (low, high), truth in zip(sides, (80, 80, 160)):
+                self.assertAlmostEqual(high - low, truth, delta=3)
+            self.assertEqual(sides[2][0], 0, name)
+
+    def test_up_is_an_option_and_a_key_and_in_glb_always_y(self):
+        (self.dir / "o.toml").write_text("[mesh-file]\nup = 'y'\n")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "a.stl", "--up", "y")
+        self.ok("reconstruct", self.rec, *COARSE, "-o", "b.stl", "--config", "o.toml")
+        a, b = ((self.dir / name).read_bytes() for name in ("a.stl", "b.stl"))
+        self.assertEqual(a, b)
+        _, (low, high), _ = stl_box_mm(self.dir / "a.stl")
+        self.assertAlmostEqual(high - low, 160, delta=3)
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.glb", "--up", "z",
+                     says="y up by its standard")
+        self.refused(USAGE, "scan", "--device", "virtual:doll", "-o", "m.glb", "--up", "z",
+                     says="y up by its standard")
+        self.assertEqual(self.files(), ["a.stl", "b.stl", "o.toml"])
+
+    def test_a_mesh_of_every_format_has_the_same_distance_from_the_truth(self):
+        truth = shared_demo("cylinder", 60) / "cylinder-reference.ply"
+        figures = {}
+        for ending, *up in (("ply",), ("ply", "--up", "z"), ("obj",), ("obj", "--up", "z"),
+                            ("stl",), ("stl", "--up", "y"), ("3mf",), ("3mf", "--up", "y"),
+                            ("glb",)):
+            self.ok("reconstruct", self.rec, *COARSE, "-o", f"m.{ending}", *up)
+            self.ok("evaluate", f"m.{ending}", "--reference", truth, "--json", "e.json")
+            found = json.loads((self.dir / "e.json").read_text())
+            figures[(ending, *up)] = [found[f][s] for f in ("accuracy", "completeness")
+                                      for s in ("mean_m", "p95_m", "max_m")]
+        for name, values in figures.items():
+            for value, plain in zip(values, figures[("ply",)]):
+                self.assertAlmostEqual(value, plain, delta=2e-6, msg=name)
+
+    def test_a_mesh_for_printers_may_be_the_reference_or_the_object(self):
         self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl")
-        self.ok("reconstruct", self.rec, *COARSE, "-o", "m.3mf")
-        for size, truth in zip(stl_size_mm(self.dir / "m.stl"), (80, 160, 80)):
-            self.assertAlmostEqual(size, truth, delta=3)
-        with zipfile.ZipFile(self.dir / "m.3mf") as package:
-            model = next(n for n in package.namelist() if n.endswith(".model"))
-            xml = package.read(model).decode()
-        self.assertRegex(xml, r'unit="millimeter"')
-        heights = [float(y) for y in re.findall(r'<vertex [^>]*y="([^"]+)"', xml)]
-        self.assertAlmostEqual(max(heights) - min(heights), 160, delta=3)
+        self.ok("evaluate", "m.stl", "--reference", "m.stl", "--json", "e.json")
+        self.assertLess(json.loads((self.dir / "e.json").read_text())["accuracy"]["max_m"], 1e-7)
+        self.ok("simulate", "m.stl", "--frames", "2", "--out", "rec")
+        info = json.loads(self.ok("info", "rec/truth/object.ply", "--json").stdout)["objects"][0]
+        self.assertAlmostEqual(info["size_m"][1], 0.16, delta=0.003)
 
     def test_every_format_holds_the_same_mesh(self):
         counts = set()

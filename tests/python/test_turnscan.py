@@ -254,6 +254,17 @@ class Meshes(unittest.TestCase):
             self.assertAlmostEqual(float(turnscan.Mesh.load(path, unit="m").vertices.max()), 1e3,
                                    places=3)
 
+    def test_come_back_whatever_is_up_in_the_file(self):
+        mesh = turnscan.Mesh(np.float32(self.VERTICES) + np.float32([0, 2, 0]), self.TRIANGLES)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, up in (("m.stl", "auto"), ("m.stl", "y"), ("m.ply", "z"), ("m.3mf", "z")):
+                path = os.path.join(folder, name)
+                mesh.save(path, up=up)
+                self.assertEqual(turnscan.Mesh.load(path).vertices[:, 1].min(), 2, (name, up))
+            for name, up in (("m.glb", "z"), ("m.stl", "x")):
+                with self.assertRaises(turnscan.Error):
+                    mesh.save(os.path.join(folder, name), up=up)
+
     def test_that_are_none_are_refused(self):
         with self.assertRaises(turnscan.Error):
             turnscan.Mesh(self.VERTICES, [[0, 1, 9]])

@@ -6,6 +6,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
+#include <QFile>
 #include <QTest>
 #include <set>
 #include <turnscan/core/mesh_texture.hpp>
@@ -124,15 +125,19 @@ TEST_F(Textures, TheExportDialogOffersWhatModelAndFormatHave) {
   EXPECT_EQ(dialog.options().colors, ExportColors::kVertices);
   EXPECT_TRUE(unit->isEnabled());
   unit->setCurrentIndex(0);
-  up->setCurrentIndex(1);
+  EXPECT_EQ(dialog.options().up, UpAxis::kFormat);
+  up->setCurrentIndex(up->findData(int(UpAxis::kZ)));
   keep_picture(dialog, "export-dialog");
   window.explorer().export_as(1, path("cad.ply"), dialog.options());
   ASSERT_TRUE(wait_idle(window));
   const auto read = read_mesh(path("cad.ply").toStdString());
   ASSERT_TRUE(read);
-  // Millimetres, and what was up is z.
-  EXPECT_NEAR(bounds(read->vertices).max.z(), 100.0, 1e-3);
-  EXPECT_NEAR(bounds(read->vertices).max.y(), 0.0, 1e-3);
+  // Millimetres; what was up is z in the file, and y where it is read back.
+  EXPECT_NEAR(bounds(read->vertices).max.y(), 100.0, 1e-3);
+  EXPECT_NEAR(bounds(read->vertices).max.z(), 0.0, 1e-3);
+  QFile file(path("cad.ply"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(file.read(200).contains("obj_info frame z up, base at 0\n"));
   EXPECT_EQ(read->colors.size(), 4u);
 }
 

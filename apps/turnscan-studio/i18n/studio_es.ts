@@ -1998,6 +1998,10 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Metros</translation>
     </message>
     <message>
+        <source>Usual for the format: Z in STL and 3MF, else Y</source>
+        <translation>La habitual del formato: Z en STL y 3MF; si no, Y</translation>
+    </message>
+    <message>
         <source>Y, as in the view</source>
         <translation>Y, como en la vista</translation>
     </message>

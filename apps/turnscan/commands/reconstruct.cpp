@@ -66,6 +66,7 @@ class ReconstructCommand : public Command {
         "that of the others, and it is not joined where they contradict each other");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
+    line.group("mesh-file", "Mesh file", describe(files_.mesh_options));
     declare_stages(line, request_.options);
   }
 
@@ -139,7 +140,8 @@ class ReconstructCommand : public Command {
     files_.page = reports.page;
     TURNSCAN_TRY(check_outputs(files_));
     if (!keep_recording_.empty()) TURNSCAN_TRY(check_output_folder(keep_recording_));
-    TURNSCAN_TRY(check_textured_mesh_file(files_.mesh, request_.options.texture));
+    TURNSCAN_TRY(
+        check_textured_mesh_file(files_.mesh, request_.options.texture, files_.mesh_options));
     for (const std::string& text : save_stages_) TURNSCAN_TRY(add_stage_file(text));
     for (const std::string& text : pass_poses_) {
       TURNSCAN_ASSIGN(PassPose pose, parse_pass_pose(text));

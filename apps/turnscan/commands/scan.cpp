@@ -53,6 +53,7 @@ class ScanCommand : public Command {
     line.group("passes", "Passes", describe(passes_));
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Work while frames come", describe(request_.ahead));
+    line.group("mesh-file", "Mesh file", describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
   }
 

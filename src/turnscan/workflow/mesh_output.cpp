@@ -1,7 +1,5 @@
 #include <turnscan/workflow/mesh_output.hpp>
 
-#include <turnscan/io/mesh/mesh_io.hpp>
-
 #include <turnscan/workflow/output_file.hpp>
 
 namespace turnscan {
@@ -15,17 +13,18 @@ void add_texture_files(const std::string& path, std::span<const TriangleMesh> me
 
 }  // namespace
 
-Result<> check_mesh_file(const std::string& path) {
-  auto good = check_mesh_output(path);
+Result<> check_mesh_file(const std::string& path, const WriteMeshOptions& options) {
+  auto good = check_mesh_output(path, options);
   if (good) return good;
   Error error = std::move(good).error();
   if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kInvalidOption;
   return tl::unexpected<Error>(std::move(error));
 }
 
-Result<> check_textured_mesh_file(const std::string& path, const TextureOptions& options) {
-  TURNSCAN_TRY(check_mesh_file(path));
-  if (!options.texture || holds_textures(path)) return {};
+Result<> check_textured_mesh_file(const std::string& path, const TextureOptions& texture,
+                                  const WriteMeshOptions& options) {
+  TURNSCAN_TRY(check_mesh_file(path, options));
+  if (!texture.texture || holds_textures(path)) return {};
   return fail_at(path, ErrorCode::kInvalidOption,
                  "a {} file holds no texture; write .glb, .obj or .3mf, or leave --texture out "
                  "(--colour gives the vertices colours)",
@@ -54,12 +53,13 @@ bool numbers_objects(const std::string& path) {
   return !path.empty() && ending != ".3mf" && ending != ".glb";
 }
 
-Result<std::vector<std::string>> write_objects(const std::string& path, const Reconstruction& r) {
+Result<std::vector<std::string>> write_objects(const std::string& path, const Reconstruction& r,
+                                               const WriteMeshOptions& options) {
   std::vector<TriangleMesh> meshes;
   for (const ObjectResult& object : r.objects) meshes.push_back(object.mesh);
   if (meshes.size() == 1 || !numbers_objects(path)) {
-    TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence)
-                                    : write_meshes(path, meshes));
+    TURNSCAN_TRY(meshes.size() == 1 ? write_mesh(path, meshes[0], r.objects[0].confidence, options)
+                                    : write_meshes(path, meshes, options));
     std::vector<std::string> files{path};
     add_texture_files(path, meshes, files);
     return files;
@@ -67,7 +67,7 @@ Result<std::vector<std::string>> write_objects(const std::string& path, const Re
   std::vector<std::string> files;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const std::string file = with_suffix(path, fmt::format("-{}", i + 1));
-    TURNSCAN_TRY(write_mesh(file, meshes[i], r.objects[i].confidence));
+    TURNSCAN_TRY(write_mesh(file, meshes[i], r.objects[i].confidence, options));
     files.push_back(file);
     add_texture_files(file, std::span(&meshes[i], 1), files);
   }

@@ -252,7 +252,7 @@ Result<> check_joined(const std::vector<PassApart>& apart) {
 }
 
 Result<> check_outputs(const ReconstructFiles& files) {
-  TURNSCAN_TRY(check_mesh_file(files.mesh));
+  TURNSCAN_TRY(check_mesh_file(files.mesh, files.mesh_options));
   TURNSCAN_TRY(check_report_files({files.report, files.page}));
   for (const auto& [stage, file] : files.stages) TURNSCAN_TRY(check_output_file(file, ".ply"));
   return check_output_file(files.advice_picture, ".png");
@@ -268,12 +268,12 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const RunContext& context) {
   std::vector<std::string> written;
   if (run.apart.empty() || !run.reconstruction.objects.empty()) {
-    TURNSCAN_ASSIGN(written, write_objects(files.mesh, run.reconstruction));
+    TURNSCAN_ASSIGN(written, write_objects(files.mesh, run.reconstruction, files.mesh_options));
   }
   for (const PassApart& pass : run.apart) {
     if (pass.reconstruction.objects.empty()) continue;
-    TURNSCAN_ASSIGN(const auto own,
-                    write_objects(mesh_of_pass(files.mesh, pass.number), pass.reconstruction));
+    TURNSCAN_ASSIGN(const auto own, write_objects(mesh_of_pass(files.mesh, pass.number),
+                                                  pass.reconstruction, files.mesh_options));
     written.insert(written.end(), own.begin(), own.end());
   }
   for (const auto& [stage, file] : files.stages) {

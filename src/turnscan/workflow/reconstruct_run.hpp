@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <turnscan/core/point_cloud.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 #include <turnscan/workflow/next_pass/next_pass.hpp>
@@ -83,7 +84,8 @@ Result<> check_joined(const std::vector<PassApart>& apart);
 
 /// Names of files; an empty one is not written.
 struct ReconstructFiles {
-  std::string mesh;                           ///< required; see write_objects()
+  std::string mesh;  ///< required; see write_objects()
+  WriteMeshOptions mesh_options;
   std::string report;                         ///< .json
   std::string page;                           ///< .html, see make_page()
   std::map<std::string, std::string> stages;  ///< .ply, by stage

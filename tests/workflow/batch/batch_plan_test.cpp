@@ -77,6 +77,8 @@ TEST_F(PlanOf, ASweepIsEveryCombination) {
             (Names{"a_voxel-size=1mm_colour=true", "a_voxel-size=1mm_colour=false",
                    "a_voxel-size=2mm_colour=true", "a_voxel-size=2mm_colour=false"}));
   EXPECT_EQ(swept->at(1).options, (BatchOptions{{"voxel-size", "1mm"}, {"colour", "false"}}));
+  EXPECT_TRUE(plan_batch({{path("a")}, {}, {"up=z"}, {}}));
+  EXPECT_FALSE(plan_batch({{path("a")}, {}, {"up=x"}, {}}));
   const auto words = arguments_of(swept->at(1), 2);
   EXPECT_EQ(words, (Names{"reconstruct", canonical("a"), "--out=mesh.ply", "--report=report.json",
                           "--threads=2", "--quiet", "--voxel-size=1mm", "--no-colour"}));

@@ -62,8 +62,9 @@ ExportDialog::ExportDialog(const ModelData& model, const QString& name, QWidget*
   }
   const QString units[] = {tr("Millimetres"), tr("Centimetres"), tr("Inches"), tr("Metres")};
   for (int i = 0; i < 4; ++i) unit_->addItem(units[i], kFileUnits_m[i]);
-  up_->addItem(tr("Y, as in the view"), false);
-  up_->addItem(tr("Z, as slicers and CAD have it"), true);
+  up_->addItem(tr("Usual for the format: Z in STL and 3MF, else Y"), int(UpAxis::kFormat));
+  up_->addItem(tr("Y, as in the view"), int(UpAxis::kY));
+  up_->addItem(tr("Z, as slicers and CAD have it"), int(UpAxis::kZ));
   colors_->addItem(tr("Texture"), int(ExportColors::kTexture));
   colors_->addItem(tr("Colours of the vertices"), int(ExportColors::kVertices));
   colors_->addItem(tr("None"), int(ExportColors::kNone));
@@ -86,7 +87,7 @@ ExportDialog::ExportDialog(const ModelData& model, const QString& name, QWidget*
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   const QSettings settings;
   choose(*format_, settings.value("export/format", textured_ ? ".glb" : ".ply"));
-  choose(*up_, settings.value("export/z_up", false).toBool());
+  choose(*up_, settings.value("export/up", int(UpAxis::kFormat)));
   connect(format_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     choose(*unit_, unit_of_format(ending().toStdString()));
     colors_->setCurrentIndex(0);  // the best that the format has; follow() finds it
@@ -112,7 +113,7 @@ void ExportDialog::follow() {
   const QSignalBlocker quiet_unit(unit_), quiet_up(up_), quiet_colors(colors_);
   if (!free) choose(*unit_, unit_of_format(to));
   unit_->setEnabled(free);
-  if (glb) choose(*up_, false);
+  if (glb) choose(*up_, int(UpAxis::kFormat));
   up_->setEnabled(!glb);
   const bool fewer = triangles() > 0 && triangles() < all_triangles_;
   const bool texture = textured_ && holds_textures("mesh" + to) && !fewer;
@@ -135,7 +136,7 @@ void ExportDialog::follow() {
 ExportOptions ExportDialog::options() const {
   ExportOptions out;
   out.metres_per_unit = unit_->currentData().toDouble();
-  out.z_up = up_->currentData().toBool();
+  out.up = UpAxis(up_->currentData().toInt());
   out.triangles = triangles();
   out.colors = ExportColors(colors_->currentData().toInt());
   return out;
@@ -144,7 +145,7 @@ ExportOptions ExportDialog::options() const {
 void ExportDialog::accept() {
   QSettings settings;
   settings.setValue("export/format", ending());
-  settings.setValue("export/z_up", options().z_up);
+  settings.setValue("export/up", int(options().up));
   settings.setValue("export/unit" + ending(), options().metres_per_unit);
   QDialog::accept();
 }

@@ -11,13 +11,6 @@ namespace turnscan::studio {
 
 namespace {
 
-void place(std::vector<Vec3f>& points, const ExportOptions& options, float factor) {
-  for (Vec3f& p : points) {
-    if (options.z_up) p = Vec3f(p.x(), -p.z(), p.y());
-    p *= factor;
-  }
-}
-
 /// The writers turn metres into unit_of_format(ending).
 float factor_for(const ExportOptions& options, const std::string& ending) {
   return units_are_free(ending) ? float(unit_of_format(ending) / options.metres_per_unit) : 1.0f;
@@ -62,9 +55,8 @@ Result<> export_model(const ModelData& data, const ExportOptions& options, const
   if (data.kind == ModelKind::kCloud) {
     PointCloud cloud = data.cloud;
     if (options.colors == ExportColors::kNone) cloud.colors.clear();
-    place(cloud.points, options, factor_for(options, ending));
-    place(cloud.normals, options, 1.0f);
-    return write_cloud(path, cloud);
+    for (Vec3f& p : cloud.points) p *= factor_for(options, ending);
+    return write_cloud(path, cloud, options.up);
   }
   if (data.kind == ModelKind::kRecording)
     return fail(ErrorCode::kUnsupported,
@@ -85,9 +77,10 @@ Result<> export_model(const ModelData& data, const ExportOptions& options, const
   }
   TURNSCAN_TRY(context.check());
   context.begin_phase("write", 0);
-  place(mesh.vertices, options, factor_for(options, ending));
-  place(mesh.normals, options, 1.0f);
-  return fewer ? write_mesh(path, mesh) : write_mesh(path, mesh, data.confidence);
+  const float factor = factor_for(options, ending);
+  for (Vec3f& p : mesh.vertices) p *= factor;
+  const WriteMeshOptions how{options.up};
+  return fewer ? write_mesh(path, mesh, how) : write_mesh(path, mesh, data.confidence, how);
 }
 
 }  // namespace turnscan::studio

@@ -4,6 +4,7 @@
 #include <QString>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/io/file/up_axis.hpp>
 
 #include "explorer/models.hpp"
 
@@ -18,7 +19,7 @@ enum class ExportColors { kTexture, kVertices, kNone };
 struct ExportOptions {
   /// Length of the file's unit. Only where units_are_free(); else the format's.
   double metres_per_unit = 1.0;
-  bool z_up = false;          ///< +Z up, as slicers and CAD have it; else +Y
+  UpAxis up = UpAxis::kFormat;
   std::size_t triangles = 0;  ///< of a mesh, at most; 0: all. Fewer than it has: no texture
   ExportColors colors = ExportColors::kTexture;  ///< of these what mesh and format have
 };

@@ -4,6 +4,7 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/cloud/pcd_read.hpp>
 #include <turnscan/io/file/decode_file.hpp>
+#include <turnscan/io/file/file_frame.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/ply/ply_header.hpp>
 #include <turnscan/io/ply/ply_read.hpp>
@@ -112,9 +113,15 @@ Result<CloudFile> read_cloud(const std::filesystem::path& path) {
   return file::decode_file(path, decode_cloud);
 }
 
-Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud) {
+Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud, UpAxis up) {
   require_lengths(cloud);
-  return write_job(path, job_of(cloud));
+  if (up != UpAxis::kZ) return write_job(path, job_of(cloud));
+  const file::FileFrame frame{.z_up = true};
+  PointCloud turned = cloud;
+  file::to_file(frame, turned.points, turned.normals);
+  ply::PlyJob job = job_of(turned);
+  job.frame_mark = file::mark_of(frame);
+  return write_job(path, job);
 }
 
 Result<> write_cloud(const std::filesystem::path& path, const CloudFile& file) {

@@ -8,6 +8,7 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/result.hpp>
+#include <turnscan/io/file/up_axis.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -36,10 +37,11 @@ Result<CloudFile> decode_cloud(std::string_view bytes);
 
 /// Binary little-endian PLY: x y z, and nx ny nz, red green blue, float "weight", uint "frame"
 /// where the cloud has them. Atomic. The second form keeps the grid (range_grid) and the viewpoint
-/// (obj_info). Fails with kUnsupported unless the file's name ends in .ply, or as
-/// write_file_atomically. Throws std::invalid_argument when an attribute's length or a grid's size
-/// does not fit.
-Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud);
+/// (obj_info). With z up the points are turned about x, and read back as they were. Fails with
+/// kUnsupported unless the file's name ends in .ply, or as write_file_atomically. Throws
+/// std::invalid_argument when an attribute's length or a grid's size does not fit.
+Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                     UpAxis up = UpAxis::kFormat);
 Result<> write_cloud(const std::filesystem::path& path, const CloudFile& file);
 
 }  // namespace turnscan

@@ -175,7 +175,8 @@ bool fits(std::span<const TriangleMesh> meshes) {
 
 }  // namespace
 
-Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes) {
+Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& /*frame*/) {
   if (!fits(meshes))
     return fail(ErrorCode::kUnsupported, "GLB cannot hold more than 4 GB; write PLY");
   Builder builder(meshes);

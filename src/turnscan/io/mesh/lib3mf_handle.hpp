@@ -5,9 +5,14 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace turnscan::mesh_io {
+
+/// Metadata of a model that names the program which wrote it last, and of turnscan's the frame.
+inline constexpr const char* kApplication = "Application";
+inline constexpr std::string_view kByTurnscan = "turnscan, ";
 
 /// Releases its object at the end.
 class Lib3mfHandle {

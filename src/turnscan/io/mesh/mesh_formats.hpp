@@ -7,14 +7,15 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/file_frame.hpp>
 #include <vector>
 
 namespace turnscan::mesh_io {
 
 using Meshes = Result<std::vector<TriangleMesh>>;
 
-// Readers: coordinates in the file's own unit; indices are in range; objects may be empty and
-// coordinates not finite. Fail with kFormat or kUnsupported.
+// Readers: coordinates in the file's own unit, y up where the file says what is; indices are in
+// range; objects may be empty and coordinates not finite. Fail with kFormat or kUnsupported.
 
 Meshes decode_ply_mesh(std::string_view bytes);
 /// Several PLY files, one directly behind the other, each with a texture block behind it or none.
@@ -51,19 +52,25 @@ Result<MeshesWithUnit> decode_3mf(std::string_view bytes);
 /// In metres.
 Meshes decode_glb(std::string_view bytes);
 
-// Writers: meshes in metres, already checked.
+// Writers: meshes in metres, already checked, in the file's frame, which is marked in the file.
 
-Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes,
+                        const file::FileFrame& frame = {});
 Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
-                             std::span<const float> confidence);
-Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes);
+                             std::span<const float> confidence, const file::FileFrame& frame);
+Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame);
 /// Without textures.
-Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes);
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame);
 /// With those of files_beside_obj(), of which `library` is the MTL's name; none if that is empty.
 Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
-                   const std::string& library);
-Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes);
-Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes);
+                   const file::FileFrame& frame, const std::string& library);
+Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame);
+/// Always y up.
+Result<> write_glb(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame);
 
 /// Of processor, which no sound file of that length needs: some libraries take the square of it for
 /// files that were made for that.

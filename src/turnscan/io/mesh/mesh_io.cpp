@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/decode_file.hpp>
@@ -34,12 +35,13 @@ constexpr std::array<ReadFormat, 4> kReadFormats{{{"ply", kMetre, mesh_io::decod
 
 struct WriteFormat {
   std::string_view extension;
-  Result<> (*write)(FileSink&, std::span<const TriangleMesh>);
+  Result<> (*write)(FileSink&, std::span<const TriangleMesh>, const file::FileFrame&);
+  bool for_printers = false;  ///< z is up by default, and with z up the object stands on z = 0
 };
 constexpr std::array<WriteFormat, 5> kWriteFormats{{{"ply", mesh_io::write_ply_mesh},
                                                     {"obj", mesh_io::write_obj},
-                                                    {"stl", mesh_io::write_stl},
-                                                    {"3mf", mesh_io::write_3mf},
+                                                    {"stl", mesh_io::write_stl, true},
+                                                    {"3mf", mesh_io::write_3mf, true},
                                                     {"glb", mesh_io::write_glb}}};
 
 template <class Formats>
@@ -115,6 +117,42 @@ Result<const WriteFormat*> write_format(const fs::path& path) {
                  writable_extensions());
 }
 
+Result<file::FileFrame> frame_for(const fs::path& path, const WriteFormat& format,
+                                  std::span<const TriangleMesh> meshes, UpAxis up) {
+  file::FileFrame frame;
+  frame.z_up = up == UpAxis::kZ || (up == UpAxis::kFormat && format.for_printers);
+  if (frame.z_up && format.extension == "glb")
+    return fail_at(path.string(), ErrorCode::kInvalidOption,
+                   "a .glb file has y up by its standard; leave --up out, or write another format");
+  if (!frame.z_up || !format.for_printers) return frame;
+  frame.base = std::numeric_limits<double>::infinity();
+  for (const TriangleMesh& mesh : meshes)
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t i : triangle)
+        frame.base = std::min(frame.base, double(mesh.vertices[i].y()));
+  return frame;
+}
+
+std::vector<TriangleMesh> in_frame(const file::FileFrame& frame,
+                                   std::span<const TriangleMesh> meshes) {
+  std::vector<TriangleMesh> out(meshes.begin(), meshes.end());
+  for (TriangleMesh& mesh : out) file::to_file(frame, mesh.vertices, mesh.normals);
+  return out;
+}
+
+/// Of meshes that were checked and lie in the file's frame.
+Result<> write_placed(const fs::path& path, const WriteFormat& format,
+                      std::span<const TriangleMesh> meshes, const file::FileFrame& frame) {
+  const auto beside = texture_files(path, meshes);
+  if (beside.empty())
+    return write_file_atomically(path,
+                                 [&](FileSink& sink) { return format.write(sink, meshes, frame); });
+  TURNSCAN_TRY(mesh_io::write_files_beside_obj(path, meshes));
+  return write_file_atomically(path, [&](FileSink& sink) {
+    return mesh_io::write_obj(sink, meshes, frame, beside.front().filename().string());
+  });
+}
+
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -144,16 +182,21 @@ Result<TriangleMesh> read_mesh(const fs::path& path, const ReadMeshOptions& opti
   return join_meshes(meshes);
 }
 
-Result<> write_meshes(const fs::path& path, std::span<const TriangleMesh> meshes) {
+OptionTable describe(WriteMeshOptions& o) {
+  OptionTable table;
+  table.choice("up", o.up, {"auto", "y", "z"},
+               "Axis that points up in the mesh file. auto: z in .stl and .3mf, where the lowest "
+               "point is then at z = 0, as slicers have it, else y");
+  return table;
+}
+
+Result<> write_meshes(const fs::path& path, std::span<const TriangleMesh> meshes,
+                      const WriteMeshOptions& options) {
   TURNSCAN_ASSIGN(const WriteFormat* format, write_format(path));
   TURNSCAN_TRY(check_for_writing(path, meshes));
-  const auto beside = texture_files(path, meshes);
-  if (beside.empty())
-    return write_file_atomically(path, [&](FileSink& sink) { return format->write(sink, meshes); });
-  TURNSCAN_TRY(mesh_io::write_files_beside_obj(path, meshes));
-  return write_file_atomically(path, [&](FileSink& sink) {
-    return mesh_io::write_obj(sink, meshes, beside.front().filename().string());
-  });
+  TURNSCAN_ASSIGN(const file::FileFrame frame, frame_for(path, *format, meshes, options.up));
+  if (!frame.z_up) return write_placed(path, *format, meshes, frame);
+  return write_placed(path, *format, in_frame(frame, meshes), frame);
 }
 
 std::vector<fs::path> texture_files(const fs::path& path, std::span<const TriangleMesh> meshes) {
@@ -170,23 +213,31 @@ bool holds_textures(const fs::path& path) {
   return extension == "glb" || extension == "obj" || extension == "3mf";
 }
 
-Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh) {
-  return write_meshes(path, std::span(&mesh, 1));
+Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh,
+                    const WriteMeshOptions& options) {
+  return write_meshes(path, std::span(&mesh, 1), options);
 }
 
 Result<> write_mesh(const fs::path& path, const TriangleMesh& mesh,
-                    std::span<const float> confidence) {
+                    std::span<const float> confidence, const WriteMeshOptions& options) {
   if (!confidence.empty() && confidence.size() != mesh.vertices.size())
     throw std::invalid_argument("write_mesh: the confidence does not fit the vertices");
   TURNSCAN_ASSIGN(const WriteFormat* format, write_format(path));
-  if (confidence.empty() || format->extension != "ply") return write_mesh(path, mesh);
+  if (confidence.empty() || format->extension != "ply") return write_mesh(path, mesh, options);
   TURNSCAN_TRY(check_for_writing(path, std::span(&mesh, 1)));
-  return write_file_atomically(
-      path, [&](FileSink& sink) { return mesh_io::write_ply_mesh_with(sink, mesh, confidence); });
+  TURNSCAN_ASSIGN(const file::FileFrame frame,
+                  frame_for(path, *format, std::span(&mesh, 1), options.up));
+  const auto placed =
+      frame.z_up ? in_frame(frame, std::span(&mesh, 1)) : std::vector<TriangleMesh>();
+  return write_file_atomically(path, [&](FileSink& sink) {
+    return mesh_io::write_ply_mesh_with(sink, frame.z_up ? placed.front() : mesh, confidence,
+                                        frame);
+  });
 }
 
-Result<> check_mesh_output(const fs::path& path) {
-  TURNSCAN_TRY(write_format(path));
+Result<> check_mesh_output(const fs::path& path, const WriteMeshOptions& options) {
+  TURNSCAN_ASSIGN(const WriteFormat* format, write_format(path));
+  TURNSCAN_TRY(frame_for(path, *format, {}, options.up));
   std::error_code error;
   if (fs::is_directory(path, error))
     return fail_at(path.string(), ErrorCode::kIo, "cannot write: it is a folder");

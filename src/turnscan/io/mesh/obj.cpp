@@ -275,6 +275,13 @@ std::string join_lines(std::string_view bytes) {
   return text;
 }
 
+/// As write_obj() marks it at the file's beginning.
+file::FileFrame frame_of(std::string_view bytes) {
+  constexpr std::string_view kStart = "# turnscan, unit metre, ";
+  return bytes.starts_with(kStart) ? file::frame_of_mark(bytes.substr(kStart.size()))
+                                   : file::FileFrame();
+}
+
 }  // namespace
 
 Result<ObjObjects> parse_obj(std::string_view bytes) {
@@ -282,6 +289,7 @@ Result<ObjObjects> parse_obj(std::string_view bytes) {
   TURNSCAN_ASSIGN(ObjContent content, ObjReader(joined.empty() ? bytes : joined).read());
   ObjObjects out;
   out.libraries = std::move(content.libraries);
+  file::from_file(frame_of(bytes), content.vertices, content.normals);
   out.meshes = objects_of(std::move(content), out.places);
   return out;
 }

@@ -61,8 +61,10 @@ std::string object_name(const TriangleMesh& mesh) {
 }  // namespace
 
 Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
-                   const std::string& library) {
-  TURNSCAN_TRY(sink.write("# turnscan, unit metre\n"));
+                   const file::FileFrame& frame, const std::string& library) {
+  TURNSCAN_TRY(sink.write("# turnscan, unit metre"));
+  if (frame.z_up) TURNSCAN_TRY(sink.write(", " + file::mark_of(frame)));
+  TURNSCAN_TRY(sink.write("\n"));
   if (!library.empty()) TURNSCAN_TRY(sink.write("mtllib " + library + "\n"));
   // Normals have the numbers of their vertices: all objects have them or none.
   const bool normals = std::none_of(meshes.begin(), meshes.end(),
@@ -100,8 +102,9 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
   return {};
 }
 
-Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes) {
-  return write_obj(sink, meshes, "");
+Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame) {
+  return write_obj(sink, meshes, frame, "");
 }
 
 }  // namespace turnscan::mesh_io

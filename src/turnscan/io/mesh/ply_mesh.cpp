@@ -38,14 +38,15 @@ Meshes decode_ply_sequence(std::string_view bytes) {
   return meshes;
 }
 
-Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes) {
+Result<> write_ply_mesh(FileSink& sink, std::span<const TriangleMesh> meshes,
+                        const file::FileFrame& frame) {
   TriangleMesh joined;
   if (meshes.size() > 1) joined = join_meshes(meshes);
-  return write_ply_mesh_with(sink, meshes.size() > 1 ? joined : meshes.front(), {});
+  return write_ply_mesh_with(sink, meshes.size() > 1 ? joined : meshes.front(), {}, frame);
 }
 
 Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
-                             std::span<const float> confidence) {
+                             std::span<const float> confidence, const file::FileFrame& frame) {
   ply::PlyJob job;
   job.points = mesh.vertices;
   job.normals = mesh.normals;
@@ -53,6 +54,7 @@ Result<> write_ply_mesh_with(FileSink& sink, const TriangleMesh& mesh,
   job.confidence = confidence;
   job.triangles = mesh.triangles;
   job.name = mesh.name;
+  job.frame_mark = file::mark_of(frame);
   return ply::write_ply(sink, job);
 }
 

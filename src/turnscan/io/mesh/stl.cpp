@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text, 4 of the count
 constexpr std::size_t kTriangleBytes = 50;
+constexpr std::string_view kHeader = "binary STL by turnscan, unit millimetre";
 constexpr bool kSwap = std::endian::native == std::endian::big;
 
 bool same_word(std::string_view word, std::string_view lower) {
@@ -38,6 +39,12 @@ bool is_text(std::string_view bytes) {
   return same_word(next, "facet") || same_word(next, "endsolid");
 }
 
+file::FileFrame frame_in_header(std::string_view bytes) {
+  const std::string_view text = bytes.substr(0, 80);
+  const std::size_t mark = kHeader.size() + 2;
+  return text.starts_with(kHeader) ? file::frame_of_mark(text.substr(mark)) : file::FileFrame();
+}
+
 Meshes decode_binary(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes)
     return fail(ErrorCode::kFormat, "not an STL file: it has only {} bytes", bytes.size());
@@ -58,6 +65,7 @@ Meshes decode_binary(std::string_view bytes) {
     }
   }
   meshes[0].vertices = merger.take();
+  file::from_file(frame_in_header(bytes), meshes[0].vertices, meshes[0].normals);
   return meshes;
 }
 
@@ -161,12 +169,14 @@ Meshes decode_stl(std::string_view bytes) {
   return is_text(bytes) ? TextReader(bytes).read() : decode_binary(bytes);
 }
 
-Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes) {
+Result<> write_stl(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame) {
   std::uint64_t count = 0;
   for (const TriangleMesh& mesh : meshes) count += mesh.triangles.size();
   if (count > 0xffffffffU)
     return fail(ErrorCode::kUnsupported, "STL cannot hold {} triangles; write PLY", count);
-  std::string header = "binary STL by turnscan, unit millimetre";
+  std::string header(kHeader);
+  if (frame.z_up) header += ", " + file::mark_of(frame, 1000.0);
   header.resize(80, ' ');
   put(header, static_cast<std::uint32_t>(count));
   TURNSCAN_TRY(sink.write(header));

@@ -68,14 +68,44 @@ class ThreemfReader {
     for (;;) {
       BOOL more = 0;
       require(NMR::lib3mf_builditemiterator_movenext(items.get(), &more), items);
-      if (more == 0) return std::move(meshes_);
+      if (more == 0) break;
       Lib3mfHandle item;
       require(NMR::lib3mf_builditemiterator_getcurrent(items.get(), item.out()), items);
       add_item(item);
     }
+    const file::FileFrame frame = frame_in_metadata();
+    for (TriangleMesh& mesh : meshes_) file::from_file(frame, mesh.vertices, mesh.normals);
+    return std::move(meshes_);
   }
 
  private:
+  file::FileFrame frame_in_metadata() const {
+    DWORD count = 0;
+    require(NMR::lib3mf_model_getmetadatacount(model_.get(), &count), model_);
+    for (DWORD i = 0; i < count; ++i) {
+      const auto key = text_of([&](char* to, ULONG size, ULONG* needed) {
+        return NMR::lib3mf_model_getmetadatakeyutf8(model_.get(), i, to, size, needed);
+      });
+      if (key != kApplication) continue;
+      const auto value = text_of([&](char* to, ULONG size, ULONG* needed) {
+        return NMR::lib3mf_model_getmetadatavalueutf8(model_.get(), i, to, size, needed);
+      });
+      if (value.starts_with(kByTurnscan))
+        return file::frame_of_mark(std::string_view(value).substr(kByTurnscan.size()));
+    }
+    return {};
+  }
+
+  /// get(buffer, size, needed) asks lib3mf for a text. Empty where it fails or the text is long.
+  template <class Get>
+  static std::string text_of(const Get& get) {
+    ULONG needed = 0;
+    if (get(nullptr, 0, &needed) != LIB3MF_OK || needed > 10000) return {};
+    std::string text(needed + 1, '\0');
+    if (get(text.data(), needed + 1, &needed) != LIB3MF_OK) return {};
+    return text.substr(0, text.find('\0'));
+  }
+
   void add_item(const Lib3mfHandle& item) {
     Lib3mfHandle object;
     require(NMR::lib3mf_builditem_getobjectresource(item.get(), object.out()), item);
@@ -90,14 +120,9 @@ class ThreemfReader {
   }
 
   static std::string name_of(const Lib3mfHandle& object) {
-    ULONG needed = 0;
-    if (NMR::lib3mf_object_getnameutf8(object.get(), nullptr, 0, &needed) != LIB3MF_OK ||
-        needed > 10000)
-      return {};
-    std::string name(needed + 1, '\0');
-    if (NMR::lib3mf_object_getnameutf8(object.get(), name.data(), needed + 1, &needed) != LIB3MF_OK)
-      return {};
-    return name.substr(0, name.find('\0'));
+    return text_of([&](char* to, ULONG size, ULONG* needed) {
+      return NMR::lib3mf_object_getnameutf8(object.get(), to, size, needed);
+    });
   }
 
   void add_object(const Lib3mfHandle& object, const Eigen::Affine3d& transform, int depth,

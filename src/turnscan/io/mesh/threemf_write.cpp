@@ -76,10 +76,15 @@ class ClassicStreams {
 
 class Writer {
  public:
-  explicit Writer(std::span<const TriangleMesh> meshes) {
+  Writer(std::span<const TriangleMesh> meshes, const file::FileFrame& frame) {
     require(NMR::lib3mf_createmodel(model_.out()), model_);
     require(NMR::lib3mf_model_setunit(model_.get(), NMR::MODELUNIT_MILLIMETER), model_);
     require(NMR::lib3mf_model_setbuilduuidutf8(model_.get(), uuid(1, 0).c_str()), model_);
+    if (frame.z_up)
+      require(NMR::lib3mf_model_addmetadatautf8(
+                  model_.get(), kApplication,
+                  (std::string(kByTurnscan) + file::mark_of(frame, 1000.0)).c_str()),
+              model_);
     for (std::size_t i = 0; i < meshes.size(); ++i) add(meshes[i], i);
   }
 
@@ -198,10 +203,11 @@ class Writer {
 
 }  // namespace
 
-Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes) {
+Result<> write_3mf(FileSink& sink, std::span<const TriangleMesh> meshes,
+                   const file::FileFrame& frame) {
   const ClassicStreams points(meshes);
   try {
-    const std::string bytes = Writer(meshes).write();
+    const std::string bytes = Writer(meshes, frame).write();
     if (bytes.empty()) return fail(ErrorCode::kLibrary, "lib3mf wrote nothing");
     return sink.write(bytes);
   } catch (const Lib3mfFailure& failure) {

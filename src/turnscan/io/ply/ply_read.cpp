@@ -1,4 +1,5 @@
 #include <limits>
+#include <turnscan/io/file/file_frame.hpp>
 #include <turnscan/io/ply/ply_body.hpp>
 #include <turnscan/io/ply/ply_read.hpp>
 #include <turnscan/io/text/number_text.hpp>
@@ -163,6 +164,8 @@ Result<PlyContent> parse_ply(std::string_view bytes, PlyParts parts) {
   if (parts == PlyParts::kGrid && grid != nullptr && grid->count > 0)
     TURNSCAN_TRY(read_grid_size(header, grid->count, content));
   content.viewpoint = viewpoint_of(header);
+  file::from_file(file::frame_of_mark(header.info("frame")), content.cloud.points,
+                  content.cloud.normals);
   content.name = std::string(header.info("name"));
   return content;
 }

@@ -49,6 +49,7 @@ std::string info_of(const PlyJob& job) {
         "obj_info {} {} {} {}\n", job.viewpoint->parallel ? "view_direction" : "viewpoint",
         job.viewpoint->value.x(), job.viewpoint->value.y(), job.viewpoint->value.z());
   if (!job.name.empty()) text += fmt::format("obj_info name {}\n", file::clean_name(job.name));
+  if (!job.frame_mark.empty()) text += fmt::format("obj_info frame {}\n", job.frame_mark);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/image.hpp>
@@ -28,6 +29,7 @@ struct PlyJob {
   std::span<const std::int32_t> grid;
   std::optional<Viewpoint> viewpoint;
   std::string_view name;
+  std::string frame_mark;  ///< see file::mark_of()
 };
 
 Result<> write_ply(FileSink& sink, const PlyJob& job);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/reconstruction/options.hpp>
 #include <turnscan/simulator/coverage/coverage_map.hpp>
@@ -34,6 +35,7 @@ const PlainOptions& plain_options(const std::string& command) {
 template <class Use>
 auto with_table(const std::string& command, const Use& use) {
   ReconstructOptions reconstruct;
+  WriteMeshOptions mesh_file;
   SceneDescription scene;
   CoverageMapOptions coverage;
   OptionTable all;
@@ -41,7 +43,7 @@ auto with_table(const std::string& command, const Use& use) {
     for (SceneTable& table : describe(scene)) all.append(std::move(table.options));
     all.append(describe(coverage));
   } else {
-    all.append(describe(reconstruct));
+    all.append(describe(reconstruct)).append(describe(mesh_file));
   }
   return use(all);
 }

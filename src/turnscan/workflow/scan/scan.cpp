@@ -87,7 +87,8 @@ class ScanRun {
   CaptureSetup& setup() { return request_.setup; }
 
   Result<> check_files() {
-    TURNSCAN_TRY(check_textured_mesh_file(request_.mesh, request_.reconstruct.texture));
+    TURNSCAN_TRY(check_textured_mesh_file(request_.mesh, request_.reconstruct.texture,
+                                          request_.mesh_options));
     TURNSCAN_TRY(check_report_files({request_.report, request_.page}));
     TURNSCAN_TRY(check_output_file(request_.advice_picture, ".png"));
     out_.recording = recording_of(request_);
@@ -120,7 +121,8 @@ class ScanRun {
     if (!request_.allow_open) TURNSCAN_TRY(with_hint(check_watertight(out_.reconstruction)));
     TURNSCAN_TRY(context_.check());
     keep_found(source.info());
-    TURNSCAN_ASSIGN(out_.files, write_objects(request_.mesh, out_.reconstruction));
+    TURNSCAN_ASSIGN(out_.files,
+                    write_objects(request_.mesh, out_.reconstruction, request_.mesh_options));
     after.tell(out_);
     TURNSCAN_TRY(judge_first());
     return write_beside(source.info());
@@ -337,7 +339,8 @@ class ScanRun {
       out_.frame_residuals = std::move(run.frame_residuals);
       out_.next_pass = std::move(run.next_pass);
       seen_from_ = std::move(run.seen_from);
-      TURNSCAN_ASSIGN(out_.files, write_objects(request_.mesh, out_.reconstruction));
+      TURNSCAN_ASSIGN(out_.files,
+                      write_objects(request_.mesh, out_.reconstruction, request_.mesh_options));
     } else {
       for (const std::string& file : before)
         if (!is_beside(file)) out_.files.push_back(file);
@@ -347,7 +350,7 @@ class ScanRun {
       if (pass.reason.empty()) continue;
       if (!pass.reconstruction.objects.empty()) {
         TURNSCAN_ASSIGN(const auto own, write_objects(mesh_of_pass(request_.mesh, pass.number),
-                                                      pass.reconstruction));
+                                                      pass.reconstruction, request_.mesh_options));
         out_.files.insert(out_.files.end(), own.begin(), own.end());
       }
       out_.apart.push_back(std::move(pass));

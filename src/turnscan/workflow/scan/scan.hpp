@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/next_pass/next_pass.hpp>
 #include <turnscan/workflow/passes/join_run.hpp>
@@ -27,7 +28,8 @@ struct ScanRequest {
   CaptureSetup setup;  ///< with devices; its speed is that of reconstruct.merge
   ReconstructOptions reconstruct;
   AheadOptions ahead;
-  std::string mesh;       ///< see write_objects()
+  std::string mesh;  ///< see write_objects()
+  WriteMeshOptions mesh_options;
   std::string recording;  ///< folder to make; empty: a free name beside the mesh
   std::string report;     ///< .json; empty: none
   std::string page;       ///< .html, see make_page(); empty: none
