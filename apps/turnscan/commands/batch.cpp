@@ -34,6 +34,8 @@ class BatchCommand : public Command {
     line.flag("--detach", detach_, "run, retry: hand the tasks to Slurm and do not wait for them");
     line.allow_config();
     line.group("batch", "Engine", describe(options_));
+    line.common({"out", "command", "set", "sweep", "jobs", "engine", "task-threads", "detach",
+                 "restarts", "config"});
   }
 
   FileRoles files() const override {

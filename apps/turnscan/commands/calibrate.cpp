@@ -69,6 +69,8 @@ class CalibrateCommand : public Command {
     line.group("detect", "Detection", describe(request_.detect));
     line.group("gauge", "Gauge", describe(request_.ball));
     line.group("motion", "Motion", describe(request_.motion));
+    line.common({"device", "detect", "from-motion", "points", "platter-radius", "speed", "check",
+                 "save", "json", "depth-bias", "import"});
   }
 
   FileRoles files() const override {

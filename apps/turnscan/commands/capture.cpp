@@ -25,6 +25,8 @@ class CaptureCommand : public Command {
     declare_capture(line, setup_);
     declare_table(line, setup_);
     line.group("limits", "End of the recording", describe(setup_.options.limits));
+    line.common({"device", "out", "turns", "seconds", "speed", "motor", "turntable", "crop",
+                 "color-files", "report", "overwrite-unfinished"});
   }
 
   FileRoles files() const override {

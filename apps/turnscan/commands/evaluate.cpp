@@ -49,6 +49,8 @@ class EvaluateCommand : public Command {
     line.group("evaluation", "Evaluation", describe(options_));
     line.group("error-map", "Error map", describe(map_options_));
     line.group("artefact", "Artefact", describe(artefact_));
+    line.common({"reference", "align", "seen-from", "thresholds", "error-map", "json", "unit",
+                 "reference-unit", "samples", "tolerance", "artefact"});
   }
 
   FileRoles files() const override {

@@ -22,6 +22,8 @@ class ImportCommand : public Command {
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.allow_config();
     line.group("import", "Import", describe(options_));
+    line.common({"out", "format", "angles", "speed", "intrinsics", "depth-unit", "fps", "clockwise",
+                 "turntable-axis", "sensor-position", "config"});
   }
 
   FileRoles files() const override {

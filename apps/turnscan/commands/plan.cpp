@@ -31,6 +31,8 @@ class PlanCommand : public Command {
     for (SceneTable& table : plan_scene_tables(request_.scene))
       line.group(table.name, table.title, std::move(table.options));
     line.group("batch", "Engine of the trials", describe(request_.engine));
+    line.common({"scanner", "out", "sensors", "passes", "time-budget", "max-error", "plans",
+                 "trials", "least-distance", "greatest-distance", "height", "jobs"});
   }
 
   FileRoles files() const override {

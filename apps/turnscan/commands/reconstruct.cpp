@@ -68,6 +68,8 @@ class ReconstructCommand : public Command {
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
     declare_stages(line, request_.options);
+    line.common({"out", "triangles", "voxel-size", "texture", "speed", "method", "turntable",
+                 "import", "keep-box", "report", "quiet"});
   }
 
   FileRoles files() const override {
@@ -81,8 +83,6 @@ class ReconstructCommand : public Command {
       files.inputs.push_back(text.substr(text.find('=') + 1));
     return files;
   }
-
-  HelpScope help_scope() const override { return stages_help_scope(request_.options); }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());

@@ -24,6 +24,9 @@ class RenderCommand : public Command {
     line.allow_config();
     line.group("picture", "Picture", describe(options_));
     line.group("turn", "Turning picture, with --turntable", describe(turn_));
+    line.common({"out", "turntable", "side-by-side", "picture-width", "picture-height",
+                 "picture-azimuth", "picture-elevation", "picture-views", "picture-zoom",
+                 "picture-colours", "picture-ground"});
   }
 
   FileRoles files() const override { return {meshes_, {out_, turning_}}; }

@@ -33,6 +33,8 @@ class ReportCommand : public Command {
     line.option("--title", "TEXT", title_, "Title of the page, by default the name of the input");
     line.allow_config();
     line.group("evaluation", "Comparison with the reference", describe(evaluate_));
+    line.common(
+        {"out", "made-by", "reference", "title", "align", "thresholds", "tolerance", "import"});
   }
 
   FileRoles files() const override { return {{path_, report_, reference_}, {out_}}; }

@@ -54,6 +54,8 @@ class ScanCommand : public Command {
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Work while frames come", describe(request_.ahead));
     declare_stages(line, request_.reconstruct);
+    line.common({"device", "out", "passes", "turns", "speed", "motor", "triangles", "voxel-size",
+                 "texture", "turntable", "report"});
   }
 
   FileRoles files() const override {
@@ -64,8 +66,6 @@ class ScanCommand : public Command {
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file), outputs,
             request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }
-
-  HelpScope help_scope() const override { return stages_help_scope(request_.reconstruct); }
 
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;

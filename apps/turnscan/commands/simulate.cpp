@@ -52,6 +52,8 @@ class SimulateCommand : public Command {
     for (SceneTable& table : describe(request_.scene))
       line.group(table.name, table.title, std::move(table.options));
     line.group("coverage", "Coverage", describe(request_.coverage_options));
+    line.common({"out", "scanner", "frames", "turns", "height", "distance", "elevation", "noise",
+                 "next-pass", "scan-colour", "coverage", "scene"});
   }
 
   FileRoles files() const override {

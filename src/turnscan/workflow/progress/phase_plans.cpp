@@ -1,0 +1,1 @@
+#include <turnscan/workflow/progress/phase_plans.hpp>

@@ -1,0 +1,2 @@
+#pragma once
+#include <turnscan/workflow/progress/overall_progress.hpp>
