@@ -61,6 +61,11 @@ class HelpFormatter : public CLI::Formatter {
       name.insert(i + 1, " ");
     return name;
   }
+  std::string make_option_usage(const CLI::Option* option) const override {
+    std::string usage = Formatter::make_option_usage(option);
+    if (const auto twice = usage.find("......"); twice != std::string::npos) usage.erase(twice, 3);
+    return usage;
+  }
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream out;
     CLI::detail::format_help(out, command->get_name(),
@@ -330,7 +335,7 @@ std::string Program::help() {
   for (Entry& entry : parts_->entries) {
     if (!parts_->app.got_subcommand(entry.app)) continue;
     parts_->formatter->put_first(entry.line.show_common());
-    entry.app->footer(fmt::format("\n'turnscan {} --help-all' explains all {} options.",
+    entry.app->footer(fmt::format("'turnscan {} --help-all' explains all {} options.",
                                   entry.app->get_name(), entry.line.option_count()));
   }
   return parts_->app.help();

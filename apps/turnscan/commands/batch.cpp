@@ -44,6 +44,7 @@ class BatchCommand : public Command {
   }
 
   Result<> run(Session& session) override {
+    session.plan({{"plan", 0.1}, {"look for what is done", 0.1}, {"run tasks", 100.0}});
     if (action_ == "status") return status(session);
     if (action_ == "task") return task(session);
     if (action_ == "run") return run_all(session);

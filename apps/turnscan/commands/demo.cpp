@@ -68,6 +68,9 @@ class DemoCommand : public Command {
     table.add({"object", "frames", "triangles", "watertight", "accuracy", "completeness",
                "F at 1 mm", "seconds"});
     nlohmann::json figures{{"version", version()}, {"objects", nlohmann::json::array()}};
+    PhasePlan plan;
+    for (const std::string& name : scenes) plan = joined({plan, demo_phases(name, scene_)});
+    session.plan(plan);
     for (const std::string& name : scenes) {
       TURNSCAN_ASSIGN(const std::vector<DemoFigures> results,
                       run_demo_scene(name, folder / name, scene_, session.context()));

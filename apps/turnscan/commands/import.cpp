@@ -36,6 +36,7 @@ class ImportCommand : public Command {
     TURNSCAN_ASSIGN(const auto sequence,
                     open_foreign_passes({sources_.begin(), sources_.end()}, options_));
     TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
+    session.plan({{"write recording", 30.0}, {"look at frames", 1.0}});
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
     TURNSCAN_ASSIGN(const Input made, open_input(out_));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(made, session.context()));

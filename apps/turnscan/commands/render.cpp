@@ -33,6 +33,7 @@ class RenderCommand : public Command {
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check(session.context()));
+    session.plan(phases());
     std::vector<TriangleMesh> meshes;
     for (const std::string& path : meshes_) {
       TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(path, {}, session.context()));
@@ -51,6 +52,13 @@ class RenderCommand : public Command {
   }
 
  private:
+  PhasePlan phases() const {
+    const std::size_t pictures = out_.empty() ? 0 : side_by_side_ ? meshes_.size() : 1;
+    PhasePlan plan(pictures, {"render picture", 1.0});
+    if (!turning_.empty()) plan.push_back({"render turn", double(turn_.frames)});
+    return plan;
+  }
+
   Result<> check(const RunContext& context) const {
     if (out_.empty() && turning_.empty())
       return fail(ErrorCode::kInvalidOption,

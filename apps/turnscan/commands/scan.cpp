@@ -2,6 +2,7 @@
 
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/scan/scan.hpp>
 
@@ -73,6 +74,7 @@ class ScanCommand : public Command {
     request_.report = reports.json;
     request_.page = reports.page;
     request_.passes = passes_.passes;
+    session.plan(scan_phases(request_));
     ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }, {}};
     if (request_.passes.value_or(0) > 1 || (!request_.passes && at_terminal()))
       hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {

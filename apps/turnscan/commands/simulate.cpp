@@ -2,6 +2,7 @@
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/scanner/scanner_file.hpp>
 
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/coverage_file.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
 #include <turnscan/workflow/simulation/simulation_text.hpp>
@@ -69,6 +70,7 @@ class SimulateCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_TRY(take_arguments());
     TURNSCAN_TRY(check_something_is_made());
+    session.plan(simulate_phases(request_));
     TURNSCAN_ASSIGN(const Simulation made, simulate(request_, session.context()));
     if (!request_.recording.empty()) tell_recording(made, session);
     if (made.coverage) tell_coverage(*made.coverage, session);
