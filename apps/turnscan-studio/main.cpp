@@ -1,7 +1,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <turnscan/core/process/process_setup.hpp>
-#include <turnscan/core/version.hpp>
+#include <version/named_version.hpp>
 
 #include "app/language.hpp"
 #include "app/program.hpp"
@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   prepare_application();
   QApplication app(argc, argv);
   name_application();
-  QApplication::setApplicationVersion(turnscan::version());
+  QApplication::setApplicationVersion(QString::fromStdString(turnscan::named_version()));
   install_language(app, shown_language());
   QCommandLineParser parser;
   parser.setApplicationDescription("Scan, look at and simulate objects on a turntable.");

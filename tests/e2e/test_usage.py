@@ -10,9 +10,16 @@ COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", 
             "batch", "reference"]
 
 
+def options_in(help_text):
+    return re.findall(r"(?m)^  (?:-\w, ?)?(--[\w-]+)", help_text)
+
+
 class Help(harness.TestCase):
     def test_version_is_printed(self):
-        self.assertRegex(self.ok("--version").stdout, r"^turnscan \d+\.\d+\.\d+\n$")
+        # In a check-out with tag and revision: turnscan 0.1.0 (v0.1.0, 33e5837c-dirty)
+        out = self.ok("--version").stdout
+        self.assertRegex(out, r"^turnscan \d+\.\d+\.\d+( \(([\w.-]+, )?[0-9a-f]{8,}(-dirty)?\))?\n$")
+        self.assertEqual(self.ok("-v").stdout, out)
 
     def test_help_lists_every_command(self):
         out = self.ok("--help").stdout
@@ -21,7 +28,7 @@ class Help(harness.TestCase):
 
     def test_every_command_has_help_with_defaults_and_ranges(self):
         for command in COMMANDS:
-            out = self.ok(command, "--help").stdout
+            out = self.ok(command, "--help-all").stdout
             self.assertIn(f"turnscan {command}", out)
             self.assertIn("--threads NUMBER", out)
             self.assertIn("0 to 1024", out)
@@ -29,8 +36,9 @@ class Help(harness.TestCase):
 
     def test_help_fits_100_columns(self):
         for command in COMMANDS:
-            for line in self.ok(command, "--help").stdout.splitlines():
-                self.assertLessEqual(len(line), 104, line)
+            for way in ("--help", "--help-all"):
+                for line in self.ok(command, way).stdout.splitlines():
+                    self.assertLessEqual(len(line), 104, line)
 
     def test_bash_completes_commands_options_and_choices(self):
         script = self.dir / "completion"
@@ -71,18 +79,43 @@ class Help(harness.TestCase):
 
     def test_option_names_are_unique_within_a_command(self):
         for command in COMMANDS:
-            names = re.findall(r"(?m)^  (?:-\w, )?--([\w-]+)", self.ok(command, "--help").stdout)
+            names = options_in(self.ok(command, "--help-all").stdout)
             self.assertEqual(len(names), len(set(names)), f"{command}: {names}")
 
-    def test_help_lists_the_options_of_the_chosen_method(self):
-        own = {"volumetric": "--truncation", "poisson": "--poisson-samples", "concave-hull": "--alpha"}
-        for command in ("reconstruct", "scan", "demo"):
-            self.assertIn("--method poisson or concave-hull --help", self.ok(command, "--help").stdout)
-            for method in own:
-                out = self.ok(command, "--method", method, "--help").stdout
-                self.assertIn("--keep-box", out)  # of all
-                for name, option in own.items():
-                    self.assertEqual(name == method, f"  {option} " in out, f"{method}: {option}")
+    def commands(self):
+        """Every command, with its options as the reference page has them."""
+        page = self.ok("reference").stdout
+        sections = re.findall(r"(?ms)^## turnscan (\S+)$(.*?)(?=^## |\Z)", page)
+        return {name: re.findall(r"(?m)^\| `(?:-\w, )?(--[\w-]+)", text) for name, text in sections}
+
+    def test_help_shows_at_most_twelve_options_on_a_screen_and_help_all_every_one(self):
+        commands = self.commands()
+        self.assertGreaterEqual(set(commands), set(COMMANDS))
+        for command, options in commands.items():
+            out = self.ok(command, "--help").stdout
+            common = [o for o in options_in(out) if o not in ("--help", "--help-all")]
+            self.assertLessEqual(len(common), 12, command)
+            self.assertLessEqual(out.count("\n"), 60, command)
+            self.assertIn(f"'turnscan {command} --help-all' explains all {len(options)} options", out)
+            self.assertLessEqual(set(common), set(options), command)
+            everything = options_in(self.ok(command, "--help-all").stdout)
+            self.assertEqual(sorted(everything), sorted([*options, "--help", "--help-all"]), command)
+            if len(options) > 12:
+                self.assertGreaterEqual(len(common), 8, command)
+
+    def test_help_goes_by_importance(self):
+        shown = options_in(self.ok("reconstruct", "--help").stdout)
+        self.assertEqual(shown[:2], ["--out", "--triangles"])
+        self.assertNotIn("--pass-pose", shown)
+        self.assertEqual(options_in(self.ok("scan", "--help").stdout)[:2], ["--device", "--out"])
+
+    def test_help_can_be_asked_for_in_several_ways(self):
+        for command in COMMANDS:
+            out = self.ok(command, "--help").stdout
+            self.assertEqual(self.ok(command, "-h").stdout, out)
+            self.assertEqual(self.ok("help", command).stdout, out)
+        self.assertEqual(self.ok("help").stdout, self.ok("--help").stdout)
+        self.refused(USAGE, "help", "reconstrct", says="there is no such command")
 
 
 class WrongUsage(harness.TestCase):

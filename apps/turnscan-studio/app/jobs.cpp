@@ -11,6 +11,7 @@ struct JobRunner::Job {
   QPointer<QObject> owner;  // read on the thread of the window only
   Work work;
   OnError on_error;
+  PhasePlan plan;
   RunContext context;
 };
 
@@ -30,13 +31,15 @@ JobRunner::~JobRunner() {
   thread_.join();
 }
 
-void JobRunner::start(const QString& title, QObject* owner, Work work, OnError on_error) {
+void JobRunner::start(const QString& title, QObject* owner, Work work, OnError on_error,
+                      PhasePlan plan) {
   ++open_jobs_;
   auto job = std::make_shared<Job>();
   job->title = title;
   job->owner = owner;
   job->work = std::move(work);
   job->on_error = std::move(on_error);
+  job->plan = std::move(plan);
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(job));
@@ -68,7 +71,7 @@ void JobRunner::run() {
 }
 
 void JobRunner::run_job(const std::shared_ptr<Job>& job) {
-  watch(job->context);
+  watch(*job);
   QMetaObject::invokeMethod(
       this, [this, job] { Q_EMIT started(job->title); }, Qt::QueuedConnection);
   Result<Finish> result = fail(ErrorCode::kCancelled, "cancelled");
@@ -87,21 +90,34 @@ void JobRunner::run_job(const std::shared_ptr<Job>& job) {
       this, [this, job, shared] { end(job, std::move(*shared)); }, Qt::QueuedConnection);
 }
 
-void JobRunner::watch(RunContext& context) {
+void JobRunner::watch(Job& job) {
   using Clock = std::chrono::steady_clock;
-  struct Phase {
+  struct State {
+    OverallProgress overall;
     int number = 0;
     Clock::time_point begin = Clock::now();
   };
-  context.set_listener([this, phase = Phase()](const Progress& now) mutable {
-    if (now.phase_number != phase.number) phase = {now.phase_number, Clock::now()};
-    const double seconds = std::chrono::duration<double>(Clock::now() - phase.begin).count();
-    const double left =
-        now.fraction > 0.02 && seconds > 0.5 ? seconds * (1.0 / now.fraction - 1.0) : -1.0;
+  State state;
+  const bool planned = !job.plan.empty();
+  state.overall.plan(job.plan);
+  job.context.set_listener([this, planned, state](const Progress& now) mutable {
+    const auto seconds = [](Clock::duration time) {
+      return std::chrono::duration<double>(time).count();
+    };
+    double fraction = now.fraction, left = -1.0;
+    if (planned) {
+      state.overall.update(now, seconds(Clock::now() - state.begin));
+      fraction = state.overall.fraction().value_or(0.0);
+      left = state.overall.seconds_left().value_or(-1.0);
+    } else {
+      if (now.phase_number != state.number) state.begin = Clock::now();
+      state.number = now.phase_number;
+      const double passed = seconds(Clock::now() - state.begin);
+      if (fraction > 0.02 && passed > 0.5) left = passed * (1.0 / fraction - 1.0);
+    }
     const QString name = QString::fromStdString(now.phase);
     QMetaObject::invokeMethod(
-        this,
-        [this, name, fraction = now.fraction, left] { Q_EMIT progress(name, fraction, left); },
+        this, [this, name, fraction, left] { Q_EMIT progress(name, fraction, left); },
         Qt::QueuedConnection);
   });
 }

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/workflow/progress/overall_progress.hpp>
 
 namespace turnscan::studio {
 
@@ -29,14 +30,17 @@ class JobRunner : public QObject {
   ~JobRunner() override;
 
   /// Queues a job. `owner` may be destroyed meanwhile: then neither Finish nor OnError is called.
-  void start(const QString& title, QObject* owner, Work work, OnError on_error);
+  /// With a plan, progress is that of the whole job.
+  void start(const QString& title, QObject* owner, Work work, OnError on_error,
+             PhasePlan plan = {});
   /// Cancels the running job and those that wait.
   void cancel();
   bool busy() const { return open_jobs_ > 0; }
 
  Q_SIGNALS:
   void started(const QString& title);
-  /// fraction: of the phase, 0 to 1. seconds_left: of the phase; negative: not known yet.
+  /// fraction, 0 to 1, and seconds_left, of the whole job where it has a plan, else of the phase;
+  /// negative: not known yet.
   void progress(const QString& phase, double fraction, double seconds_left);
   /// The title of the job, and whether its result was used.
   void finished(const QString& title, bool good);
@@ -49,7 +53,7 @@ class JobRunner : public QObject {
   struct Job;
   void run();
   void run_job(const std::shared_ptr<Job>& job);
-  void watch(RunContext& context);
+  void watch(Job& job);
   void end(const std::shared_ptr<Job>& job, Result<Finish> result);
 
   std::mutex mutex_;  // guards what follows

@@ -125,7 +125,8 @@ void ExplorerMode::run_stage(const QString& stage) {
           view().fit_unless_moved();  // of a recording it has shown the table, too
         });
       },
-      [this](const QString& text) { stages_->show_error(text); });
+      [this](const QString& text) { stages_->show_error(text); },
+      stage_phases(*selected, stage.toStdString(), stages_->options()));
 }
 
 void ExplorerMode::run_filter() {

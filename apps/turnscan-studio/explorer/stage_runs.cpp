@@ -7,6 +7,7 @@
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 #include <variant>
@@ -243,6 +244,15 @@ Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
   }
   return fail(ErrorCode::kUnsupported, "'{}' is a mesh already; select a recording or a cloud",
               model.name.toStdString());
+}
+
+PhasePlan stage_phases(const Model& model, const std::string& stage,
+                       const ReconstructOptions& options) {
+  if (model.data->kind != ModelKind::kRecording || stage != kMeshStage) return {};
+  ReconstructRequest request;
+  request.options = options;
+  return joined({reconstruct_phases({{"", model.data->recording.get()}}, request),
+                 {{"prepare the view", 1.0}}});
 }
 
 Result<StageRun> join_stated(const Model& recording, const std::vector<PassPose>& poses,

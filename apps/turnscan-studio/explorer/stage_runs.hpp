@@ -4,6 +4,7 @@
 #include <string>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/passes/pass_pose.hpp>
+#include <turnscan/workflow/progress/overall_progress.hpp>
 #include <vector>
 
 #include "explorer/loading.hpp"
@@ -24,6 +25,10 @@ struct StageRun {
 /// byte: its passes are joined. A mesh fails with kUnsupported, else as reconstruct() does.
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context);
+
+/// What run_stage_of() comes to, where that is known: for the mesh of a recording.
+PhasePlan stage_phases(const Model& model, const std::string& stage,
+                       const ReconstructOptions& options);
 
 /// The mesh of all passes of a recording, of which these lie where they are stated, as
 /// `--pass-pose` and, where their `refine` says so, `--refine-pass-poses`. Fails as run_stage_of().

@@ -12,8 +12,8 @@
 #include <QPlainTextEdit>
 #include <QTextBrowser>
 #include <QVBoxLayout>
-#include <turnscan/core/version.hpp>
 #include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <version/named_version.hpp>
 
 #include "widgets/message_log.hpp"
 #include "widgets/section.hpp"
@@ -165,13 +165,13 @@ QString about_html() {
                                     {"tinygltf", "MIT"},
                                     {"nlohmann-json", "MIT"},
                                     {"toml++", "MIT"}};
-  QString html =
-      QString("<h2>turnscan Studio %1</h2><p>%2</p><p>%3</p><p>%4</p><table>")
-          .arg(version(), MainWindow::tr("From an object on a turntable to a watertight mesh."),
-               MainWindow::tr("turnscan is free software under the Apache License 2.0, "
-                              "whose text is below."),
-               MainWindow::tr("It uses these libraries, with Qt %1 and VTK %2:")
-                   .arg(qVersion(), vtkVersion::GetVTKVersion()));
+  QString html = QString("<h2>turnscan Studio %1</h2><p>%2</p><p>%3</p><p>%4</p><table>")
+                     .arg(QString::fromStdString(named_version()),
+                          MainWindow::tr("From an object on a turntable to a watertight mesh."),
+                          MainWindow::tr("turnscan is free software under the Apache License 2.0, "
+                                         "whose text is below."),
+                          MainWindow::tr("It uses these libraries, with Qt %1 and VTK %2:")
+                              .arg(qVersion(), vtkVersion::GetVTKVersion()));
   for (const Part& part : kParts)
     html += QString("<tr><td>%1&nbsp;&nbsp;</td><td>%2</td></tr>").arg(part.name, part.license);
   QFile license(":/studio/LICENSE");

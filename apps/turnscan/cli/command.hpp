@@ -11,6 +11,7 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/workflow/file_roles.hpp>
+#include <turnscan/workflow/progress/overall_progress.hpp>
 #include <utility>
 #include <vector>
 
@@ -56,8 +57,16 @@ class Session {
   /// What shows progress; called with true before a question, with false behind it.
   void on_question(std::function<void(bool)> pause) { pause_ = std::move(pause); }
 
+  /// States the phases that are still to come, from which one percentage and one time left follow.
+  /// Without a plan each phase has its clock.
+  void plan(PhasePlan phases) {
+    if (take_plan_) take_plan_(std::move(phases));
+  }
+  void on_plan(std::function<void(PhasePlan)> take) { take_plan_ = std::move(take); }
+
  private:
   std::function<void(bool)> pause_;
+  std::function<void(PhasePlan)> take_plan_;
   RunContext context_;
   std::unique_ptr<StatusLine> status_ = std::make_unique<StatusLine>();
   std::string text_;
@@ -67,19 +76,12 @@ class Session {
 inline constexpr const char* kOverwriteUnfinishedHelp =
     "Remove what lies at RECORDING when it is a recording that was not finished";
 
-/// What --help leaves out, given the options beside it.
-struct HelpScope {
-  std::vector<std::string> hidden;  ///< long names, without dashes
-  std::string note;                 ///< what is left out and how to see it
-};
-
 class Command {
  public:
   virtual ~Command() = default;
   virtual void declare(CommandLine& line) = 0;
   /// What run() will read and write; the program refuses outputs over inputs.
   virtual FileRoles files() const = 0;
-  virtual HelpScope help_scope() const { return {}; }
   /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else failed.
   virtual Result<> run(Session& session) = 0;
 };

@@ -71,6 +71,14 @@ Error as_usage_error(Error error) {
 
 }  // namespace
 
+std::string first_sentence(const std::string& text) {
+  constexpr std::string_view kExample = "e.g";  // its dot ends no sentence
+  auto end = text.find(". ");
+  while (end != std::string::npos && text.substr(0, end).ends_with(kExample))
+    end = text.find(". ", end + 1);
+  return without_full_stop(text.substr(0, end));
+}
+
 ArgumentGroup keys_of(const std::string& name, const std::string& title, const OptionTable& table) {
   ArgumentGroup group{name, title, {}};
   for (const OptionField& field : table.fields())
@@ -116,6 +124,7 @@ CLI::Option* CommandLine::declare(CLI::Option* option, const std::string& label,
   option->group(positional ? "Arguments" : "Options");
   option->option_text(positional || !takes_value ? " " : label);
   option->description(wrapped(help, kHelpWidth));
+  declared_.push_back({option, info});
   groups_[positional ? 0 : 1].arguments.push_back(std::move(info));
   return option;
 }
@@ -185,6 +194,7 @@ void CommandLine::bind(const OptionField& field, const std::string& title, Argum
   option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   option->group(title);
   option->description(help_text(info));
+  declared_.push_back({option, info});
   group.arguments.push_back(std::move(info));
   bound_.push_back({option, &field});
 }
@@ -221,10 +231,23 @@ Result<> CommandLine::apply() {
   return {};
 }
 
-void CommandLine::hide(const std::vector<std::string>& names) {
-  for (const Bound& bound : bound_)
-    if (std::find(names.begin(), names.end(), bound.field->name) != names.end())
-      bound.option->group("");
+std::vector<const CLI::Option*> CommandLine::show_common() {
+  std::vector<const CLI::Option*> shown;
+  for (const std::string& name : common_) shown.push_back(app_.get_option("--" + name));
+  for (Declared& declared : declared_) {
+    CLI::Option& option = *declared.option;
+    declared.info.help = first_sentence(declared.info.help);
+    option.description(help_text(declared.info));
+    if (shown.empty() || option.get_positional()) continue;
+    const bool is_common = std::find(shown.begin(), shown.end(), &option) != shown.end();
+    option.group(is_common ? "Options" : "");
+  }
+  return shown;
+}
+
+std::size_t CommandLine::option_count() const {
+  return std::size_t(std::count_if(declared_.begin(), declared_.end(),
+                                   [](const Declared& d) { return !d.option->get_positional(); }));
 }
 
 std::vector<std::string> CommandLine::files_read() const {

@@ -75,8 +75,16 @@ class CommandLine {
   /// Called after parsing: sets the fields from the TOML file, then from the command line.
   Result<> apply();
 
-  /// Leaves options, by their long names without dashes, out of --help.
-  void hide(const std::vector<std::string>& names);
+  /// What most people use, by long names without dashes and by importance. --help lists these
+  /// alone,
+  /// --help-all everything.
+  void common(std::vector<std::string> names) { common_ = std::move(names); }
+  /// Leaves the others out of --help, and of each text all but its first sentence. Returns the
+  /// common options, in their order; a command that names none shows all. Throws for a name that
+  /// was not declared.
+  std::vector<const CLI::Option*> show_common();
+  /// How many options --help-all lists, --help and --help-all themselves apart.
+  std::size_t option_count() const;
 
   /// The files that apply() has read.
   std::vector<std::string> files_read() const;
@@ -89,6 +97,10 @@ class CommandLine {
   struct Bound {
     CLI::Option* option;
     const OptionField* field;
+  };
+  struct Declared {
+    CLI::Option* option;
+    ArgumentInfo info;
   };
 
   CLI::Option* declare(CLI::Option* option, const std::string& label, const std::string& help);
@@ -105,7 +117,12 @@ class CommandLine {
   std::vector<ArgumentGroup> groups_;
   std::deque<OptionGroup> option_groups_;  // a deque: fields keep their addresses
   std::vector<Bound> bound_;
+  std::vector<Declared> declared_;
+  std::vector<std::string> common_;
 };
+
+/// Of a help text, without its full stop.
+std::string first_sentence(const std::string& text);
 
 /// Breaks text at spaces into lines of at most `width` characters.
 std::string wrapped(const std::string& text, std::size_t width);

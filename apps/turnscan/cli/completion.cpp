@@ -29,7 +29,7 @@ ShellOption shell_option(const ArgumentInfo& info) {
   }
   option.takes_value = !rest.empty();
   option.choices = info.choices;
-  option.help = info.help.substr(0, info.help.find(". "));
+  option.help = first_sentence(info.help);
   if (option.help.size() > kLongestHelp) {
     option.help.resize(std::min(option.help.rfind(' ', kLongestHelp - 3), kLongestHelp));
     option.help += " ...";
@@ -105,7 +105,8 @@ std::string bash_completion(const std::vector<CommandReference>& commands) {
           "    {0}/{1}) COMPREPLY=($(compgen -W \"{2}\" -- \"$cur\")); return ;;\n", command.name,
           fmt::join(option.names, "|" + command.name + "/"), fmt::join(option.choices, " "));
     }
-    options += fmt::format("    {}) words=\"--help {}\" ;;\n", command.name, fmt::join(names, " "));
+    options += fmt::format("    {}) words=\"--help --help-all {}\" ;;\n", command.name,
+                           fmt::join(names, " "));
   }
   return fmt::format(
       "# Completion of turnscan for bash. Printed by 'turnscan reference bash'.\n"
@@ -113,7 +114,7 @@ std::string bash_completion(const std::vector<CommandReference>& commands) {
       "  local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} words=\n"
       "  COMPREPLY=()\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W \"--help --version {}\" -- \"$cur\"))\n"
+      "    COMPREPLY=($(compgen -W \"--help --version help {}\" -- \"$cur\"))\n"
       "    return\n"
       "  fi\n"
       "  case \"${{COMP_WORDS[1]}}/$prev\" in\n{}  esac\n"
@@ -139,7 +140,9 @@ std::string zsh_completion(const std::vector<CommandReference>& commands) {
   for (const CommandReference& command : commands) {
     page += fmt::format("    {}) _arguments \\\n", command.name);
     for (const ShellOption& option : options_of(command)) add_zsh_option(option, page);
-    page += "      '--help[Print this help and exit]' '*:file:_files' ;;\n";
+    page +=
+        "      '--help[Print the most used options and exit]' "
+        "'--help-all[Print all options and exit]' '*:file:_files' ;;\n";
   }
   return page + "  esac\n}\n\n_turnscan \"$@\"\n";
 }
@@ -148,7 +151,8 @@ std::string fish_completion(const std::vector<CommandReference>& commands) {
   const std::string names = fmt::format("{}", fmt::join(names_of(commands), " "));
   std::string page =
       "# Completion of turnscan for fish. Printed by 'turnscan reference fish'.\n"
-      "complete -c turnscan -l help -d 'Print this help and exit'\n";
+      "complete -c turnscan -l help -d 'Print the most used options and exit'\n"
+      "complete -c turnscan -l help-all -d 'Print all options and exit'\n";
   for (const CommandReference& command : commands) {
     page += fmt::format(
         "complete -c turnscan -f -n 'not __fish_seen_subcommand_from {}' -a {} -d '{}'\n", names,

@@ -8,9 +8,9 @@
 #include <new>
 #include <system_error>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/core/version.hpp>
 #include <turnscan/simulator/scanner/scanner_model.hpp>
 #include <turnscan/workflow/text/shown_text.hpp>
+#include <version/named_version.hpp>
 
 #include "cli/command_line.hpp"
 #include "cli/completion.hpp"
@@ -25,7 +25,8 @@ namespace {
 
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
-constexpr std::size_t kListWidth = 76, kNoteWidth = 100;  // of lines of --help
+constexpr std::size_t kListWidth = 76;  // of lines of --help
+constexpr std::string_view kHelpCommand = "help";
 
 struct RunOptions {
   int threads = 0;
@@ -40,9 +41,18 @@ OptionTable describe(RunOptions& o) {
   return table;
 }
 
-/// --help with long lines wrapped and flags shown without CLI11's marks.
+/// --help with long lines wrapped, the common options in their order, and flags shown without
+/// CLI11's marks.
 class HelpFormatter : public CLI::Formatter {
  public:
+  void put_first(std::vector<const CLI::Option*> options) { first_ = std::move(options); }
+
+  std::string make_group(std::string title, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    std::stable_sort(options.begin(), options.end(),
+                     [this](const auto* a, const auto* b) { return place(a) < place(b); });
+    return Formatter::make_group(std::move(title), is_positional, std::move(options));
+  }
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     std::string name = Formatter::make_option_name(option, is_positional);
     if (const auto mark = name.find("{false}"); mark != std::string::npos)
@@ -51,13 +61,36 @@ class HelpFormatter : public CLI::Formatter {
       name.insert(i + 1, " ");
     return name;
   }
+  std::string make_option_usage(const CLI::Option* option) const override {
+    std::string usage = Formatter::make_option_usage(option);
+    if (const auto twice = usage.find("......"); twice != std::string::npos) usage.erase(twice, 3);
+    return usage;
+  }
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream out;
     CLI::detail::format_help(out, command->get_name(),
                              wrapped(command->get_description(), kListWidth), 16);
     return out.str();
   }
+
+ private:
+  std::ptrdiff_t place(const CLI::Option* option) const {
+    return std::find(first_.begin(), first_.end(), option) - first_.begin();
+  }
+
+  std::vector<const CLI::Option*> first_;
 };
+
+/// "help COMMAND" is short for "COMMAND --help". Reversed, as CLI11 takes them.
+std::vector<std::string> reversed_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);
+  if (!arguments.empty() && arguments.front() == kHelpCommand) {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
 
 int exit_code_of(ErrorCode code) {
   if (code == ErrorCode::kCancelled) return kExitCancelled;
@@ -183,6 +216,7 @@ struct Program::Entry {
 
 struct Program::Parts {
   CLI::App app{"turnscan makes watertight meshes from recordings of objects on a turntable."};
+  std::shared_ptr<HelpFormatter> formatter = std::make_shared<HelpFormatter>();
   std::deque<Entry> entries;
 };
 
@@ -191,14 +225,14 @@ Program::Program() : parts_(std::make_unique<Parts>()) {
   app.name("turnscan");
   app.require_subcommand(0, 1);
   app.allow_extras();
-  app.set_version_flag("--version", fmt::format("turnscan {}", version()), "Print the version");
-  auto formatter = std::make_shared<HelpFormatter>();
-  formatter->column_width(36);
-  formatter->label("SUBCOMMAND", "COMMAND ...");
-  formatter->label("Positionals", "Arguments");
-  app.formatter(formatter);
+  app.set_version_flag("-v,--version", "turnscan " + named_version(), "Print the version");
+  HelpFormatter& formatter = *parts_->formatter;
+  formatter.column_width(36);
+  formatter.label("SUBCOMMAND", "COMMAND ...");
+  formatter.label("Positionals", "Arguments");
+  app.formatter(parts_->formatter);
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.footer("'turnscan COMMAND --help' explains one command.");
+  app.footer("'turnscan help COMMAND' or 'turnscan COMMAND --help' explains one command.");
 }
 
 Program::~Program() = default;
@@ -221,6 +255,7 @@ void Program::add(const std::string& name, const std::string& help,
   CLI::App* app = parts_->app.add_subcommand(name, help);
   app->group("Commands");
   parts_->entries.emplace_back(help, std::move(command), app);
+  app->set_help_all_flag("--help-all", "Print all options and exit");
 }
 
 Result<std::string> Program::reference(const std::string& format) const {
@@ -281,8 +316,9 @@ int Program::run_command(Entry& entry) {
   const InterruptWatch watch(session.context());
   ProgressDisplay display(session.context(), session.status(), entry.run_options.quiet);
   session.on_question([&](bool paused) { display.pause(paused); });
+  session.on_plan([&](PhasePlan phases) { display.plan(std::move(phases)); });
   Result<> result = entry.command->run(session);
-  display.finish();
+  display.finish(result ? RunEnd::kDone : RunEnd::kFailed);
   const int put = put_text(session.text());
   if (result) return put;
   const int code = exit_code_of(result.error().code);
@@ -298,20 +334,31 @@ int Program::run_command(Entry& entry) {
 std::string Program::help() {
   for (Entry& entry : parts_->entries) {
     if (!parts_->app.got_subcommand(entry.app)) continue;
-    if (!entry.line.apply()) break;  // help is due with wrong options, too
-    const HelpScope scope = entry.command->help_scope();
-    entry.line.hide(scope.hidden);
-    if (!scope.note.empty()) entry.app->footer("\n" + wrapped(scope.note, kNoteWidth));
+    parts_->formatter->put_first(entry.line.show_common());
+    entry.app->footer(fmt::format("'turnscan {} --help-all' explains all {} options.",
+                                  entry.app->get_name(), entry.line.option_count()));
   }
   return parts_->app.help();
+}
+
+int Program::unknown_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Entry& entry : parts_->entries) names.push_back(entry.app->get_name());
+  return usage_error(
+      fmt::format("{}: there is no such command; use one of {}", name, fmt::join(names, ", ")),
+      "turnscan");
 }
 
 int Program::run(int argc, char** argv) {
   CLI::App& app = parts_->app;
   try {
-    app.parse(argc, argv);
+    app.parse(reversed_arguments(argc, argv));
   } catch (const CLI::CallForHelp&) {
-    return put_text(help());
+    const auto extra = app.remaining();
+    const bool named = !extra.empty() && !extra.front().starts_with('-');
+    return named ? unknown_command(extra.front()) : put_text(help());
+  } catch (const CLI::CallForAllHelp&) {
+    return put_text(app.help());
   } catch (const CLI::CallForVersion& version_text) {
     return put_text(std::string(version_text.what()) + "\n");
   } catch (const CLI::ParseError& error) {
@@ -324,13 +371,9 @@ int Program::run(int argc, char** argv) {
   }
   const auto extra = app.remaining();
   if (extra.empty()) return usage_error("no command: nothing to do", "turnscan");
-  std::vector<std::string> names;
-  for (const Entry& entry : parts_->entries) names.push_back(entry.app->get_name());
   if (extra.front().rfind('-', 0) == 0)
     return usage_error(unknown_argument(extra.front(), {"help", "version"}), "turnscan");
-  return usage_error(fmt::format("{}: there is no such command; use one of {}", extra.front(),
-                                 fmt::join(names, ", ")),
-                     "turnscan");
+  return unknown_command(extra.front());
 }
 
 int run_guarded(int (*body)(int, char**), int argc, char** argv) {

@@ -25,8 +25,9 @@ class Program {
   struct Entry;
 
   int run_command(Entry& entry);
-  /// Of the program or the chosen command.
+  /// Of the program, or the common options of the chosen command.
   std::string help();
+  int unknown_command(const std::string& name);
   /// markdown, man, bash, zsh or fish. Fails with kInvalidOption for another format.
   Result<std::string> reference(const std::string& format) const;
 

@@ -51,7 +51,7 @@ ProgressDisplay::ProgressDisplay(RunContext context, const StatusLine& status, b
   ticker_ = std::thread([this] { tick(); });
 }
 
-void ProgressDisplay::finish() {
+void ProgressDisplay::finish(RunEnd end) {
   if (!ticker_.joinable()) return;
   context_.set_listener({});
   {
@@ -60,25 +60,39 @@ void ProgressDisplay::finish() {
   }
   wake_.notify_all();
   ticker_.join();
-  if (terminal_) put("\r\033[K");
+  if (terminal_)
+    put("\r\033[K");
+  else if (end == RunEnd::kDone && progress_.phase_number > 0)
+    put(fmt::format("100 % done: {}\n", duration_text(seconds(Clock::now() - begin_))));
 }
 
 void ProgressDisplay::pause(bool paused) {
   if (quiet_) return;
   const std::lock_guard lock(mutex_);
   paused_ = paused;
+  if (paused_)
+    paused_at_ = Clock::now();
+  else
+    begin_ += Clock::now() - paused_at_;  // whoever was asked took the time
   if (paused_ && terminal_) put("\r\033[K");
 }
 
+void ProgressDisplay::plan(PhasePlan phases) {
+  const std::lock_guard lock(mutex_);
+  overall_.plan(std::move(phases));
+}
+
+void ProgressDisplay::update() { overall_.update(progress_, seconds(Clock::now() - begin_)); }
+
 void ProgressDisplay::on_progress(const Progress& progress) {
   std::lock_guard lock(mutex_);
-  const auto now = Clock::now();
   const bool begins = progress.phase_number != progress_.phase_number;
   progress_ = progress;
+  update();
   if (begins) {
-    phase_begin_ = last_line_ = now;
-    last_fraction_ = 0.0;
-    if (!terminal_ && !paused_) put(progress_.phase + "\n");
+    phase_begin_ = last_line_ = Clock::now();
+    last_fraction_ = overall_.fraction().value_or(last_fraction_);
+    if (!terminal_ && !paused_) put(phase_text() + "\n");
   }
   if (terminal_ && !paused_) draw_bar();
 }
@@ -88,37 +102,44 @@ void ProgressDisplay::tick() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, kTick, [this] { return finished_; })) {
     if (progress_.phase_number == 0 || paused_) continue;
+    update();
     if (terminal_) {
       draw_bar();
     } else {
-      write_line(Clock::now());
+      write_line();
     }
   }
 }
 
-void ProgressDisplay::write_line(Clock::time_point now) {
-  const double since = seconds(now - last_line_);
-  const bool tenth = progress_.fraction >= last_fraction_ + 0.1 && since >= 1.0;
+void ProgressDisplay::write_line() {
+  const auto now = Clock::now();
+  const double since = seconds(now - last_line_),
+               fraction = overall_.fraction().value_or(last_fraction_);
+  const bool tenth = fraction >= last_fraction_ + 0.1 && since >= 1.0;
   if (since < 10.0 && !tenth) return;
   last_line_ = now;
-  last_fraction_ = progress_.fraction;
-  put(fmt::format("{}: {}\n", progress_.phase, state_text()));
+  last_fraction_ = fraction;
+  put(fmt::format("{}: {}\n", phase_text(), state_text()));
+}
+
+std::string ProgressDisplay::phase_text() const {
+  const auto fraction = overall_.fraction();
+  if (!fraction) return progress_.phase;
+  return fmt::format("{:3.0f} % {}", std::floor(100.0 * *fraction), progress_.phase);
 }
 
 std::string ProgressDisplay::state_text() const {
-  const double elapsed = seconds(Clock::now() - phase_begin_), f = progress_.fraction;
-  if (const std::string status = status_.text(); !status.empty())
-    return f > 0.0 ? fmt::format("{:3.0f} %, {}", 100.0 * f, status) : status;
-  if (f <= 0.0) return duration_text(elapsed);
-  std::string text = fmt::format("{:3.0f} %", 100.0 * f);
-  if (f > 0.02 && f < 1.0 && elapsed > 0.5)
-    text += fmt::format(", {} left", duration_text(elapsed * (1.0 - f) / f));
-  return text;
+  const auto left = overall_.seconds_left();
+  const std::string status = status_.text();
+  if (left)
+    return fmt::format("{} left{}{}", duration_text(std::max(*left, 1.0)),
+                       status.empty() ? "" : ", ", status);
+  return status.empty() ? duration_text(seconds(Clock::now() - phase_begin_)) : status;
 }
 
 void ProgressDisplay::draw_bar() const {
-  const int cells = static_cast<int>(progress_.fraction * kBarCells);
-  std::string line = fmt::format("{:<28.28} [{:#<{}}{:-<{}}] {}", progress_.phase, "", cells, "",
+  const int cells = static_cast<int>(overall_.fraction().value_or(last_fraction_) * kBarCells);
+  std::string line = fmt::format("{:<34.34} [{:#<{}}{:-<{}}] {}", phase_text(), "", cells, "",
                                  kBarCells - cells, state_text());
   line.resize(std::min(line.size(), terminal_width() - 1));
   put("\r" + line + "\033[K");

@@ -11,30 +11,40 @@
 
 namespace turnscan::cli {
 
-/// Shows the progress of a run on standard error: a bar with the time left in the phase on a
-/// terminal; elsewhere a line when a phase begins, and within it one every 10 s, or every 10 % if
-/// those are a second or more apart.
+enum class RunEnd { kDone, kFailed };
+
+/// Shows the progress of a run on standard error: the phase, the percentage of the whole run and
+/// the time left; where the whole is not known, the phase and its clock. On a terminal that is a
+/// bar; elsewhere a line when a phase begins, and within it one every 10 s, or every 10 % if those
+/// are a second or more apart.
 class ProgressDisplay {
  public:
   /// status: shown beside the phase; must outlive this.
   ProgressDisplay(RunContext context, const StatusLine& status, bool quiet);
-  ~ProgressDisplay() { finish(); }
+  ~ProgressDisplay() { finish(RunEnd::kFailed); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   /// Shows nothing until it is called with false.
   void pause(bool paused);
 
-  /// Stops listening and removes the bar. May be called more than once.
-  void finish();
+  /// The phases that are still to come.
+  void plan(PhasePlan phases);
+
+  /// Stops listening and removes the bar. What comes after the first call is nothing.
+  void finish(RunEnd end);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void on_progress(const Progress& progress);
   void tick();
+  void update();
   void draw_bar() const;
-  void write_line(Clock::time_point now);
+  void write_line();
+  /// "12 % read frames"
+  std::string phase_text() const;
+  /// "40 s left", or the phase's clock
   std::string state_text() const;
 
   RunContext context_;
@@ -45,9 +55,12 @@ class ProgressDisplay {
   std::condition_variable wake_;
   bool finished_ = false, paused_ = false;
   Progress progress_;
+  OverallProgress overall_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point paused_at_;
   Clock::time_point phase_begin_;
   Clock::time_point last_line_;
-  double last_fraction_ = 0.0;
+  double last_fraction_ = 0.0;  // of the whole
   std::thread ticker_;
 };
 

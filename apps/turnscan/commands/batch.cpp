@@ -34,6 +34,8 @@ class BatchCommand : public Command {
     line.flag("--detach", detach_, "run, retry: hand the tasks to Slurm and do not wait for them");
     line.allow_config();
     line.group("batch", "Engine", describe(options_));
+    line.common({"out", "command", "set", "sweep", "jobs", "engine", "task-threads", "detach",
+                 "restarts", "config"});
   }
 
   FileRoles files() const override {
@@ -42,6 +44,7 @@ class BatchCommand : public Command {
   }
 
   Result<> run(Session& session) override {
+    session.plan({{"plan", 0.1}, {"look for what is done", 0.1}, {"run tasks", 100.0}});
     if (action_ == "status") return status(session);
     if (action_ == "task") return task(session);
     if (action_ == "run") return run_all(session);

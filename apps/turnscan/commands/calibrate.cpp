@@ -6,6 +6,7 @@
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
 #include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/text/calibration_text.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
@@ -69,6 +70,8 @@ class CalibrateCommand : public Command {
     line.group("detect", "Detection", describe(request_.detect));
     line.group("gauge", "Gauge", describe(request_.ball));
     line.group("motion", "Motion", describe(request_.motion));
+    line.common({"device", "detect", "from-motion", "points", "platter-radius", "speed", "check",
+                 "save", "json", "depth-bias", "import"});
   }
 
   FileRoles files() const override {
@@ -105,6 +108,7 @@ class CalibrateCommand : public Command {
                    : from_motion_           ? CalibrationWay::kMotion
                    : detect_                ? CalibrationWay::kPlatter
                                             : CalibrationWay::kAuto;
+    session.plan(phases());
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     if (!device_.empty()) return run_device(session);
@@ -116,6 +120,13 @@ class CalibrateCommand : public Command {
   }
 
  private:
+  PhasePlan phases() const {
+    PhasePlan plan;
+    if (!device_.empty()) plan = {{"open device", 1.0}, {"take frames", 30.0}};
+    return joined({plan, request_.way == CalibrationWay::kPoints || detect_ ? platter_phases()
+                                                                            : motion_phases()});
+  }
+
   Result<> run_device(Session& session) {
     TURNSCAN_ASSIGN(const auto source, open_source(device_, session.context()));
     const std::string& identity = source->info().identities.front();

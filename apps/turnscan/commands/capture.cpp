@@ -25,6 +25,8 @@ class CaptureCommand : public Command {
     declare_capture(line, setup_);
     declare_table(line, setup_);
     line.group("limits", "End of the recording", describe(setup_.options.limits));
+    line.common({"device", "out", "turns", "seconds", "speed", "motor", "turntable", "crop",
+                 "color-files", "report", "overwrite-unfinished"});
   }
 
   FileRoles files() const override {
@@ -37,6 +39,7 @@ class CaptureCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(check_output_file(report_, ".json"));
+    session.plan({{"open device", 1.0}, {"connect motor", 1.0}, {"record", 30.0}});
     TURNSCAN_ASSIGN(auto source, setup_.open(session.context()));
     TURNSCAN_ASSIGN(std::optional<Motor> motor, setup_.open_motor(session.context()));
     CaptureHooks hooks;

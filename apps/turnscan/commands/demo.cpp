@@ -41,11 +41,11 @@ class DemoCommand : public Command {
     line.group("virtual-scan", "Virtual camera", describe(scene_.scan));
     declare_stages(line, scene_.reconstruct);
     line.group("evaluation", "Evaluation", describe(scene_.evaluate));
+    line.common({"out", "object", "scanner", "frames", "noise", "triangles", "voxel-size", "method",
+                 "texture", "scan-colour", "distance", "elevation"});
   }
 
   FileRoles files() const override { return {}; }
-
-  HelpScope help_scope() const override { return stages_help_scope(scene_.reconstruct); }
 
   Result<> run(Session& session) override {
     // "1.5mm" is short for "gaussian:1.5mm".
@@ -68,6 +68,9 @@ class DemoCommand : public Command {
     table.add({"object", "frames", "triangles", "watertight", "accuracy", "completeness",
                "F at 1 mm", "seconds"});
     nlohmann::json figures{{"version", version()}, {"objects", nlohmann::json::array()}};
+    PhasePlan plan;
+    for (const std::string& name : scenes) plan = joined({plan, demo_phases(name, scene_)});
+    session.plan(plan);
     for (const std::string& name : scenes) {
       TURNSCAN_ASSIGN(const std::vector<DemoFigures> results,
                       run_demo_scene(name, folder / name, scene_, session.context()));

@@ -12,6 +12,7 @@
 #include <turnscan/simulator/rendering/picture.hpp>
 #include <turnscan/simulator/scanner/scanner_file.hpp>
 
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>
 
 namespace turnscan::cli {
@@ -22,6 +23,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kErrorScale_m = 0.002;  // last colour of the error view
+constexpr int kFramesOfATurn = 920;  // about, where it follows from the speed
+constexpr double kSecondsPerRecordedFrame = 0.025;
+constexpr std::string_view kPair = "pair";
 
 /// An object of the scene: its truth and what came out.
 struct Piece {
@@ -37,7 +41,7 @@ Result<std::vector<Piece>> make_pieces(const std::string& scene, const RunContex
     pieces.push_back({name, place(std::move(mesh), x, z, yaw), {}});
     return {};
   };
-  if (scene != "pair") {
+  if (scene != kPair) {
     TURNSCAN_TRY(add(scene, 0.0, 0.0, 0.0));
     return pieces;
   }
@@ -153,7 +157,7 @@ OptionTable describe(DemoScanOptions& o) {
 
 Result<std::vector<std::string>> scene_names(const std::string& object) {
   std::vector<std::string> names = builtin_object_names();
-  names.emplace_back("pair");
+  names.emplace_back(kPair);
   if (object == "all") {
     std::erase_if(names, [](const std::string& name) { return is_gauge(name); });
     return names;
@@ -163,6 +167,17 @@ Result<std::vector<std::string>> scene_names(const std::string& object) {
   }
   return fail(ErrorCode::kInvalidOption, "object: there is no '{}'; use one of {}, all", object,
               fmt::join(names, ", "));
+}
+
+PhasePlan demo_phases(const std::string& name, const DemoSceneOptions& options) {
+  const int frames = options.scan.motion.frames.value_or(kFramesOfATurn);
+  PhasePlan plan = joined({{{"write recording", kSecondsPerRecordedFrame * frames}},
+                           surface_phases(options.reconstruct, std::size_t(frames))});
+  // Of each object: of the truth, the mesh and the errors.
+  const PhasePlan pictures(3, {"render picture", 6.0});
+  for (int object = 0; object < (name == kPair ? 2 : 1); ++object)
+    plan = joined({plan, evaluate_phases(options.evaluate), seen_phases(), pictures});
+  return plan;
 }
 
 Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name, const fs::path& folder,

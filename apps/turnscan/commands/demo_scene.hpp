@@ -7,6 +7,7 @@
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
+#include <turnscan/workflow/progress/overall_progress.hpp>
 #include <vector>
 
 namespace turnscan::cli {
@@ -43,6 +44,9 @@ struct DemoFigures {
 
 /// "all" becomes every scene. Fails with kInvalidOption for an unknown name.
 Result<std::vector<std::string>> scene_names(const std::string& object);
+
+/// Of run_demo_scene().
+PhasePlan demo_phases(const std::string& name, const DemoSceneOptions& options);
 
 /// Leaves in `folder`: recording/, per object OBJECT.ply, OBJECT.stl, OBJECT-reference.ply,
 /// OBJECT-errors.ply and OBJECT.png (reference, reconstruction, errors), report.json.

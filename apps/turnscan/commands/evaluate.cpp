@@ -6,6 +6,7 @@
 
 #include <turnscan/workflow/artefact_input.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>
 #include <turnscan/workflow/text/evaluation_text.hpp>
 #include "cli/command_line.hpp"
@@ -49,6 +50,8 @@ class EvaluateCommand : public Command {
     line.group("evaluation", "Evaluation", describe(options_));
     line.group("error-map", "Error map", describe(map_options_));
     line.group("artefact", "Artefact", describe(artefact_));
+    line.common({"reference", "align", "seen-from", "thresholds", "error-map", "json", "unit",
+                 "reference-unit", "samples", "tolerance", "artefact"});
   }
 
   FileRoles files() const override {
@@ -68,6 +71,8 @@ class EvaluateCommand : public Command {
       return fail(ErrorCode::kInvalidOption,
                   "evaluate: there is nothing to compare with; give --reference, or --artefact for "
                   "the scan of a ball, ball bar or plate");
+    session.plan(
+        joined({evaluate_phases(options_), seen_from_.empty() ? PhasePlan() : seen_phases()}));
     TURNSCAN_ASSIGN(const auto reference_unit, unit_of(reference_unit_));
     TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(mesh_, {unit}, session.context()));
     TURNSCAN_ASSIGN(const TriangleMesh reference,
@@ -94,6 +99,7 @@ class EvaluateCommand : public Command {
                     "one of them out",
                     name);
     }
+    session.plan({{"artefact"}});
     TURNSCAN_ASSIGN(const PointCloud cloud, read_artefact(mesh_, unit, session.context()));
     TURNSCAN_ASSIGN(const ArtefactFigures figures,
                     measure_artefact(cloud, artefact_, session.context()));

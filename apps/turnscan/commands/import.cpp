@@ -22,6 +22,8 @@ class ImportCommand : public Command {
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.allow_config();
     line.group("import", "Import", describe(options_));
+    line.common({"out", "format", "angles", "speed", "intrinsics", "depth-unit", "fps", "clockwise",
+                 "turntable-axis", "sensor-position", "config"});
   }
 
   FileRoles files() const override {
@@ -34,6 +36,7 @@ class ImportCommand : public Command {
     TURNSCAN_ASSIGN(const auto sequence,
                     open_foreign_passes({sources_.begin(), sources_.end()}, options_));
     TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
+    session.plan({{"write recording", 30.0}, {"look at frames", 1.0}});
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));
     TURNSCAN_ASSIGN(const Input made, open_input(out_));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(made, session.context()));

@@ -38,6 +38,7 @@ class InfoCommand : public Command {
   FileRoles files() const override { return {{path_}, {}}; }
 
   Result<> run(Session& session) override {
+    session.plan({{"look at frames"}});
     const std::filesystem::path path(path_);
     TURNSCAN_TRY(file::check_exists(path, "file or folder"));
     std::error_code error;

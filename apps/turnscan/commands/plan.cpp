@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/scanner/scanner_file.hpp>
@@ -31,6 +32,8 @@ class PlanCommand : public Command {
     for (SceneTable& table : plan_scene_tables(request_.scene))
       line.group(table.name, table.title, std::move(table.options));
     line.group("batch", "Engine of the trials", describe(request_.engine));
+    line.common({"scanner", "out", "sensors", "passes", "time-budget", "max-error", "plans",
+                 "trials", "least-distance", "greatest-distance", "height", "jobs"});
   }
 
   FileRoles files() const override {
@@ -45,6 +48,7 @@ class PlanCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_ASSIGN(request_.scanners, parse_plan_scanners(scanners_));
     request_.program = own_program();
+    session.plan(phases());
     request_.on_status = [&session](const std::string& text) { session.status().set(text); };
     TURNSCAN_ASSIGN(const PlanOutcome outcome, run_plan(request_, session.context()));
     session.print("{}", plan_text(request_, outcome));
@@ -59,6 +63,17 @@ class PlanCommand : public Command {
   }
 
  private:
+  PhasePlan phases() const {
+    PhasePlan plan{{"surface", 1.0}, {"candidates", 20.0}, {"choose", 5.0}, {"refine", 3.0}};
+    // What is left of the trials varies the best plan.
+    const int trials = request_.options.trials, first = std::min(trials, request_.options.plans);
+    for (const int tasks : {first, trials - first})
+      if (tasks > 0)
+        plan = joined({plan, {{"look for what is done", 0.1}, {"run tasks", 10.0 * tasks}}});
+    plan.push_back({"reasons", 1.0});
+    return plan;
+  }
+
   std::vector<std::string> scanners_;
   PlanRequest request_;
 };

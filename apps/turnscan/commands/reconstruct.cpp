@@ -6,6 +6,7 @@
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 #include "cli/command_line.hpp"
@@ -68,6 +69,8 @@ class ReconstructCommand : public Command {
     line.allow_config();
     line.group("mesh-file", "Mesh file", describe(files_.mesh_options));
     declare_stages(line, request_.options);
+    line.common({"out", "triangles", "voxel-size", "texture", "speed", "method", "turntable",
+                 "import", "keep-box", "report", "quiet"});
   }
 
   FileRoles files() const override {
@@ -82,8 +85,6 @@ class ReconstructCommand : public Command {
     return files;
   }
 
-  HelpScope help_scope() const override { return stages_help_scope(request_.options); }
-
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_files());
     TURNSCAN_ASSIGN(const std::vector<Input> inputs, open_inputs(session.context()));
@@ -91,6 +92,8 @@ class ReconstructCommand : public Command {
     for (std::size_t i = 0; i < inputs.size(); ++i)
       named.push_back({recordings_[i], inputs[i].frames.get()});
     for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
+    session.plan(joined(
+        {reconstruct_phases(named, request_), files_.page.empty() ? PhasePlan() : page_phases()}));
     TURNSCAN_ASSIGN(const ReconstructRun made,
                     run_reconstruction(named, request_, session.context()));
     TURNSCAN_ASSIGN(const auto files,

@@ -24,12 +24,16 @@ class RenderCommand : public Command {
     line.allow_config();
     line.group("picture", "Picture", describe(options_));
     line.group("turn", "Turning picture, with --turntable", describe(turn_));
+    line.common({"out", "turntable", "side-by-side", "picture-width", "picture-height",
+                 "picture-azimuth", "picture-elevation", "picture-views", "picture-zoom",
+                 "picture-colours", "picture-ground"});
   }
 
   FileRoles files() const override { return {meshes_, {out_, turning_}}; }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check(session.context()));
+    session.plan(phases());
     std::vector<TriangleMesh> meshes;
     for (const std::string& path : meshes_) {
       TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(path, {}, session.context()));
@@ -48,6 +52,13 @@ class RenderCommand : public Command {
   }
 
  private:
+  PhasePlan phases() const {
+    const std::size_t pictures = out_.empty() ? 0 : side_by_side_ ? meshes_.size() : 1;
+    PhasePlan plan(pictures, {"render picture", 1.0});
+    if (!turning_.empty()) plan.push_back({"render turn", double(turn_.frames)});
+    return plan;
+  }
+
   Result<> check(const RunContext& context) const {
     if (out_.empty() && turning_.empty())
       return fail(ErrorCode::kInvalidOption,

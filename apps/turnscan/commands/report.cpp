@@ -6,6 +6,7 @@
 
 #include <turnscan/workflow/input.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
@@ -33,6 +34,8 @@ class ReportCommand : public Command {
     line.option("--title", "TEXT", title_, "Title of the page, by default the name of the input");
     line.allow_config();
     line.group("evaluation", "Comparison with the reference", describe(evaluate_));
+    line.common(
+        {"out", "made-by", "reference", "title", "align", "thresholds", "tolerance", "import"});
   }
 
   FileRoles files() const override { return {{path_, report_, reference_}, {out_}}; }
@@ -43,6 +46,7 @@ class ReportCommand : public Command {
       return fail_at(out_, ErrorCode::kInvalidOption, "the name must end in .html; rename it");
     TURNSCAN_TRY(check_report_files(names));
     TURNSCAN_TRY(file::check_exists(path_, "file or folder"));
+    session.plan(page_phases());
     TURNSCAN_ASSIGN(PageInput input, read_input(session));
     if (!title_.empty()) input.title = title_;
     if (!reference_.empty()) {
@@ -73,6 +77,7 @@ class ReportCommand : public Command {
   Result<PageInput> of_recording(Session& session) const {
     TURNSCAN_ASSIGN(const Input input, open_input_asking(path_, import_));
     const ReconstructRequest request;
+    session.plan(joined({reconstruct_phases({{"", input.frames.get()}}, request), page_phases()}));
     TURNSCAN_ASSIGN(const ReconstructRun run,
                     run_reconstruction(*input.frames, request, session.context()));
     for (const std::string& note : input.notes) session.print("Note: {}\n", note);

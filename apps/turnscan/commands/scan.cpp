@@ -2,6 +2,7 @@
 
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/scan/scan.hpp>
 
@@ -55,6 +56,8 @@ class ScanCommand : public Command {
     line.group("ahead", "Work while frames come", describe(request_.ahead));
     line.group("mesh-file", "Mesh file", describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
+    line.common({"device", "out", "passes", "turns", "speed", "motor", "triangles", "voxel-size",
+                 "texture", "turntable", "report"});
   }
 
   FileRoles files() const override {
@@ -66,14 +69,13 @@ class ScanCommand : public Command {
             request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : std::string()};
   }
 
-  HelpScope help_scope() const override { return stages_help_scope(request_.reconstruct); }
-
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;
     TURNSCAN_ASSIGN(const ReportFiles reports, sort_report_files(reports_));
     request_.report = reports.json;
     request_.page = reports.page;
     request_.passes = passes_.passes;
+    session.plan(scan_phases(request_));
     ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }, {}};
     if (request_.passes.value_or(0) > 1 || (!request_.passes && at_terminal()))
       hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {

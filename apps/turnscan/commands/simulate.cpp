@@ -2,6 +2,7 @@
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/scanner/scanner_file.hpp>
 
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/coverage_file.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
 #include <turnscan/workflow/simulation/simulation_text.hpp>
@@ -52,6 +53,8 @@ class SimulateCommand : public Command {
     for (SceneTable& table : describe(request_.scene))
       line.group(table.name, table.title, std::move(table.options));
     line.group("coverage", "Coverage", describe(request_.coverage_options));
+    line.common({"out", "scanner", "frames", "turns", "height", "distance", "elevation", "noise",
+                 "next-pass", "scan-colour", "coverage", "scene"});
   }
 
   FileRoles files() const override {
@@ -67,6 +70,7 @@ class SimulateCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_TRY(take_arguments());
     TURNSCAN_TRY(check_something_is_made());
+    session.plan(simulate_phases(request_));
     TURNSCAN_ASSIGN(const Simulation made, simulate(request_, session.context()));
     if (!request_.recording.empty()) tell_recording(made, session);
     if (made.coverage) tell_coverage(*made.coverage, session);

@@ -38,6 +38,8 @@ class TurntableCommand : public Command {
     line.allow_config();
     line.group("turn", "Turning", describe(turn_));
     line.group("motor", "Motor", describe(motor_));
+    line.common({"port", "angle", "speed", "seconds", "motor-protocol", "motor-baud", "motor-units",
+                 "motor-max-speed", "motor-reversed"});
   }
 
   FileRoles files() const override { return {}; }

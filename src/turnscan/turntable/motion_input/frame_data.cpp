@@ -77,7 +77,7 @@ class FrameLoader {
   }
 
   Result<> read_all() {
-    context_.begin_phase("read frames", data_.frames.size());
+    context_.begin_phase("sample frames", data_.frames.size());
     std::vector<std::uint8_t> is_key(data_.frames.size(), 0);
     for (const std::size_t k : data_.keys) is_key[k] = 1;
     std::vector<Result<>> results(data_.frames.size());
