@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kErrorScale_m = 0.002;  // last colour of the error view
-constexpr int kFramesOfATurn = 920;  // about, where it follows from the speed
+constexpr int kFramesOfATurn = 920;      // about, where it follows from the speed
 constexpr double kSecondsPerRecordedFrame = 0.025;
 constexpr std::string_view kPair = "pair";
 

@@ -5,6 +5,7 @@
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 
+#include "tests/support/sanitizers.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/workflow/scenes.hpp"
 
@@ -36,6 +37,7 @@ Result<Simulation> cylinder() {
 class PhasesOfAReconstruction : public ::testing::TestWithParam<SurfaceMethod> {};
 
 TEST_P(PhasesOfAReconstruction, AreThoseOfThePlan) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const auto scan = cylinder();
   ASSERT_TRUE(scan) << scan.error().text();
   ReconstructRequest request;
