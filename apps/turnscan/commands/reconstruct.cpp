@@ -69,7 +69,7 @@ class ReconstructCommand : public Command {
     line.allow_config();
     line.group("mesh-file", "Mesh file", describe(files_.mesh_options));
     declare_stages(line, request_.options);
-    line.common({"out", "triangles", "voxel-size", "texture", "speed", "method", "turntable",
+    line.common({"out", "triangles", "up", "voxel-size", "texture", "speed", "method", "turntable",
                  "import", "keep-box", "report", "quiet"});
   }
 

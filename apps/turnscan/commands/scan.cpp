@@ -56,8 +56,8 @@ class ScanCommand : public Command {
     line.group("ahead", "Work while frames come", describe(request_.ahead));
     line.group("mesh-file", "Mesh file", describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
-    line.common({"device", "out", "passes", "turns", "speed", "motor", "triangles", "voxel-size",
-                 "texture", "turntable", "report"});
+    line.common({"device", "out", "passes", "turns", "speed", "motor", "triangles", "up",
+                 "voxel-size", "texture", "turntable", "report"});
   }
 
   FileRoles files() const override {
