@@ -14,8 +14,11 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
+
+import leaks
 
 BIN = os.environ.get("TURNSCAN_BIN", "turnscan")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -42,14 +45,22 @@ def start(*args, cwd=None, env=None, **more):
         **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more})
 
 
-def run(*args, **more):
-    """Runs the program to its end and returns a CompletedProcess."""
+def run(*args, says_nan=False, **more):
+    """Runs the program to its end and returns a CompletedProcess.
+
+    What it says and writes holds no figure that is none (see leaks.py), unless says_nan allows it
+    to quote an input that does.
+    """
+    begun_ns = time.time_ns()
     process = start(*args, **more)
     try:
         out, err = process.communicate(timeout=HANG_S)
     except subprocess.TimeoutExpired:
         process.kill()
         raise AssertionError(f"turnscan {' '.join(map(str, args))} hangs")
+    leaks_found = [] if says_nan else leaks.of_run(args, more.get("cwd"), begun_ns, out, err)
+    if leaks_found:
+        raise AssertionError(f"turnscan {' '.join(map(str, args))}\n" + "\n".join(leaks_found))
     return subprocess.CompletedProcess(args, process.returncode, out, err)
 
 

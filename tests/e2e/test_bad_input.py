@@ -49,6 +49,31 @@ class MissingOrDamaged(harness.TestCase):
         self.refused(FAILED, "import", "photos", "--out", "rec", says="photos")
         self.assertFalse((self.dir / "rec").exists())
 
+    def test_the_layouts_are_a_table_and_an_error_points_to_it(self):
+        (self.dir / "photos").mkdir()
+        for what, says in (("photos", "an empty folder"), ("cat.txt", "a .txt file")):
+            (self.dir / "cat.txt").write_text("meow")
+            result = self.refused(FAILED, "reconstruct", what, "-o", "m.ply",
+                                  says=(says, "turnscan import --list"))
+            self.assertLess(len(result.stderr), 200)
+        lines = self.ok("import", "--list").stdout.splitlines()
+        self.assertIn("format", lines[0])
+        self.assertEqual(len(lines), 13)
+
+    def test_a_mesh_is_no_recording(self):
+        for name in ("m.ply", "m.3mf"):
+            (self.dir / name).write_text(ply_cube(0.1))
+            for command in (["reconstruct", name, "-o", "out.ply"], ["import", name, "-o", "rec"]):
+                self.refused(FAILED, *command, says=(name, "already", "turnscan evaluate"))
+
+    def test_text_that_a_person_wrote_is_to_be_corrected_there(self):
+        (self.dir / "table.json").write_text('{\n  "axis": [0, 1, 0]\n  "center_m": [0, 0, 1]\n}\n')
+        self.refused(FAILED, "reconstruct", shared_recording(), "--turntable", "table.json",
+                     "-o", "m.ply", says=("table.json", "line 3, column 3", "expected"))
+        (self.dir / "table.json").write_text('{\n  "axis": [0, 1, "up"],\n  "center_m": [0, 0, 1]}')
+        self.refused(FAILED, "reconstruct", shared_recording(), "--turntable", "table.json",
+                     "-o", "m.ply", says=("line 2, column 18: axis[2] is not a number",))
+
     def test_names_with_line_breaks_still_give_one_line(self):
         self.refused(FAILED, "info", "two\nlines.ply", says=r"two\u000alines.ply")
 
@@ -124,6 +149,18 @@ class DamagedRecordings(harness.TestCase):
             return ",".join(cells)
         self.change_line(3, poison)
         self.reconstruct_fails("frames.csv")
+
+    def test_what_is_wrong_in_a_table_is_named_with_its_place(self):
+        self.change_line(3, lambda line: "x" + line)
+        self.reconstruct_fails(("line 4: column index", "correct it there"))
+        self.change_line(0, lambda line: line.replace("index", "number"))
+        self.reconstruct_fails(("line 1: the header has no column 'index'", "correct it there"))
+
+    def test_what_is_wrong_in_recording_json_is_named_with_its_place(self):
+        path = self.rec / "recording.json"
+        path.write_text(path.read_text().replace('"fx": ', '"fx": "wide", "was": '))
+        self.reconstruct_fails(("line ", "column ", "intrinsics.fx is not a number",
+                                "correct it there"))
 
     def test_file_outside_the_recording(self):
         self.change_line(2, lambda line: line.replace("depth/", "../depth/"))

@@ -152,9 +152,9 @@ class Calibrate(harness.TestCase):
                  "--turns", "1.2"]
         halt = ["--halt-at", "5s", "--halt", "1.5s"]
         for name, fault, says in (
-                ("halt", halt, "WRONG  Motor: about [456].* s the table slowed down or stopped"),
+                ("halt", halt, "WRONG +Motor: about [456].* s the table slowed down or stopped"),
                 ("slip", ["--slip-at", "6s", "--slip", "45deg"],
-                 "WRONG  Motor: about [56].* s the table slipped ahead by about (4[0-9]|50) deg")):
+                 "WRONG +Motor: about [56].* s the table slipped ahead by about (4[0-9]|50) deg")):
             self.ok(*scene, *fault, "--no-angles", "-o", name)
             result = self.refused(FAILED, "calibrate", name, "--check")
             self.assertRegex(result.stdout, says)
@@ -168,7 +168,7 @@ class Calibrate(harness.TestCase):
             row[column] = str(432.0 / 90 * i)
         (self.dir / "encoded" / "frames.csv").write_text("".join(",".join(r) + "\n" for r in rows))
         self.assertRegex(self.refused(FAILED, "calibrate", "encoded", "--check").stdout,
-                         "WRONG  Motor: about [456].* the table slowed down or stopped.*"
+                         "WRONG +Motor: about [456].* the table slowed down or stopped.*"
                          "the recorded angles do not follow it")
 
     def test_two_sensors_at_different_azimuths_are_brought_to_one_heading(self):

@@ -247,6 +247,12 @@ class Scan(harness.TestCase):
         self.refused(FAILED, "scan", "--device", self.DEVICE + "&fault=lost@8s", "-o", "doll.3mf",
                      "--min-free", "0", says=("doll-2.recording holds", "is complete"))
 
+    def test_seconds_bound_the_wait_for_an_object(self):
+        self.refused(FAILED, "scan", "--device", self.DEVICE + "&calibration=true&appears=60s",
+                     "--seconds", "3", "-o", "doll.3mf", *self.FAST,
+                     says=("within 3.0 s", "--no-wait"))
+        self.assertFalse((self.dir / "doll.recording").exists())
+
     def test_two_sensors_make_one_mesh_without_a_double_surface(self):
         # At different heights, on different sides, with clocks that do not agree.
         device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&calibration=true"

@@ -138,6 +138,15 @@ class WrongUsage(harness.TestCase):
         self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxl-size", "1mm", says="--voxel-size")
         self.wrong("--verson", says="--version")
 
+    def test_an_option_that_is_far_from_all_is_not_guessed(self):
+        result = harness.run("reconstruct", "rec", "-o", "m.ply", "--frames", "3")
+        self.assertNotIn("did you mean", result.stderr)
+        self.assertIn("it belongs to", result.stderr)
+        self.assertIn("capture", result.stderr)
+        result = harness.run("reconstruct", "rec", "-o", "m.ply", "--wobblegong", "3")
+        self.assertNotIn("did you mean", result.stderr)
+        self.assertNotIn("belongs", result.stderr)
+
     def test_one_argument_too_many(self):
         self.wrong("info", "a.ply", "b.ply", says="b.ply")
 
@@ -145,6 +154,8 @@ class WrongUsage(harness.TestCase):
         self.wrong("reconstruct", "-o", "m.ply", says="RECORDING")
         self.wrong("reconstruct", "rec", says="--out")
         self.wrong("info", says="RECORDING")
+        self.wrong("import", "-o", "rec", says="SOURCE")
+        self.wrong("import", "scans", says="--out")
 
     def test_missing_value(self):
         self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxel-size", says="--voxel-size")

@@ -142,7 +142,7 @@ TEST(FramesCsv, NumbersThatAreNotFiniteNameTheirLine) {
 }
 
 TEST(FramesCsv, IncompletePoseIsAnError) {
-  EXPECT_THAT(refusal(table("1,,,,,,0,0,0,0,0,0,,b.png,,ok\n")), HasSubstr("line 2: qw"));
+  EXPECT_THAT(refusal(table("1,,,,,,0,0,0,0,0,0,,b.png,,ok\n")), HasSubstr("line 2: column qw"));
   EXPECT_THAT(refusal(table("1,,,,,,0,0,0,0,0,0,0,b.png,,ok\n")), HasSubstr("line 2: "));
 }
 

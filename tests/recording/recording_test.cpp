@@ -202,7 +202,7 @@ TEST(Recording, NumberThatIsNotFiniteIsAnError) {
   const TempFolder temp;
   const fs::path folder = three_frames(temp);
   append_text(folder / "frames.csv", "3,nan,0,0,0,,,,,,,,,depth/000000.png,,ok\n");
-  EXPECT_THAT(refusal(folder).text(), HasSubstr("line 5: time_s"));
+  EXPECT_THAT(refusal(folder).text(), HasSubstr("line 5: column time_s"));
 }
 
 TEST(Recording, FolderWithoutRecordingIsNotFound) {

@@ -14,6 +14,7 @@ namespace {
 using testing::color_image;
 using testing::CountingFrames;
 using testing::depth_frame;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -53,7 +54,7 @@ TEST(Summary, CountsFramesAndSpans) {
   EXPECT_EQ(s.with_pose, 0u);
   EXPECT_NEAR(s.time_s->max, 1.3, 1e-12);
   EXPECT_NEAR(*s.turns, 3.9 / (2 * std::numbers::pi), 1e-12);
-  EXPECT_THAT(s.missing, IsEmpty());
+  EXPECT_THAT(s.not_known, IsEmpty());
   ASSERT_EQ(s.sensors.size(), 1u);
   EXPECT_EQ(s.sensors[0].frames, 40u);
   EXPECT_EQ(s.sensors[0].sampled, 16u);
@@ -63,41 +64,44 @@ TEST(Summary, CountsFramesAndSpans) {
   EXPECT_NEAR(s.sensors[0].depth_m->min, 0.5014, 1e-9);
 }
 
-TEST(Summary, TimesWithoutSpeedAreMissingSomething) {
+TEST(Summary, OfTimesTheSpeedIsNotKnown) {
   SequenceHeader header = small_header();
   header.turntable = table();
   std::vector<Frame> data = frames(3);
   for (Frame& frame : data) frame.info.angle_rad.reset();
-  EXPECT_THAT(summary_of(CountingFrames(header, data)).missing,
-              ElementsAre(HasSubstr("3 of 3 frames have times, but the turntable's speed")));
+  EXPECT_THAT(
+      summary_of(CountingFrames(header, data)).not_known,
+      ElementsAre(HasSubstr("the speed of the table, in spite of the times of 3 of 3 frames")));
   header.turntable->speed_rad_s = 0.5;
   const SequenceSummary s = summary_of(CountingFrames(header, data));
-  EXPECT_THAT(s.missing, IsEmpty());
+  EXPECT_THAT(s.not_known, IsEmpty());
   EXPECT_NEAR(*s.turns, 0.5 * 2 / 30.0 / (2 * std::numbers::pi), 1e-12);
 }
 
-TEST(Summary, AnglesWithoutTableAreMissingSomething) {
+TEST(Summary, OfAnglesTheTableIsNotKnown) {
   SequenceHeader header = small_header();
-  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).missing,
+  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).not_known,
               ElementsAre(HasSubstr("axis and centre")));
   header.sensors[0].T_table_sensor = Pose::Identity();
-  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).missing, IsEmpty());
+  EXPECT_THAT(summary_of(CountingFrames(header, frames(3))).not_known, IsEmpty());
 }
 
 TEST(Summary, PosesNeedNoTable) {
   std::vector<Frame> data{scan_frame(0), scan_frame(1)};
   for (Frame& frame : data) frame.info.T_table_sensor = Pose::Identity();
   const SequenceSummary s = summary_of(CountingFrames(scanner_header(), data));
-  EXPECT_THAT(s.missing, IsEmpty());
+  EXPECT_THAT(s.not_known, IsEmpty());
   EXPECT_EQ(s.sensors[0].points_per_frame, 3u);
   EXPECT_NEAR(s.sensors[0].valid_share, 0.75, 1e-12);
 }
 
-TEST(Summary, FramesWithoutAnythingAreMissingSomething) {
+TEST(Summary, OfBareFramesNeitherAngleNorTableIsKnown) {
   const SequenceSummary s =
       summary_of(CountingFrames(scanner_header(), {scan_frame(0), scan_frame(1)}));
-  EXPECT_THAT(s.missing,
-              ElementsAre(HasSubstr("2 of 2 frames have neither"), HasSubstr("axis and centre")));
+  EXPECT_THAT(s.not_known, ElementsAre(HasSubstr("how far the table had turned in 2 of 2 frames"),
+                                       HasSubstr("axis and centre")));
+  EXPECT_THAT(s.not_known, Each(HasSubstr("from the object's motion")));
+  EXPECT_THAT(s.missing, IsEmpty());
   EXPECT_THAT(summary_of(CountingFrames(small_header(), {})).missing,
               ElementsAre(HasSubstr("no frame")));
 }

@@ -144,6 +144,11 @@ void CommandLine::positionals(const std::string& label, std::vector<std::string>
   declare(app_.add_option(label, values), label, help)->required();
 }
 
+void CommandLine::optional_positionals(const std::string& label, std::vector<std::string>& values,
+                                       const std::string& help) {
+  declare(app_.add_option(label, values), label, help);
+}
+
 void CommandLine::option(const std::string& names, const std::string& label, std::string& value,
                          const std::string& help) {
   declare(app_.add_option(names, value), label, help)

@@ -46,6 +46,8 @@ class CommandLine {
   void optional_positional(const std::string& label, std::string& value, const std::string& help);
   void positionals(const std::string& label, std::vector<std::string>& values,
                    const std::string& help);
+  void optional_positionals(const std::string& label, std::vector<std::string>& values,
+                            const std::string& help);
 
   /// names: "-o,--out". The value stays as it is when the option is not given.
   void option(const std::string& names, const std::string& label, std::string& value,

@@ -1,14 +1,18 @@
 #include "cli/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <deque>
 #include <new>
 #include <system_error>
+#include <turnscan/core/near_name.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/shown_text.hpp>
 #include <version/named_version.hpp>
 
@@ -97,14 +101,22 @@ int exit_code_of(ErrorCode code) {
   return code == ErrorCode::kInvalidOption ? kExitUsage : kExitFailed;
 }
 
+/// Whether people write such files, so that they can correct them.
+bool is_text_file(const std::string& path) {
+  constexpr std::array<std::string_view, 7> kEndings{".json", ".csv",  ".toml", ".txt",
+                                                     ".conf", ".yaml", ".yml"};
+  return std::find(kEndings.begin(), kEndings.end(), ending_of(path)) != kEndings.end();
+}
+
 /// What to do about an error whose sentence does not say it.
-std::string_view advice_for(ErrorCode code) {
-  switch (code) {
+std::string_view advice_for(const Error& error) {
+  switch (error.code) {
     case ErrorCode::kNotFound:
       return "check the path";
     case ErrorCode::kIo:
       return "check permissions and free space";
     case ErrorCode::kFormat:
+      if (is_text_file(error.path)) return "correct it there";
       return "the file is damaged or not what its name says, so get it again";
     case ErrorCode::kUnsupported:
       return "use another format";
@@ -127,7 +139,7 @@ std::string_view advice_for(ErrorCode code) {
 std::string with_advice(const Error& error) {
   std::string text = error.text();
   if (text.find("; ") != std::string::npos) return text;
-  return fmt::format("{}; {}", text, advice_for(error.code));
+  return fmt::format("{}; {}", text, advice_for(error));
 }
 
 /// Takes no memory: it may be what is lacking.
@@ -182,19 +194,22 @@ std::string parse_error_text(const CLI::ParseError& error) {
   return text;
 }
 
-std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names) {
+std::string name_of_option(std::string_view argument) {
+  argument = argument.substr(0, argument.find('='));
+  return std::string(argument.substr(std::min(argument.find_first_not_of('-'), argument.size())));
+}
+
+/// names: of the options that there are; also_in: the commands that have one of that name.
+std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names,
+                             const std::vector<std::string>& also_in) {
   if (argument.rfind('-', 0) != 0)
     return fmt::format("{}: one argument too many; remove it", argument);
-  OptionTable options;
-  std::string unused;
-  for (const std::string& name : names) options.text(name, unused, "");
   const std::string plain = argument.substr(0, argument.find('='));
-  const auto dashes = std::min(plain.find_first_not_of('-'), plain.size());
-  const std::string hint = options.set(plain.substr(dashes), "").error().message;
-  const auto quote = hint.rfind("did you mean '");
-  if (quote == std::string::npos) return fmt::format("{}: there is no such option", plain);
-  return fmt::format("{}: there is no such option; did you mean '--{}", plain,
-                     hint.substr(quote + std::strlen("did you mean '")));
+  const std::string none = fmt::format("{}: there is no such option", plain);
+  if (const auto near = near_name(name_of_option(plain), names))
+    return fmt::format("{}; did you mean '--{}'", none, *near);
+  if (also_in.empty()) return none;
+  return fmt::format("{} here; it belongs to {}", none, fmt::join(also_in, ", "));
 }
 
 }  // namespace
@@ -295,12 +310,24 @@ void Program::add_reference() {
       std::make_unique<ReferenceCommand>(*this));
 }
 
+std::vector<std::string> Program::commands_with(const std::string& option) const {
+  std::vector<std::string> out;
+  for (const Entry& entry : parts_->entries) {
+    const auto names = entry.line.long_names();
+    if (std::find(names.begin(), names.end(), option) != names.end())
+      out.push_back(entry.app->get_name());
+  }
+  return out;
+}
+
 int Program::run_command(Entry& entry) {
   const std::string called = "turnscan " + entry.app->get_name();
   auto extra = entry.app->remaining();
   std::erase(extra, "--");  // what follows it was taken for arguments
   if (!extra.empty())
-    return usage_error(unknown_argument(extra.front(), entry.line.long_names()), called);
+    return usage_error(unknown_argument(extra.front(), entry.line.long_names(),
+                                        commands_with(name_of_option(extra.front()))),
+                       called);
   if (auto applied = entry.line.apply(); !applied) {
     const Error& error = applied.error();
     if (exit_code_of(error.code) == kExitUsage) return usage_error(error.text(), called);
@@ -372,7 +399,9 @@ int Program::run(int argc, char** argv) {
   const auto extra = app.remaining();
   if (extra.empty()) return usage_error("no command: nothing to do", "turnscan");
   if (extra.front().rfind('-', 0) == 0)
-    return usage_error(unknown_argument(extra.front(), {"help", "version"}), "turnscan");
+    return usage_error(unknown_argument(extra.front(), {"help", "version"},
+                                        commands_with(name_of_option(extra.front()))),
+                       "turnscan");
   return unknown_command(extra.front());
 }
 

@@ -25,6 +25,8 @@ class Program {
   struct Entry;
 
   int run_command(Entry& entry);
+  /// Names of those that have an option of that long name.
+  std::vector<std::string> commands_with(const std::string& option) const;
   /// Of the program, or the common options of the chosen command.
   std::string help();
   int unknown_command(const std::string& name);

@@ -1,3 +1,5 @@
+#include <array>
+#include <map>
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/capture/session/taken_frames.hpp>
 #include <turnscan/recording/calibration_file.hpp>
@@ -58,9 +60,10 @@ class CalibrateCommand : public Command {
         "--iai-kinect2", "FOLDER", request_.iai_folders,
         "First take cameras and depth offset from a Kinect v2 calibration in the layout "
         "of iai_kinect2; given again: of the next sensor of the recording");
-    line.flag("--check", check_,
-              "Look at closure, direction, speed, slips and warm-up of the recording, and say what "
-              "is wrong; nothing is calibrated");
+    line.flag(
+        "--check", check_,
+        "Look at closure, direction, speed, slips and warm-up of the recording, and rate each "
+        "as good, WRONG or not known; nothing is calibrated");
     line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
     line.option("--save", "FILE.json", save_,
                 "Keep the calibration as a file for reconstruct --turntable (the same content)");
@@ -157,7 +160,7 @@ class CalibrateCommand : public Command {
                                    session.context()));
     TURNSCAN_ASSIGN(const RigCheck rig, check_rig(scan, *kept, session.context()));
     if (rig.moved) return fail(ErrorCode::kMissingData, "{}: {}", identity, rig.text);
-    session.print("good   {}\n", rig.text);
+    session.print("{:<9}  {}\n", word_of(Rating::kGood), rig.text);
     return {};
   }
 
@@ -179,15 +182,24 @@ class CalibrateCommand : public Command {
     TURNSCAN_ASSIGN(
         const auto findings,
         check_recording(recording, {request_.motion, request_.detect}, session.context()));
-    std::size_t wrong = 0;
+    std::map<Rating, std::size_t> count;
     for (const Finding& finding : findings) {
-      session.print("{}  {}\n", finding.good ? "good " : "WRONG", finding.text);
-      wrong += finding.good ? 0 : 1;
+      session.print("{:<9}  {}\n", word_of(finding.rating), finding.text);
+      ++count[finding.rating];
     }
-    if (wrong == 0) return {};
+    if (count[Rating::kWrong] > 0)
+      return fail(ErrorCode::kMissingData,
+                  "{} of {} checks found something wrong; calibrate anew with 'turnscan calibrate'",
+                  count[Rating::kWrong], findings.size());
+    if (count[Rating::kGood] > 0) return {};
     return fail(ErrorCode::kMissingData,
-                "{} of {} checks found something wrong; calibrate anew with 'turnscan calibrate'",
-                wrong, findings.size());
+                "nothing could be checked; record a whole turn of an object that does not look the "
+                "same from all sides");
+  }
+
+  static std::string_view word_of(Rating rating) {
+    constexpr std::array<std::string_view, 3> kWords{"good", "not known", "WRONG"};
+    return kWords[std::size_t(rating)];
   }
 
   std::string recording_, device_, json_, save_;

@@ -4,6 +4,7 @@
 #include <turnscan/workflow/input.hpp>
 
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/text/text_table.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 
@@ -14,11 +15,13 @@ namespace {
 class ImportCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positionals("SOURCE...", sources_,
-                     "Data set to read: a folder, a .conf or a .json file. Several are the passes "
-                     "of one object, in which it lies in several ways");
-    line.required_option("-o,--out", "RECORDING", out_,
-                         "Folder to make for the recording; it must not exist or be empty");
+    line.optional_positionals(
+        "SOURCE...", sources_,
+        "Data set to read: a folder or a file of a layout that --list shows. Several are the "
+        "passes of one object, in which it lies in several ways");
+    line.option("-o,--out", "RECORDING", out_,
+                "Folder to make for the recording; it must not exist or be empty");
+    line.flag("--list", list_, "Print the layouts that can be imported, and do nothing else");
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.allow_config();
     line.group("import", "Import", describe(options_));
@@ -31,6 +34,13 @@ class ImportCommand : public Command {
   }
 
   Result<> run(Session& session) override {
+    if (list_) {
+      session.print("{}", layouts_text());
+      return {};
+    }
+    for (const auto& [name, given] :
+         {std::pair("SOURCE", !sources_.empty()), {"--out", !out_.empty()}})
+      if (!given) return fail(ErrorCode::kInvalidOption, "{}: missing; give it", name);
     TURNSCAN_TRY(options_.check());
     TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_ASSIGN(const auto sequence,
@@ -45,9 +55,17 @@ class ImportCommand : public Command {
   }
 
  private:
+  static std::string layouts_text() {
+    workflow::TextTable table({0, 1});
+    table.add({"format", "layout"});
+    for (const ImporterInfo& importer : importers())
+      table.add({std::string(importer.name), std::string(importer.help)});
+    return table.text();
+  }
+
   std::vector<std::string> sources_;
   std::string out_;
-  bool overwrite_unfinished_ = false;
+  bool list_ = false, overwrite_unfinished_ = false;
   ImportOptions options_;
 };
 

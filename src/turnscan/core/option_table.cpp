@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <turnscan/core/near_name.hpp>
 #include <turnscan/core/option_table.hpp>
 
 namespace turnscan {
@@ -30,21 +31,6 @@ Result<int> parse_integer(const std::string& name, std::string_view text, Range 
   if (value != std::floor(value))
     return fail(ErrorCode::kInvalidOption, "{} = {} is not a whole number", name, text);
   return static_cast<int>(value);
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
 }
 
 }  // namespace
@@ -209,14 +195,12 @@ const OptionField* OptionTable::find(std::string_view name) const {
 
 Result<> OptionTable::set(std::string_view name, std::string_view value) const {
   if (const OptionField* field = find(name)) return field->set(value);
-  const auto nearest = std::min_element(
-      fields_.begin(), fields_.end(), [&](const OptionField& a, const OptionField& b) {
-        return edit_distance(a.name, name) < edit_distance(b.name, name);
-      });
-  if (nearest == fields_.end())
-    return fail(ErrorCode::kInvalidOption, "there is no option '{}'", name);
+  std::vector<std::string> names;
+  for (const OptionField& field : fields_) names.push_back(field.name);
+  const auto nearest = near_name(name, names);
+  if (!nearest) return fail(ErrorCode::kInvalidOption, "there is no option '{}'", name);
   return fail(ErrorCode::kInvalidOption, "there is no option '{}'; did you mean '{}'", name,
-              nearest->name);
+              *nearest);
 }
 
 Result<> OptionTable::check() const {

@@ -2,10 +2,10 @@
 // Lengths in the sentences of reports.
 
 #include <string>
-#include <turnscan/core/units.hpp>
+#include <turnscan/core/figure_text.hpp>
 
 namespace turnscan {
 
-inline std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
+inline std::string mm(double metres) { return length_text(metres); }
 
 }  // namespace turnscan

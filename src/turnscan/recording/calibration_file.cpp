@@ -312,7 +312,7 @@ std::string calibration_json(const Calibration& c) {
 
 Result<Calibration> parse_calibration(std::string_view text) {
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(text::JsonObject root, text::JsonObject::from(json, text));
   TURNSCAN_ASSIGN(const std::string format, root.text_or("format", ""));
   if (format == kCalibrationFormat) return parse_whole(root);
   if (root.has("turntable")) {

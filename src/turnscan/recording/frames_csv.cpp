@@ -26,7 +26,7 @@ std::string fixed_text(double value, int decimals) {
 Result<double> number_field(const text::CsvColumns& columns, const std::vector<std::string>& fields,
                             const char* name) {
   auto value = parse_number(columns.field(fields, name));
-  if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
+  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
   return value;
 }
 
@@ -36,7 +36,7 @@ Result<std::uint32_t> index_field(const text::CsvColumns& columns,
   const std::string_view text = columns.field(fields, name);
   if (text.empty() && std::string_view(name) != "index") return 0U;
   auto value = text::parse_index(text, max);
-  if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
+  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
   return value;
 }
 
@@ -57,7 +57,7 @@ Result<std::optional<Pose>> pose_fields(const text::CsvColumns& columns,
 Result<FrameStatus> status_field(std::string_view text) {
   if (text.empty() || text == "ok") return FrameStatus::kOk;
   if (text == "dropped") return FrameStatus::kDropped;
-  return fail(ErrorCode::kFormat, "status: '{}' is neither ok nor dropped", text);
+  return fail(ErrorCode::kFormat, "column status: '{}' is neither ok nor dropped", text);
 }
 
 Result<std::string> name_field(std::string_view text) {
@@ -115,9 +115,10 @@ Result<> check_indices(std::vector<FrameRow>& rows, std::vector<std::string>& no
 Result<text::CsvColumns> parse_header(text::LineReader& lines) {
   const auto line = lines.next();
   if (!line) return fail(ErrorCode::kFormat, "the header line is missing");
-  TURNSCAN_ASSIGN(text::CsvColumns columns, text::CsvColumns::parse(line->text));
+  auto columns = text::CsvColumns::parse(line->text);
+  if (!columns) return fail(ErrorCode::kFormat, "line 1: {}", columns.error().message);
   for (const char* name : {"index", "file"}) {
-    if (!columns.has(name))
+    if (!columns->has(name))
       return fail(ErrorCode::kFormat, "line 1: the header has no column '{}'", name);
   }
   return columns;

@@ -23,8 +23,8 @@ Result<RecordingDescription> read_description(const fs::path& folder) {
   auto text = read_file(path, kMaxDescriptionBytes);
   if (!text && text.error().code == ErrorCode::kNotFound)
     return fail_at(folder.string(), ErrorCode::kNotFound,
-                   "there is no recording here (no recording.json); foreign data must be imported "
-                   "first");
+                   "there is no recording here (no recording.json); name the folder of one, or "
+                   "import what is there ('turnscan import --list' shows the layouts)");
   if (!text) return tl::unexpected<Error>(std::move(text).error());
   auto description = parse_recording_json(*text);
   if (!description) return in_file(path, std::move(description).error());

@@ -241,7 +241,7 @@ Result<> check_header(const SequenceHeader& header) {
 
 Result<RecordingDescription> parse_recording_json(std::string_view text) {
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   TURNSCAN_TRY(check_schema(root));
   RecordingDescription out;
   TURNSCAN_ASSIGN(out.header, parse_header(root));

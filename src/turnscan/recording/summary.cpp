@@ -125,8 +125,8 @@ void find_turns(SequenceSummary& summary) {
   }
 }
 
-/// What keeps frames from being put into the table frame: by pose, or by angle and table.
-void find_missing(const FrameSequence& sequence, SequenceSummary& summary) {
+/// What would put frames into the table frame: a pose, or an angle and the table.
+void find_not_known(const FrameSequence& sequence, SequenceSummary& summary) {
   const SequenceHeader& header = sequence.header();
   const bool speed = header.turntable && header.turntable->speed_rad_s;
   std::size_t no_angle = 0, no_speed = 0, no_table = 0;
@@ -139,12 +139,13 @@ void find_missing(const FrameSequence& sequence, SequenceSummary& summary) {
   }
   const auto say = [&](std::size_t count, const char* what) {
     if (count > 0)
-      summary.missing.push_back(
-          fmt::format("{} of {} frames {}", count, summary.frames - summary.dropped, what));
+      summary.not_known.push_back(
+          fmt::format("{} {} of {} frames; reconstruct finds it from the object's motion", what,
+                      count, summary.frames - summary.dropped));
   };
-  say(no_angle, "have neither a pose nor an angle nor a time");
-  say(no_speed, "have times, but the turntable's speed is not known");
-  say(no_table, "need the turntable's axis and centre, which are not known");
+  say(no_angle, "how far the table had turned in");
+  say(no_speed, "the speed of the table, in spite of the times of");
+  say(no_table, "where the table's axis and centre are, for");
   if (summary.frames == summary.dropped) summary.missing.emplace_back("there is no frame to use");
 }
 
@@ -170,7 +171,7 @@ Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContex
   summary.turntable = header.turntable;
   count_frames(sequence, summary);
   find_turns(summary);
-  find_missing(sequence, summary);
+  find_not_known(sequence, summary);
   context.begin_phase("look at frames", header.sensors.size() * kSamples);
   for (std::size_t i = 0; i < header.sensors.size(); ++i)
     TURNSCAN_TRY(sample_sensor(sequence, i, context, summary));

@@ -39,8 +39,10 @@ struct SequenceSummary {
   std::optional<TurntableInfo> turntable;
   std::optional<std::uint64_t> bytes;  ///< of the files of another program, not yet imported
   std::vector<SensorSummary> sensors;
-  std::vector<std::string> notes;    ///< assumptions of the import, defects found on opening
-  std::vector<std::string> missing;  ///< what reconstruction will lack; empty: nothing
+  std::vector<std::string> notes;  ///< assumptions of the import, defects found on opening
+  /// What would place frames on the table; reconstruction finds it from the object's motion.
+  std::vector<std::string> not_known;
+  std::vector<std::string> missing;  ///< without which there is nothing to reconstruct
 };
 
 /// Decodes at most 16 frames of each sensor, spread evenly. A frame that cannot be read becomes a

@@ -1,7 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <turnscan/core/units.hpp>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/recording/recording_json.hpp>
 #include <turnscan/recording/summary.hpp>
@@ -10,14 +11,27 @@ namespace turnscan::recording_format {
 
 namespace {
 
+/// Of a recording, which knows its values to no more digits.
+std::string value_text(double value, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kLength:
+      return length_text(value);
+    case Quantity::kAngle:
+      return fmt::format("{:.1f}deg", value / kRadiansPerDegree);
+    case Quantity::kTime:
+      return fmt::format("{:.3f}s", value);
+    default:
+      return fmt::format("{:.4f}", value);
+  }
+}
+
 std::string span_text(const ValueSpan& span, Quantity quantity) {
-  return fmt::format("{} to {}", format_quantity(span.min, quantity),
-                     format_quantity(span.max, quantity));
+  return fmt::format("{} to {}", value_text(span.min, quantity), value_text(span.max, quantity));
 }
 
 std::string vector_text(const Vec3d& v, Quantity quantity) {
-  return fmt::format("({}, {}, {})", format_quantity(v.x(), quantity),
-                     format_quantity(v.y(), quantity), format_quantity(v.z(), quantity));
+  return fmt::format("({}, {}, {})", value_text(v.x(), quantity), value_text(v.y(), quantity),
+                     value_text(v.z(), quantity));
 }
 
 std::string position_text(const SequenceSummary& s) {
@@ -145,6 +159,7 @@ std::string summary_text(const SequenceSummary& s) {
   for (std::size_t i = 0; i < s.sensors.size(); ++i) put_sensor(i, s.sensors[i], out);
   put_turntable(s, out);
   for (const std::string& note : s.notes) out += fmt::format("note:        {}\n", note);
+  for (const std::string& what : s.not_known) out += fmt::format("not known:   {}\n", what);
   for (const std::string& what : s.missing) out += fmt::format("missing:     {}\n", what);
   return out;
 }
@@ -168,6 +183,7 @@ std::string summary_json(const SequenceSummary& s) {
   for (const SensorSummary& sensor : s.sensors) out["sensors"].push_back(sensor_json(sensor));
   if (s.turntable) out["turntable"] = turntable_json(*s.turntable);
   out["notes"] = s.notes;
+  out["not_known"] = s.not_known;
   out["missing"] = s.missing;
   std::string text = text::json_text(out);
   text.pop_back();

@@ -47,11 +47,8 @@ Result<Input> open_input(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   const bool named = path.filename() == kRecordingFile;
   TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / kRecordingFile));
-  std::error_code error;
-  const bool unknown_folder = options.format == ImportFormat::kAuto && options.angles.empty() &&
-                              fs::is_directory(path, error) && !is_foreign(path);
   Input out;
-  if (!named && !recording_there && !unknown_folder) {
+  if (!named && !recording_there) {
     TURNSCAN_ASSIGN(out.frames, open_foreign(path, options));
     out.imported = true;
     out.notes = assumptions_of(out.frames->header().source);
@@ -89,7 +86,8 @@ Result<Input> open_input_asking(const fs::path& path, const ImportOptions& optio
   auto input = open_input(path, options);
   if (input) return input;
   Error error = input.error();
-  if (error.code == ErrorCode::kMissingData || error.message.find("--") != std::string::npos)
+  const bool asks = error.message.find("--") != std::string::npos;
+  if (error.code == ErrorCode::kMissingData || (asks && error.code != ErrorCode::kUnsupported))
     error.message +=
         " (options of turnscan import are given here as --import NAME=VALUE, e.g. --import "
         "depth-unit=1mm)";

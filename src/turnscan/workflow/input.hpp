@@ -24,7 +24,7 @@ struct Input {
 
 /// path: a recording's folder or its recording.json (see Recording::open), or a data set of another
 /// program (see open_foreign; options are for these alone). Fails as Recording::open() where there
-/// is a recording, and for a folder of no layout that is known; else as open_foreign().
+/// is a recording, else as open_foreign().
 Result<Input> open_input(const std::filesystem::path& path,
                          const ImportOptions& options = ImportOptions());
 

@@ -256,11 +256,11 @@ TEST(CloudFolder, WrongTablesAreNamed) {
   EXPECT_THAT(message("file,angle\na.ply,0\n"), HasSubstr("must name the columns"));
   EXPECT_THAT(message("file,angle_deg\n"), HasSubstr("no scans"));
   EXPECT_THAT(message(""), HasSubstr("empty"));
-  EXPECT_THAT(message("file,angle_deg\na.ply,1 deg\n"), HasSubstr("line 2: angle_deg"));
-  EXPECT_THAT(message("file,angle_deg\na.ply,inf\n"), HasSubstr("line 2: angle_deg"));
+  EXPECT_THAT(message("file,angle_deg\na.ply,1 deg\n"), HasSubstr("line 2: column angle_deg"));
+  EXPECT_THAT(message("file,angle_deg\na.ply,inf\n"), HasSubstr("line 2: column angle_deg"));
   EXPECT_THAT(message("file,angle_deg\na.ply,\n"), HasSubstr("line 2: there is neither"));
   EXPECT_THAT(message("file,angle_deg\na.ply\n"), HasSubstr("line 2: there are 1 fields"));
-  EXPECT_THAT(message("file,angle_deg,sensor\na.ply,0,64\n"), HasSubstr("line 2: sensor"));
+  EXPECT_THAT(message("file,angle_deg,sensor\na.ply,0,64\n"), HasSubstr("line 2: column sensor"));
   EXPECT_THAT(message("file,angle_deg\n../a.ply,0\n"), HasSubstr("inside"));
 }
 

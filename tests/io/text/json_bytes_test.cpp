@@ -45,5 +45,53 @@ TEST(JsonBytes, AMemberIsSetAndAllElseStays) {
             "{\"b\": [1, {\"b\": 2}], \"b\":0}");
 }
 
+TEST(JsonBytes, ASyntaxErrorIsNamedWithLineAndColumn) {
+  const auto json = parse_json("{\n  \"a\": 1\n  \"b\": 2\n}\n");
+  ASSERT_FALSE(json);
+  EXPECT_NE(json.error().message.find("not valid JSON: line 3, column 3: "), std::string::npos)
+      << json.error().message;
+  EXPECT_NE(json.error().message.find("expected"), std::string::npos) << json.error().message;
+  EXPECT_EQ(json.error().message.find("; "), std::string::npos) << json.error().message;
+}
+
+TEST(JsonBytes, ALineAndAColumnCountCharacters) {
+  const std::string text = "a\n\xC3\xA4\xC3\xB6x";
+  EXPECT_EQ(line_and_column(text, 0), "line 1, column 1");
+  EXPECT_EQ(line_and_column(text, text.size() - 1), "line 2, column 3");
+}
+
+TEST(JsonBytes, APathLeadsToItsValue) {
+  const std::string text =
+      "{\"a\": {\"b\": [1, {\"c\" : \"],}\"}, 7]},\n \"d\": [[2, 3], []], \"a2\": 0}";
+  const auto at = [&](const char* path) { return text.substr(json_offset(text, path), 3); };
+  EXPECT_EQ(at(""), "{\"a");
+  EXPECT_EQ(at("a.b"), "[1,");
+  EXPECT_EQ(at("a.b[1].c"), "\"],");
+  EXPECT_EQ(at("a.b[2]"), "7]}");
+  EXPECT_EQ(at("d[0][1]"), "3],");
+  EXPECT_EQ(at("a2"), "0}");
+  // What is not there: where it would be.
+  EXPECT_EQ(at("a.x"), "{\"b");
+  EXPECT_EQ(at("d[1][4]"), "[],");
+  EXPECT_EQ(at("d.x"), "[[2");
+}
+
+TEST(JsonBytes, OfAKeyThatIsThereTwiceTheLastOneCounts) {
+  const std::string text = "{\"a\": 1, \"a\": 2}";
+  EXPECT_EQ(text[json_offset(text, "a")], '2');
+}
+
+TEST(JsonObject, NamesLineAndColumnOfAWrongField) {
+  const std::string text = "{\n \"camera\": {\n  \"fx\": \"wide\"}}";
+  const auto json = parse_json(text);
+  ASSERT_TRUE(json);
+  const auto root = JsonObject::from(*json, text);
+  ASSERT_TRUE(root);
+  const auto camera = root->object("camera");
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->number("fx").error().message, "line 3, column 9: camera.fx is not a number");
+  EXPECT_EQ(camera->number("fy").error().message, "line 2, column 12: camera.fy is missing");
+}
+
 }  // namespace
 }  // namespace turnscan::text

@@ -42,13 +42,13 @@ std::vector<Finding> findings_of(const testing::MemorySequence& sequence) {
 
 bool wrong(const std::vector<Finding>& findings, const std::string& what) {
   for (const Finding& f : findings)
-    if (f.text.rfind(what, 0) == 0) return !f.good;
+    if (f.text.rfind(what, 0) == 0) return f.rating == Rating::kWrong;
   ADD_FAILURE() << what << " was not looked at";
   return false;
 }
 
 TEST(CheckRecording, FindsNothingWrongWithTheTruth) {
-  for (const Finding& f : findings_of(recording())) EXPECT_TRUE(f.good) << f.text;
+  for (const Finding& f : findings_of(recording())) EXPECT_EQ(f.rating, Rating::kGood) << f.text;
 }
 
 TEST(CheckRecording, SaysWhenTheDirectionIsMirrored) {

@@ -26,10 +26,21 @@ TEST(ErrorShares, InvertTheirShare) {
   shares.add(0.0003, 1.0);
   shares.add(0.0010, 2.0);
   for (const double share : {0.2, 0.5, 0.95})
-    EXPECT_NEAR(shares.within(shares.error_of(share)), share, 1e-4);
+    EXPECT_NEAR(shares.within(shares.error_of(share).value_or(0.0)), share, 1e-4);
 }
 
-TEST(ErrorShares, OfNoSurfaceAreNone) { EXPECT_EQ(ErrorShares().within(0.001), 0.0); }
+TEST(ErrorShares, OfNoSurfaceAreNone) {
+  EXPECT_EQ(ErrorShares().within(0.001), 0.0);
+  EXPECT_FALSE(ErrorShares().error_of(0.5));
+}
+
+TEST(ErrorShares, DoNotKnowAnErrorOfAMetreOrMore) {
+  ErrorShares shares;
+  shares.add(0.001, 2.0);
+  shares.add(1e6, 1.0);
+  EXPECT_TRUE(shares.error_of(0.5));
+  EXPECT_FALSE(shares.error_of(0.95));
+}
 
 }  // namespace
 }  // namespace turnscan

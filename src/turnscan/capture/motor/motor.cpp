@@ -77,7 +77,7 @@ Error at_port(Error error, const std::string& port) {
 Result<double> checked_angle(double deg) {
   constexpr double kMost_deg = 3.6e8;
   if (std::abs(deg) <= kMost_deg) return deg;
-  return fail(ErrorCode::kIo, "the table says that it stands at {:g} deg; check --motor-units",
+  return fail(ErrorCode::kIo, "the table says that it stands at {:.1f} deg; check --motor-units",
               deg);
 }
 

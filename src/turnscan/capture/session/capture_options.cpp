@@ -32,7 +32,9 @@ OptionTable describe(CaptureLimits& o) {
   table
       .number("turns", o.turns, Quantity::kNone, {0.01, 1000.0},
               "Record so many turns of the table; 1 unless another end is given")
-      .number("seconds", o.seconds, Quantity::kNone, {0.01, 1e6}, "Record for so many seconds")
+      .number("seconds", o.seconds, Quantity::kNone, {0.01, 1e6},
+              "Record for so many seconds; turnscan scan waits no longer than that for an object, "
+              "either")
       .number("frames", o.frames, {1, 1000000}, "Record so many frames of each sensor")
       .flag("until-stopped", o.until_stopped, "Record until Ctrl-C")
       .number("overlap", o.overlap_rad, Quantity::kAngle, {0.0, kTurn},

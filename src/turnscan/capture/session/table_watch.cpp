@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <turnscan/capture/recorder/depth_crop.hpp>
 #include <turnscan/capture/session/table_watch.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/core/stopwatch.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
@@ -28,6 +31,20 @@ Result<Frame> next_frame(FrameSource& source, std::uint32_t sensor, const RunCon
   }
 }
 
+/// By the sensor's time, or by our own where its frames have none.
+class WaitClock {
+ public:
+  double waited_s(const FrameInfo& info) {
+    if (!std::isfinite(info.time_s)) return seconds_since(begin_);
+    if (!first_s_) first_s_ = info.time_s;
+    return info.time_s - *first_s_;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::optional<double> first_s_;
+};
+
 }  // namespace
 
 Result<AveragedScan> mean_of_next(FrameSource& source, std::uint32_t sensor, int frames,
@@ -45,7 +62,8 @@ Result<AveragedScan> mean_of_next(FrameSource& source, std::uint32_t sensor, int
 }
 
 Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
-                         const std::function<void()>& told, const RunContext& context) {
+                         std::optional<double> most_s, const std::function<void()>& told,
+                         const RunContext& context) {
   TURNSCAN_ASSIGN(const Pose pose, sensor_pose(header, 0));
   Cylinder cylinder;
   cylinder.margin_m = kAbove_m;
@@ -53,6 +71,7 @@ Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
   cylinder.radius_m = std::max(0.02, header.turntable->radius_m.value_or(0.1) - kWithin_m);
   TURNSCAN_ASSIGN(const DepthCrop crop, DepthCrop::create(cylinder, pose, header.sensors[0]));
   bool waiting = false;
+  WaitClock clock;
   for (int seen = 0; seen < kMinFrames;) {
     TURNSCAN_ASSIGN(Frame frame, next_frame(source, 0, context));
     if (frame.depth.empty()) return {};  // of a scanner that gives points nothing is known here
@@ -61,6 +80,11 @@ Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
         std::count_if(frame.depth.pixels.begin(), frame.depth.pixels.end(),
                       [](std::uint16_t raw) { return raw != kNoReturn && raw != kOutsideCrop; });
     seen = std::size_t(pixels) >= kMinPixels ? seen + 1 : 0;
+    if (seen == 0 && most_s && clock.waited_s(frame.info) > *most_s)
+      return fail(ErrorCode::kMissingData,
+                  "nothing stood on the platter within {:.1f} s (--seconds); put the object on it "
+                  "first, give more seconds, or record what is there with --no-wait",
+                  *most_s);
     if (seen == 0 && !waiting) {
       waiting = true;
       told();

@@ -15,9 +15,12 @@ Result<AveragedScan> mean_of_next(FrameSource& source, std::uint32_t sensor, int
 
 /// Takes frames until something stands on the platter in five of them one after the other: returns
 /// more than 10 mm above it, more than 40 mm within its rim, in at least 100 pixels. told: called
-/// once when it has to wait. header: with the turntable and its radius.
-/// Fails as FrameSource::next() does, and with kMissingData when the source ends.
+/// once when it has to wait. header: with the turntable and its radius. most_s: of the sensor's
+/// time, that it waits; nullopt: as long as it takes.
+/// Fails as FrameSource::next() does, and with kMissingData when the source ends and when nothing
+/// stands there in time.
 Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
-                         const std::function<void()>& told, const RunContext& context);
+                         std::optional<double> most_s, const std::function<void()>& told,
+                         const RunContext& context);
 
 }  // namespace turnscan

@@ -126,7 +126,7 @@ Result<AzureKinectCameras> parse_azure_kinect(std::string_view json, const Image
     return fail(ErrorCode::kUnsupported, "no depth mode has images of {} x {} pixels", depth.width,
                 depth.height);
   TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json.substr(0, json.find('\0'))));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(value, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(value));
   TURNSCAN_ASSIGN(const text::JsonObject information, root.object("CalibrationInformation"));
   TURNSCAN_ASSIGN(const std::vector<text::JsonObject> cameras, information.objects("Cameras"));
   TURNSCAN_ASSIGN(const auto raw, camera_at(cameras, "CALIBRATION_CameraLocationD0"));

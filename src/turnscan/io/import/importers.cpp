@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/file/random_access_file.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/import/importers_common.hpp>
@@ -68,14 +70,6 @@ const std::vector<Importer>& table() {
   return importers;
 }
 
-std::string known_layouts() {
-  std::string text;
-  for (const Importer& importer : table())
-    text +=
-        fmt::format("{}{} ({})", text.empty() ? "" : ", ", importer.info.name, importer.info.help);
-  return text;
-}
-
 bool any_ends_with(const std::vector<std::string>& names, std::string_view ending) {
   return std::any_of(names.begin(), names.end(),
                      [&](const std::string& name) { return name.ends_with(ending); });
@@ -126,6 +120,25 @@ ImportFormat recognise_file(const fs::path& path) {
   return ImportFormat::kAuto;
 }
 
+bool is_mesh_name(const fs::path& path) {
+  constexpr std::array<std::string_view, 8> kEndings{"ply", "obj", "stl",  "off",
+                                                     "3mf", "glb", "gltf", "pcd"};
+  const std::string ending = file::lower_extension(path);
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+/// For the error about a path that is not recognised.
+Result<std::string> what_is_there(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    const std::string ending = path.extension().string();
+    return ending.empty() ? "a file without an ending" : fmt::format("a {} file", ending);
+  }
+  TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
+  if (names.empty()) return std::string("an empty folder");
+  return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
+}
+
 Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& options) {
   std::error_code error;
   ImportFormat format = ImportFormat::kAuto;
@@ -143,8 +156,15 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
     format = recognise_file(path);
   }
   if (format != ImportFormat::kAuto) return format;
+  if (is_mesh_name(path))
+    return fail_at(path.string(), ErrorCode::kUnsupported,
+                   "this is a mesh or a point cloud already, not a recording; use it with "
+                   "'turnscan info', 'turnscan evaluate' or 'turnscan render'");
+  TURNSCAN_ASSIGN(const std::string found, what_is_there(path));
   return fail_at(path.string(), ErrorCode::kUnsupported,
-                 "this is none of the layouts that can be imported: {}", known_layouts());
+                 "{}, which is neither a recording nor a layout that can be imported; 'turnscan "
+                 "import --list' shows the layouts",
+                 found);
 }
 
 std::vector<std::string_view> stated_options(const ImportOptions& o) {

@@ -32,8 +32,10 @@ Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options
 Result<text::CsvColumns> parse_header(text::LineReader& lines) {
   const auto line = lines.next_content();
   if (!line) return fail(ErrorCode::kFormat, "the table is empty");
-  TURNSCAN_ASSIGN(text::CsvColumns columns, text::CsvColumns::parse(line->text));
-  if (!columns.has("file") || (!columns.has("angle_deg") && !columns.has("time_s")))
+  auto columns = text::CsvColumns::parse(line->text);
+  if (!columns)
+    return fail(ErrorCode::kFormat, "line {}: {}", line->number, columns.error().message);
+  if (!columns->has("file") || (!columns->has("angle_deg") && !columns->has("time_s")))
     return fail(ErrorCode::kFormat,
                 "line {}: the first line must name the columns file,angle_deg or file,time_s "
                 "(pass and sensor may follow)",
@@ -44,14 +46,14 @@ Result<text::CsvColumns> parse_header(text::LineReader& lines) {
 Result<std::optional<double>> number_field(std::string_view name, std::string_view text) {
   if (text.empty()) return std::optional<double>();
   const auto value = parse_number(text);
-  if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
+  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
   return std::optional<double>(*value);
 }
 
 Result<std::uint32_t> index_field(std::string_view name, std::string_view text, std::uint32_t max) {
   if (text.empty()) return 0U;
   auto value = text::parse_index(text, max);
-  if (!value) return fail(ErrorCode::kFormat, "{}: {}", name, value.error().message);
+  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
   return value;
 }
 

@@ -66,13 +66,10 @@ Result<std::vector<double>> parse_angles(const text::JsonObject& root, SequenceH
 
 Result<std::vector<Pose>> parse_poses(const text::JsonObject& root, const ImportOptions& options) {
   std::vector<Pose> poses;
-  const text::Json* list = root.find("poses");
-  if (list == nullptr) return poses;
-  if (!list->is_array()) return fail(ErrorCode::kFormat, "poses is not a list");
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    TURNSCAN_ASSIGN(const Pose pose, text::pose_from_json((*list)[i], fmt::format("poses[{}]", i)));
-    TURNSCAN_ASSIGN(const Pose placed, placed_pose(pose, options));
-    poses.push_back(placed);
+  if (!root.has("poses")) return poses;
+  TURNSCAN_ASSIGN(poses, root.poses("poses"));
+  for (Pose& pose : poses) {
+    TURNSCAN_ASSIGN(pose, placed_pose(pose, options));
   }
   return poses;
 }
@@ -214,7 +211,7 @@ struct Description {
 Result<Description> parse_description(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   Description out;
   out.header.source = fmt::format("depth images of {}", display_name(path));
   TURNSCAN_ASSIGN(const SensorInfo sensor, parse_sensor(root, options));

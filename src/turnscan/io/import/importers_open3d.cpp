@@ -39,7 +39,7 @@ Result<std::optional<double>> positive(const text::JsonObject& object, const cha
 
 Result<Open3dFolder> parse_intrinsic(std::string_view text) {
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   Open3dFolder out;
   CameraIntrinsics& c = out.camera;
   TURNSCAN_ASSIGN(c.width, root.integer("width", 1, 65535));
@@ -60,7 +60,7 @@ Result<Open3dFolder> parse_intrinsic(std::string_view text) {
 
 Result<std::optional<double>> parse_config_scale(std::string_view text) {
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   return positive(root, "depth_scale");
 }
 

@@ -63,7 +63,7 @@ class AppSequence : public FrameSequence {
 Result<> parse_app_frame(const fs::path& path, AppFrame& frame) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   TURNSCAN_ASSIGN(const std::vector<double> k, root.numbers("intrinsics"));
   if (k.size() != 9) return fail(ErrorCode::kFormat, "intrinsics has {} numbers, not 9", k.size());
   frame.camera.fx = k[0];

@@ -78,7 +78,7 @@ Result<std::vector<std::optional<Pose>>> parse_poses(const text::JsonObject& roo
 
 Result<Metadata> parse_metadata(std::string_view json) {
   TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json));
-  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(value, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(value));
   Metadata out;
   TURNSCAN_TRY(parse_camera(root, out));
   if (root.has("dw") || root.has("dh")) {

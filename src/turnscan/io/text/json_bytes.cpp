@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <turnscan/io/text/json_bytes.hpp>
 
@@ -12,6 +13,76 @@ std::size_t end_of_string(std::string_view text, std::size_t open) {
   while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
   return std::min(i, text.size());
 }
+
+bool is_white(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+/// Walks down into a valid JSON text.
+class JsonWalk {
+ public:
+  explicit JsonWalk(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    skip_white();
+  }
+
+  std::size_t at() const { return at_; }
+
+  /// From the beginning of a list or an object to that of one of its values; false, and no step,
+  /// where there is none.
+  bool enter_member(std::string_view key) {
+    return enter('{', [&](std::size_t) {
+      const std::size_t open = at_;
+      at_ = end_of_string(text_, open) + 1;
+      const bool wanted = text_.substr(open + 1, at_ - open - 2) == key;
+      skip_white();
+      ++at_;  // the colon
+      skip_white();
+      return wanted;
+    });
+  }
+  bool enter_element(std::size_t index) {
+    return enter('[', [&](std::size_t i) { return i == index; });
+  }
+
+ private:
+  /// is_wanted(i): goes to the i-th value and tells whether it is the one.
+  template <class IsWanted>
+  bool enter(char open, const IsWanted& is_wanted) {
+    const std::size_t begin = at_;
+    std::optional<std::size_t> found;
+    if (at_ < text_.size() && text_[at_] == open) {
+      step_over_mark();
+      for (std::size_t i = 0; at_ < text_.size() && text_[at_] != ']' && text_[at_] != '}'; ++i) {
+        if (is_wanted(i)) found = at_;
+        skip_value();
+        skip_white();
+        if (at_ < text_.size() && text_[at_] == ',') step_over_mark();
+      }
+    }
+    at_ = found.value_or(begin);
+    return found.has_value();
+  }
+
+  void skip_white() {
+    while (at_ < text_.size() && is_white(text_[at_])) ++at_;
+  }
+  void step_over_mark() {
+    ++at_;
+    skip_white();
+  }
+  void skip_value() {
+    int depth = 0;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (depth == 0 && (c == ',' || c == ']' || c == '}')) return;
+      if (c == '"') at_ = end_of_string(text_, at_);
+      if (c == '{' || c == '[') ++depth;
+      if (c == '}' || c == ']') --depth;
+    }
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
 
 /// Walks over the members of the outermost object.
 class MemberScan {
@@ -56,8 +127,6 @@ class MemberScan {
     begin_.reset();
   }
 
-  static bool is_white(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
   std::string_view text_, key_, name_;
   int depth_ = 0;
   std::optional<std::size_t> begin_;  ///< of the value of the member that is being walked over
@@ -80,6 +149,30 @@ Result<> check_json_depth(std::string_view text) {
                   kMaxJsonDepth);
   }
   return {};
+}
+
+std::string line_and_column(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t begin = before.rfind('\n') + 1;  // 0 where there is none
+  const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  return fmt::format(
+      "line {}, column {}", 1 + std::count(before.begin(), before.end(), '\n'),
+      1 + std::count_if(before.begin() + std::ptrdiff_t(begin), before.end(), is_character));
+}
+
+std::size_t json_offset(std::string_view text, std::string_view path) {
+  JsonWalk walk(text);
+  bool there = true;
+  while (there && !path.empty()) {
+    const bool element = path.front() == '[';
+    if (element || path.front() == '.') path.remove_prefix(1);
+    const std::size_t end = std::min(path.find_first_of(element ? "]" : ".["), path.size());
+    std::size_t index = 0;
+    if (element) std::from_chars(path.data(), path.data() + end, index);
+    there = element ? walk.enter_element(index) : walk.enter_member(path.substr(0, end));
+    path.remove_prefix(std::min(path.size(), end + (element ? 1 : 0)));
+  }
+  return walk.at();
 }
 
 std::string with_json_member(std::string text, std::string_view key, std::string_view value) {

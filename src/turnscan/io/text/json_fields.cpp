@@ -11,18 +11,70 @@ namespace {
 
 constexpr std::size_t kBrown = 5;  // coefficients without the rational model's denominator
 
-Result<double> finite_number(const Json& value, const std::string& place) {
-  if (!value.is_number()) return fail(ErrorCode::kFormat, "{} is not a number", place);
+Result<double> finite_number(const Json& value, const JsonPlace& place) {
+  if (!value.is_number()) return fail(ErrorCode::kFormat, "{} is not a number", place.shown());
   const double number = value.get<double>();
-  if (!std::isfinite(number)) return fail(ErrorCode::kFormat, "{} is not finite", place);
+  if (!std::isfinite(number)) return fail(ErrorCode::kFormat, "{} is not finite", place.shown());
   return number;
 }
 
-Result<> append_numbers(const Json& value, const std::string& place, std::vector<double>& out) {
-  if (!value.is_array()) return fail(ErrorCode::kFormat, "{} is not a list of numbers", place);
+Result<> append_numbers(const Json& value, const JsonPlace& place, std::vector<double>& out) {
+  if (!value.is_array())
+    return fail(ErrorCode::kFormat, "{} is not a list of numbers", place.shown());
   for (std::size_t i = 0; i < value.size(); ++i) {
-    TURNSCAN_ASSIGN(const double number, finite_number(value[i], fmt::format("{}[{}]", place, i)));
+    TURNSCAN_ASSIGN(const double number, finite_number(value[i], place.element(i)));
     out.push_back(number);
+  }
+  return {};
+}
+
+/// 16 numbers or four rows of four.
+Result<Pose> pose_from_json(const Json& value, const JsonPlace& place) {
+  std::vector<double> numbers;
+  const bool rows = value.is_array() && value.size() == 4;
+  if (rows) {
+    for (std::size_t i = 0; i < 4; ++i)
+      TURNSCAN_TRY(append_numbers(value[i], place.element(i), numbers));
+  } else {
+    TURNSCAN_TRY(append_numbers(value, place, numbers));
+  }
+  auto pose = pose_from_rows(numbers);
+  if (!pose) return fail(ErrorCode::kFormat, "{}: {}", place.shown(), pose.error().message);
+  return pose;
+}
+
+/// Where the word, number or string begins whose last byte is at `last`.
+std::size_t begin_of_token(std::string_view text, std::size_t last) {
+  std::size_t i = std::min(last, text.size());
+  if (i == text.size() || i == 0) return i;
+  if (text[i] == '"') {
+    const std::size_t open = text.rfind('"', i - 1);
+    return open == std::string_view::npos ? i : open;
+  }
+  while (i > 0 && std::string_view(" \t\r\n,:[]{}\"").find(text[i - 1]) == std::string_view::npos)
+    --i;
+  return i;
+}
+
+/// What the parser says of a text that is no JSON, with the place in front.
+std::string syntax_error_of(std::string_view text) {
+  try {
+    const Json ignored = Json::parse(text.begin(), text.end());
+  } catch (const Json::parse_error& error) {
+    // "[...] parse error at line 1, column 8: syntax error while parsing object - unexpected X;
+    // last read: 'Y'; expected Z"
+    std::string said = error.what();
+    if (const auto dash = said.rfind(" - "); dash != std::string::npos) said.erase(0, dash + 3);
+    const auto read = said.find("; last read: "), expected = said.rfind("; expected ");
+    if (read != std::string::npos)
+      said.erase(
+          read, (expected != std::string::npos && expected > read ? expected : said.size()) - read);
+    std::replace(said.begin(), said.end(), ';', ',');
+    return fmt::format(
+        "{}: {}", line_and_column(text, begin_of_token(text, error.byte > 0 ? error.byte - 1 : 0)),
+        said);
+  } catch (const Json::exception&) {
+    return "a number is too large";
   }
   return {};
 }
@@ -63,14 +115,32 @@ Result<Json> parse_json(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
     return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
   Json value = Json::parse(text.begin(), text.end(), nullptr, false);
-  if (value.is_discarded()) return fail(ErrorCode::kFormat, "not valid JSON");
+  if (value.is_discarded())
+    return fail(ErrorCode::kFormat, "not valid JSON: {}", syntax_error_of(text));
   return value;
 }
 
-Result<JsonObject> JsonObject::from(const Json& value, std::string place) {
+JsonPlace JsonPlace::member(const char* key) const {
+  return {path.empty() ? std::string(key) : path + "." + key, text};
+}
+
+JsonPlace JsonPlace::element(std::size_t index) const {
+  return {fmt::format("{}[{}]", path, index), text};
+}
+
+std::string JsonPlace::shown() const {
+  if (text.empty()) return path;
+  return fmt::format("{}: {}", line_and_column(text, json_offset(text, path)), path);
+}
+
+Result<JsonObject> JsonObject::from(const Json& value, std::string_view text) {
+  return from(value, JsonPlace{"", text});
+}
+
+Result<JsonObject> JsonObject::from(const Json& value, JsonPlace place) {
   if (!value.is_object())
     return fail(ErrorCode::kFormat, "{} is not a JSON object",
-                place.empty() ? "the file's content" : place);
+                place.path.empty() ? "the file's content" : place.shown());
   return JsonObject(value, std::move(place));
 }
 
@@ -79,9 +149,7 @@ const Json* JsonObject::find(const char* key) const {
   return found == value_->end() || found->is_null() ? nullptr : &*found;
 }
 
-std::string JsonObject::place_of(const char* key) const {
-  return place_.empty() ? std::string(key) : place_ + "." + key;
-}
+std::string JsonObject::place_of(const char* key) const { return place_.member(key).shown(); }
 
 Result<const Json*> JsonObject::require(const char* key) const {
   const Json* value = find(key);
@@ -91,7 +159,7 @@ Result<const Json*> JsonObject::require(const char* key) const {
 
 Result<double> JsonObject::number(const char* key) const {
   TURNSCAN_ASSIGN(const Json* value, require(key));
-  return finite_number(*value, place_of(key));
+  return finite_number(*value, place_.member(key));
 }
 
 Result<double> JsonObject::number_or(const char* key, double fallback) const {
@@ -130,7 +198,7 @@ Result<bool> JsonObject::flag_or(const char* key, bool fallback) const {
 Result<std::vector<double>> JsonObject::numbers(const char* key) const {
   TURNSCAN_ASSIGN(const Json* value, require(key));
   std::vector<double> out;
-  TURNSCAN_TRY(append_numbers(*value, place_of(key), out));
+  TURNSCAN_TRY(append_numbers(*value, place_.member(key), out));
   return out;
 }
 
@@ -151,12 +219,23 @@ Result<Vec3d> JsonObject::vector(const char* key) const {
 
 Result<Pose> JsonObject::pose(const char* key) const {
   TURNSCAN_ASSIGN(const Json* value, require(key));
-  return pose_from_json(*value, place_of(key));
+  return pose_from_json(*value, place_.member(key));
+}
+
+Result<std::vector<Pose>> JsonObject::poses(const char* key) const {
+  TURNSCAN_ASSIGN(const Json* list, require(key));
+  if (!list->is_array()) return fail(ErrorCode::kFormat, "{} is not a list", place_of(key));
+  std::vector<Pose> out;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    TURNSCAN_ASSIGN(const Pose pose, pose_from_json((*list)[i], place_.member(key).element(i)));
+    out.push_back(pose);
+  }
+  return out;
 }
 
 Result<JsonObject> JsonObject::object(const char* key) const {
   TURNSCAN_ASSIGN(const Json* value, require(key));
-  return from(*value, place_of(key));
+  return from(*value, place_.member(key));
 }
 
 Result<std::vector<JsonObject>> JsonObject::objects(const char* key) const {
@@ -164,23 +243,10 @@ Result<std::vector<JsonObject>> JsonObject::objects(const char* key) const {
   if (!value->is_array()) return fail(ErrorCode::kFormat, "{} is not a list", place_of(key));
   std::vector<JsonObject> out;
   for (std::size_t i = 0; i < value->size(); ++i) {
-    TURNSCAN_ASSIGN(JsonObject object, from((*value)[i], fmt::format("{}[{}]", place_of(key), i)));
+    TURNSCAN_ASSIGN(JsonObject object, from((*value)[i], place_.member(key).element(i)));
     out.push_back(std::move(object));
   }
   return out;
-}
-
-Result<Pose> pose_from_json(const Json& value, const std::string& place) {
-  std::vector<double> numbers;
-  const bool rows = value.is_array() && value.size() == 4;
-  if (rows) {
-    for (const Json& row : value) TURNSCAN_TRY(append_numbers(row, place, numbers));
-  } else {
-    TURNSCAN_TRY(append_numbers(value, place, numbers));
-  }
-  auto pose = pose_from_rows(numbers);
-  if (!pose) return fail(ErrorCode::kFormat, "{}: {}", place, pose.error().message);
-  return pose;
 }
 
 Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object) {

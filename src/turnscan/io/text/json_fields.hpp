@@ -19,15 +19,29 @@ using Json = nlohmann::json;
 /// is left unusable, even to its destructor, when no memory is to be had for that (version 3.11).
 using OrderedJson = nlohmann::ordered_json;
 
-/// One JSON object and its place in the file, e.g. "sensors[0].intrinsics". Refers to the Json.
+/// Where a value stands: its path, e.g. "sensors[0].intrinsics", in the text that it was parsed
+/// from. Refers to the text, if there is one.
+struct JsonPlace {
+  std::string path;
+  std::string_view text;
+
+  JsonPlace member(const char* key) const;
+  JsonPlace element(std::size_t index) const;
+  /// "line 3, column 14: sensors[0].intrinsics"; the path alone without a text.
+  std::string shown() const;
+};
+
+/// One JSON object and its place in the file. Refers to the Json, and to the text.
 /// All readers fail with kFormat; null counts as absent.
 class JsonObject {
  public:
-  static Result<JsonObject> from(const Json& value, std::string place);
+  /// text: that the value was parsed from; with it errors name line and column.
+  static Result<JsonObject> from(const Json& value, std::string_view text = {});
+  static Result<JsonObject> from(const Json& value, JsonPlace place);
 
   bool has(const char* key) const { return find(key) != nullptr; }
   const Json* find(const char* key) const;
-  std::string place_of(const char* key) const;
+  std::string place_of(const char* key) const;  ///< as JsonPlace::shown(), for errors
 
   Result<double> number(const char* key) const;  ///< finite
   Result<double> number_or(const char* key, double fallback) const;
@@ -39,22 +53,21 @@ class JsonObject {
   Result<std::vector<std::string>> texts(const char* key) const;
   Result<Vec3d> vector(const char* key) const;
   Result<Pose> pose(const char* key) const;  ///< 16 numbers or four rows of four
+  Result<std::vector<Pose>> poses(const char* key) const;
   Result<JsonObject> object(const char* key) const;
   Result<std::vector<JsonObject>> objects(const char* key) const;
 
  private:
-  JsonObject(const Json& value, std::string place) : value_(&value), place_(std::move(place)) {}
+  JsonObject(const Json& value, JsonPlace place) : value_(&value), place_(std::move(place)) {}
   Result<const Json*> require(const char* key) const;
 
   const Json* value_;
-  std::string place_;
+  JsonPlace place_;
 };
 
-/// Fails with kFormat when text is not JSON, or as check_json_depth().
+/// Fails with kFormat, naming line and column, when text is not JSON, or as check_json_depth().
 Result<Json> parse_json(std::string_view text);
 
-/// 16 numbers or four rows of four. place is for the error.
-Result<Pose> pose_from_json(const Json& value, const std::string& place);
 /// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3, and k4 k5 k6); checked.
 Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object);
 

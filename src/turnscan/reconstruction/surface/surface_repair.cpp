@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/grid/wrap.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
@@ -201,8 +202,7 @@ Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointClo
   std::vector<std::string> notes{
       fmt::format("concave hull: {} edges of three or more triangles, {} open edges; wrapped on "
                   "cells of {}",
-                  before.non_manifold_edges, before.boundary_edges,
-                  format_quantity(cell_m, Quantity::kLength))};
+                  before.non_manifold_edges, before.boundary_edges, length_text(cell_m))};
   WrapOptions options;
   options.cell_m = cell_m;
   TURNSCAN_ASSIGN(const TriangleMesh mesh, wrap(raw, options, context));

@@ -27,7 +27,7 @@ class RecordingCheck {
     auto found = calibrate_from_motion(sequence_, options_.motion, options_.detect, context_);
     if (!found) {
       if (found.error().code == ErrorCode::kCancelled) return tl::unexpected<Error>(found.error());
-      say(false, "Motion: {}.", found.error().message);
+      say(Rating::kWrong, "Motion: {}.", found.error().message);
       return std::move(findings_);
     }
     check_place(*found);
@@ -40,8 +40,8 @@ class RecordingCheck {
 
  private:
   template <class... Args>
-  void say(bool good, fmt::format_string<Args...> format, Args&&... args) {
-    findings_.push_back({good, fmt::format(format, std::forward<Args>(args)...)});
+  void say(Rating rating, fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back({rating, fmt::format(format, std::forward<Args>(args)...)});
   }
 
   Result<> check_closure() {
@@ -49,23 +49,19 @@ class RecordingCheck {
     if (!closure) {
       if (closure.error().code != ErrorCode::kMissingData)
         return tl::unexpected<Error>(closure.error());
-      say(true, "Closure: {}, so that nothing can be said.", closure.error().message);
+      say(Rating::kNotKnown, "Closure: {}, so that nothing can be said.", closure.error().message);
       return {};
     }
     if (!*closure) {
-      say(true,
+      say(Rating::kNotKnown,
           "Closure: the recording does not come back to a view that it had before, so that "
           "nothing can be said.");
       return {};
     }
     const ClosureError& e = **closure;
-    const std::string turn = std::isfinite(e.turn_rad)
-                                 ? fmt::format(" and {:+.2f} deg", e.turn_rad * kDegreesPerRadian)
-                                 : std::string();
-    say(!e.bad(),
-        "Closure: one turn later the object lies {:.2f} mm{} from where it was ({} pairs "
-        "of frames; {}).{}",
-        e.shift_m * 1e3, turn, e.pairs, e.noise_text(),
+    say(rating_of(!e.bad()),
+        "Closure: one turn later the object lies {} from where it was ({} pairs of frames; {}).{}",
+        e.offset_text(), e.pairs, e.noise_text(),
         e.bad() ? " Axis, centre or speed of the recording are wrong." : "");
     return {};
   }
@@ -94,7 +90,8 @@ class RecordingCheck {
     if (moved.size() < 500) return {};
     const double drift = median(moved);
     const bool good = std::abs(drift) < 0.001;
-    say(good, "Warm-up: what stands still moved by {:+.2f} mm from the first frames to the last.{}",
+    say(rating_of(good),
+        "Warm-up: what stands still moved by {:+.2f} mm from the first frames to the last.{}",
         drift * 1e3, good ? "" : " The sensor was still warming up; let it run for half an hour.");
     return {};
   }
@@ -102,7 +99,8 @@ class RecordingCheck {
   void check_place(const Calibration& found) {
     const auto& table = sequence_.header().turntable;
     if (!table) {
-      say(true, "Place: the recording does not say where the turntable is; its motion does.");
+      say(Rating::kNotKnown,
+          "Place: the recording does not say where the turntable is; its motion does.");
       return;
     }
     const Vec3d a = table->axis.normalized(), b = found.table.axis;
@@ -110,7 +108,7 @@ class RecordingCheck {
     const Vec3d off = table->center_m - found.table.center_m;
     const double aside = (off - off.dot(b) * b).norm() * 1e3;
     const bool good = tilt < 0.5 && aside < 1.5;
-    say(good,
+    say(rating_of(good),
         "Place: the recorded axis leans by {:.2f} deg and lies {:.2f} mm beside the one that "
         "the motion shows.",
         tilt, aside);
@@ -123,7 +121,7 @@ class RecordingCheck {
 
   void check_direction(const Calibration& found) {
     if (!determined(found, "angles")) {
-      say(true,
+      say(Rating::kNotKnown,
           "Direction: the object looks the same from all sides, so that nothing can be said.");
       return;
     }
@@ -131,7 +129,7 @@ class RecordingCheck {
     const double recorded = angle.back(), seen = found.angles_rad.back();
     if (!std::isfinite(recorded) || std::abs(seen) < 0.05) return;
     const bool good = recorded * seen > 0.0;
-    say(good, "Direction: seen from above the platter turns {}clockwise{}.",
+    say(rating_of(good), "Direction: seen from above the platter turns {}clockwise{}.",
         seen > 0.0 ? "counter-" : "",
         good ? ", as recorded" : ", but the recording says the opposite: everything is mirrored");
   }
@@ -143,7 +141,7 @@ class RecordingCheck {
     if (!stated || !found.table.speed_rad_s || !determined(found, "speed")) return;
     const double ratio = *found.table.speed_rad_s / *stated;
     const bool good = std::abs(ratio - 1.0) < 0.005;
-    say(good, "Speed: stated are {:.4f} deg/s, the data show {:.4f} deg/s{}.",
+    say(rating_of(good), "Speed: stated are {:.4f} deg/s, the data show {:.4f} deg/s{}.",
         *stated * kDegreesPerRadian, *found.table.speed_rad_s * kDegreesPerRadian,
         good ? "" : fmt::format(", {:+.2f} % off", 100.0 * (ratio - 1.0)));
   }
@@ -163,7 +161,7 @@ class RecordingCheck {
     // A plate that is seen edge on shows little of its turn: some frames may be far off.
     std::sort(off.begin(), off.end());
     const double most = off[off.size() * 9 / 10];
-    say(most < kAnglesWithin_deg,
+    say(rating_of(most < kAnglesWithin_deg),
         "Angles: of nine in ten frames the recorded ones lie within {:.2f} deg of those that the "
         "motion shows.",
         most);
@@ -172,7 +170,8 @@ class RecordingCheck {
   /// Slips and stops.
   Result<> check_turning(const Calibration& found) {
     if (!determined(found, "angles")) {
-      say(true, "Motor: the object looks the same from all sides, so that nothing can be said.");
+      say(Rating::kNotKnown,
+          "Motor: the object looks the same from all sides, so that nothing can be said.");
       return {};
     }
     TURNSCAN_ASSIGN(auto findings, check_motor(sequence_, options_, found, context_));

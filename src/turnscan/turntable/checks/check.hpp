@@ -7,11 +7,16 @@
 
 namespace turnscan {
 
+enum class Rating { kGood, kNotKnown, kWrong };
+
 /// The result of one check.
 struct Finding {
-  bool good = true;
+  Rating rating = Rating::kGood;
   std::string text;  ///< one sentence
 };
+
+/// Of a check that could be made.
+constexpr Rating rating_of(bool good) { return good ? Rating::kGood : Rating::kWrong; }
 
 struct CheckOptions {
   FromMotionOptions motion;

@@ -214,6 +214,12 @@ bool ClosureError::bad() const {
           std::abs(turn_rad) > std::hypot(1.0 / kDegreesPerRadian, kChance * turn_sigma_rad));
 }
 
+std::string ClosureError::offset_text() const {
+  const std::string shift = fmt::format("{:.2f} mm", shift_m * 1e3);
+  if (!std::isfinite(turn_rad)) return shift;
+  return fmt::format("{} and {:+.2f} deg", shift, turn_rad * kDegreesPerRadian);
+}
+
 std::string ClosureError::noise_text() const {
   return noise_m > 0.0 ? fmt::format("noise alone makes {:.2f} mm", noise_m * 1e3)
                        : "how much of it is noise is not known: no frames are near enough";

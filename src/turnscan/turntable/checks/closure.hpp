@@ -24,6 +24,8 @@ struct ClosureError {
   /// Over 1.5 mm beyond the noise (squares), or 1 degree, and more than chance makes of so few
   /// pairs.
   bool bad() const;
+  /// "2.31 mm and +0.42 deg", or without the turn where it is not known.
+  std::string offset_text() const;
   /// "noise alone makes 0.31 mm", or that it was not measured.
   std::string noise_text() const;
 };

@@ -54,8 +54,8 @@ class MotorCheck {
 
  private:
   template <class... Args>
-  void say(bool good, fmt::format_string<Args...> format, Args&&... args) {
-    findings_.push_back({good, fmt::format(format, std::forward<Args>(args)...)});
+  void say(Rating rating, fmt::format_string<Args...> format, Args&&... args) {
+    findings_.push_back({rating, fmt::format(format, std::forward<Args>(args)...)});
   }
 
   Result<MotionData> load_frames() const {
@@ -121,23 +121,24 @@ class MotorCheck {
   void say_followed(const MotorObservation& seen) {
     for (const MotorEvent& event : seen.events)
       if (!is_rest(event))
-        say(true, "Motor: {}; the recorded angles follow it.", text_of(event, seen.speed_rad_s));
+        say(Rating::kGood, "Motor: {}; the recorded angles follow it.",
+            text_of(event, seen.speed_rad_s));
   }
 
   void say_events(const MotorObservation& seen, const char* consequence) {
     bool any = false;
     for (const MotorEvent& event : seen.events) {
       if (!has_angles_ && is_rest(event)) continue;
-      say(false, "Motor: {}; {}.", text_of(event, seen.speed_rad_s), consequence);
+      say(Rating::kWrong, "Motor: {}; {}.", text_of(event, seen.speed_rad_s), consequence);
       any = true;
     }
     if (any) return;
     if (seen.observed_share > 0.5) {
-      say(true, "Motor: {}.",
+      say(Rating::kGood, "Motor: {}.",
           has_angles_ ? "no slip and no stop that the recorded angles do not have"
                       : "the table kept turning without a slip or a stop");
     } else {
-      say(true,
+      say(Rating::kNotKnown,
           "Motor: the object shows its turn in {:.0f} % of the recording only; no slip and no stop "
           "was seen there.",
           100.0 * seen.observed_share);

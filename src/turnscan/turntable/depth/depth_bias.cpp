@@ -1,3 +1,4 @@
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/turntable/depth/depth_bias.hpp>
 
 namespace turnscan {
@@ -31,8 +32,7 @@ Result<DepthGauge> gauge_depth(const AveragedScan& scan, double radius_m, double
     if (std::abs(platter.radius_m / radius_m - 1.0) > 0.2)
       return fail(ErrorCode::kMissingData,
                   "depth bias: the platter looks {} large, not {}; check --platter-radius",
-                  format_quantity(platter.radius_m, Quantity::kLength),
-                  format_quantity(radius_m, Quantity::kLength));
+                  length_text(platter.radius_m), format_quantity(radius_m, Quantity::kLength));
     const double step = platter.center_m.z() * (radius_m / platter.radius_m - 1.0);
     offset += step;
     if (std::abs(step) < 2e-5) break;

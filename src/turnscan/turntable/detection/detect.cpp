@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <algorithm>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
 #include <turnscan/turntable/detection/platter_refinement.hpp>
 
@@ -12,7 +13,7 @@ constexpr std::size_t kLeastPixels = 150;
 constexpr std::size_t kMostRefined = 3;
 constexpr double kLeastWorth = 0.35;  // of the best candidate's
 
-std::string mm(double metres) { return format_quantity(metres, Quantity::kLength); }
+std::string mm(double metres) { return length_text(metres); }
 
 Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels) {
   Vec3d sum = Vec3d::Zero();

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <turnscan/core/angles.hpp>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/picked_points.hpp>
@@ -188,10 +190,11 @@ Result<Calibration> calibrate_from_points(std::span<const Vec3d> points, const V
   out.notes.push_back(fmt::format(
       "the circumcircles of all triples alone give a centre {} away and an axis {} away, with a "
       "mean error of {}",
-      format_quantity((fit.triples.center - fit.circle.center).norm(), Quantity::kLength),
-      format_quantity(std::acos(std::min(1.0, fit.triples.axis.dot(fit.circle.axis))),
-                      Quantity::kAngle),
-      format_quantity(fit.triples_error.mean_abs_m, Quantity::kLength)));
+      length_text((fit.triples.center - fit.circle.center).norm()),
+      figure_text(
+          std::acos(std::min(1.0, fit.triples.axis.dot(fit.circle.axis))) * kDegreesPerRadian, 2,
+          "deg"),
+      length_text(fit.triples_error.mean_abs_m)));
   return out;
 }
 

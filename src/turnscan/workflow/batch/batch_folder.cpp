@@ -84,7 +84,7 @@ Result<std::vector<BatchTask>> BatchFolder::load_plan() const {
   TURNSCAN_ASSIGN(const std::string text, read_file(list_file()));
   const auto parsed = text::parse_json(text);
   if (!parsed) return tl::unexpected<Error>(with_path(parsed.error(), list_file()));
-  const auto object = text::JsonObject::from(*parsed, "");
+  const auto object = text::JsonObject::from(*parsed);
   if (!object) return tl::unexpected<Error>(with_path(object.error(), list_file()));
   const auto names = object->texts("tasks");
   if (!names) return tl::unexpected<Error>(with_path(names.error(), list_file()));

@@ -162,7 +162,7 @@ std::string task_json(const BatchTask& task) {
 
 Result<BatchTask> task_of(const std::string& json) {
   TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json));
-  TURNSCAN_ASSIGN(const text::JsonObject object, text::JsonObject::from(value, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject object, text::JsonObject::from(value, json));
   BatchTask task;
   TURNSCAN_ASSIGN(task.name, object.text_or("name", ""));
   TURNSCAN_ASSIGN(task.command, object.text_or("command", ""));

@@ -42,7 +42,7 @@ std::string record_json(const TaskRecord& record) {
 
 Result<TaskRecord> record_of(const std::string& json) {
   TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json));
-  TURNSCAN_ASSIGN(const text::JsonObject object, text::JsonObject::from(value, ""));
+  TURNSCAN_ASSIGN(const text::JsonObject object, text::JsonObject::from(value, json));
   TaskRecord record;
   TURNSCAN_ASSIGN(const std::string state, object.text_or("state", ""));
   const auto name = std::find(kStateNames.begin(), kStateNames.end(), state);

@@ -10,6 +10,7 @@
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
+#include <turnscan/workflow/calibration/exactness_text.hpp>
 #include <turnscan/workflow/calibration/reduced_frames.hpp>
 
 namespace turnscan {
@@ -40,18 +41,17 @@ Result<> check_determined(const Calibration& found) {
   for (const char* needed : {"axis", "centre"}) {
     if (undetermined(found, needed))
       return fail(ErrorCode::kMissingData,
-                  "the motion does not determine the turntable's {}: axis to {:.1f} deg, centre to "
-                  "{:.1f} mm; let the sensor see the platter, or take more of a turn",
-                  needed, found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
+                  "the motion does not determine the turntable's {}: {}; let the sensor see the "
+                  "platter, or take more of a turn",
+                  needed, workflow::exactness_text(found));
   }
   return {};
 }
 
 CalibrationChoice chosen_from_motion(Calibration found, const std::string& why) {
   CalibrationChoice out;
-  out.note = fmt::format(
-      "{}, so the turntable was found from motion: axis to {:.2f} deg, centre to {:.2f} mm", why,
-      found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3);
+  out.note = fmt::format("{}, so the turntable was found from motion: {}", why,
+                         workflow::exactness_text(found));
   if (!found.undetermined.empty())
     out.note += fmt::format("; not determined: {}", fmt::join(found.undetermined, ", "));
   for (const std::string& note : found.notes) out.note += "; " + note;
@@ -78,10 +78,8 @@ Result<CalibrationChecks> check_calibration(const FrameSequence& sequence, Platt
 /// Why the checks speak against the calibration; nullopt: they do not.
 std::optional<std::string> doubt_of(const CalibrationChecks& checks) {
   if (checks.closure && checks.closure->bad())
-    return fmt::format(
-        "with the recording's calibration the object lies {:.1f} mm and {:+.1f} deg away after one "
-        "turn",
-        checks.closure->shift_m * 1e3, checks.closure->turn_rad * kDegreesPerRadian);
+    return fmt::format("with the recording's calibration the object lies {} away after one turn",
+                       checks.closure->offset_text());
   if (checks.axis_offset && checks.axis_offset->bad())
     return fmt::format(
         "the recording's axis lies {:.1f} mm beside the one about which the object turns, and "

@@ -51,7 +51,11 @@ Result<Vec3d> pixel_point(const AveragedScan& scan, double column, double row) {
 
 Result<Vec3d> parse_pick(const PickColumns& c, std::string_view line, const AveragedScan* scan) {
   TURNSCAN_ASSIGN(const auto fields, text::csv_fields(line));
-  const auto number = [&](const char* name) { return parse_number(c.columns.field(fields, name)); };
+  const auto number = [&](const char* name) -> Result<double> {
+    auto value = parse_number(c.columns.field(fields, name));
+    if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
+    return value;
+  };
   if (c.pixels) {
     TURNSCAN_ASSIGN(const double column, number("column"));
     TURNSCAN_ASSIGN(const double row, number("row"));

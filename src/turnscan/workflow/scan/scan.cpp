@@ -131,7 +131,7 @@ class ScanRun {
   Result<> wait(FrameSource& source) {
     if (!request_.wait || !setup().header.turntable) return {};
     return wait_for_object(
-        source, setup().header,
+        source, setup().header, setup().options.limits.seconds,
         [&] { context_.begin_phase("wait for an object on the platter", 0); }, context_);
   }
 

@@ -6,12 +6,12 @@
 #include <numeric>
 #include <optional>
 #include <thread>
-#include <turnscan/core/angles.hpp>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/reconstruction/stream.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/turntable/checks/check.hpp>
 #include <turnscan/turntable/motion/continue_motion.hpp>
+#include <turnscan/workflow/calibration/exactness_text.hpp>
 
 namespace turnscan {
 
@@ -152,11 +152,9 @@ Result<ScanAhead::Outcome> ScanAhead::finish(const RunContext& context) {
   out.kept = true;
   out.note = fmt::format(
       "the turntable was found from motion, in the first {} frames while the others were recorded: "
-      "axis to {:.2f} deg, centre to {:.2f} mm; one turn later the object lies {:.2f} mm off "
-      "(noise "
-      "included; up to {:.2f} mm is good)",
-      out.frames_ahead, out.calibration.axis_sigma_rad * kDegreesPerRadian,
-      out.calibration.center_sigma_m * 1e3, out.closure_m * 1e3, out.closure_limit_m * 1e3);
+      "{}; one turn later the object lies {:.2f} mm off (noise included; up to {:.2f} mm is good)",
+      out.frames_ahead, workflow::exactness_text(out.calibration), out.closure_m * 1e3,
+      out.closure_limit_m * 1e3);
   return out;
 }
 

@@ -7,6 +7,8 @@ namespace turnscan {
 
 namespace {
 
+constexpr double kMost_m = 1.0;
+
 /// That an error is less than so many times the expected one (Abramowitz and Stegun 26.7.3, five
 /// degrees of freedom).
 double probability_within(double ratio) {
@@ -30,8 +32,9 @@ double ErrorShares::within(double distance_m) const {
   return area > 0.0 ? within / area : 0.0;
 }
 
-double ErrorShares::error_of(double share) const {
-  double low = 0.0, high = 1.0;
+std::optional<double> ErrorShares::error_of(double share) const {
+  double low = 0.0, high = kMost_m;
+  if (within(high) < share) return std::nullopt;
   for (int i = 0; i < 24; ++i) {
     const double middle = 0.5 * (low + high);
     (within(middle) < share ? low : high) = middle;

@@ -1,6 +1,7 @@
 #pragma once
 // How much of a surface lies how near to the truth, from the expected errors of its vertices.
 
+#include <optional>
 #include <vector>
 
 namespace turnscan {
@@ -15,8 +16,8 @@ class ErrorShares {
   /// degrees of freedom, scaled to 0.683 within one expected error.
   double within(double distance_m) const;
 
-  /// Its inverse, by bisection; up to a metre.
-  double error_of(double share) const;
+  /// Its inverse, by bisection; nullopt where it is a metre or more, or there is no surface.
+  std::optional<double> error_of(double share) const;
 
  private:
   struct Piece {

@@ -1,5 +1,6 @@
 #include <turnscan/workflow/verdict/scan_sentences.hpp>
 
+#include <turnscan/workflow/calibration/exactness_text.hpp>
 #include <turnscan/workflow/verdict/frame_agreement.hpp>
 
 namespace turnscan::workflow {
@@ -19,9 +20,7 @@ void say_found(const Calibration& found, Sentences& out) {
   out.push_back(
       {"calibration", open ? Level::kFair : Level::kGood,
        fmt::format(
-           "the turntable was found from the motion in this recording, its axis to {:.2f} "
-           "deg and {:.2f} mm{}",
-           found.axis_sigma_rad * kDegreesPerRadian, found.center_sigma_m * 1e3,
+           "the turntable was found from the motion in this recording: {}{}", exactness_text(found),
            open ? fmt::format("; not determined: {}", fmt::join(found.undetermined, ", ")) : ""),
        found.center_sigma_m * 1e3, "mm"});
 }

@@ -138,12 +138,20 @@ class Judge {
       return;
     }
     const ErrorShares errors = error_shares();
-    const double share = errors.within(kTolerance_m), median_m = errors.error_of(0.5);
+    const double share = errors.within(kTolerance_m);
+    const auto median_m = errors.error_of(0.5), most_m = errors.error_of(0.95);
+    if (!median_m) {
+      say("error", Level::kFair,
+          "how far it lies from the truth is not known: too few frames see each place");
+      return;
+    }
+    const std::string most =
+        most_m ? fmt::format("95 % within {:.2f} mm", *most_m * 1e3) : "of the rest more";
     say("error", workflow::level_of(share, kGoodShare, kFairShare),
-        fmt::format("what was measured is expected {:.2f} mm from the truth (median; 95 % within "
-                    "{:.2f} mm), {:.1f} % of it within 1 mm",
-                    median_m * 1e3, errors.error_of(0.95) * 1e3, 100.0 * share),
-        median_m * 1e3, "mm");
+        fmt::format("what was measured is expected {:.2f} mm from the truth (median; {}), {:.1f} % "
+                    "of it within 1 mm",
+                    *median_m * 1e3, most, 100.0 * share),
+        *median_m * 1e3, "mm");
   }
 
   /// Of what frames could see; where that is not known, of what they measured.
