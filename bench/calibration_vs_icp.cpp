@@ -8,9 +8,9 @@
 #include <numbers>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
-#include <turnscan/turntable/motion/free_motion.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/turntable/table_frame.hpp>
+#include "bench/free_registration/free_motion.hpp"
 
 #include "tests/support/memory_sequence.hpp"
 #include "tests/support/rig.hpp"

@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
+#include <bench/pcl_outliers.hpp>
 #include <tests/reconstruction/outliers/depth_frames.hpp>
-#include <tests/reconstruction/outliers/pcl_outliers.hpp>
 
 #include <map>
 #include <turnscan/core/parallel.hpp>

@@ -4,7 +4,6 @@
 //
 //   samples_bench [rounds] [triangles in thousands ...]
 
-#include <embree3/rtcore.h>
 #include <fmt/core.h>
 
 #include <array>
@@ -17,6 +16,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
+#include <turnscan/simulator/scene/embree.hpp>
 #include <vector>
 
 namespace {
@@ -106,7 +106,7 @@ struct Output {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 __attribute__((target_clones("avx512f", "avx2", "default")))
 #endif
-void bare_packet(RTCScene scene, RTCIntersectContext* context, const View& view, int left, int top,
+void bare_packet(RTCScene scene, turnscan::embree::Query& query, const View& view, int left, int top,
                  int tile_width, Output& out) {
   alignas(64) int valid[kLanes];
   alignas(64) RTCRayHit16 p;
@@ -126,7 +126,7 @@ void bare_packet(RTCScene scene, RTCIntersectContext* context, const View& view,
     p.ray.mask[i] = 0xffffffffu, p.ray.flags[i] = 0, p.ray.id[i] = 0;
     p.hit.geomID[i] = p.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(valid, scene, context, &p);
+  query.intersect(valid, scene, p);
   alignas(64) RTCRay16 s;
   alignas(64) int lit[kLanes];
   for (int i = 0; i < kLanes; ++i) {
@@ -139,7 +139,7 @@ void bare_packet(RTCScene scene, RTCIntersectContext* context, const View& view,
     s.tnear[i] = 0.0f, s.time[i] = 0.0f, s.tfar[i] = 1.0f - 1e-5f;
     s.mask[i] = 0xffffffffu, s.flags[i] = 0, s.id[i] = 0;
   }
-  rtcOccluded16(lit, scene, context, &s);
+  query.occluded(lit, scene, s);
   for (int i = 0; i < kLanes; ++i) {
     const int u = left + (i & (tile_width - 1)), v = top + (i >> shift);
     if (!valid[i]) continue;
@@ -151,15 +151,13 @@ void bare_packet(RTCScene scene, RTCIntersectContext* context, const View& view,
 }
 
 void bare_pose(const Embree& embree, const View& view, Output& out) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  turnscan::embree::Query query(true);
   const int width = view.width >= 4 ? 4 : 1, height = kLanes / width;
   out.z.resize(std::size_t(view.width) * std::size_t(view.height));
   out.triangle.resize(out.z.size());
   for (int top = 0; top < view.height; top += height)
     for (int left = 0; left < view.width; left += width)
-      bare_packet(embree.scene, &context, view, left, top, width, out);
+      bare_packet(embree.scene, query, view, left, top, width, out);
 }
 
 /// What cast_rays of Open3D 0.13 and later returns.
@@ -183,6 +181,27 @@ struct CastRays {
   }
 };
 
+/// Rays of a batch, one by one or as Embree 3's stream.
+void intersect_batch(RTCScene scene, std::vector<RTCRayHit>& hits, std::size_t n) {
+#if TURNSCAN_EMBREE_MAJOR >= 4
+  for (std::size_t i = 0; i < n; ++i) rtcIntersect1(scene, &hits[i]);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1M(scene, &context, hits.data(), unsigned(n), sizeof(RTCRayHit));
+#endif
+}
+
+void occlude_batch(RTCScene scene, std::vector<RTCRay>& rays, std::size_t n) {
+#if TURNSCAN_EMBREE_MAJOR >= 4
+  for (std::size_t i = 0; i < n; ++i) rtcOccluded1(scene, &rays[i]);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1M(scene, &context, rays.data(), unsigned(n), sizeof(RTCRay));
+#endif
+}
+
 /// What a user of Open3D gets from cast_rays of a tensor of rays and then test_occlusions from the
 /// hits to the emitter: streams of single rays, context as initialised (incoherent), scene ROBUST
 /// with filter functions. In batches of 1024, as its newer versions (its older: of 1 M).
@@ -190,8 +209,6 @@ void open3d_pose(const Embree& embree, const View& view, const std::vector<float
                  CastRays& out) {
   constexpr std::size_t kBatch = 1024;
   const std::size_t total = rays.size() / 6;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   out.resize(total);
   std::vector<RTCRayHit> hits(kBatch);
   std::vector<RTCRay> shadows(kBatch);
@@ -206,7 +223,7 @@ void open3d_pose(const Embree& embree, const View& view, const std::vector<float
                      0xffffffffu, unsigned(i), 0};
       hits[i].hit.geomID = hits[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect1M(embree.scene, &context, hits.data(), unsigned(n), sizeof(RTCRayHit));
+    intersect_batch(embree.scene, hits, n);
     std::size_t m = 0;
     for (std::size_t i = 0; i < n; ++i) {
       out.take(hits[i], from + i);
@@ -226,7 +243,7 @@ void open3d_pose(const Embree& embree, const View& view, const std::vector<float
                       unsigned(i),
                       0};
     }
-    rtcOccluded1M(embree.scene, &context, shadows.data(), unsigned(m), sizeof(RTCRay));
+    occlude_batch(embree.scene, shadows, m);
     for (std::size_t k = 0; k < m; ++k)
       if (shadows[k].tfar < 0.0f) out.lit[from + shadows[k].id] = 0;
   }

@@ -15,7 +15,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/turnscanConfigVersion.cm
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/turnscanConfig.cmake"
               "${PROJECT_BINARY_DIR}/turnscanConfigVersion.cmake"
-              "${CMAKE_CURRENT_LIST_DIR}/TurnscanPcl.cmake"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/turnscan" COMPONENT development)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/scanners"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/turnscan")

@@ -27,7 +27,7 @@ target_compile_options(turnscan_warnings
 if(TURNSCAN_WERROR)
   target_compile_options(turnscan_warnings INTERFACE -Werror)
 endif()
-# PCL's surface module names all of VTK: programs load only the libraries that they call.
+# VTK's CMake targets name more libraries than one calls: programs load only those that they call.
 add_link_options(-Wl,--as-needed)
 if(TURNSCAN_SANITIZE)
   add_compile_options(-fsanitize=${TURNSCAN_SANITIZE} -fno-omit-frame-pointer

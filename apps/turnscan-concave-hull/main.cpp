@@ -4,24 +4,22 @@
 // one line on standard error, "CODE: SENTENCE", where CODE is the name of a turnscan::ErrorCode.
 
 #include <fcntl.h>
-#include <pcl/point_types.h>
-#include <pcl/surface/concave_hull.h>
+#include <libqhull_r/qhull_ra.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <exception>
-#include <memory>
+#include <limits>
 #include <new>
 #include <turnscan/core/process/helper_program.hpp>
 #include <turnscan/core/process/process_setup.hpp>
 #include <turnscan/core/units.hpp>
+#include <turnscan/geometry/hull/alpha_shape.hpp>
 #include <turnscan/reconstruction/surface/hull_bytes.hpp>
 
 namespace {
 
 using namespace turnscan;
-
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 Result<std::string> read_all(int descriptor) {
   std::string bytes;
@@ -45,25 +43,53 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-TriangleMesh hull_of(const std::vector<Vec3f>& points, double alpha_m) {
-  auto cloud = std::make_shared<Cloud>();
-  for (const Vec3f& p : points) cloud->emplace_back(p.x(), p.y(), p.z());
-  pcl::ConcaveHull<pcl::PointXYZ> hull;
-  hull.setInputCloud(cloud);
-  hull.setAlpha(alpha_m);
-  hull.setDimension(3);
-  Cloud vertices;
-  std::vector<pcl::Vertices> polygons;
-  hull.reconstruct(vertices, polygons);
-  TriangleMesh mesh;
-  for (const auto& p : vertices.points) mesh.vertices.emplace_back(p.getVector3fMap());
-  for (const auto& polygon : polygons) {
-    if (polygon.vertices.size() != 3) continue;
-    mesh.triangles.push_back({static_cast<std::uint32_t>(polygon.vertices[0]),
-                              static_cast<std::uint32_t>(polygon.vertices[1]),
-                              static_cast<std::uint32_t>(polygon.vertices[2])});
+/// Owns what Qhull allocates. Its errors jump past destructors, so everything that a call needs is
+/// made before it.
+class Qhull {
+ public:
+  Qhull() { qh_zero(&state_, stderr); }
+  ~Qhull() {
+    int left = 0, all = 0;
+    qh_freeqhull(&state_, !qh_ALL);
+    qh_memfreeshort(&state_, &left, &all);
   }
-  return mesh;
+  Qhull(const Qhull&) = delete;
+  Qhull& operator=(const Qhull&) = delete;
+
+  /// "QJ" moves points by less than single precision so that all facets are tetrahedra.
+  bool triangulate(std::vector<coordT>& coordinates) {
+    char flags[] = "qhull d QJ Pp";
+    return qh_new_qhull(&state_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(),
+                        False, flags, nullptr, stderr) == 0;
+  }
+
+  std::vector<Tetrahedron> tetrahedra() {
+    std::vector<Tetrahedron> out;
+    for (facetT* facet = state_.facet_list; facet && facet->next; facet = facet->next) {
+      if (facet->upperdelaunay) continue;
+      Tetrahedron& tetrahedron = out.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto* vertex = static_cast<vertexT*>(facet->vertices->e[k].p);
+        tetrahedron[k] = static_cast<std::uint32_t>(qh_pointid(&state_, vertex->point));
+      }
+    }
+    return out;
+  }
+
+ private:
+  qhT state_;
+};
+
+Result<TriangleMesh> hull_of(const std::vector<Vec3f>& points, double alpha_m) {
+  if (points.size() > std::size_t(std::numeric_limits<int>::max() / 4))
+    return fail(ErrorCode::kResourceLimit, "{} points are too many", points.size());
+  std::vector<coordT> coordinates;
+  coordinates.reserve(3 * points.size());
+  for (const Vec3f& p : points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+  Qhull qhull;
+  if (!qhull.triangulate(coordinates))
+    return fail(ErrorCode::kLibrary, "Qhull cannot triangulate the points");
+  return alpha_shape(points, qhull.tetrahedra(), alpha_m);
 }
 
 Result<> run(int argc, char** argv, int output) {
@@ -73,7 +99,8 @@ Result<> run(int argc, char** argv, int output) {
   TURNSCAN_ASSIGN(const std::string bytes, read_all(STDIN_FILENO));
   const auto points = surface::points_from_bytes(bytes);
   if (!points) return fail(ErrorCode::kFormat, "the points end within one");
-  if (!write_all(output, surface::bytes_of_mesh(hull_of(*points, alpha_m))))
+  TURNSCAN_ASSIGN(const TriangleMesh hull, hull_of(*points, alpha_m));
+  if (!write_all(output, surface::bytes_of_mesh(hull)))
     return fail(ErrorCode::kIo, "the mesh cannot be written");
   return {};
 }
@@ -97,7 +124,7 @@ std::optional<std::uint64_t> memory_of_machine() {
 
 }  // namespace
 
-// The libraries write messages of their own, which go nowhere.
+// Qhull writes messages of its own, which go nowhere.
 int main(int argc, char** argv) {
   process::set_up_process();
   process::limit_this_process({.memory_bytes = memory_of_machine()});

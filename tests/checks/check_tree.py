@@ -17,8 +17,8 @@ from tree import Tree  # noqa: E402
 
 # Header pattern, folders that may include it, whether an installed header may too.
 LIBRARIES = [
-    ("PCL", r"pcl/", ("src/turnscan/geometry/",
-                      "apps/turnscan-concave-hull/", "tests/", "bench/"), False),
+    ("PCL (a peer to compare with)", r"pcl/", ("bench/",), False),
+    ("Qhull", r"libqhull", ("apps/turnscan-concave-hull/",), False),
     ("Embree", r"embree\d?/", ("src/turnscan/simulator/", "bench/"), False),
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/|QVTK", ("apps/turnscan-studio/", "tests/studio/"), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),

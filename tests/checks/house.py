@@ -23,7 +23,7 @@ FLOORS["workflow"] = set(FLOORS)
 # Programs include public headers of every floor, and project headers of the workflow floor; the
 # helper programs, which are parts of a floor in a process of their own, also those of these floors.
 HELPER_PROGRAMS = {"apps/turnscan-mesh-convert": {"core", "io"},
-                   "apps/turnscan-concave-hull": {"core", "reconstruction"}}
+                   "apps/turnscan-concave-hull": {"core", "geometry", "reconstruction"}}
 
 # What a folder holds at most. More sources are two ideas.
 MAX_SOURCES = 20

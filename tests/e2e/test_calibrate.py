@@ -104,11 +104,6 @@ class Calibrate(harness.TestCase):
         out = self.ok("reconstruct", "right", "-o", "m.ply", *harness.FAST).stdout
         self.assertNotIn("the object turns", out)
 
-    def test_free_registration_is_there_to_compare_with(self):
-        out = self.ok("reconstruct", self.rec, "-o", "m.ply", "--calibration", "gicp-global",
-                      *harness.FAST).stdout
-        self.assertIn("free registration", out)
-
     def test_the_offset_of_depth_is_found_kept_and_used(self):
         found = self.calibrate(self.rec, "--detect", "--depth-bias", "--platter-radius", "150mm")
         self.assertLess(abs(found["depth"]["bias_m"]), 0.01)

@@ -153,7 +153,7 @@ QString about_html() {
                                     {"nanoflann", "BSD 2-clause"},
                                     {"meshoptimizer", "MIT"},
                                     {"GEOS", "LGPL 2.1"},
-                                    {"PCL", "BSD 3-clause"},
+                                    {"Qhull", "Qhull"},
                                     {"Embree", "Apache 2.0"},
                                     {"libserialport", "LGPL 3"},
                                     {"libpng", "libpng"},

@@ -52,8 +52,7 @@ class ReconstructCommand : public Command {
         "--calibration", "WAY", request_.calibration,
         "Where turntable and angles come from: auto, recorded or motion. auto: from the object's "
         "motion where the "
-        "recording has none, or one that does not fit one turn later. For comparison also free "
-        "registration: icp-consecutive, icp-global, gicp-consecutive, gicp-global");
+        "recording has none, or one that does not fit one turn later");
     line.repeatable(
         "--pass-pose", "PASS=POSE", pass_poses_,
         "Where a pass lies, if its surface does not show it: its number (passes of several "

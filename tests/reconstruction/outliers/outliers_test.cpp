@@ -1,4 +1,5 @@
-// The filter's contract: PCL's kept set, options, errors, the same result everywhere.
+// The filter's contract: the kept set of the plain filter, options, errors, the same result
+// everywhere.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 #include <turnscan/reconstruction/outliers/outliers.hpp>
 
 #include "tests/reconstruction/outliers/depth_frames.hpp"
-#include "tests/reconstruction/outliers/pcl_outliers.hpp"
+#include "tests/reconstruction/outliers/plain_outliers.hpp"
 #include "tests/support/sanitizers.hpp"
 
 namespace turnscan::outliers {
@@ -30,10 +31,10 @@ std::size_t dropped(const std::vector<std::uint8_t>& mask) {
   return std::size_t(std::count(mask.begin(), mask.end(), 0));
 }
 
-/// Both ways of searching keep what PCL keeps.
-void expect_pcl(const FramePoints& frame, int k = 10, double lambda = 1.0) {
+/// Both ways of searching keep what the plain filter keeps.
+void expect_plain(const FramePoints& frame, int k = 10, double lambda = 1.0) {
   const std::vector<std::uint8_t> expected =
-      testing::pcl_outlier_mask(frame.cloud.points, k, lambda);
+      testing::plain_outlier_mask(frame.cloud.points, k, lambda);
   const OutlierOptions o = options(k, lambda);
   EXPECT_EQ(mask(frame, o), expected) << "grid, k " << k << ", lambda " << lambda;
   EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, o).value(), expected)
@@ -50,125 +51,127 @@ CameraIntrinsics small_camera(int width, int height, double f = 100.0) {
 
 // --- the kept set -------------------------------------------------------------------------------
 
-TEST(OutliersLikePcl, ObjectWithNoiseHolesAndFlyingPixels) {
+TEST(OutliersLikeThePlainFilter, ObjectWithNoiseHolesAndFlyingPixels) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Defects defects;
     defects.seed = seed;
     const FramePoints frame = testing::object_frame(testing::kinect_v2(), defects);
     ASSERT_GT(frame.cloud.size(), 5000u);
-    expect_pcl(frame);
+    expect_plain(frame);
     EXPECT_GT(dropped(mask(frame)), 50u);
   }
 }
 
-TEST(OutliersLikePcl, FullFrameOfARoom) { expect_pcl(testing::room_frame(testing::kinect_v2())); }
-
-TEST(OutliersLikePcl, FullFrameThroughADistortingLens) {
-  expect_pcl(testing::room_frame(testing::distorted_kinect_v2()));
+TEST(OutliersLikeThePlainFilter, FullFrameOfARoom) {
+  expect_plain(testing::room_frame(testing::kinect_v2()));
 }
 
-TEST(OutliersLikePcl, AnyNumberOfNeighbours) {
+TEST(OutliersLikeThePlainFilter, FullFrameThroughADistortingLens) {
+  expect_plain(testing::room_frame(testing::distorted_kinect_v2()));
+}
+
+TEST(OutliersLikeThePlainFilter, AnyNumberOfNeighbours) {
   const FramePoints frame = testing::object_frame(small_camera(200, 160, 180.0));
   ASSERT_GT(frame.cloud.size(), 1001u);
   for (const int k : {1, 2, 3, 4, 9, 11, 20, 50, 128, 129, 249, 250, 251, 1000})
-    expect_pcl(frame, k);
+    expect_plain(frame, k);
 }
 
-TEST(OutliersLikePcl, AnyLambda) {
+TEST(OutliersLikeThePlainFilter, AnyLambda) {
   const FramePoints frame = testing::object_frame(testing::kinect_v2());
-  for (const double lambda : {0.0, 0.1, 0.5, 2.0, 3.7, 100.0}) expect_pcl(frame, 10, lambda);
+  for (const double lambda : {0.0, 0.1, 0.5, 2.0, 3.7, 100.0}) expect_plain(frame, 10, lambda);
 }
 
-TEST(OutliersLikePcl, FrontalPlaneWhereNearlyAllDistancesTie) {
+TEST(OutliersLikeThePlainFilter, FrontalPlaneWhereNearlyAllDistancesTie) {
   const FramePoints frame =
       testing::render(small_camera(90, 70), [](int, int, double, double) { return 1.0; });
-  for (const int k : {1, 4, 8, 10, 12, 24}) expect_pcl(frame, k);
+  for (const int k : {1, 4, 8, 10, 12, 24}) expect_plain(frame, k);
 }
 
-TEST(OutliersLikePcl, NoiseOfSeveralPixelSpacings) {
+TEST(OutliersLikeThePlainFilter, NoiseOfSeveralPixelSpacings) {
   for (const double noise : {0.0, 0.0001, 0.01, 0.05}) {
     Defects defects;
     defects.noise_m = noise;
     defects.holes = 0.3;
-    expect_pcl(testing::object_frame(testing::kinect_v2(), defects));
+    expect_plain(testing::object_frame(testing::kinect_v2(), defects));
   }
 }
 
-TEST(OutliersLikePcl, PixelsOfRandomDepth) {
+TEST(OutliersLikeThePlainFilter, PixelsOfRandomDepth) {
   const auto random = [](int column, int row, double, double) {
     return 0.3 + 4.0 * uniform01(hash_key(7, std::uint64_t(column), std::uint64_t(row)));
   };
-  for (const int k : {1, 10, 30}) expect_pcl(testing::render(small_camera(120, 90), random), k);
+  for (const int k : {1, 10, 30}) expect_plain(testing::render(small_camera(120, 90), random), k);
 }
 
-TEST(OutliersLikePcl, MostPixelsEmpty) {
+TEST(OutliersLikeThePlainFilter, MostPixelsEmpty) {
   for (const double holes : {0.9, 0.99}) {
     Defects defects;
     defects.holes = holes;
-    expect_pcl(testing::room_frame(testing::kinect_v2(), defects));
+    expect_plain(testing::room_frame(testing::kinect_v2(), defects));
   }
 }
 
-TEST(OutliersLikePcl, StepsSeenAlmostEdgeOn) {
+TEST(OutliersLikeThePlainFilter, StepsSeenAlmostEdgeOn) {
   const auto stairs = [](int column, int row, double x, double) {
     return column % 9 < 2 ? 2.0 + 0.3 * (row % 5) : 0.5 / (1.0 - 1.9 * x);
   };
-  expect_pcl(testing::render(small_camera(100, 60), stairs));
+  expect_plain(testing::render(small_camera(100, 60), stairs));
 }
 
-TEST(OutliersLikePcl, SingleRowsAndColumns) {
+TEST(OutliersLikeThePlainFilter, SingleRowsAndColumns) {
   const auto slope = [](int column, int row, double, double) {
     return 1.0 + 0.001 * ((column * 7 + row * 5) % 11);
   };
   for (const auto& [width, height] : {std::pair(200, 1), std::pair(1, 200), std::pair(12, 1)})
-    expect_pcl(testing::render(small_camera(width, height), slope));
+    expect_plain(testing::render(small_camera(width, height), slope));
 }
 
-TEST(OutliersLikePcl, FewPoints) {
+TEST(OutliersLikeThePlainFilter, FewPoints) {
   const auto slope = [](int column, int row, double, double) {
     return 1.0 + 0.01 * ((column * 7 + row * 3) % 5);
   };
   for (int count = 1; count <= 24; ++count)
     for (const int k : {1, 5, 10, 20})
-      expect_pcl(testing::render(small_camera(count, 1), slope), k);
+      expect_plain(testing::render(small_camera(count, 1), slope), k);
 }
 
-TEST(OutliersLikePcl, TheSamePointSeveralTimes) {
+TEST(OutliersLikeThePlainFilter, TheSamePointSeveralTimes) {
   FramePoints frame = testing::object_frame(testing::kinect_v2());
   for (std::size_t i = 0; i + 40 < frame.cloud.size(); i += 40)
     for (std::size_t j = 1; j < 1 + i % 17; ++j) frame.cloud.points[i + j] = frame.cloud.points[i];
-  expect_pcl(frame);
+  expect_plain(frame);
 }
 
-TEST(OutliersLikePcl, AllPointsInOnePlace) {
+TEST(OutliersLikeThePlainFilter, AllPointsInOnePlace) {
   FramePoints frame =
       testing::render(small_camera(30, 20), [](int, int, double, double) { return 1.0; });
   for (Vec3f& p : frame.cloud.points) p = Vec3f(0.25f, 0.5f, 1.0f);
-  expect_pcl(frame);
+  expect_plain(frame);
 }
 
-TEST(OutliersLikePcl, PointsInAnyOrder) {
-  expect_pcl(testing::shuffled(testing::object_frame(testing::kinect_v2()), 3));
+TEST(OutliersLikeThePlainFilter, PointsInAnyOrder) {
+  expect_plain(testing::shuffled(testing::object_frame(testing::kinect_v2()), 3));
 }
 
-TEST(OutliersLikePcl, SeveralPointsInACell) {
+TEST(OutliersLikeThePlainFilter, SeveralPointsInACell) {
   FramePoints frame = testing::object_frame(testing::kinect_v2());
   for (std::size_t i = 1; i < frame.cell.size(); i += 2) frame.cell[i] = frame.cell[i - 1];
-  expect_pcl(frame);
+  expect_plain(frame);
 }
 
-TEST(OutliersLikePcl, FrameMovedAwayFromItsSensor) {
+TEST(OutliersLikeThePlainFilter, FrameMovedAwayFromItsSensor) {
   FramePoints frame = testing::room_frame(small_camera(160, 120, 150.0));
   const Pose T = Eigen::Translation3d(1.0, -2.0, 0.3) *
                  Eigen::AngleAxisd(2.1, Vec3d(1.0, 2.0, -1.0).normalized());
   for (Vec3f& p : frame.cloud.points) p = (T * p.cast<double>()).cast<float>();
   const FramePoints without_viewpoint = frame;
   frame.viewpoint = frame.viewpoint.transformed(T);
-  expect_pcl(frame);
-  expect_pcl(without_viewpoint);
+  expect_plain(frame);
+  expect_plain(without_viewpoint);
 }
 
-TEST(OutliersLikePcl, ParallelRays) {
+TEST(OutliersLikeThePlainFilter, ParallelRays) {
   FramePoints frame;
   frame.width = 80, frame.height = 60;
   frame.viewpoint = {Vec3d::UnitZ(), true};
@@ -178,28 +181,28 @@ TEST(OutliersLikePcl, ParallelRays) {
     frame.cell.push_back(cell);
     frame.cloud.points.emplace_back(float(x), float(y), float(2.0 * x + 0.0003 * noise));
   }
-  expect_pcl(frame);
+  expect_plain(frame);
 }
 
-TEST(OutliersLikePcl, RealDepthImages) {
+TEST(OutliersLikeThePlainFilter, RealDepthImages) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const std::vector<NamedFrame> frames = testing::real_depth_frames(25);
   if (frames.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
   for (const NamedFrame& frame : frames) {
     SCOPED_TRACE(frame.name);
     ASSERT_GT(frame.points.cloud.size(), 1000u);
-    EXPECT_EQ(mask(frame.points), testing::pcl_outlier_mask(frame.points.cloud.points, 10, 1.0));
+    EXPECT_EQ(mask(frame.points), testing::plain_outlier_mask(frame.points.cloud.points, 10, 1.0));
   }
 }
 
-TEST(OutliersLikePcl, RealRangeScans) {
+TEST(OutliersLikeThePlainFilter, RealRangeScans) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   const std::vector<NamedFrame> scans = testing::real_range_scans();
   if (scans.empty()) GTEST_SKIP() << "no data sets (TURNSCAN_TEST_DATA)";
   for (const NamedFrame& scan : scans) {
     SCOPED_TRACE(scan.name);
     ASSERT_GT(scan.points.cloud.size(), 1000u);
-    expect_pcl(scan.points);
+    expect_plain(scan.points);
   }
 }
 
@@ -361,7 +364,7 @@ TEST(Outliers, AHugeGridWithFewPointsTakesNoMemory) {
     frame.cell.push_back(i * 105000000);
     frame.cloud.points.emplace_back(0.1f * float(i), 0.0f, 1.0f);
   }
-  expect_pcl(frame);
+  expect_plain(frame);
 }
 
 }  // namespace

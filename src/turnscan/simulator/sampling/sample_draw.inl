@@ -199,7 +199,7 @@ inline void clear(const Canvas& canvas) {
 inline void finish_image(const View& view, const Directions& directions, const Window& frame,
                          const Canvas& canvas, const Output& out) {
   const bool by_rays = view.two_eyed && view.baseline == 0.0f;
-  RTCIntersectContext context = coherent();
+  embree::Query query(true);
   const int width = frame.right - frame.left, stride = canvas.frame.right - canvas.frame.left;
   for (int row = frame.top; row < frame.bottom; ++row) {
     for (int left = frame.left; left < frame.right; left += kLanes) {
@@ -209,7 +209,7 @@ inline void finish_image(const View& view, const Directions& directions, const W
                                std::size_t(left - canvas.frame.left);
       const I valid = counting() + left < frame.right;
       take(view, canvas, from, valid, p);
-      finish(view, valid, by_rays, context, p);
+      finish(view, valid, by_rays, query, p);
       const std::size_t at =
           std::size_t(row - frame.top) * std::size_t(width) + std::size_t(left - frame.left);
       if (frame.right - left >= kLanes)

@@ -1,11 +1,10 @@
 #pragma once
 // What packets of 16 rays see, a kernel (core/simd/kernel_choice.hpp).
 
-#include <embree3/rtcore.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <turnscan/core/simd/kernel_choice.hpp>
+#include <turnscan/simulator/scene/embree.hpp>
 #include <turnscan/simulator/scene/triangle_clusters.hpp>
 
 namespace turnscan::sampling {

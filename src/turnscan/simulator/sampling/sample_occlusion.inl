@@ -18,7 +18,7 @@ constexpr float kRounding_px = 0.02f;
 /// Samples that need a ray to the other eye, sixteen at a time.
 class Doubts {
  public:
-  Doubts(const View& view, const Output& out) : view_(view), out_(out), context_(coherent()) {}
+  Doubts(const View& view, const Output& out) : view_(view), out_(out) {}
 
   void add(std::size_t at, float x, float y) {
     at_[count_] = at;
@@ -38,7 +38,7 @@ class Doubts {
     judge(view_, valid, p, target);
     I left = valid;
     for (int b = 0; b < view_.body_count && any(left); ++b)
-      left = lit(view_.bodies[b], target, left, context_);
+      left = lit(view_.bodies[b], target, left, query_);
     for (int i = 0; i < n; ++i)
       if (left[i] == 0) out_.miss[at_[i]] = std::uint8_t(view_.blocked);
   }
@@ -73,7 +73,7 @@ class Doubts {
 
   const View& view_;
   const Output& out_;
-  RTCIntersectContext context_;
+  embree::Query query_{true};
   std::size_t at_[kLanes];
   float x_[kLanes], y_[kLanes];
   int count_ = 0;

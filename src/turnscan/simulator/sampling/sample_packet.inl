@@ -102,15 +102,14 @@ inline void locate(const BodyView& body, const int* objects, const int* triangle
   p.nz = hit ? mz : p.nz;
 }
 
-inline void intersect(const BodyView& body, const I& valid, RTCIntersectContext& context,
-                      Packet& p) {
+inline void intersect(const BodyView& body, const I& valid, embree::Query& query, Packet& p) {
   alignas(64) RTCRayHit16 hits;
   alignas(64) int active[kLanes];
   fill(body.origin, body.rotation, valid, p.x, p.y, all(1.0f), p.z, hits.ray);
   store(hits.hit.geomID, all(-1));
   store(hits.hit.instID[0], all(-1));
   store(active, valid);
-  rtcIntersect16(active, body.scene, &context, &hits);
+  query.intersect(active, body.scene, hits);
   alignas(64) int object[kLanes], triangle[kLanes];
   store(object, load<I>(hits.hit.geomID));
   store(triangle, load<I>(hits.hit.primID));
@@ -148,8 +147,7 @@ inline void judge(const View& view, const I& valid, Packet& p, Target& target) {
 }
 
 /// The lanes of valid that the body does not block.
-inline I lit(const BodyView& body, const Target& target, const I& valid,
-             RTCIntersectContext& context) {
+inline I lit(const BodyView& body, const Target& target, const I& valid, embree::Query& query) {
   alignas(64) RTCRay16 ray;
   alignas(64) int active[kLanes];
   const F end = all(1.0f);
@@ -158,7 +156,7 @@ inline I lit(const BodyView& body, const Target& target, const I& valid,
   if (body.platter_radius_squared >= 0.0f)
     left &= meet_platter(ray, end, body.platter_radius_squared) == kInfinity;
   store(active, left);
-  rtcOccluded16(active, body.scene, &context, &ray);
+  query.occluded(active, body.scene, ray);
   // Embree marks a blocked ray with tfar = -inf.
   return left & (load(ray.tfar) >= 0.0f);
 }
@@ -175,7 +173,7 @@ inline void begin(Packet& p) {
 }
 
 /// Whether what was hit counts. other_eye: whether to look from there, too.
-inline void finish(const View& view, const I& valid, bool other_eye, RTCIntersectContext& context,
+inline void finish(const View& view, const I& valid, bool other_eye, embree::Query& query,
                    Packet& p) {
   Target target;
   judge(view, valid, p, target);
@@ -183,25 +181,18 @@ inline void finish(const View& view, const I& valid, bool other_eye, RTCIntersec
   const I seen = p.miss == int(kCounts);
   I left = seen;
   for (int b = 0; b < view.body_count && any(left); ++b)
-    left = lit(view.bodies[b], target, left, context);
+    left = lit(view.bodies[b], target, left, query);
   p.miss = seen & ~left ? all(view.blocked) : p.miss;
 }
 
-inline void trace(const View& view, const Window* where, bool other_eye,
-                  RTCIntersectContext& context, Packet& p) {
+inline void trace(const View& view, const Window* where, bool other_eye, embree::Query& query,
+                  Packet& p) {
   const I valid = (p.x == p.x) & (p.y == p.y);
   begin(p);
   for (int b = 0; b < view.body_count; ++b)
     if (where == nullptr || overlap(*where, view.bodies[b].frame))
-      intersect(view.bodies[b], valid, context, p);
-  finish(view, valid, other_eye, context, p);
-}
-
-inline RTCIntersectContext coherent() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
+      intersect(view.bodies[b], valid, query, p);
+  finish(view, valid, other_eye, query, p);
 }
 
 /// Lanes [lane, lane + count) to the place `at`. count is a constant where it matters.
@@ -235,14 +226,14 @@ void trace_tiles(const View& view, const Directions& directions, const Window& f
                  const Output& out) {
   constexpr int kTileHeight = kLanes / kTileWidth;
   const bool by_rays = view.two_eyed && view.baseline == 0.0f;
-  RTCIntersectContext context = coherent();
+  embree::Query query(true);
   const int width = frame.right - frame.left;
   for (int top = frame.top; top < frame.bottom; top += kTileHeight) {
     for (int left = frame.left; left < frame.right; left += kTileWidth) {
       const Window tile{left, top, left + kTileWidth, top + kTileHeight};
       Packet p;
       load_tile<kTileWidth>(directions, frame, left, top, p);
-      trace(view, &tile, by_rays, context, p);
+      trace(view, &tile, by_rays, query, p);
       const int rows = frame.bottom - top < kTileHeight ? frame.bottom - top : kTileHeight;
       for (int row = 0; row < rows; ++row) {
         const std::size_t at = std::size_t(top + row - frame.top) * std::size_t(width) +
@@ -258,7 +249,7 @@ void trace_tiles(const View& view, const Directions& directions, const Window& f
 
 void trace_list(const View& view, const float* x, const float* y, std::size_t n,
                 const Output& out) {
-  RTCIntersectContext context = coherent();
+  embree::Query query(true);
   for (std::size_t at = 0; at < n; at += kLanes) {
     const int count = n - at < std::size_t(kLanes) ? int(n - at) : kLanes;
     Packet p;
@@ -267,7 +258,7 @@ void trace_list(const View& view, const float* x, const float* y, std::size_t n,
       p.x[i] = x[ray];
       p.y[i] = y[ray];
     }
-    trace(view, nullptr, view.two_eyed, context, p);
+    trace(view, nullptr, view.two_eyed, query, p);
     write(p, 0, count, at, out);
   }
 }

@@ -9,14 +9,6 @@ namespace {
 
 constexpr std::size_t kPacket = 16;
 
-RTCIntersectContext context_of(RayOrder order) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
-}
-
 Result<> check_mesh_indices(const TriangleMesh& mesh, std::size_t object) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {
@@ -109,7 +101,7 @@ float Scene::Impl::platter_t(const Ray& ray) const {
 }
 
 void Scene::Impl::intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
-                                   RTCIntersectContext& context) const {
+                                   embree::Query& query) const {
   alignas(64) int valid[kPacket] = {};
   RTCRayHit16 packet;
   load(packet.ray, rays);
@@ -118,7 +110,7 @@ void Scene::Impl::intersect_packet(std::span<const Ray> rays, std::span<RayHit> 
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(valid, scene.get(), &context, &packet);
+  query.intersect(valid, scene.get(), packet);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     hits[i] = RayHit();
     const bool hit = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
@@ -129,7 +121,7 @@ void Scene::Impl::intersect_packet(std::span<const Ray> rays, std::span<RayHit> 
 }
 
 void Scene::Impl::occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
-                                  RTCIntersectContext& context) const {
+                                  embree::Query& query) const {
   alignas(64) int valid[kPacket] = {};
   RTCRay16 packet;
   load(packet, rays);
@@ -137,7 +129,7 @@ void Scene::Impl::occluded_packet(std::span<const Ray> rays, std::span<std::uint
     blocked[i] = std::isfinite(platter_t(rays[i])) ? 1 : 0;
     valid[i] = blocked[i] ? 0 : -1;
   }
-  rtcOccluded16(valid, scene.get(), &context, &packet);
+  query.occluded(valid, scene.get(), packet);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     // Embree marks an occluded ray with tfar = -inf.
     if (valid[i] != 0 && packet.tfar[i] < 0.0f) blocked[i] = 1;
@@ -183,10 +175,10 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
 
 void Scene::intersect(std::span<const Ray> rays, std::span<RayHit> hits, RayOrder order) const {
   if (hits.size() != rays.size()) throw std::invalid_argument("Scene::intersect: sizes differ");
-  RTCIntersectContext context = context_of(order);
+  embree::Query query(order == RayOrder::kCoherent);
   for (std::size_t i = 0; i < rays.size(); i += kPacket) {
     const std::size_t n = std::min(kPacket, rays.size() - i);
-    impl_->intersect_packet(rays.subspan(i, n), hits.subspan(i, n), context);
+    impl_->intersect_packet(rays.subspan(i, n), hits.subspan(i, n), query);
   }
 }
 
@@ -199,10 +191,10 @@ RayHit Scene::intersect(const Ray& ray) const {
 void Scene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                      RayOrder order) const {
   if (blocked.size() != rays.size()) throw std::invalid_argument("Scene::occluded: sizes differ");
-  RTCIntersectContext context = context_of(order);
+  embree::Query query(order == RayOrder::kCoherent);
   for (std::size_t i = 0; i < rays.size(); i += kPacket) {
     const std::size_t n = std::min(kPacket, rays.size() - i);
-    impl_->occluded_packet(rays.subspan(i, n), blocked.subspan(i, n), context);
+    impl_->occluded_packet(rays.subspan(i, n), blocked.subspan(i, n), query);
   }
 }
 

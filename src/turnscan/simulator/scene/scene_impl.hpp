@@ -1,12 +1,11 @@
 #pragma once
 // The inside of a scene, for those sources of the simulator that speak to Embree themselves.
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <turnscan/simulator/scene/embree.hpp>
 #include <turnscan/simulator/scene/raster_mesh.hpp>
 #include <turnscan/simulator/scene/scene.hpp>
 #include <turnscan/simulator/scene/triangle_clusters.hpp>
@@ -38,9 +37,9 @@ struct Scene::Impl {
   /// Where the ray meets the platter, or infinity.
   float platter_t(const Ray& ray) const;
   void intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
-                        RTCIntersectContext& context) const;
+                        embree::Query& query) const;
   void occluded_packet(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
-                       RTCIntersectContext& context) const;
+                       embree::Query& query) const;
 
  private:
   mutable std::once_flag raster_once_;

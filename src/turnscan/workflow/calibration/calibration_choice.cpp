@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/check.hpp>
-#include <turnscan/turntable/motion/free_motion.hpp>
+#include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
@@ -20,33 +19,6 @@ namespace {
 /// A calibration that the checks speak against takes precedence over another one if they find it
 /// off by so much less.
 constexpr double kClearlyLess = 0.4;
-
-struct FreeWay {
-  FreeMethod method;
-  FreeScheme scheme;
-};
-
-const std::map<std::string, FreeWay>& free_ways() {
-  static const std::map<std::string, FreeWay> ways{
-      {"icp-consecutive", {FreeMethod::kIcp, FreeScheme::kConsecutive}},
-      {"icp-global", {FreeMethod::kIcp, FreeScheme::kGlobal}},
-      {"gicp-consecutive", {FreeMethod::kGicp, FreeScheme::kConsecutive}},
-      {"gicp-global", {FreeMethod::kGicp, FreeScheme::kGlobal}}};
-  return ways;
-}
-
-Result<CalibrationChoice> by_free_registration(const FrameSequence& sequence,
-                                               const CalibrationRequest& request,
-                                               const FreeWay& way, const RunContext& context) {
-  TURNSCAN_ASSIGN(const FramePoses start,
-                  frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s));
-  CalibrationChoice out;
-  TURNSCAN_ASSIGN(out.poses, register_frames_freely(sequence, start.T_table_sensor, way.method,
-                                                    way.scheme, context));
-  out.note =
-      fmt::format("frames placed by free registration ({}), for comparison only", request.mode);
-  return out;
-}
 
 bool undetermined(const Calibration& found, std::string_view what) {
   return std::find(found.undetermined.begin(), found.undetermined.end(), what) !=
@@ -362,12 +334,8 @@ Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
   if (request.mode == "motion")
     return from_motion(reduced, request, "--calibration motion was given", memory, context);
   if (request.mode == "auto") return automatic(reduced, request, memory, context);
-  if (const auto way = free_ways().find(request.mode); way != free_ways().end())
-    return by_free_registration(reduced, request, way->second, context);
   return fail(ErrorCode::kInvalidOption,
-              "--calibration {}: there is no such way; use auto, recorded, motion or a "
-              "free registration",
-              request.mode);
+              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
 }
 
 Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,

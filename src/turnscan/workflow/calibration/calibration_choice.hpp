@@ -25,9 +25,9 @@ struct CalibrationChecks {
 
 struct CalibrationChoice {
   std::optional<Calibration> calibration;  ///< nullopt: the recording's own
-  std::vector<Pose> poses;  ///< T_table_sensor by free registration or corrected; else empty
-  std::vector<std::size_t> left_out;      ///< positions of frames that cannot be placed
-  std::string note;                       ///< one sentence for people; empty: nothing to say
+  std::vector<Pose> poses;            ///< T_table_sensor put right after a disturbance; else empty
+  std::vector<std::size_t> left_out;  ///< positions of frames that cannot be placed
+  std::string note;                   ///< one sentence for people; empty: nothing to say
   std::vector<Disturbance> disturbances;  ///< that were found, put right or not
   CalibrationChecks checks;               ///< of the recording's calibration, if it was checked
 };
@@ -37,9 +37,7 @@ struct CalibrationRequest {
   /// "auto" does that where the recording has none, or one whose closure error or axis offset is
   /// bad (turntable/checks/closure.hpp, axis_offset.hpp). Both then move the frames to where they
   /// belong after a disturbance (turntable/placement/find_disturbances.hpp); "recorded" only says
-  /// that there was one. icp-consecutive, icp-global,
-  /// gicp-consecutive and gicp-global start from the recording's and register the frames freely
-  /// (turntable/motion/free_motion.hpp).
+  /// that there was one.
   std::string mode = "auto";
   std::optional<double> speed_rad_s;  ///< that somebody stated; a doubt about it is a note
   bool table_given = false;           ///< by somebody, for this recording; a doubt is a note

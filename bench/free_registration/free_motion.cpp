@@ -1,6 +1,6 @@
+#include "bench/free_registration/free_motion.hpp"
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
-#include <turnscan/turntable/motion/free_motion.hpp>
 
 namespace turnscan::motion {
 

@@ -2,7 +2,7 @@
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 
-#include <turnscan/geometry/registration/free_registration.hpp>
+#include "bench/free_registration/free_registration.hpp"
 
 namespace turnscan {
 

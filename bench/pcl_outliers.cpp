@@ -1,4 +1,4 @@
-#include "tests/reconstruction/outliers/pcl_outliers.hpp"
+#include "bench/pcl_outliers.hpp"
 
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/point_types.h>

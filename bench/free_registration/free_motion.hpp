@@ -4,8 +4,8 @@
 
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
-#include <turnscan/geometry/registration/free_registration.hpp>
 #include <vector>
+#include "bench/free_registration/free_registration.hpp"
 
 namespace turnscan {
 

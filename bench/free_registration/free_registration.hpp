@@ -1,6 +1,6 @@
 #pragma once
-// Registration with six free numbers a cloud, by PCL: the methods that calibration from motion is
-// compared with.
+// Pairwise registration with six degrees of freedom by PCL, the peer that calibration from motion
+// is compared with.
 
 #include <span>
 #include <turnscan/core/pose.hpp>
