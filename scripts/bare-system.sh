@@ -3,24 +3,21 @@
 
 # make_bare SUITE FOLDER: bookworm, trixie, or noble (which needs ubuntu-keyring).
 make_bare() {
-  local suite=$1 folder=$2 mirror rest=()
+  local suite=$1 folder=$2 mirror= components=main script=()
   case $suite in
-    bookworm | trixie | sid)
-      # The same mirror as this system's, if it is Debian's.
-      mirror=$(awk '$1 == "URIs:" && $2 ~ /\/debian\/?$/ {print $2; exit}
-                    $1 == "deb" && $2 ~ /\/debian\/?$/ {print $2; exit}' \
+    bookworm | trixie)
+      # The same mirror as this system's, if it is Debian's; else debootstrap knows one.
+      mirror=$(awk '($1 == "URIs:" || $1 == "deb") && $2 ~ /\/debian\/?$/ {print $2; exit}' \
         /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null || true)
-      mirror=${mirror:-http://deb.debian.org/debian}
       ;;
-    noble)
-      mirror=http://archive.ubuntu.com/ubuntu
-      # Debian's debootstrap makes all of Ubuntu's releases by one script.
-      rest=(/usr/share/debootstrap/scripts/gutsy)
-      ;;
+    # Debian's debootstrap makes all of Ubuntu's releases by one script.
+    noble) components=main,universe script=(/usr/share/debootstrap/scripts/gutsy) ;;
     *) echo "unknown suite '$suite'; known: bookworm trixie noble" >&2 && return 2 ;;
   esac
-  if ! debootstrap --variant=minbase --components=main${rest:+,universe} "$suite" "$folder" "$mirror" \
-    ${rest[@]:+"${rest[@]}"} >"$folder.log"; then
+  # A folder of mktemp is its owner's alone, and apt fetches as another user.
+  chmod 755 "$folder"
+  if ! debootstrap --variant=minbase --components=$components "$suite" "$folder" "$mirror" "${script[@]}" \
+    >"$folder.log"; then
     tail -n 5 "$folder.log" >&2
     return 1
   fi
@@ -32,6 +29,8 @@ make_bare() {
 enter_bare() {
   mount -t proc proc "$1/proc"
   mount --bind /dev "$1/dev"
+  # Else what is mounted below would be mounted below this system's /dev, too.
+  mount --make-private "$1/dev"
   mount --bind /dev/pts "$1/dev/pts"
   mount -t tmpfs tmpfs "$1/dev/shm"
 }

@@ -2,7 +2,8 @@
 
 Blocks marked ```sh are run in order, one shell per block, all blocks of a document in one empty
 folder with the program on the PATH. Blocks marked ```sh no-test are left out (installing packages,
-data that a reader has and we have not).
+data that a reader has and we have not), and so are those marked bare: scripts/test-on runs them on a
+bare system.
 """
 
 import os
@@ -18,7 +19,7 @@ BLOCK = re.compile(r"^```(\S+)([^\n]*)\n(.*?)^```", re.M | re.S)
 
 def examples(text):
     return [body for kind, info, body in BLOCK.findall(text)
-            if kind == "sh" and "no-test" not in info]
+            if kind == "sh" and not {"no-test", "bare"} & set(info.split())]
 
 
 class Documents(harness.TestCase):
@@ -46,7 +47,7 @@ for document in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
 
 class Reader(harness.TestCase):
     def test_only_blocks_marked_sh_are_run(self):
-        text = "```sh\na\n```\n```sh no-test\nb\n```\n```console\nc\n```\n```\nd\n```\n"
+        text = "```sh\na\n```\n```sh no-test\nb\n```\n```sh bare demo\ne\n```\n```console\nc\n```\n```\nd\n```\n"
         self.assertEqual(examples(text), ["a\n"])
 
 
