@@ -1,6 +1,8 @@
 // Depth images described by one JSON file; docs/importing.md lists its fields.
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -16,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxViews = 1000000;
+constexpr std::string_view kDepth = "depth";
 
 /// The lists of the file, each empty or one entry per view.
 struct Views {
@@ -90,17 +93,52 @@ Result<> agree_on_count(Views& views) {
   TURNSCAN_TRY(agree("poses", views.poses.size()));
   TURNSCAN_TRY(agree("depth_files", views.depth_files.size()));
   TURNSCAN_TRY(agree("color_files", views.color_files.size()));
-  if (views.count == 0)
-    return fail(ErrorCode::kFormat,
-                "there is none of the lists angle_rad_closed, angle_rad, angle_deg, times_s, "
-                "poses, depth_files");
   if (views.count > kMaxViews)
     return fail(ErrorCode::kResourceLimit, "there are more than {} views", kMaxViews);
   return {};
 }
 
+/// "depth_7.png", "depth-0007.png", "depth7.png" in the order of their numbers.
+Result<std::vector<std::string>> numbered_depth_images(const fs::path& folder) {
+  TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(folder));
+  std::map<std::uint64_t, std::string> numbered;
+  for (const std::string& name : names) {
+    if (!name.starts_with(kDepth) || !name.ends_with(".png")) continue;
+    std::string_view digits(name);
+    digits.remove_prefix(kDepth.size());
+    digits.remove_suffix(4);
+    if (digits.starts_with('_') || digits.starts_with('-')) digits.remove_prefix(1);
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(digits.begin(), digits.end(), number);
+    if (error != std::errc() || end != digits.end()) continue;
+    if (const auto [place, added] = numbered.emplace(number, name); !added)
+      return fail(ErrorCode::kFormat,
+                  "the images {} and {} have the same number; list the files in the field "
+                  "depth_files",
+                  place->second, name);
+  }
+  std::vector<std::string> out;
+  for (auto& [number, name] : numbered) out.push_back(std::move(name));
+  return out;
+}
+
+/// Without any list, the views are the numbered depth images of the folder.
+Result<> list_images_if_none_are(Views& views, const fs::path& folder, SequenceHeader& header) {
+  if (views.count != 0) return {};
+  TURNSCAN_ASSIGN(views.depth_files, numbered_depth_images(folder));
+  views.count = views.depth_files.size();
+  if (views.count == 0)
+    return fail(ErrorCode::kFormat,
+                "it lists no views (angle_deg, times_s, poses or depth_files), and beside it is no "
+                "depth_N.png; name the images depth_0.png, depth_1.png and so on, or list them in "
+                "the field depth_files");
+  add_note(header, fmt::format("the {} images depth_N.png were taken in the order of their numbers",
+                               views.count));
+  return {};
+}
+
 Result<Views> parse_views(const text::JsonObject& root, const ImportOptions& options,
-                          SequenceHeader& header) {
+                          const fs::path& folder, SequenceHeader& header) {
   Views views;
   TURNSCAN_ASSIGN(views.angles_rad, parse_angles(root, header));
   TURNSCAN_ASSIGN(views.times_s, numbers_if_any(root, "times_s"));
@@ -109,6 +147,7 @@ Result<Views> parse_views(const text::JsonObject& root, const ImportOptions& opt
   TURNSCAN_ASSIGN(views.depth_files, texts_if_any(root, "depth_files"));
   TURNSCAN_ASSIGN(views.color_files, texts_if_any(root, "color_files"));
   TURNSCAN_TRY(agree_on_count(views));
+  TURNSCAN_TRY(list_images_if_none_are(views, folder, header));
   for (const double pass : views.passes) {
     if (!(pass >= 0.0 && pass <= 1e6) || pass != std::floor(pass))
       return fail(ErrorCode::kFormat, "passes holds {}, which is not a whole number", pass);
@@ -178,6 +217,12 @@ Result<bool> parse_turntable(const text::JsonObject& root, Views& views, Sequenc
   return height.has_value();
 }
 
+/// "color_007.png" of "depth_007.png"; of another name by the view's position.
+std::string color_beside(const std::string& depth, std::size_t view) {
+  if (depth.starts_with(kDepth)) return "color" + depth.substr(kDepth.size());
+  return fmt::format("color_{}.png", view);
+}
+
 Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder) {
   std::vector<ForeignFrame> frames;
   for (std::size_t i = 0; i < views.count; ++i) {
@@ -189,7 +234,7 @@ Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path
     if (!views.color_files.empty()) {
       TURNSCAN_ASSIGN(frame.color, existing_file(folder, views.color_files[i], "the JSON file"));
     } else {
-      const fs::path color = folder / fmt::format("color_{}.png", i);
+      const fs::path color = folder / color_beside(frame.info.file, i);
       TURNSCAN_ASSIGN(const bool there, file::is_there(color));
       if (there) frame.color = color;
     }
@@ -216,7 +261,7 @@ Result<Description> parse_description(const fs::path& path, const ImportOptions&
   out.header.source = fmt::format("depth images of {}", display_name(path));
   TURNSCAN_ASSIGN(const SensorInfo sensor, parse_sensor(root, options));
   out.header.sensors.push_back(sensor);
-  TURNSCAN_ASSIGN(out.views, parse_views(root, options, out.header));
+  TURNSCAN_ASSIGN(out.views, parse_views(root, options, path.parent_path(), out.header));
   TURNSCAN_ASSIGN(out.on_platter, parse_turntable(root, out.views, out.header));
   return out;
 }
