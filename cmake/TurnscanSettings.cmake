@@ -8,8 +8,10 @@ endif()
 find_program(TURNSCAN_CCACHE ccache)
 if(TURNSCAN_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # What ccache asks for to work with precompiled headers: it hashes them, and sources name no time.
+  # Paths below the project are hashed relative to it, so that another check-out finds the same.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${TURNSCAN_CCACHE}")
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros"
+      "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${TURNSCAN_CCACHE}")
   set(CMAKE_C_COMPILER_LAUNCHER "${TURNSCAN_CCACHE}")
 endif()
 
