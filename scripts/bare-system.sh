@@ -35,9 +35,12 @@ enter_bare() {
   mount -t tmpfs tmpfs "$1/dev/shm"
 }
 
-# remove_bare FOLDER: never what is mounted in it.
+# remove_bare FOLDER: with the processes that run in it, and never what is mounted in it.
 remove_bare() {
-  local mounted
+  local mounted process
+  for process in /proc/[0-9]*; do
+    if [ "$(readlink "$process/root")" = "$1" ]; then kill -KILL "${process#/proc/}" || true; fi
+  done 2>/dev/null
   for mounted in dev/shm dev/pts dev proc ccache; do
     if mountpoint -q "$1/$mounted"; then umount "$1/$mounted" || umount --lazy "$1/$mounted"; fi
   done
