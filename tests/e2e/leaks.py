@@ -11,7 +11,7 @@ import re
 UNITS = "mm|cm|m|um|deg|rad|s|deg/s"
 # A number that is none, with or without a unit; and the metre, in millimetres, that stands for
 # more than can be said.
-LEAK = re.compile(rf"(?<![\w./'])[-+]?(?:nan|inf)(?:{UNITS})?(?![\w/'-]|\.\w)|(?<![\d.])1000\.00(?!\d)")
+LEAK = re.compile(rf"(?<![\w./'])[-+]?(?:nan|inf)(?:{UNITS})?(?![\w/'-]|\.\w)|(?<![\d.])1000\.00(?= ?mm)")
 # The models and scripts of a page are not read by people.
 NOT_WORDS = re.compile(r"<(script|style)\b.*?</\1>|<[^>]*>", re.DOTALL)
 
