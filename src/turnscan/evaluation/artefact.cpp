@@ -7,6 +7,7 @@
 #include <turnscan/evaluation/artefact_search.hpp>
 #include <turnscan/evaluation/plane_outline.hpp>
 #include <turnscan/evaluation/robust_fit.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/search/sample.hpp>
 
 namespace turnscan {
@@ -27,7 +28,6 @@ constexpr std::size_t kLeastPoints = 100;
 constexpr double kLeastCovered = 0.05;  // of a sphere; what one view sees is about a third
 constexpr double kReach = 0.15;         // of a ball's radius: what is farther is not of the ball
 constexpr double kPlateReach_m = 5e-3;
-constexpr double kSigmaOfMad = 1.4826;  // of a normal distribution
 constexpr double kBandSigmas = 6.0;
 
 double median_of(std::vector<double> values) {
@@ -62,7 +62,7 @@ Selection select_points(const Points& points, const Surface& surface, double rea
   }
   Selection selection;
   if (near.empty()) return selection;
-  const double limit = band ? *band : kBandSigmas * kSigmaOfMad * median_of(distances);
+  const double limit = band ? *band : kBandSigmas * estimation::kMadToSigma * median_of(distances);
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (distances[i] <= limit) selection.points.push_back(near[i]);
   }

@@ -1,7 +1,7 @@
 #pragma once
 // Small dense solvers, compiled once. Eigen's decompositions are templates that cost every source
 // that calls them seconds of compile time; here they are behind functions, for the sizes in use.
-// Another size needs a line at the end of linear_solvers.cpp.
+// Another size needs a line at the end of its source.
 
 #include <Eigen/Core>
 #include <memory>

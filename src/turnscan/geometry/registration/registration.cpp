@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/registration/registration.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
@@ -12,13 +13,8 @@
 namespace turnscan {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 constexpr std::size_t kFewestPairs = 6;
 constexpr double kHeldEigenvalue = 1e-3;  // of the largest
-constexpr double kHuber = 1.345;          // 95 % efficiency on Gaussian noise (Huber 1981)
-constexpr double kMedianToSigma = 1.4826;
 
 struct Pair {
   Vec3d p, normal;  // target frame
@@ -103,7 +99,7 @@ class PointToPlaneIcp {
   double huber_limit() const {
     std::vector<double> sizes;
     for (const Pair& pair : pairs_) sizes.push_back(std::abs(pair.residual));
-    return kHuber * kMedianToSigma * median(sizes);
+    return estimation::kHuber95 * estimation::kMadToSigma * median(sizes);
   }
 
   /// Rotation (times a length, so that all six unknowns are lengths) about the pairs' centre, and
@@ -117,39 +113,16 @@ class PointToPlaneIcp {
       squares += pair.residual * pair.residual;
     }
     const double length = std::max(std::sqrt(radius2), 1e-12), limit = huber_limit();
-    Matrix6 normal_matrix = Matrix6::Zero();
-    Vector6 right = Vector6::Zero();
+    estimation::NormalEquations<6> equations;
     for (const Pair& pair : pairs_) {
-      Vector6 row;
+      estimation::Vector6d row;
       row << (pair.p - center).cross(pair.normal) / length, pair.normal;
       const double size = std::abs(pair.residual);
-      const double weight = size > limit && limit > 0.0 ? limit / size : 1.0;
-      normal_matrix += weight * row * row.transpose();
-      right -= weight * pair.residual * row;
+      equations.add(row, -pair.residual, limit > 0.0 ? estimation::huber_weight(size, limit) : 1.0);
     }
-    Step step = move_along_firm_directions(normal_matrix, right, center, length);
-    step.rms_m = std::sqrt(squares / double(pairs_.size()));
-    return step;
-  }
-
-  Step move_along_firm_directions(const Matrix6& normal_matrix, const Vector6& right,
-                                  const Vec3d& center, double length) const {
-    Step step;
-    const auto eigen = estimation::symmetric_eigen(normal_matrix);
-    Vector6 move = Vector6::Zero();
-    for (int i = 0; i < 6; ++i) {
-      if (!(eigen.values[i] > kHeldEigenvalue * eigen.values[5])) {
-        ++step.held_directions;
-        continue;
-      }
-      const Vector6 direction = eigen.vectors.col(i);
-      move += direction * (direction.dot(right) / eigen.values[i]);
-    }
-    const Vec3d turn = move.head<3>() / length;
-    const double angle = turn.norm();
-    step.T = Eigen::Translation3d(center + move.tail<3>()) *
-             Eigen::AngleAxisd(angle, angle > 0.0 ? Vec3d(turn / angle) : Vec3d::UnitX()) *
-             Eigen::Translation3d(-center);
+    const auto [twist, held] = estimation::solve_firm(equations, kHeldEigenvalue);
+    Step step{estimation::exp_about(center, twist, length), 0.0,
+              std::sqrt(squares / double(pairs_.size())), held};
     for (const Vec3d& p : source_) {
       const Vec3d at = T_ * p;
       step.farthest_move_m = std::max(step.farthest_move_m, (step.T * at - at).norm());

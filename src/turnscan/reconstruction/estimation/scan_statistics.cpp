@@ -9,6 +9,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/voxels/voxel_grid.hpp>
@@ -183,9 +184,7 @@ class GridBends {
   }
   bool follows(std::size_t i) const { return points_.cell[i] == points_.cell[i - 1] + 1; }
   bool within(std::size_t i, double jump_m) const { return inner_[i] && bend_[i] <= jump_m; }
-  static double noise_of(std::vector<double>& bends) {
-    return 1.4826 * median(bends) / std::sqrt(1.5);
-  }
+  static double noise_of(std::vector<double>& bends) { return mad_sigma(bends) / std::sqrt(1.5); }
 
   const FramePoints& points_;
   std::vector<double> bend_;

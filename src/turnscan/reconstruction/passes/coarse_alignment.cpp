@@ -1,6 +1,7 @@
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
 
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 
 namespace turnscan::passes {
 
@@ -8,7 +9,6 @@ namespace {
 
 constexpr float kAlignCos = 0.6f;
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Vec6f = Eigen::Matrix<float, 6, 1>;
 
 /// A difference of colours by the spread weighs as one of distances by this.
@@ -74,15 +74,6 @@ struct Sums {
 
 }  // namespace
 
-Pose motion_about(const Vec3d& center, const Vec6& step) {
-  const double angle = step.head<3>().norm();
-  Pose out = Pose::Identity();
-  if (angle > 0.0)
-    out.linear() = Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix();
-  out.translation() = center + step.tail<3>() - out.linear() * center;
-  return out;
-}
-
 Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
                   std::span<const double> reaches_m, float color_spread) {
   const Vec3d center = bounds(a.samples.points).center();
@@ -101,11 +92,10 @@ Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
     const double lever = 0.25 * bounds(a.samples.points).size().norm();
     m.diagonal().head<3>().array() += 1e-3 * weight * lever * lever;
     m.diagonal().tail<3>().array() += 1e-3 * weight;
-    const Vec6 right = sums.vector.cast<double>();
-    T_a_b = motion_about(center, estimation::solve_ldlt(m, right)) * T_a_b;
+    const estimation::Vector6d right = sums.vector.cast<double>();
+    T_a_b = estimation::exp_about(center, estimation::solve_ldlt(m, right)) * T_a_b;
   }
-  T_a_b.linear() = Eigen::Quaterniond(T_a_b.linear()).normalized().toRotationMatrix();
-  return T_a_b;
+  return estimation::orthonormalised(T_a_b);
 }
 
 }  // namespace turnscan::passes

@@ -13,7 +13,4 @@ namespace turnscan::passes {
 Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
                   std::span<const double> reaches_m, float color_spread = 0.0f);
 
-/// exp of a rotation vector and a translation, about the point `center`.
-Pose motion_about(const Vec3d& center, const Eigen::Matrix<double, 6, 1>& step);
-
 }  // namespace turnscan::passes

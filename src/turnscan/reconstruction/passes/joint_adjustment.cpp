@@ -4,8 +4,9 @@
 #include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/geometry/estimation/linear_solvers.hpp>
-#include <turnscan/reconstruction/passes/coarse_alignment.hpp>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 #include <turnscan/reconstruction/passes/color_match.hpp>
 
 namespace turnscan::passes {
@@ -135,7 +136,7 @@ class JointAdjustment {
     out_.pairs = distances.size();
     if (out_.pairs < kFewestPairs)
       return fail(ErrorCode::kTooFewPoints, "the passes' surfaces do not meet");
-    out_.sigma_m = std::max(kLeastSigma, 1.4826 * median(distances));
+    out_.sigma_m = std::max(kLeastSigma, estimation::mad_sigma(distances));
     for (DirectedPairs& directed : directed_)
       if (directed.by_colors) take_out_light(directed);
     return {};
@@ -209,8 +210,8 @@ class JointAdjustment {
   }
 
   double tukey(const PlanePair& pair) const {
-    const double u = double(pair.distance) / (kTukey * out_.sigma_m);
-    return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) * double(pair.weight) : 0.0;
+    return estimation::tukey_weight(double(pair.distance) / (kTukey * out_.sigma_m)) *
+           double(pair.weight);
   }
 
   /// Calls use(weight, residual, row) for what a pair of points has to say.
@@ -243,17 +244,14 @@ class JointAdjustment {
     normal_.setZero(Eigen::Index(unknowns()), Eigen::Index(unknowns()));
     gradient_.setZero(Eigen::Index(unknowns()));
     for (const DirectedPairs& directed : directed_) {
-      Eigen::Matrix<double, 12, 12> m = Eigen::Matrix<double, 12, 12>::Zero();
-      Row v = Row::Zero();
+      estimation::NormalEquations<12> sum;
       for (std::size_t i = 0; i < directed.pairs.size(); ++i)
-        each_row(directed, i, [&](double w, double residual, const Row& row) {
-          m.noalias() += (w * row) * row.transpose();
-          v += w * residual * row;
-        });
+        each_row(directed, i,
+                 [&](double w, double residual, const Row& row) { sum.add(row, residual, w); });
       scatter(directed, [&](Eigen::Index at, Eigen::Index from) {
-        gradient_.segment<6>(at) += v.segment<6>(from);
+        gradient_.segment<6>(at) += sum.right.segment<6>(from);
         scatter(directed, [&](Eigen::Index to, Eigen::Index other) {
-          normal_.block<6, 6>(at, to) += m.block<6, 6>(from, other);
+          normal_.block<6, 6>(at, to) += sum.normal.block<6, 6>(from, other);
         });
       });
     }
@@ -267,12 +265,11 @@ class JointAdjustment {
     const Eigen::VectorXd x = estimation::solve_ldlt(damped, gradient_);
     double largest = 0.0;
     for (std::size_t k = 1; k < passes_.size(); ++k) {
-      const Eigen::Matrix<double, 6, 1> own = x.segment<6>(Eigen::Index(6 * (k - 1)));
+      const estimation::Twist own = x.segment<6>(Eigen::Index(6 * (k - 1)));
       largest =
           std::max(largest, own.head<3>().norm() * passes_[k]->extent_m + own.tail<3>().norm());
       Pose& T = out_.T_first_pass[k];
-      T = motion_about(out_.center, own) * T;
-      T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+      T = estimation::orthonormalised(estimation::exp_about(out_.center, own) * T);
     }
     return largest;
   }
@@ -300,7 +297,7 @@ class JointAdjustment {
     Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(normal_.rows(), normal_.cols());
     for (const auto& [key, g] : blocks) middle += g * g.transpose();
     const Eigen::MatrixXd inverse = estimation::DenseLdlt(normal_).inverse();
-    Eigen::MatrixXd covariance = inverse * middle * inverse;
+    Eigen::MatrixXd covariance = estimation::sandwich_covariance(inverse, middle);
     add_systematic(covariance);
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       const auto at = Eigen::Index(6 * (k == 0 ? 0 : k - 1));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
-#include <turnscan/reconstruction/passes/coarse_alignment.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 
 namespace turnscan::passes {
 
@@ -12,7 +12,7 @@ namespace {
 /// A direction of which pairs of points say less, as a share of the one they say most of, is open.
 constexpr double kHeld = 0.02;
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
+using estimation::Vector6d;
 
 /// x^T M x is the mean square distance by which a small motion x moves the surface.
 Matrix6 displacement_metric(const PreparedPass& pass, const Pose& T_first_pass,
@@ -40,10 +40,12 @@ struct KnownDirections {
             displacement_metric(pass, adjustment.T_first_pass[1], adjustment.center))),
         eigen(estimation::congruent_eigen(root, adjustment.covariances[1])) {}
   double sigma(int k) const { return std::sqrt(std::max(0.0, eigen.values[k])); }
-  Vec6 motion_of(const Vec6& y) const { return estimation::solve_lower_transposed(root, y); }
+  Vector6d motion_of(const Vector6d& y) const {
+    return estimation::solve_lower_transposed(root, y);
+  }
 };
 
-std::string direction_text(const Vec6& x, double lever_m) {
+std::string direction_text(const Vector6d& x, double lever_m) {
   const bool turns = x.head<3>().norm() * lever_m > x.tail<3>().norm();
   const Vec3d axis = (turns ? x.head<3>() : x.tail<3>()).normalized();
   return fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) of the first pass's table",
@@ -67,19 +69,15 @@ Pose determined_part(const PreparedPass& pass, const Adjustment& adjustment, con
       estimation::symmetric_eigen(estimation::solve_lower(known.root, Matrix6(half.transpose())));
   const Matrix6 covariance = known.root.transpose() * adjustment.covariances[1] * known.root;
   const Pose step = adjustment.T_first_pass[1] * from.inverse();
-  const Eigen::AngleAxisd turn(step.linear());
-  Vec6 x;
-  x << turn.angle() * turn.axis(), step * adjustment.center - adjustment.center;
-  Vec6 y = known.root.transpose() * x;
+  Vector6d y = known.root.transpose() * estimation::log_about(adjustment.center, step);
   for (int k = 0; k < 6; ++k) {
-    const Vec6 direction = said.vectors.col(k);
+    const Vector6d direction = said.vectors.col(k);
     const bool held = said.values[k] > kHeld * said.values[5] &&
                       direction.dot(covariance * direction) < max_sigma_m * max_sigma_m;
     if (!held) y -= direction.dot(y) * direction;
   }
-  Pose out = motion_about(adjustment.center, known.motion_of(y)) * from;
-  out.linear() = Eigen::Quaterniond(out.linear()).normalized().toRotationMatrix();
-  return out;
+  return estimation::orthonormalised(estimation::exp_about(adjustment.center, known.motion_of(y)) *
+                                     from);
 }
 
 std::string undetermined_direction(const PreparedPass& pass, const Adjustment& adjustment,
@@ -87,7 +85,7 @@ std::string undetermined_direction(const PreparedPass& pass, const Adjustment& a
   const KnownDirections known(pass, adjustment);
   const double sigma = known.sigma(5);
   if (sigma < max_sigma_m) return {};
-  const Vec6 x = known.motion_of(known.eigen.vectors.col(5));
+  const Vector6d x = known.motion_of(known.eigen.vectors.col(5));
   return fmt::format("its shape leaves open how it {}: known to {:.2f} mm only",
                      direction_text(x, 0.3 * pass.extent_m), sigma * 1e3);
 }

@@ -29,12 +29,9 @@ constexpr double kShapeSigma_px = 1.0;
 /// Rounds of averaging over neighbours, for the normals.
 constexpr int kNormalRounds = 30;
 
-Motion motion_of(const Pose& T) {
-  const Eigen::AngleAxisd turned(T.linear());
-  Motion out;
-  out << turned.angle() * turned.axis(), T.translation();
-  return out;
-}
+/// About the camera's own middle.
+Pose pose_of(const Motion& motion) { return estimation::exp_about(Vec3d::Zero(), motion); }
+Motion motion_of(const Pose& T) { return estimation::log_about(Vec3d::Zero(), T); }
 
 /// What is kept of an image.
 GreyWindow grey_window(const ColorImage& image, const DrawnMesh& drawn) {
@@ -261,14 +258,14 @@ class Refiner {
   Result<> step(const OutlineEquations& outline, const MotionEquations* pattern) {
     TURNSCAN_TRY(context_.check());
     const double per_outline = kOutlineShare / (kOutlineSigma_px * kOutlineSigma_px);
-    evidence_.information = per_outline * outline.matrix;
+    evidence_.information = per_outline * outline.normal;
     Motion right = per_outline * outline.right;
     const Eigen::Matrix<double, 6, HeightBands::kCount> per_band =
         kShapeSigma_px * per_outline * outline.per_band;
     evidence_.shared = per_band * per_band.transpose();
     if (pattern != nullptr && pattern->weight > 0.0) {
       const double variance = std::max(1.0, pattern->error / pattern->weight);
-      evidence_.information += kOutlineShare / variance * pattern->matrix;
+      evidence_.information += kOutlineShare / variance * pattern->normal;
       right += kOutlineShare / variance * pattern->right;
     }
     const Motion from_start = motion_of(T_ * start_.inverse());

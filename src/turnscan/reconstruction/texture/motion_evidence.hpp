@@ -5,7 +5,7 @@
 
 namespace turnscan::texture {
 
-using MotionMatrix = Eigen::Matrix<double, 6, 6>;
+using MotionMatrix = estimation::Matrix6d;
 
 /// How a motion was estimated: as the solution of `information` * motion = right side.
 struct MotionEvidence {

@@ -62,26 +62,15 @@ bool edge_along(const GreyWindow& grey, const Eigen::Vector2f& from, const Eigen
 }  // namespace
 
 void MotionEquations::add(const Motion& gradient, double residual, double w) {
-  matrix += w * gradient * gradient.transpose();
-  right += w * residual * gradient;
+  NormalEquations::add(gradient, residual, w);
   error += w * residual * residual;
   weight += w;
 }
 
 void MotionEquations::add(const MotionEquations& other) {
-  matrix += other.matrix;
-  right += other.right;
+  NormalEquations::add(other);
   error += other.error;
   weight += other.weight;
-}
-
-Pose pose_of(const Motion& motion) {
-  Pose out = Pose::Identity();
-  const Vec3d turn = motion.head<3>();
-  if (turn.norm() > 0.0)
-    out.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  out.translation() = motion.tail<3>();
-  return out;
 }
 
 Eigen::Matrix<double, 2, 6> image_motion(const Vec3f& p, const CameraIntrinsics& camera) {

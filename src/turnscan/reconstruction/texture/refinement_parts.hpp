@@ -1,23 +1,21 @@
 #pragma once
 // The two kinds of evidence about a colour camera's place, as normal equations of a small motion.
 
+#include <turnscan/geometry/estimation/normal_equations.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 #include <turnscan/reconstruction/texture/color_view.hpp>
 
 namespace turnscan::texture {
 
 /// A motion of the camera's frame: turn about its axes (rad), then shift (m).
-using Motion = Eigen::Matrix<double, 6, 1>;
+using Motion = estimation::Twist;
 
-struct MotionEquations {
-  Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
-  Motion right = Motion::Zero();
+struct MotionEquations : estimation::NormalEquations<6> {
   double error = 0.0;  ///< sum of squared residuals, weighted
   double weight = 0.0;
   void add(const Motion& gradient, double residual, double w);
   void add(const MotionEquations& other);
 };
-
-Pose pose_of(const Motion& motion);
 
 /// How an image point moves with the camera: rows u and v. p: camera's frame.
 Eigen::Matrix<double, 2, 6> image_motion(const Vec3f& p, const CameraIntrinsics& camera);

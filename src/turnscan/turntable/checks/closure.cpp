@@ -5,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/registration/registration.hpp>
 #include <turnscan/turntable/checks/closure.hpp>
 #include <turnscan/turntable/checks/recorded_angles.hpp>
@@ -27,7 +28,6 @@ constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; n
 constexpr double kChance = 2.5;
 /// Deviation of a median of normal values over that of their mean, and over their median one.
 constexpr double kMedianOverMean = 1.25;
-constexpr double kMadToSigma = 1.4826;
 
 struct TurnPair {
   std::size_t first, second;
@@ -121,7 +121,8 @@ Measured median_of(std::vector<double> values) {
   const double middle = median(values);
   std::vector<double> off;
   for (const double value : values) off.push_back(std::abs(value - middle));
-  return {middle, kMedianOverMean * kMadToSigma * median(off) / std::sqrt(double(values.size()))};
+  return {middle, kMedianOverMean * estimation::kMadToSigma * median(off) /
+                      std::sqrt(double(values.size()))};
 }
 
 double squared(double value) { return value * value; }

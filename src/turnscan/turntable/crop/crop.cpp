@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan {
@@ -61,7 +62,7 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
   out.dense_share = double(best) / double(heights.size());
   out.height_m = middle;
   std::nth_element(below.begin(), below.begin() + std::ptrdiff_t(below.size() / 2), below.end());
-  out.sigma_m = 1.4826 * below[below.size() / 2];
+  out.sigma_m = estimation::kMadToSigma * below[below.size() / 2];
   return out;
 }
 

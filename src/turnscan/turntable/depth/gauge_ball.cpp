@@ -1,9 +1,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/depth/gauge_ball.hpp>
 #include <turnscan/turntable/detection/plane_fit.hpp>
 
@@ -241,7 +241,7 @@ class BallFinder {
       squares += row->d * row->d;
       rows.push_back(*row);
     }
-    const double scale = std::max(1.4826 * median(sizes), 1e-7);
+    const double scale = std::max(estimation::mad_sigma(sizes), 1e-7);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero(), systematic = Eigen::Vector4d::Zero();
     for (const PixelRow& row : rows) {

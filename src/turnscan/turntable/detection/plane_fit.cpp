@@ -4,14 +4,13 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/detection/plane_fit.hpp>
 
 namespace turnscan::detection {
 
 namespace {
 
-constexpr double kHuber = 1.345;
-constexpr double kMedianToSigma = 1.4826;
 constexpr std::uint64_t kSeed = 0x706c616e65ULL;
 
 std::optional<Plane> plane_through(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -166,7 +165,7 @@ std::optional<PlaneEstimate> fit_plane(const ScanPixels& scan, const RayTable& r
       const double z = scan.point[k].z();
       const Vec3d ray(rays.x()[k], rays.y()[k], 1.0);
       const double size = step == 0 ? 0.0 : std::abs(z * m.dot(ray) - 1.0) / m.norm();
-      const double weight = z * z * (size > limit ? limit / size : 1.0);
+      const double weight = z * z * estimation::huber_weight(size, limit);
       normal += weight * ray * ray.transpose();
       right += weight / z * ray;
     }
@@ -177,7 +176,7 @@ std::optional<PlaneEstimate> fit_plane(const ScanPixels& scan, const RayTable& r
       const Vec3d p = scan.point[std::size_t(i)].cast<double>();
       sizes.push_back(std::abs(m.dot(p) - 1.0) / m.norm());
     }
-    limit = std::max(kHuber * kMedianToSigma * median(sizes), 1e-9);
+    limit = std::max(estimation::kHuber95 * estimation::kMadToSigma * median(sizes), 1e-9);
   }
   PlaneEstimate out;
   out.plane.normal = m.normalized();
@@ -186,7 +185,7 @@ std::optional<PlaneEstimate> fit_plane(const ScanPixels& scan, const RayTable& r
   double squares = 0.0;
   for (const double s : sizes) squares += s * s;
   out.rms_m = std::sqrt(squares / double(sizes.size()));
-  const double sigma = limit / kHuber * m.norm();  // of z * m . ray - 1
+  const double sigma = limit / estimation::kHuber95 * m.norm();  // of z * m . ray - 1
   out.covariance = sigma * sigma * normal.inverse();
   return out;
 }

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <turnscan/core/median.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/detection/residual_correlation.hpp>
 
 namespace turnscan::detection {
@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kCorrelationReach =
     3;  // pixels: twice the reach of a filter over 3 x 3, and one for noise
-constexpr double kSigmaOfMedian = 1.4826;
 
 /// Residuals over their own limits would let one edge decide.
 class ResidualImage {
@@ -24,7 +23,7 @@ class ResidualImage {
       value_[k] = float(double(scan.point[k].z()) - plane.depth_along(ray));
       sizes.push_back(std::abs(double(value_[k])));
     }
-    sigma_ = kSigmaOfMedian * median(sizes);
+    sigma_ = estimation::mad_sigma(sizes);
     for (const std::int32_t i : pixels) {
       float& v = value_[std::size_t(i)];
       v = float(std::clamp(double(v), -3.0 * sigma_, 3.0 * sigma_));

@@ -2,9 +2,9 @@
 #include <array>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_system.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
 
 namespace turnscan::motion {
 
@@ -26,7 +26,7 @@ double excess_variance(const std::vector<FrameEquations>& blocks, double scale_m
       const double expected = block.normal(j, j) * scale_m * scale_m;
       if (expected > 0.0) ratios.push_back(block.residual[j] * block.residual[j] / expected);
     }
-    if (ratios.size() >= 8) worst = std::max(worst, median(ratios) / kMedianOfSquare);
+    if (ratios.size() >= 8) worst = std::max(worst, median(ratios) / estimation::kMedianOfSquare);
   }
   return worst;
 }
@@ -83,8 +83,7 @@ double BundleSystem::add_frame(const BundleState& at, std::size_t frame,
     row << tilt.dot(u), tilt.dot(v), m.dot(shift_u), m.dot(shift_v),
         m.dot(state.axis.cross(turned));
     const double w = o.weight, residual = observations.residual(o);
-    sum.normal.noalias() += w * row * row.transpose();
-    sum.right += w * double(o.distance_m) * row;
+    sum.add(row, double(o.distance_m), w);
     sum.residual += w * residual * row;
     squares += w * residual * residual;
     const auto s = Index(o.surfel);

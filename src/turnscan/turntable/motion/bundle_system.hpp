@@ -2,7 +2,7 @@
 // The normal equations of bundle adjustment: axis and knots' angles, the surfels' heights
 // eliminated.
 
-#include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
 #include <turnscan/turntable/motion/angle_prior.hpp>
 #include <turnscan/turntable/motion/surfels.hpp>
 
@@ -31,10 +31,8 @@ struct BundleState {
 };
 
 /// One frame's equations. Unknowns: two tilts and two shifts of the axis, the frame's angle.
-struct FrameEquations {
-  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-  Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
-  Eigen::Matrix<double, 5, 1> residual = Eigen::Matrix<double, 5, 1>::Zero();
+struct FrameEquations : estimation::NormalEquations<5> {
+  Vector residual = Vector::Zero();  ///< the sum of weighted residuals times their rows
 };
 
 class BundleSystem {

@@ -2,10 +2,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/heading.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
 
 namespace turnscan::motion {
 
@@ -148,7 +147,7 @@ class HeadingSearch {
         sizes.push_back(float(std::abs(*off)));
       }
       if (rows.size() < 200 || rows.size() * 5 < second_.size()) return std::nullopt;
-      const double scale = std::max(kMedianToSigma * median(sizes), 1e-6);
+      const double scale = std::max(estimation::mad_sigma(sizes), 1e-6);
       double squares = 0.0;
       for (const auto& [a, r] : rows) {
         const double t = std::abs(r) / (kHuber * scale), w = t > 1.0 ? 1.0 / t : 1.0;

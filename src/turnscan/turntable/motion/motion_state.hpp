@@ -9,6 +9,9 @@
 
 namespace turnscan::motion {
 
+/// Residuals beyond this many robust standard deviations weigh less (Huber 1964).
+inline constexpr double kHuber = 1.5;
+
 struct MotionState {
   Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
   Vec3d center = Vec3d::Zero();  ///< a point of the axis

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
 #include <turnscan/turntable/motion/motion_state.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
 
@@ -11,14 +13,10 @@ namespace turnscan::motion {
 /// What the turn between two views changes by with each term of MotionState::rotation_bias.
 std::array<double, 2> rotation_bias_terms(const MotionState& state, const FramePair& pair);
 
-/// Normal equations of one pair. Unknowns: two tilts of the axis, two shifts of the centre, angle
-/// of `to` minus angle of `from`.
-struct PairEquations {
-  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-  Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
-  double squares = 0.0, cost = 0.0;
-  std::size_t count = 0;
-  std::vector<float> sizes;  ///< of every eighth residual, metres
+/// The motion of points of `from` into the frame of `to`, as a rotation between two middles.
+struct PairMotion {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Vec3d center_from = Vec3d::Zero(), center_to = Vec3d::Zero();
 };
 
 struct PairWeighting {
@@ -27,8 +25,46 @@ struct PairWeighting {
   std::size_t stride;  ///< every stride-th sample is used
 };
 
+/// A sample of `from` that has a counterpart on the surface of `to`.
+struct PairMatch {
+  Vec3d p, n;       ///< frame of `from`
+  Vec3d q, m;       ///< the same, moved into the frame of `to`
+  double gain;      ///< evens out the noise of places seen at different angles
+  double residual;  ///< distance to the counterpart along m, times the gain
+};
+
+/// nullopt where the moved sample faces away from the sensor or finds nothing within reach_m.
+std::optional<PairMatch> match_sample(const MotionData& data, const SurfaceSample& sample,
+                                      const FrameSurface& surface, const PairMotion& motion,
+                                      double reach_m);
+
+/// The robust sums over the residuals of a pair.
+struct PairSums {
+  double cost = 0.0;         ///< by Huber's function, cut at four times its limit, m^2
+  double squares = 0.0;      ///< weighted
+  std::size_t count = 0;     ///< residuals that weigh something
+  std::vector<float> sizes;  ///< of every eighth residual, metres
+
+  /// Adds a residual and returns its weight; 0 where it is cut.
+  double add_residual(double residual, double huber_m);
+};
+
+/// Normal equations of one pair. Unknowns: two tilts of the axis, two shifts of the centre, angle
+/// of `to` minus angle of `from`.
+struct PairEquations : estimation::NormalEquations<5>, PairSums {};
+
 PairEquations linearise_pair(const MotionData& data, const MotionState& state,
                              const FramePair& pair, const PairWeighting& weighting);
+
+/// Sum of the truncated squared distances of samples, as multiples of a gate squared.
+struct TruncatedCost {
+  double sum = 0.0, count = 0.0;
+
+  /// A sample counts from 0 to 1, without a counterpart within four gates 0.6, and not at all where
+  /// it faces away from the sensor.
+  void add(const MotionData& data, const SurfaceSample& sample, const FrameSurface& surface,
+           const PairMotion& motion, double gate_m);
+};
 
 /// Mean truncated squared distance over the samples of the pair, as a multiple of gate_m squared,
 /// with the frames' angles apart by `angle_rad`; samples without a correspondence count 0.6.

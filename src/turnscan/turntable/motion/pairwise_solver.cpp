@@ -6,10 +6,10 @@
 #include <set>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pairwise_solver.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
 
 namespace turnscan::motion {
 
@@ -90,7 +90,7 @@ class PairwiseSolver {
                   "motion: the frames do not overlap, only {} points of them meet; take more "
                   "frames a turn, or say where the axis is with a calibration",
                   out_.residuals);
-    out_.scale_m = options_.scale_m.value_or(std::max(kMedianToSigma * median(sizes), 1e-7));
+    out_.scale_m = options_.scale_m.value_or(std::max(estimation::mad_sigma(sizes), 1e-7));
     out_.rms_m = std::sqrt(squares / double(out_.residuals));
     variance_ = options_.variance_m2.value_or(uses_ * excess_ * out_.scale_m * out_.scale_m);
     out_.variance_m2 = variance_;
@@ -102,7 +102,7 @@ class PairwiseSolver {
   /// out: what a pair says of an unknown is then farther off than independent noise would make it,
   /// and every residual says so much less. The unknown that shows it most counts.
   void find_excess(const std::vector<PairEquations>& sums, std::vector<float>& sizes) {
-    const double scale = options_.scale_m.value_or(kMedianToSigma * median(sizes));
+    const double scale = options_.scale_m.value_or(estimation::mad_sigma(sizes));
     excess_ = 1.0;
     for (int k = 0; k < 5; ++k) {
       std::vector<float> ratios;
@@ -111,7 +111,7 @@ class PairwiseSolver {
         const double all = sum.normal(k, k) * scale * scale;
         ratios.push_back(float(sum.right[k] * sum.right[k] / all));
       }
-      excess_ = std::max(excess_, median(ratios) / kMedianOfSquare);
+      excess_ = std::max(excess_, median(ratios) / estimation::kMedianOfSquare);
     }
   }
 

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/surfels.hpp>
 
 namespace turnscan::motion {
@@ -126,12 +125,12 @@ bool SurfelObservations::weigh() {
       for (std::size_t i = 0; i < observed.size(); i += 4)
         sizes.push_back(std::abs(residual(observed[i])));
     if (sizes.size() < kLeastObservations / 4) return false;
-    scale_m_ = std::max(kMedianToSigma * median(sizes), 1e-7);
+    scale_m_ = std::max(estimation::mad_sigma(sizes), 1e-7);
     std::vector<double> sum(height_.size(), 0.0), total(height_.size(), 0.0);
     for (auto& observed : observed_) {
       for (SurfelObservation& o : observed) {
         const double size = std::abs(residual(o)), limit = kHuber * scale_m_;
-        const double huber = size > 4.0 * limit ? 0.0 : size > limit ? limit / size : 1.0;
+        const double huber = size > 4.0 * limit ? 0.0 : estimation::huber_weight(size, limit);
         o.weight = float(huber * o.incidence);
         sum[o.surfel] += double(o.weight) * double(o.distance_m), total[o.surfel] += o.weight;
       }

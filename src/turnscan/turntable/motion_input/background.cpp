@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
 #include <turnscan/turntable/motion_input/depth_steps.hpp>
 #include <turnscan/turntable/motion_input/still_surface.hpp>
@@ -105,7 +105,7 @@ float third_difference(const std::vector<float>& z, std::size_t i, std::size_t w
 /// Standard deviation of a depth from sizes of second differences. On edges and bends these are
 /// larger; most are on neither.
 double noise_from(std::vector<float> differences) {
-  return 1.4826 * double(median(differences)) / std::sqrt(6.0);
+  return estimation::mad_sigma(differences) / std::sqrt(6.0);
 }
 
 /// Rows above and below from which a place is judged: so far away they share no noise with it.

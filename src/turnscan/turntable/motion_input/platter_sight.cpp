@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/rotation_between.hpp>
-#include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion_input/platter_sight.hpp>
 
 namespace turnscan::motion {
@@ -29,20 +29,16 @@ constexpr double kRoundest = 0.35;
 struct PlatterPlane {
   std::vector<Vec3d> points;
   Vec3d plane = Vec3d::Zero();  ///< y = plane . (x, z, 1)
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  estimation::NormalEquations<3> equations;
 
   void solve(double limit) {
-    normal.setZero();
-    Vec3d right = Vec3d::Zero();
+    equations = {};
     for (const Vec3d& p : points) {
       const Vec3d row(p.x(), p.z(), 1.0);
-      const double off = (p.y() - plane.dot(row)) / limit;
-      if (std::abs(off) >= 1.0) continue;
-      const double keep = 1.0 - off * off, weight = keep * keep;
-      normal += weight * row * row.transpose();
-      right += weight * p.y() * row;
+      const double weight = estimation::tukey_weight((p.y() - plane.dot(row)) / limit);
+      if (weight > 0.0) equations.add(row, p.y(), weight);
     }
-    plane = estimation::solve_ldlt(normal, right);
+    plane = equations.solve();
   }
 
   double scatter() const {
@@ -50,21 +46,17 @@ struct PlatterPlane {
     off.reserve(points.size());
     for (const Vec3d& p : points)
       off.push_back(std::abs(p.y() - plane.dot(Vec3d(p.x(), p.z(), 1.0))));
-    return 1.4826 * median(off);
+    return estimation::mad_sigma(off);
   }
 };
 
 /// Middle of the circle through points (Kasa 1976), where they lie on one; else their mean, which
 /// is the origin.
 Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Vec3d right = Vec3d::Zero();
-  for (const Eigen::Vector2d& p : points) {
-    const Vec3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
-    normal += row * row.transpose();
-    right += row * p.squaredNorm();
-  }
-  const Vec3d found = estimation::solve_ldlt(normal, right);
+  estimation::NormalEquations<3> equations;
+  for (const Eigen::Vector2d& p : points)
+    equations.add(Vec3d(2.0 * p.x(), 2.0 * p.y(), 1.0), p.squaredNorm(), 1.0);
+  const Vec3d found = equations.solve();
   const Eigen::Vector2d middle = found.head<2>();
   const double radius = std::sqrt(std::max(0.0, found.z() + middle.squaredNorm()));
   double squares = 0.0;
@@ -102,10 +94,11 @@ std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInf
     if (!fit.plane.allFinite()) return std::nullopt;
     limit = std::clamp(kTukeySigmas * fit.scatter(), 0.5 * limit, gate);
   }
-  const double count = fit.normal(2, 2);
-  const Eigen::Matrix2d spread =
-      fit.normal.topLeftCorner<2, 2>() / count -
-      fit.normal.topRightCorner<2, 1>() * fit.normal.bottomLeftCorner<1, 2>() / (count * count);
+  const double count = fit.equations.normal(2, 2);
+  const Eigen::Matrix2d spread = fit.equations.normal.topLeftCorner<2, 2>() / count -
+                                 fit.equations.normal.topRightCorner<2, 1>() *
+                                     fit.equations.normal.bottomLeftCorner<1, 2>() /
+                                     (count * count);
   const double least =
       0.5 * (spread.trace() - std::hypot(spread(0, 0) - spread(1, 1), 2.0 * spread(0, 1)));
   if (!(count >= double(kLeastPixels)) || !(least > std::pow(kLeastSpread * reach, 2)))

@@ -6,7 +6,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/placement/evidence.hpp>
 
 namespace turnscan::placement {
@@ -32,14 +32,6 @@ constexpr double kTiltFloor_rad = 0.1 * kRadiansPerDegree;
 constexpr std::size_t kLeastTilts = 12;
 
 using TiltRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
-
-Twist log_of(const Pose& motion, const Vec3d& middle, double lever_m) {
-  const Eigen::AngleAxisd turn(motion.linear());
-  Twist out;
-  out.head<3>() = lever_m * turn.angle() * turn.axis();
-  out.tail<3>() = motion * middle - middle;
-  return out;
-}
 
 RelativeTwist both_ways(const PairConstraint& a, const PairConstraint* b, double variance) {
   RelativeTwist out;
@@ -96,7 +88,8 @@ Evidence::Evidence(const Keyframes& frames, const PoseGraph& graph,
   for (const PairConstraint& c : graph.constraints) all[{c.pair.from, c.pair.to}] = &c;
   std::vector<Twist> offset;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    offset.push_back(log_of(graph.poses[i] * believed[i].inverse(), frames.middle, frames.lever_m));
+    offset.push_back(estimation::log_about(frames.middle, graph.poses[i] * believed[i].inverse(),
+                                           frames.lever_m));
   const double variance = excess_ * graph.scale_m * graph.scale_m;
   for (const auto& [key, constraint] : all) {
     const auto reverse = all.find({key.second, key.first});
@@ -147,7 +140,7 @@ void Evidence::find_excess(const PoseGraph& graph) {
       if (c.count < 50 || !(c.normal(k, k) > 0.0)) continue;
       ratios.push_back(c.right[k] * c.right[k] / (c.normal(k, k) * graph.scale_m * graph.scale_m));
     }
-    excess_ = std::max(excess_, median(ratios) / motion::kMedianOfSquare);
+    excess_ = std::max(excess_, median(ratios) / estimation::kMedianOfSquare);
   }
   // Both directions of a pair, and pairs of one frame, share the noise of their frames.
   excess_ *= 2.0;

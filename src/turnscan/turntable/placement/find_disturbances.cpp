@@ -10,7 +10,7 @@ namespace turnscan::placement {
 namespace {
 
 constexpr std::size_t kMostKeyframes = 72, kLeastKeyframes = 12;
-constexpr ConstraintWeighting kFirstLook{0.02, 0.01, 8};
+constexpr PairWeighting kFirstLook{0.02, 0.01, 8};
 
 std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
   std::vector<std::size_t> out;

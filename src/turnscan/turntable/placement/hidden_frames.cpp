@@ -2,6 +2,7 @@
 #include <cmath>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/placement/hidden_frames.hpp>
 
 namespace turnscan::placement {
@@ -81,7 +82,8 @@ std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vecto
   const double usual = median(sorted);
   std::vector<double> off;
   for (const double s : share) off.push_back(std::abs(s - usual));
-  const double limit = usual + std::max(kLeastHidden, kSpreads * 1.4826 * median(off));
+  const double limit =
+      usual + std::max(kLeastHidden, kSpreads * estimation::kMadToSigma * median(off));
   // One alone is a view that has little in common with its neighbours, as a plate seen edge on.
   const auto over = [&](std::size_t i) { return i < share.size() && share[i] > limit; };
   std::vector<std::size_t> out;

@@ -57,15 +57,6 @@ Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
   return out;
 }
 
-Pose motion_of(const Twist& twist, const Vec3d& middle, double lever_m) {
-  const Vec3d turn = twist.head<3>() / lever_m;
-  const double angle = turn.norm();
-  Pose out = Pose::Identity();
-  if (angle > 0.0) out.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  out.translation() = middle - out.linear() * middle + twist.tail<3>();
-  return out;
-}
-
 double turn_between(const Pose& a, const Pose& b) {
   const Eigen::Matrix3d R = b.linear() * a.linear().transpose();
   return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2));

@@ -3,14 +3,15 @@
 
 #include <optional>
 #include <turnscan/core/pose.hpp>
+#include <turnscan/geometry/estimation/se3.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
 
 namespace turnscan::placement {
 
-/// Unknowns of one frame: a small rotation about Keyframes::middle times Keyframes::lever_m, then
-/// a shift; table frame, metres.
-using Twist = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
+/// Unknowns of one frame: a small rotation about Keyframes::middle times Keyframes::lever_m, then a
+/// shift; table frame, metres.
+using estimation::Matrix6d;
+using estimation::Twist;
 
 /// Data of some frames of a sequence. The vectors have one entry for each of data.frames.
 struct Keyframes {
@@ -31,9 +32,6 @@ Result<std::optional<Keyframes>> load_keyframes(const FrameSequence& sequence,
                                                 const std::vector<Pose>& T_table_sensor,
                                                 std::vector<std::size_t> positions,
                                                 PlatterMemory* memory, const RunContext& context);
-
-/// The small motion that a twist stands for.
-Pose motion_of(const Twist& twist, const Vec3d& middle, double lever_m);
 
 /// Angle between the directions in which two frames look at the table, as turned about its axis.
 double turn_between(const Pose& a, const Pose& b);

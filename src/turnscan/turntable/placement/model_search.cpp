@@ -39,7 +39,7 @@ constexpr double kFarOff = 0.08;
 constexpr double kLeastCalibration_m = 0.0015;
 /// No table wobbles by more: what the shape hardly shows, together with another calibration, does.
 constexpr double kLargestWobble_rad = 3.0 * kRadiansPerDegree;
-constexpr ConstraintWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
+constexpr PairWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
 
 using Penalty = double (*)(const DisturbanceModel& model, double lever_m);
 
@@ -293,7 +293,7 @@ class ModelSearch {
   }
 
   /// At the poses of the models; whole: of everything that they explain, not of the rest.
-  Evidence evidence_here(const ConstraintWeighting& weighting, bool whole) const {
+  Evidence evidence_here(const PairWeighting& weighting, bool whole) const {
     PoseGraph graph;
     graph.poses = poses();
     const auto pairs = all_pairs(keyframes_, graph.poses);
@@ -305,7 +305,7 @@ class ModelSearch {
 
   /// Gauss-Newton for the unknowns of all models, with new correspondences.
   Result<> refine() {
-    ConstraintWeighting weighting{0.015, 0.008, 2};
+    PairWeighting weighting{0.015, 0.008, 2};
     for (int i = 0; i < 5; ++i) {
       TURNSCAN_TRY(context_.check());
       const Evidence evidence = evidence_here(weighting, false);
@@ -354,8 +354,9 @@ Pose placed(const ModelFrame& frame, const std::vector<DisturbanceModel>& models
   for (const DisturbanceModel& model : models) {
     const Twist twist = basis_of(model, out, scene) * model.values;
     // A turn may be large.
-    const Pose motion = turns(model.kind) ? rotation_about_y(twist[1] / scene.lever_m)
-                                          : motion_of(twist, scene.middle, scene.lever_m);
+    const Pose motion = turns(model.kind)
+                            ? rotation_about_y(twist[1] / scene.lever_m)
+                            : estimation::exp_about(scene.middle, twist, scene.lever_m);
     out.T_table_sensor = motion * out.T_table_sensor;
   }
   return out.T_table_sensor;

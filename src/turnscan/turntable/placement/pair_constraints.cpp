@@ -10,17 +10,13 @@ namespace turnscan::placement {
 
 namespace {
 
-constexpr double kObliquityFloor = 0.6;  // added to the squared cosines of both views
 constexpr double kFarthestSuccessor = kTurn / 6.0;
 constexpr double kSameView = 14.0 * kRadiansPerDegree;
 constexpr std::size_t kClosingPerFrame = 3;
 
-/// What noise along both rays makes of a distance; a little for what else is wrong at low angles.
-double gain_of(const motion::SurfaceSample& sample, const Vec3d& n, const Vec3d& m,
-               const Vec3d& q) {
-  const Vec3d p = sample.p.cast<double>();
-  return 1.0 / std::sqrt(std::pow(n.dot(p), 2) / p.squaredNorm() +
-                         std::pow(m.dot(q), 2) / q.squaredNorm() + kObliquityFloor);
+motion::PairMotion motion_between(const std::vector<Pose>& poses, const FramePair& pair) {
+  const Pose T = poses[pair.to].inverse() * poses[pair.from];
+  return {T.linear(), Vec3d::Zero(), T.translation()};
 }
 
 /// Of the mean square of the points' ways along their normals: what the normals' noise alone shows
@@ -40,40 +36,26 @@ void add_both(std::vector<FramePair>& pairs, const Keyframes& frames, std::size_
 }  // namespace
 
 PairConstraint constrain(const Keyframes& frames, const std::vector<Pose>& poses,
-                         const FramePair& pair, const ConstraintWeighting& weighting) {
+                         const FramePair& pair, const PairWeighting& weighting) {
   PairConstraint out;
   out.pair = pair;
   const motion::MotionFrame& from = frames.data.frames[pair.from];
-  const motion::FrameSurface& surface = frames.data.frames[pair.to].surface;
+  const motion::PairMotion relative = motion_between(poses, pair);
   const Pose& T_table = poses[pair.from];
-  const Pose T = poses[pair.to].inverse() * T_table;
-  const double limit = weighting.huber_m;
   for (std::size_t s = pair.to % weighting.stride; s < from.samples.size(); s += weighting.stride) {
-    const motion::SurfaceSample& sample = from.samples[s];
-    const Vec3d n = sample.n.cast<double>(), p = sample.p.cast<double>();
-    const Vec3d q = T * p, m = T.linear() * n;
-    // Turned away from the sensor it cannot be seen.
-    if (frames.data.projective && -m.dot(q) < 0.25 * q.norm()) continue;
-    Vec3d found;
-    if (!frames.data.find_correspondence(surface, q, weighting.reach_m, found)) continue;
-    const double gain = frames.data.projective ? gain_of(sample, n, m, q) : 1.0;
-    const double r = gain * m.dot(q - found), size = std::abs(r);
-    if (size > 4.0 * limit) {
-      out.cost += 7.0 * limit * limit;
-      continue;
-    }
-    out.cost += size > limit ? limit * (2.0 * size - limit) : size * size;
-    const Vec3d n_table = T_table.linear() * n;
+    const auto match =
+        motion::match_sample(frames.data, from.samples[s], frames.data.frames[pair.to].surface,
+                             relative, weighting.reach_m);
+    if (!match) continue;
+    const double weight = out.add_residual(match->residual, weighting.huber_m);
+    if (!(weight > 0.0)) continue;
+    const Vec3d n_table = T_table.linear() * match->n;
     Twist row;
-    row.head<3>() = (T_table * p - frames.middle).cross(n_table) / frames.lever_m;
+    row.head<3>() = (T_table * match->p - frames.middle).cross(n_table) / frames.lever_m;
     row.tail<3>() = n_table;
-    row *= gain;
-    const double weight = size > limit ? limit / size : 1.0;
-    out.normal.noalias() += weight * row * row.transpose();
-    out.right.noalias() -= weight * r * row;
-    out.normal_noise += weight * gain * gain * std::pow(double(sample.normal_sigma), 2);
-    if (out.count % 8 == 0) out.sizes.push_back(float(size));
-    ++out.count;
+    out.add(match->gain * row, -match->residual, weight);
+    out.normal_noise +=
+        weight * match->gain * match->gain * std::pow(double(from.samples[s].normal_sigma), 2);
   }
   out.normal = frames.shown * out.normal * frames.shown;
   out.right = frames.shown * out.right;
@@ -130,23 +112,13 @@ std::vector<FramePair> all_pairs(const Keyframes& frames, const std::vector<Pose
 
 double pair_mismatch(const Keyframes& frames, const std::vector<Pose>& poses,
                      const FramePair& pair) {
-  const Pose T = poses[pair.to].inverse() * poses[pair.from];
+  const motion::PairMotion relative = motion_between(poses, pair);
   const auto& samples = frames.data.frames[pair.from].samples;
-  const motion::FrameSurface& surface = frames.data.frames[pair.to].surface;
   const double gate = std::max(3.0 * frames.data.noise_m, 0.002);
-  double sum = 0.0, count = 0.0;
-  for (std::size_t s = 0; s < samples.size(); s += 3) {
-    const Vec3d q = T * samples[s].p.cast<double>(), m = T.linear() * samples[s].n.cast<double>();
-    if (frames.data.projective && -m.dot(q) < 0.25 * q.norm()) continue;
-    Vec3d found;
-    count += 1.0;
-    if (!frames.data.find_correspondence(surface, q, 4.0 * gate, found)) {
-      sum += 0.6;
-      continue;
-    }
-    sum += std::min(1.0, std::pow(m.dot(q - found) / gate, 2));
-  }
-  return count > 0.0 ? sum / count : 1.0;
+  motion::TruncatedCost cost;
+  for (std::size_t s = 0; s < samples.size(); s += 3)
+    cost.add(frames.data, samples[s], frames.data.frames[pair.to].surface, relative, gate);
+  return cost.count > 0.0 ? cost.sum / cost.count : 1.0;
 }
 
 double mismatch(const Keyframes& frames, const std::vector<Pose>& poses) {

@@ -1,33 +1,22 @@
 #pragma once
 // What the overlap of two frames says of where they lie to each other.
 
-#include <turnscan/turntable/motion/motion_state.hpp>
+#include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/placement/keyframes.hpp>
 
 namespace turnscan::placement {
 
-using motion::FramePair;
+using motion::FramePair, motion::PairWeighting;
 
 /// Normal equations of the twist of `from` minus that of `to`, from point-to-plane distances.
-struct PairConstraint {
+struct PairConstraint : estimation::NormalEquations<6>, motion::PairSums {
   FramePair pair{0, 0};
-  Matrix6d normal = Matrix6d::Zero();
-  Twist right = Twist::Zero();
-  double cost = 0.0;          ///< robust sum of squares, m^2
   double normal_noise = 0.0;  ///< of the normals, squared and summed as the rows are
-  std::size_t count = 0;      ///< residuals
-  std::vector<float> sizes;   ///< of every eighth residual, metres
-};
-
-struct ConstraintWeighting {
-  double reach_m;      ///< correspondences farther away do not count
-  double huber_m;      ///< larger residuals weigh less, from four times that on nothing
-  std::size_t stride;  ///< every stride-th sample is used
 };
 
 /// The samples of pair.from against the surface of pair.to with the frames at `poses`.
 PairConstraint constrain(const Keyframes& frames, const std::vector<Pose>& poses,
-                         const FramePair& pair, const ConstraintWeighting& weighting);
+                         const FramePair& pair, const PairWeighting& weighting);
 
 /// Sets frames.shown: without directions in which the whole object slides on itself, as a cylinder
 /// about its axis, but for what noisy normals make of it.

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
-#include <turnscan/turntable/motion/robust.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/placement/pose_graph.hpp>
 
 namespace turnscan::placement {
@@ -21,7 +20,7 @@ class FreeSolver {
   }
 
   Result<PoseGraph> run(const RunContext& context) {
-    ConstraintWeighting weighting{0.03, 0.015, 4};
+    PairWeighting weighting{0.03, 0.015, 4};
     auto pairs = successive_pairs(frames_, out_.poses);
     for (int i = 0; i < 6; ++i) TURNSCAN_TRY(step(pairs, weighting, context));
     weighting.reach_m = 0.015;
@@ -37,7 +36,7 @@ class FreeSolver {
   }
 
  private:
-  Result<> step(const std::vector<FramePair>& pairs, ConstraintWeighting& weighting,
+  Result<> step(const std::vector<FramePair>& pairs, PairWeighting& weighting,
                 const RunContext& context) {
     TURNSCAN_TRY(context.check());
     const auto constraints = constrain_all(frames_, out_.poses, pairs, weighting);
@@ -62,7 +61,7 @@ class FreeSolver {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       const Twist twist = moved.segment<6>(Eigen::Index(6 * i));
       offset_[i] += twist;
-      out_.poses[i] = motion_of(twist, frames_.middle, frames_.lever_m) * out_.poses[i];
+      out_.poses[i] = estimation::exp_about(frames_.middle, twist, frames_.lever_m) * out_.poses[i];
     }
     const double limit = std::max(motion::kHuber * scale, 0.2 * frames_.data.noise_m);
     weighting.huber_m = std::max(limit, 0.6 * weighting.huber_m);
@@ -89,7 +88,7 @@ class FreeSolver {
 
 std::vector<PairConstraint> constrain_all(const Keyframes& frames, const std::vector<Pose>& poses,
                                           const std::vector<FramePair>& pairs,
-                                          const ConstraintWeighting& weighting) {
+                                          const PairWeighting& weighting) {
   std::vector<PairConstraint> out(pairs.size());
   parallel_for(pairs.size(), 4,
                [&](std::size_t k) { out[k] = constrain(frames, poses, pairs[k], weighting); });
@@ -100,7 +99,7 @@ double scale_of(const std::vector<PairConstraint>& constraints) {
   std::vector<float> sizes;
   for (const PairConstraint& c : constraints)
     sizes.insert(sizes.end(), c.sizes.begin(), c.sizes.end());
-  return sizes.empty() ? 0.0 : motion::kMedianToSigma * double(median(sizes));
+  return sizes.empty() ? 0.0 : estimation::mad_sigma(sizes);
 }
 
 Result<PoseGraph> solve_freely(const Keyframes& frames, const std::vector<Pose>& start,

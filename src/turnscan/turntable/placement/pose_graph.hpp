@@ -22,7 +22,7 @@ Result<PoseGraph> solve_freely(const Keyframes& frames, const std::vector<Pose>&
 /// The constraints of these pairs, in order.
 std::vector<PairConstraint> constrain_all(const Keyframes& frames, const std::vector<Pose>& poses,
                                           const std::vector<FramePair>& pairs,
-                                          const ConstraintWeighting& weighting);
+                                          const PairWeighting& weighting);
 
 /// Robust standard deviation of the residuals.
 double scale_of(const std::vector<PairConstraint>& constraints);

@@ -4,7 +4,8 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
-#include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/normal_equations.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/geometry/search/pseudo_normals.hpp>
@@ -23,7 +24,6 @@ constexpr double kAbove_m = 0.004, kAboveNoises = 3.0;
 constexpr int kRounds = 6;
 /// Holds what the normals do not determine: 2 % of the points say that nothing moved.
 constexpr double kHold = 0.02;
-constexpr double kMadToSigma = 1.4826, kHuber = 1.345;
 
 /// A shift in x, y and z, and a turn about +y times the reach.
 using Motion = Eigen::Vector4d;
@@ -36,23 +36,21 @@ struct Sample {
 double spread_of(const std::vector<Sample>& samples, const Motion& moved) {
   std::vector<double> sizes;
   for (const Sample& s : samples) sizes.push_back(std::abs(s.distance_m - s.answer.dot(moved)));
-  return kMadToSigma * median(sizes);
+  return estimation::mad_sigma(sizes);
 }
 
 /// By least squares, weighted anew round by round.
 Motion motion_of(const std::vector<Sample>& samples) {
   Motion moved = Motion::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    const double limit = std::max(kHuber * spread_of(samples, moved), 1e-9);
-    Eigen::Matrix4d A = Eigen::Matrix4d::Identity() * (kHold * double(samples.size()));
-    Motion b = Motion::Zero();
+    const double limit = std::max(estimation::kHuber95 * spread_of(samples, moved), 1e-9);
+    estimation::NormalEquations<4> equations;
+    equations.normal.diagonal().setConstant(kHold * double(samples.size()));
     for (const Sample& s : samples) {
       const double off = std::abs(s.distance_m - s.answer.dot(moved));
-      const double weight = off > limit ? limit / off : 1.0;
-      A += weight * s.answer * s.answer.transpose();
-      b += weight * s.distance_m * s.answer;
+      equations.add(s.answer, s.distance_m, estimation::huber_weight(off, limit));
     }
-    moved = estimation::solve_ldlt(A, b);
+    moved = equations.solve();
   }
   return moved;
 }
