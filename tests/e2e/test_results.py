@@ -160,12 +160,35 @@ class Reconstruct(harness.TestCase):
         self.assertEqual((self.dir / "m.ply").read_bytes(),
                          (self.dir / "volumetric.ply").read_bytes())
 
+    def test_triangles_that_the_surface_is_not_worth_are_left_out_unless_all_are_asked_for(self):
+        truth = f"{self.rec}/../cylinder-reference.ply"
+        found = {}
+        for triangles in ("all", "auto"):
+            self.ok("reconstruct", self.rec, "-o", "m.ply", "--triangles", triangles, "--report",
+                    "r.json")
+            self.ok("evaluate", "m.ply", "--reference", truth, "--json", "e.json")
+            report = json.loads((self.dir / "r.json").read_text())
+            scores = json.loads((self.dir / "e.json").read_text())["scores"]
+            found[triangles] = report["objects"][0], scores, report["parameters"]
+        (full, best, _), (fewer, scores, parameters) = found["all"], found["auto"]
+        self.assertLess(fewer["triangles"], 0.8 * full["triangles"])
+        self.assertTrue(fewer["mesh"]["watertight"])
+        for score, of_all in zip(scores, best):
+            self.assertAlmostEqual(score["f"], of_all["f"], delta=0.001)
+        reason, = (p["reason"] for p in parameters if p["option"] == "triangles")
+        self.assertIn("of %d: to an eighth of the expected error" % full["triangles"], reason)
+        self.assertEqual([p for p in found["all"][2] if p["option"] == "triangles"], [])
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--triangles", "many",
+                     says="auto, all")
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--triangles", "all",
+                     "--max-error", "1mm", says="give one")
+
     def test_a_ply_mesh_has_a_confidence_and_marks_what_was_invented(self):
         self.ok("reconstruct", self.rec, "-o", "m.ply", "--max-error", "0.3mm", "--mark-invented")
         header = (self.dir / "m.ply").read_bytes().split(b"end_header")[0].decode()
         self.assertIn("property float confidence", header)
         self.assertIn("property uchar red", header)
-        self.ok("reconstruct", self.rec, "-o", "full.ply")
+        self.ok("reconstruct", self.rec, "-o", "full.ply", "--triangles", "all")
         few, full = (json.loads(self.ok("info", n, "--json").stdout)["objects"][0]
                      for n in ("m.ply", "full.ply"))
         self.assertTrue(few["watertight"])

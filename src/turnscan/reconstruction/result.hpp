@@ -143,7 +143,7 @@ struct Reconstruction {
   std::uint64_t inside_crop = 0;          ///< of these
   std::uint64_t points = 0;               ///< of these, what the outlier filter kept
   std::shared_ptr<const SeenSpace> seen;  ///< if asked for
-  double sensor_noise_m = 0.0, merged_noise_m = 0.0, frame_spacing_m = 0.0;
+  double sensor_noise_m = 0.0, merged_noise_m = 0.0, frame_spacing_m = 0.0, voxel_size_m = 0.0;
 };
 
 /// Called with a stage's cloud (all objects together), table frame.

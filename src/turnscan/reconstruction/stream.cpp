@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <mutex>
 #include <turnscan/reconstruction/estimation/first_frames.hpp>
+#include <turnscan/reconstruction/finishing/fewer_triangles.hpp>
 #include <turnscan/reconstruction/finishing/finishing.hpp>
 #include <turnscan/reconstruction/method.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
@@ -17,6 +18,9 @@ Result<> check_options(const ReconstructOptions& options) {
   TURNSCAN_TRY(objects_to_keep(options.components));
   if (options.voxels.size_m && options.voxels.grid)
     return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
+  if (options.finish.triangles == "all" && options.finish.max_error_m)
+    return fail(ErrorCode::kInvalidOption,
+                "triangles = all keeps what max-error would leave out; give one");
   if (options.finish.holes != Holes::kSmooth && !options.surface.repair &&
       options.surface.method != SurfaceMethod::kVolumetric)
     return fail(ErrorCode::kInvalidOption,
@@ -97,6 +101,7 @@ class ReconstructionStream::Impl {
           fmt::format("the first {} frames show nothing on the platter", forgotten_));
     TURNSCAN_TRY(method_->finish(sink, context, out_));
     TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
+    TURNSCAN_TRY(finishing::reduce_triangles(options_, out_, context));
     return std::move(out_);
   }
 

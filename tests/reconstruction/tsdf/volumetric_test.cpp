@@ -208,6 +208,7 @@ TEST(Volumetric, WithoutABackgroundHolesAreNoBand) {
 TEST(Volumetric, ForPlacingHasTheSameMeasuredSurfaceAndNothingMore) {
   const MemorySequence sequence = scan(ball, Rig());
   ReconstructOptions options = volumetric();
+  options.finish.triangles = "all";
   const auto whole = reconstruct(sequence, options, {}, RunContext());
   options.for_placing = true;
   const auto placing = reconstruct(sequence, options, {}, RunContext());
@@ -309,7 +310,7 @@ TEST(Volumetric, TheSameForAnyNumberOfThreads) {
 
 TEST(Volumetric, TakesAsFewTrianglesAsAskedFor) {
   ReconstructOptions options = volumetric();
-  options.volumetric.triangles = 500;
+  options.finish.triangles = "500";
   const auto result = reconstruct(scan(ball, {}), options, {}, RunContext());
   ASSERT_TRUE(result) << result.error().text();
   EXPECT_LE(result->objects[0].mesh.triangles.size(), 550u);  // mending may add a few
@@ -318,9 +319,11 @@ TEST(Volumetric, TakesAsFewTrianglesAsAskedFor) {
 
 TEST(Volumetric, MaxErrorBoundsHowFarFewerTrianglesStray) {
   const MemorySequence sequence = scan(ball, {});
-  const auto full = reconstruct(sequence, volumetric(), {}, RunContext());
   ReconstructOptions options = volumetric();
-  options.volumetric.max_error_m = 0.0003;
+  options.finish.triangles = "all";
+  const auto full = reconstruct(sequence, options, {}, RunContext());
+  options.finish.triangles = "auto";
+  options.finish.max_error_m = 0.0003;
   const auto fewer = reconstruct(sequence, options, {}, RunContext());
   ASSERT_TRUE(full && fewer);
   const TriangleMesh &a = full->objects[0].mesh, &b = fewer->objects[0].mesh;
@@ -332,7 +335,7 @@ TEST(Volumetric, MaxErrorBoundsHowFarFewerTrianglesStray) {
     farthest = std::max(farthest, distance.closest(v.cast<double>()).distance);
   EXPECT_LE(farthest, 0.0003);
   // Whichever ends sooner.
-  options.volumetric.triangles = int(a.triangles.size() / 2);
+  options.finish.triangles = std::to_string(a.triangles.size() / 2);
   const auto both = reconstruct(sequence, options, {}, RunContext());
   EXPECT_GT(both->objects[0].mesh.triangles.size(), b.triangles.size());
 }
@@ -370,7 +373,9 @@ TEST(Volumetric, CarriesTheColoursOfTheFrames) {
     right += (mesh.colors[v].r > mesh.colors[v].g) == (x > 0.0) ? 1 : 0;
   }
   EXPECT_GT(double(right), 0.98 * double(looked));
-  const auto plain = reconstruct(two_colors({}), volumetric(), {}, RunContext());
+  ReconstructOptions without = volumetric();
+  without.finish.triangles = "all";
+  const auto plain = reconstruct(two_colors({}), without, {}, RunContext());
   EXPECT_TRUE(plain->objects[0].mesh.colors.empty());
   EXPECT_EQ(plain->objects[0].mesh.vertices, mesh.vertices);
 }
@@ -487,7 +492,7 @@ TEST(Volumetric, FewViewsGetLargerSamplesAndALongerReach) {
 }
 
 TEST(Volumetric, OptionsOutsideTheirRangesAreNamed) {
-  for (const char* name : {"truncation", "fit-reach", "fit-iterations", "triangles", "max-error"}) {
+  for (const char* name : {"truncation", "fit-reach", "fit-iterations"}) {
     VolumetricOptions options;
     const auto wrong = describe(options).set(name, "-1");
     const auto checked = wrong ? describe(options).check() : wrong;

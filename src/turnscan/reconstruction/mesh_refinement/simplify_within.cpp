@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/geometry/mesh/simplify.hpp>
+#include <turnscan/geometry/mesh/mesh_edit.hpp>
+#include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 
@@ -12,14 +13,50 @@ constexpr int kTries = 10;
 constexpr int kRingsKept = 3;  ///< of triangles about a vertex that strays too far
 /// Of the vertices: where more stray too far, the bound on the quadrics is too wide.
 constexpr double kFewStrays = 0.01;
+/// Folds that as many tries leave are closed by what parts them, or were there before.
+constexpr int kTriesWithoutFolds = 3;
 
-/// The vertices that lie farther from the other mesh than that, one flag each.
-std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const TriangleMesh& fewer,
-                                    double max_error_m) {
+/// The vertices of triangles that face against their vertices' normals, one flag each.
+std::vector<std::uint8_t> folded_vertices(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3f outward = mesh.normals[a] + mesh.normals[b] + mesh.normals[c];
+    if (mesh::doubled_area_normal(mesh, t).dot(outward.cast<double>()) < 0.0)
+      for (const std::uint32_t v : mesh.triangles[t]) out[v] = 1;
+  }
+  return out;
+}
+
+/// The vertices of triangles that may be left out, one flag each.
+std::vector<std::uint8_t> free_vertices(const TriangleMesh& full,
+                                        const std::vector<std::uint8_t>& keep) {
+  std::vector<std::uint8_t> out(full.vertices.size(), 0);
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t] == 0)
+      for (const std::uint32_t v : full.triangles[t]) out[v] = 1;
+  return out;
+}
+
+constexpr std::uint8_t kFar = 1, kFolded = 2;
+
+/// Flags of the vertices that lie farther from the other mesh than that, and of the free ones where
+/// it is folded. The other mesh has the full one's normals.
+std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const std::vector<std::uint8_t>& free,
+                                    const TriangleMesh& fewer, double max_distance_m) {
   const MeshDistance distance(fewer);
-  std::vector<std::uint8_t> out(full.vertices.size());
+  const std::vector<std::uint8_t> folded = folded_vertices(fewer);
+  std::vector<std::uint8_t> out(full.vertices.size(), 0);
   parallel_for(out.size(), 256, [&](std::size_t v) {
-    out[v] = distance.closest(full.vertices[v].cast<double>()).distance > max_error_m ? 1 : 0;
+    const auto hit = distance.closest(full.vertices[v].cast<double>(), max_distance_m);
+    if (hit.triangle == MeshDistance::kNone) {
+      out[v] = kFar;
+      return;
+    }
+    const auto& corners = fewer.triangles[hit.triangle];
+    if (free[v] != 0 &&
+        std::any_of(corners.begin(), corners.end(), [&](auto c) { return folded[c] != 0; }))
+      out[v] = kFolded;
   });
   return out;
 }
@@ -45,17 +82,25 @@ void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
 
 /// Quadrics only estimate how far a surface strays: it is measured, and tried again with a smaller
 /// bound, or where it strays in a few places with those left as they are.
-Result<TriangleMesh> simplify_within(const TriangleMesh& full, std::size_t triangles,
-                                     double max_error_m, const RunContext& context) {
-  SimplifyGoal goal{triangles, max_error_m, false,
-                    std::vector<std::uint8_t>(full.triangles.size(), 0)};
+Result<TriangleMesh> simplify_within(const TriangleMesh& full, const SimplifyGoal& asked,
+                                     double max_distance_m, const RunContext& context) {
+  TriangleMesh with_normals = full;
+  with_normals.normals = vertex_normals(full);
+  SimplifyGoal goal = asked;
+  goal.keep.resize(full.triangles.size(), 0);
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(full, goal));
+    TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(with_normals, goal));
     TURNSCAN_TRY(context.check());
-    auto strays = strays_of(full, fewer, max_error_m);
-    const auto count = std::size_t(std::count(strays.begin(), strays.end(), 1));
-    if (count == 0) return fewer;
-    if (double(count) > kFewStrays * double(strays.size())) {
+    const auto free = attempt < kTriesWithoutFolds
+                          ? free_vertices(full, goal.keep)
+                          : std::vector<std::uint8_t>(full.vertices.size(), 0);
+    auto strays = strays_of(full, free, fewer, max_distance_m);
+    if (std::all_of(strays.begin(), strays.end(), [](auto stray) { return stray == 0; })) {
+      if (full.normals.empty()) fewer.normals.clear();
+      return fewer;
+    }
+    const auto far = std::count(strays.begin(), strays.end(), kFar);
+    if (double(far) > kFewStrays * double(strays.size())) {
       goal.max_error_m *= 0.5;
     } else {
       keep_about(full, std::move(strays), goal.keep);

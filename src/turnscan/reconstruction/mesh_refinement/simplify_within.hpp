@@ -1,14 +1,14 @@
 #pragma once
 
 #include <turnscan/core/run_context.hpp>
-#include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/mesh/simplify.hpp>
 
 namespace turnscan::mesh_refinement {
 
-/// As few triangles as keep every vertex of the mesh within max_error_m of the simplified surface,
-/// and no fewer than `triangles`: the full mesh where no try stays within it. Fails as simplify()
-/// does, and with kCancelled.
-Result<TriangleMesh> simplify_within(const TriangleMesh& full, std::size_t triangles,
-                                     double max_error_m, const RunContext& context);
+/// As few triangles as keep every vertex of the mesh within max_distance_m of the simplified
+/// surface, fold little, and as the goal allows, whose error is smaller or the same: the full mesh
+/// where no try does so. Fails as simplify() does, and with kCancelled.
+Result<TriangleMesh> simplify_within(const TriangleMesh& full, const SimplifyGoal& goal,
+                                     double max_distance_m, const RunContext& context);
 
 }  // namespace turnscan::mesh_refinement

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <turnscan/core/units.hpp>
 #include <turnscan/reconstruction/options/finish_options.hpp>
@@ -110,8 +111,31 @@ OptionTable describe(FinishOptions& o) {
       .number("smallest-part", o.smallest_part_m, Quantity::kLength, {0.0, 10.0},
               "Drop parts of a mesh, not connected to the rest, whose longest side is shorter")
       .number("only-object", o.object, {1, 1000000},
-              "Keep only the object of this number, the largest being 1; automatic: all");
+              "Keep only the object of this number, the largest being 1; automatic: all")
+      .text("triangles", o.triangles,
+            "Triangles of an object, still closed: auto, as few as an eighth of its expected error "
+            "allows, a quarter of a voxel at most, but all where its vertices carry --colour; all; "
+            "or at most this number",
+            [](std::string_view text) -> Result<> {
+              TURNSCAN_TRY(triangles_wanted(text));
+              return {};
+            })
+      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
+              "As few triangles as keep the surface within this of what it would be otherwise, "
+              "still closed; with a number of --triangles whichever ends sooner; automatic: as "
+              "--triangles says");
   return table;
+}
+
+Result<std::optional<std::size_t>> triangles_wanted(std::string_view text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "all") return kAllTriangles;
+  const auto number = parse_number(text);
+  if (!number || !(*number >= 4.0) || *number > 1e9 || *number != std::floor(*number))
+    return fail(ErrorCode::kInvalidOption,
+                "triangles = {} is neither auto, all nor a whole number from 4 to 1000000000",
+                text);
+  return static_cast<std::size_t>(*number);
 }
 
 Result<std::vector<HalfSpace>> kept_half_spaces(const FinishOptions& options) {

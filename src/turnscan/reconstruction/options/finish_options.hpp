@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/geometry/mesh/clip.hpp>
 #include <vector>
@@ -22,8 +24,17 @@ struct FinishOptions {
   std::string keep_box;
   /// "X,Y,Z,NX,NY,NZ": a place on a plane, table frame, and the direction in which all is cut away.
   std::string cut_plane;
+  /// "auto": as many as the surface is worth, "all", or at most so many an object.
+  std::string triangles = "auto";
+  /// Fewer triangles where the surface stays within this of the full one.
+  std::optional<double> max_error_m;
 };
 OptionTable describe(FinishOptions& options);
+
+inline constexpr std::size_t kAllTriangles = std::numeric_limits<std::size_t>::max();
+/// At most so many triangles an object, or kAllTriangles; nullopt: as many as the surface is worth.
+/// Fails with kInvalidOption when the text says none of these.
+Result<std::optional<std::size_t>> triangles_wanted(std::string_view text);
 
 /// What the box and the plane leave. Fails with kInvalidOption when a text has not that form, the
 /// box is empty or the direction is zero.

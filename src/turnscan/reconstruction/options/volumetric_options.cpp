@@ -17,12 +17,6 @@ OptionTable describe(VolumetricOptions& o) {
       .flag("sharpen", o.sharpen,
             "Volumetric: where noise shows that the sensor averages over neighbouring pixels, take "
             "back what that did to edges and thin parts")
-      .number("triangles", o.triangles, {4, 1000000000},
-              "Volumetric: at most so many triangles an object, still closed; automatic: a quarter "
-              "of what the volume gives")
-      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
-              "Volumetric: as few triangles as keep the surface within this of what it would be "
-              "otherwise, still closed; with --triangles whichever ends sooner; automatic: all")
       .flag("mark-invented", o.mark_invented,
             "Volumetric: paint in magenta what no frame measured, the rest in its colour or grey");
   return table;

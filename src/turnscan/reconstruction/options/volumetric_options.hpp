@@ -11,10 +11,7 @@ struct VolumetricOptions {
   bool fit = true;                     ///< move the vertices onto the frames' measurements
   std::optional<double> fit_reach_m;
   int fit_iterations = 3;
-  bool sharpen = true;           ///< take back what the sensor's filter did
-  std::optional<int> triangles;  ///< at most so many
-  /// Fewer triangles where the surface stays within this of the full one.
-  std::optional<double> max_error_m;
+  bool sharpen = true;         ///< take back what the sensor's filter did
   bool mark_invented = false;  ///< paint what no frame measured
 };
 OptionTable describe(VolumetricOptions& options);

@@ -84,6 +84,7 @@ class PointStages {
 
 Result<> PointStages::choose_voxels() {
   const double size = grid_.size_m();
+  out_.voxel_size_m = size;
   context_.begin_phase("voxels", 2);
   const voxels::ThresholdChoice threshold = choose_min_points(grid_);
   const int m = options_.voxels.min_points.value_or(threshold.min_points);

@@ -3,13 +3,11 @@
 #include <turnscan/geometry/mesh/cut_handles.hpp>
 #include <turnscan/geometry/mesh/even_out.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/geometry/mesh/simplify.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
-#include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/measured_points.hpp>
 #include <turnscan/reconstruction/tsdf/object_grouping.hpp>
@@ -56,7 +54,6 @@ class VolumetricReconstruction {
     for (auto& object : group_objects(std::move(components), grouping_rules(min_share)))
       TURNSCAN_TRY(refine(std::move(object), surface));
     for (VolumetricPiece& piece : out_.pieces) {
-      TURNSCAN_TRY(reduce_triangles(piece));
       TURNSCAN_TRY(color(piece));
       TURNSCAN_TRY(measure(piece));
     }
@@ -172,24 +169,6 @@ class VolumetricReconstruction {
       return below_platters(volume.platters, p.cast<double>()) > -kPlatterCells * volume.cell_m;
     };
     return mesh_refinement::close_as_plate(fitted.mesh, fitted.support, closing, context_);
-  }
-
-  /// If asked for; then the support is measured again.
-  Result<> reduce_triangles(VolumetricPiece& piece) {
-    const std::size_t all = piece.mesh.triangles.size();
-    const std::size_t most = options_.triangles ? std::size_t(*options_.triangles) : all;
-    if (most >= all && !options_.max_error_m) return {};
-    TURNSCAN_ASSIGN(piece.mesh, timed("simplify", [&]() -> Result<TriangleMesh> {
-                      if (!options_.max_error_m) return simplify(piece.mesh, {most, 1e30, false});
-                      return mesh_refinement::simplify_within(piece.mesh,
-                                                              options_.triangles ? most : 0,
-                                                              *options_.max_error_m, context_);
-                    }));
-    MeshFitScale scale = fit_scale();
-    scale.iterations = 0;
-    TURNSCAN_ASSIGN(MeshFit measured, fit_mesh(piece.mesh, input_.views, scale, context_));
-    piece.support = std::move(measured.support);
-    return {};
   }
 
   Result<> color(VolumetricPiece& piece) {

@@ -380,6 +380,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
         "about and does not turn with the table",
         result.left_out == 1 ? "one thing was" : fmt::format("{} things were", result.left_out),
         result.left_out == 1 ? "it" : "them"));
+  out.voxel_size_m = scale_.volume.cell_m;
   out.choices.insert(out.choices.end(), scale_.choices.begin(), scale_.choices.end());
   out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
   const StageTimer timer(out.stages, "check");

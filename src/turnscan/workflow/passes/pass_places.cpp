@@ -39,8 +39,6 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
   out.merge.pass.reset();
   out.finish = FinishOptions();
   out.texture = TextureOptions();
-  out.volumetric.triangles.reset();
-  out.volumetric.max_error_m.reset();
   out.volumetric.mark_invented = false;
   out.color = out.keep_points = false;
   out.for_placing = true;

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/mesh_measure.hpp>
+#include <turnscan/geometry/search/closest_point.hpp>
+#include <turnscan/reconstruction/finishing/fewer_triangles.hpp>
+#include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
+#include <turnscan/reconstruction/stage_timer.hpp>
+
+namespace turnscan::finishing {
+
+namespace {
+
+/// Errors of the surface, e, and of its triangles, d (root mean square), are independent: F falls
+/// by at most 0.242 (d / e)^2, at a threshold of e. d is about half of what the quadrics are
+/// allowed, e / 16, which costs less than 0.001.
+constexpr double kShareOfError = 0.125;
+/// Detail that may be right is not finer than this, however far off all of it may be.
+constexpr double kShareOfVoxel = 0.25;
+constexpr double kFarthestVoxels = 0.5;
+
+struct Bound {
+  std::size_t triangles = 0;
+  double error_m = 0.0;     ///< on the quadrics; 0: none but the number
+  double farthest_m = 0.0;  ///< of any vertex of the full mesh
+  std::string reason;
+};
+
+/// Per vertex: 1 where all triangles about it were measured, or where it is not known.
+std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
+  std::vector<std::uint8_t> out(object.mesh.vertices.size(), 1);
+  for (std::size_t t = 0; t < object.evidence.size(); ++t)
+    if (object.evidence[t] != Evidence::kMeasured)
+      for (const std::uint32_t v : object.mesh.triangles[t]) out[v] = 0;
+  return out;
+}
+
+/// Median over the vertices that were measured; nullopt: not known.
+std::optional<double> expected_error(const ObjectResult& object) {
+  const std::vector<std::uint8_t> measured = measured_vertices(object);
+  std::vector<float> errors;
+  for (std::size_t v = 0; v < object.quality.size(); ++v)
+    if (measured[v]) errors.push_back(object.quality[v].expected_error_m);
+  if (errors.empty()) return std::nullopt;
+  return median(errors);
+}
+
+Bound worth_of(const ObjectResult& object, double voxel_m) {
+  const double coarsest_m = kShareOfVoxel * voxel_m, farthest_m = kFarthestVoxels * voxel_m;
+  const std::optional<double> error_m = expected_error(object);
+  if (!error_m || kShareOfError * *error_m > coarsest_m)
+    return {0, coarsest_m, farthest_m,
+            fmt::format("to a quarter of a voxel of {:.2g} mm", voxel_m * 1e3)};
+  return {
+      0, kShareOfError * *error_m, farthest_m,
+      fmt::format("to an eighth of the expected error, {:.2g} mm in the median", *error_m * 1e3)};
+}
+
+Bound bound_for(const ReconstructOptions& options, std::optional<std::size_t> wanted,
+                const ObjectResult& object, double voxel_m) {
+  const std::optional<double>& max_error_m = options.finish.max_error_m;
+  if (max_error_m) return {wanted.value_or(0), *max_error_m, *max_error_m, "to max-error, given"};
+  if (wanted) return {*wanted, 0.0, 0.0, "given"};
+  if (options.color && !object.mesh.colors.empty())
+    return {kAllTriangles, 0.0, 0.0, "its vertices carry the colours"};
+  return worth_of(object, voxel_m);
+}
+
+/// The triangles about vertices where one kind of evidence borders on another, one flag each.
+std::vector<std::uint8_t> evidence_borders(const ObjectResult& object) {
+  const auto& triangles = object.mesh.triangles;
+  std::vector<std::uint8_t> kinds(object.mesh.vertices.size(), 0), out(triangles.size(), 0);
+  for (std::size_t t = 0; t < object.evidence.size(); ++t)
+    for (const std::uint32_t v : triangles[t])
+      kinds[v] |= std::uint8_t(1u << unsigned(object.evidence[t]));
+  for (std::size_t t = 0; t < out.size(); ++t)
+    out[t] = std::any_of(triangles[t].begin(), triangles[t].end(),
+                         [&](std::uint32_t v) { return (kinds[v] & (kinds[v] - 1)) != 0; });
+  return out;
+}
+
+Result<TriangleMesh> simplified(const ObjectResult& object, const Bound& bound,
+                                const RunContext& context) {
+  if (!(bound.error_m > 0.0)) return simplify(object.mesh, {bound.triangles});
+  return mesh_refinement::simplify_within(
+      object.mesh, {bound.triangles, bound.error_m, false, evidence_borders(object)},
+      bound.farthest_m, context);
+}
+
+/// For each vertex of a simplified mesh the one of the full mesh where it lies.
+std::vector<std::uint32_t> places_in(const TriangleMesh& full, const MeshDistance& on_full,
+                                     const TriangleMesh& fewer) {
+  std::vector<std::uint32_t> out(fewer.vertices.size());
+  parallel_for(out.size(), 256, [&](std::size_t v) {
+    const Vec3f& p = fewer.vertices[v];
+    const auto& corners = full.triangles[on_full.closest(p.cast<double>()).triangle];
+    out[v] = *std::min_element(corners.begin(), corners.end(), [&](auto a, auto b) {
+      return (full.vertices[a] - p).squaredNorm() < (full.vertices[b] - p).squaredNorm();
+    });
+  });
+  return out;
+}
+
+std::vector<double> vertex_areas(const TriangleMesh& mesh) {
+  std::vector<double> out(mesh.vertices.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) out[v] += triangle_area(mesh, t) / 3.0;
+  return out;
+}
+
+/// Shares of a triangle's corners in a point on it.
+Vec3d barycentric(const TriangleMesh& mesh, std::size_t triangle, const Vec3d& p) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Vec3d pa = mesh.vertices[a].cast<double>() - p, pb = mesh.vertices[b].cast<double>() - p,
+              pc = mesh.vertices[c].cast<double>() - p;
+  const Vec3d areas(pb.cross(pc).norm(), pc.cross(pa).norm(), pa.cross(pb).norm());
+  return areas.sum() > 0.0 ? Vec3d(areas / areas.sum()) : Vec3d::Constant(1.0 / 3.0);
+}
+
+/// Sums over the surface around a vertex, weighted by area.
+struct QualitySum {
+  double area = 0.0, squares = 0.0, frames = 0.0, directions = 0.0;
+
+  void add(const VertexQuality& q, double weight) {
+    area += weight;
+    squares += weight * double(q.expected_error_m) * double(q.expected_error_m);
+    frames += weight * q.frames;
+    directions += weight * q.directions;
+  }
+  VertexQuality mean() const {
+    return {float(std::sqrt(squares / area)), std::uint16_t(std::lround(frames / area)),
+            std::uint8_t(std::lround(directions / area))};
+  }
+};
+
+/// Each vertex of the full mesh tells the corners of the triangle that it lies on, but for those
+/// of which it is known otherwise whether they were measured.
+std::vector<VertexQuality> carry_quality(const ObjectResult& full, const TriangleMesh& fewer,
+                                         const std::vector<std::uint32_t>& place) {
+  const MeshDistance on_fewer(fewer);
+  std::vector<MeshDistance::Hit> hits(full.quality.size());
+  parallel_for(hits.size(), 256, [&](std::size_t v) {
+    hits[v] = on_fewer.closest(full.mesh.vertices[v].cast<double>());
+  });
+  const std::vector<std::uint8_t> measured = measured_vertices(full);
+  const std::vector<double> areas = vertex_areas(full.mesh);
+  std::vector<QualitySum> sums(fewer.vertices.size());
+  for (std::size_t v = 0; v < hits.size(); ++v) {
+    const Vec3d shares = barycentric(fewer, hits[v].triangle, hits[v].point);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = fewer.triangles[hits[v].triangle][k];
+      if (measured[place[corner]] == measured[v])
+        sums[corner].add(full.quality[v], areas[v] * shares[Eigen::Index(k)]);
+    }
+  }
+  std::vector<VertexQuality> out;
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    out.push_back(sums[v].area > 0.0 ? sums[v].mean() : full.quality[place[v]]);
+  return out;
+}
+
+std::vector<Evidence> carry_evidence(const ObjectResult& full, const MeshDistance& on_full,
+                                     const TriangleMesh& fewer) {
+  std::vector<Evidence> out(fewer.triangles.size());
+  parallel_for(out.size(), 256, [&](std::size_t t) {
+    Vec3d middle = Vec3d::Zero();
+    for (const std::uint32_t v : fewer.triangles[t]) middle += fewer.vertices[v].cast<double>();
+    out[t] = full.evidence[on_full.closest(middle / 3.0).triangle];
+  });
+  return out;
+}
+
+/// Puts the mesh into the object, with what is known of it.
+void take(TriangleMesh fewer, ObjectResult& object) {
+  const MeshDistance on_full(object.mesh);
+  const std::vector<std::uint32_t> place = places_in(object.mesh, on_full, fewer);
+  if (!object.quality.empty()) object.quality = carry_quality(object, fewer, place);
+  if (!object.confidence.empty()) {
+    std::vector<float> confidence;
+    for (const std::uint32_t v : place) confidence.push_back(object.confidence[v]);
+    object.confidence = std::move(confidence);
+  }
+  const bool known = !object.evidence.empty();
+  if (known) object.evidence = carry_evidence(object, on_full, fewer);
+  object.mesh = std::move(fewer);
+  object.check = check_mesh(object.mesh);
+  if (!known) return;
+  object.invented_area_m2 = 0.0;
+  for (std::size_t t = 0; t < object.evidence.size(); ++t)
+    if (object.evidence[t] == Evidence::kInvented)
+      object.invented_area_m2 += triangle_area(object.mesh, t);
+}
+
+Result<> reduce_object(const Bound& bound, ObjectResult& object, const RunContext& context) {
+  if (object.mesh.triangles.size() <= std::max<std::size_t>(4, bound.triangles)) return {};
+  TURNSCAN_ASSIGN(TriangleMesh fewer, simplified(object, bound, context));
+  if (fewer.triangles.size() < object.mesh.triangles.size()) take(std::move(fewer), object);
+  return {};
+}
+
+}  // namespace
+
+Result<> reduce_triangles(const ReconstructOptions& options, Reconstruction& reconstruction,
+                          const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto wanted, triangles_wanted(options.finish.triangles));
+  if (options.for_placing || (wanted == kAllTriangles && !options.finish.max_error_m)) return {};
+  const StageTimer timer(reconstruction.stages, "simplify");
+  std::vector<ObjectResult>& objects = reconstruction.objects;
+  context.begin_phase("simplify", objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    TURNSCAN_TRY(context.check());
+    ObjectResult& object = objects[i];
+    const Bound bound = bound_for(options, wanted, object, reconstruction.voxel_size_m);
+    const std::size_t all = object.mesh.triangles.size();
+    TURNSCAN_TRY(reduce_object(bound, object, context));
+    const int number = objects.size() > 1 ? int(i) : -1;
+    reconstruction.choices.push_back({"triangles", std::to_string(object.mesh.triangles.size()),
+                                      fmt::format("of {}: {}", all, bound.reason), number});
+    context.advance();
+  }
+  return {};
+}
+
+}  // namespace turnscan::finishing
