@@ -117,6 +117,7 @@ TEST(Reconstruct, BothCandidateMethodsAndBothSurfaceMethodsGiveWatertightMeshes)
       ReconstructOptions options = coarse();
       options.candidates.method = candidates;
       options.surface.method = method;
+      options.finish.triangles = "all";
       const auto result = reconstruct(one_ball(), options, {}, RunContext());
       ASSERT_TRUE(result) << result.error().text();
       EXPECT_TRUE(result->objects.at(0).check.watertight());

@@ -189,7 +189,9 @@ TEST(MeshFit, TheBrimOfAHatIsNotFolded) {
     return nearer(to_disc(o, d, 0.054, 0.058, 0.05),
                   to_box(o, d, Vec3d(-0.02, 0, -0.02), Vec3d(0.02, 0.08, 0.02)));
   };
-  const auto result = reconstruct(scan(hat, {60, 0.002}), volumetric(), {}, RunContext());
+  ReconstructOptions options = volumetric();
+  options.finish.triangles = "all";
+  const auto result = reconstruct(scan(hat, {60, 0.002}), options, {}, RunContext());
   ASSERT_TRUE(result) << result.error().text();
   EXPECT_LT(folded_share(result->objects[0].mesh), 0.0005);
 }
