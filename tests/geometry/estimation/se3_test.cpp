@@ -55,7 +55,9 @@ TEST(Se3, AnOrthonormalisedPoseIsARotationNearTheOneBefore) {
   const Pose before = pose;
   pose.linear() *= 1.0 + 1e-6;
   const Pose after = orthonormalised(pose);
-  EXPECT_LT((after.linear() - before.linear()).norm(), 1e-12);
+  EXPECT_LT((after.linear().transpose() * after.linear() - Eigen::Matrix3d::Identity()).norm(),
+            1e-14);
+  EXPECT_LT((after.linear() - before.linear()).norm(), 1e-5);
   EXPECT_EQ(after.translation(), before.translation());
 }
 
