@@ -45,6 +45,7 @@ class NearestSet {
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == k_; }
+  void sort() {}  // nanoflann 1.5 and later ask for it; it is in order
   float worstDist() const { return loosened(full() ? distance_[k_ - 1] : squared_reach_); }
   bool addPoint(float distance, std::uint32_t position) {
     if (!(distance <= squared_reach_)) return true;
@@ -79,6 +80,7 @@ class WithinRadius {
 
   std::size_t size() const { return out_.size(); }
   bool full() const { return true; }
+  void sort() {}  // the caller does
   float worstDist() const { return loosened(squared_radius_); }
   bool addPoint(float distance, std::uint32_t position) {
     if (distance <= squared_radius_) out_.emplace_back(store_.ids[position], distance);
@@ -144,7 +146,7 @@ std::size_t KdTree::knn(const Vec3f& query, std::size_t k, std::uint32_t* index,
                         float* squared_distance, float reach_m) const {
   if (size() == 0 || k == 0 || !query.allFinite() || !(reach_m >= 0.0f)) return 0;
   NearestSet nearest(impl_->store, k, index, squared_distance, reach_m * reach_m);
-  impl_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+  impl_->tree.findNeighbors(nearest, query.data(), {});
   return nearest.size();
 }
 
@@ -153,7 +155,7 @@ void KdTree::radius(const Vec3f& query, float radius,
   out.clear();
   if (size() == 0 || !(radius >= 0.0f) || !std::isfinite(radius) || !query.allFinite()) return;
   WithinRadius within(impl_->store, radius * radius, out);
-  impl_->tree.findNeighbors(within, query.data(), nanoflann::SearchParams());
+  impl_->tree.findNeighbors(within, query.data(), {});
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second, a.first) < std::pair(b.second, b.first);
   });

@@ -29,19 +29,29 @@ bool nested_too_deeply(std::string_view bytes) {
   return false;
 }
 
+/// Newer versions of tinygltf keep their own callbacks unless this one is given, too.
+template <class Callbacks>
+void forbid_file_sizes(Callbacks& callbacks) {
+  if constexpr (requires { callbacks.GetFileSizeInBytes; })
+    callbacks.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
+      return false;
+    };
+}
+
 /// Pictures are decoded later, by our own reader, and a GLB file has all of its content in itself.
 void forbid_files_and_images(tinygltf::TinyGLTF& loader) {
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                            const unsigned char*, int, void*) { return true; },
                         nullptr);
-  loader.SetFsCallbacks(
-      {[](const std::string&, void*) { return false; },
-       [](const std::string&, void*) { return std::string(); },
-       [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-         return false;
-       },
-       nullptr});
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return false; };
+  callbacks.ExpandFilePath = [](const std::string&, void*) { return std::string(); };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&,
+                               void*) { return false; };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                void*) { return false; };
+  forbid_file_sizes(callbacks);
+  loader.SetFsCallbacks(callbacks);
 }
 
 Result<tinygltf::Model> parse(std::string_view bytes) {
