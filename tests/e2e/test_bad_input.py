@@ -56,6 +56,9 @@ class MissingOrDamaged(harness.TestCase):
             result = self.refused(FAILED, "reconstruct", what, "-o", "m.ply",
                                   says=(says, "turnscan import --list"))
             self.assertLess(len(result.stderr), 200)
+        (self.dir / "images").mkdir()
+        (self.dir / "images" / "depth_0.png").write_text("")
+        self.refused(FAILED, "reconstruct", "images", "-o", "m.ply", says="camera's intrinsics")
         lines = self.ok("import", "--list").stdout.splitlines()
         self.assertIn("format", lines[0])
         self.assertEqual(len(lines), 13)

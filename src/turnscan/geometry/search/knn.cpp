@@ -39,6 +39,7 @@ float loosened(float squared_distance) {
 /// arrays.
 class NearestSet {
  public:
+  using DistanceType = float;
   NearestSet(const PointStore& store, std::size_t k, std::uint32_t* index, float* distance,
              float squared_reach)
       : store_(store), k_(k), index_(index), distance_(distance), squared_reach_(squared_reach) {}
@@ -74,6 +75,7 @@ class NearestSet {
 
 class WithinRadius {
  public:
+  using DistanceType = float;
   WithinRadius(const PointStore& store, float squared_radius,
                std::vector<std::pair<std::uint32_t, float>>& out)
       : store_(store), squared_radius_(squared_radius), out_(out) {}

@@ -136,7 +136,9 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
+  const bool images = any_ends_with(names, ".png") && !any_ends_with(names, ".json");
+  return fmt::format("a folder of {} entries such as {}{}", names.size(), names.front(),
+                     images ? " without a JSON file of the camera's intrinsics" : "");
 }
 
 Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& options) {

@@ -134,7 +134,9 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
   if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMostSigma_m))
     return {std::clamp(returns.height_m + kClearNoises * returns.sigma_m, below, 0.0),
             fmt::format("no platter is seen, but a plane {} below it", mm(-returns.height_m))};
-  return {below, "no platter is seen, so that nothing is cropped below"};
+  return {below,
+          "no platter is seen, so that nothing is cropped below; --keep-box \",2mm,,,,\" cuts off "
+          "what lies lower than 2 mm"};
 }
 
 /// What frames of depth cameras show where a platter's rim would be.
