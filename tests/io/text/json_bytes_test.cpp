@@ -72,7 +72,7 @@ TEST(JsonBytes, APathLeadsToItsValue) {
   EXPECT_EQ(at("a2"), "0}");
   // What is not there: where it would be.
   EXPECT_EQ(at("a.x"), "{\"b");
-  EXPECT_EQ(at("d[1][4]"), "[],");
+  EXPECT_EQ(at("d[1][4]"), "[]]");
   EXPECT_EQ(at("d.x"), "[[2");
 }
 

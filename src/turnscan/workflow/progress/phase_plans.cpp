@@ -67,6 +67,8 @@ PhasePlan surface_phases(const ReconstructOptions& options, std::size_t frames) 
     plan = joined({plan, {{"closing", 2.0}, {"fit", 6.5}}});
   else
     plan = joined({plan, of_points(options)});
+  if (options.finish.triangles != "all" || options.finish.max_error_m)
+    plan.push_back({"simplify", 1.0});
   if (options.texture.texture) plan.push_back({"texture", kTexture});
   return plan;
 }
