@@ -5,6 +5,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/heading.hpp>
+#include <turnscan/turntable/motion/motion_state.hpp>
 
 namespace turnscan::motion {
 
