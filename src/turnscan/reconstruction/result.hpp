@@ -115,6 +115,15 @@ struct ObjectResult {
   std::optional<Verdict> verdict;        ///< once it was judged (workflow/verdict)
 };
 
+/// 1 for each vertex all of whose triangles were measured, as far as the evidence is known.
+inline std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
+  std::vector<std::uint8_t> out(object.mesh.vertices.size(), 1);
+  for (std::size_t t = 0; t < object.evidence.size(); ++t)
+    if (object.evidence[t] != Evidence::kMeasured)
+      for (const std::uint32_t v : object.mesh.triangles[t]) out[v] = 0;
+  return out;
+}
+
 /// How well the motion of a pass is known that was found from the surfaces.
 struct FoundMotion {
   double sigma_m = 0.0, sigma_rad = 0.0;  ///< rms over its surface, and of its rotation

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
@@ -9,7 +10,6 @@
 #include <turnscan/reconstruction/estimation/platter_rim.hpp>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
-#include <turnscan/reconstruction/length_text.hpp>
 
 namespace turnscan::estimation {
 
@@ -74,10 +74,10 @@ void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
   cylinder.radius_m = kBeyondReach * *reach + kBeyondReach_m;
   for (Choice& choice : estimate.choices)
     if (choice.option == "crop-radius")
-      choice = {"crop-radius", mm(cylinder.radius_m),
+      choice = {"crop-radius", length_text(cylinder.radius_m),
                 fmt::format("the object reaches {} from the axis, beyond the platter's {}; 25 % "
                             "and 15mm more",
-                            mm(*reach), mm(platter))};
+                            length_text(*reach), length_text(platter))};
 }
 
 /// The returns of a platter of a radius that is known, where they are as wide and as round as its
@@ -127,13 +127,15 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
   if (platter)
     return {std::max(0.001, platter->height_m + kClearNoises * platter->sigma_m),
             fmt::format("the platter's returns lie at {} with a spread of {}; 4 spreads above",
-                        mm(platter->height_m), mm(platter->sigma_m))};
+                        length_text(platter->height_m), length_text(platter->sigma_m))};
   if (stands)
-    return {std::max(0.002, clear), fmt::format("4 times the sensor's noise of {}", mm(noise_m))};
+    return {std::max(0.002, clear),
+            fmt::format("4 times the sensor's noise of {}", length_text(noise_m))};
   const double below = -std::max(0.005, clear);
   if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMostSigma_m))
-    return {std::clamp(returns.height_m + kClearNoises * returns.sigma_m, below, 0.0),
-            fmt::format("no platter is seen, but a plane {} below it", mm(-returns.height_m))};
+    return {
+        std::clamp(returns.height_m + kClearNoises * returns.sigma_m, below, 0.0),
+        fmt::format("no platter is seen, but a plane {} below it", length_text(-returns.height_m))};
   return {below,
           "no platter is seen, so that nothing is cropped below; --keep-box \",2mm,,,,\" cuts off "
           "what lies lower than 2 mm"};
@@ -162,7 +164,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   const PlatterReturns returns = measure_platter(sample, std::min(calibrated.value_or(0.5), 0.5));
   const auto found = calibrated ? calibrated : find_platter_radius(sample, returns);
   if (found) {
-    estimate.choices.push_back({"crop-radius", mm(*found),
+    estimate.choices.push_back({"crop-radius", length_text(*found),
                                 crop.radius_m ? "given"
                                 : known       ? "the platter's radius"
                                 : calibrated  ? "25 % and 15mm beyond what was seen to turn"
@@ -181,7 +183,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(
-      {"crop-margin", mm(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});
+      {"crop-margin", length_text(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});
   if (known && !crop.radius_m) take_in_all_of_object(sample, cylinder, estimate);
   estimate.cylinder = cylinder;
 }

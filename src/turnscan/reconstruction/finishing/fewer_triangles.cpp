@@ -27,15 +27,6 @@ struct Bound {
   std::string reason;
 };
 
-/// Per vertex: 1 where all triangles about it were measured, or where it is not known.
-std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
-  std::vector<std::uint8_t> out(object.mesh.vertices.size(), 1);
-  for (std::size_t t = 0; t < object.evidence.size(); ++t)
-    if (object.evidence[t] != Evidence::kMeasured)
-      for (const std::uint32_t v : object.mesh.triangles[t]) out[v] = 0;
-  return out;
-}
-
 /// Median over the vertices that were measured; nullopt: not known.
 std::optional<double> expected_error(const ObjectResult& object) {
   const std::vector<std::uint8_t> measured = measured_vertices(object);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/geometry/mesh/clip.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/low_pass.hpp>
@@ -7,7 +8,6 @@
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/finishing/finishing.hpp>
 #include <turnscan/reconstruction/finishing/hole_patches.hpp>
-#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 
 namespace turnscan::finishing {
@@ -206,7 +206,8 @@ Result<> finish_object(const FinishOptions& options, const std::vector<HalfSpace
     TURNSCAN_ASSIGN(const std::size_t parts, drop_small_parts(object, options.smallest_part_m));
     if (parts > 0)
       object.notes.push_back(fmt::format("{} part{} smaller than {} dropped", parts,
-                                         parts == 1 ? "" : "s", mm(options.smallest_part_m)));
+                                         parts == 1 ? "" : "s",
+                                         length_text(options.smallest_part_m)));
   }
   object.check = check_mesh(object.mesh);
   if (!object.evidence.empty()) object.invented_area_m2 = invented_area(object);

@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
-#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/points/point_method.hpp>
 #include <turnscan/reconstruction/points/point_stages.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
@@ -172,8 +172,8 @@ PointMethod::VoxelScale PointMethod::scale_of(const voxels::MergedCloud& cloud, 
   }
   if (options_.voxels.grid) {
     scale.voxel_m = longest / *options_.voxels.grid;
-    scale.reason = fmt::format("voxel-grid {} along {}{}", *options_.voxels.grid, mm(longest),
-                               whole ? "" : ", as the first frames show");
+    scale.reason = fmt::format("voxel-grid {} along {}{}", *options_.voxels.grid,
+                               length_text(longest), whole ? "" : ", as the first frames show");
     return scale;
   }
   scale.automatic = true;
@@ -181,14 +181,15 @@ PointMethod::VoxelScale PointMethod::scale_of(const voxels::MergedCloud& cloud, 
   scale.voxel_m = std::max({2.0 * scale.spacing_m, scale.noise_m, scale.profile_spacing_m});
   scale.reason =
       scale.voxel_m == scale.profile_spacing_m
-          ? fmt::format("the profiles lie up to {} apart", mm(scale.profile_spacing_m))
+          ? fmt::format("the profiles lie up to {} apart", length_text(scale.profile_spacing_m))
           : fmt::format(
                 "the larger of the thickness of the cloud, {}, and twice its "
                 "spacing, {}{}",
-                mm(scale.noise_m), mm(scale.spacing_m), whole ? "" : ", in the first frames");
+                length_text(scale.noise_m), length_text(scale.spacing_m),
+                whole ? "" : ", in the first frames");
   if (scale.voxel_m < kFinest * longest) {
     scale.voxel_m = kFinest * longest;
-    scale.reason = fmt::format("a 1000th of the cloud's longest side {}", mm(longest));
+    scale.reason = fmt::format("a 1000th of the cloud's longest side {}", length_text(longest));
   }
   return scale;
 }
@@ -231,10 +232,11 @@ Result<voxels::MeasuredCells> PointMethod::measure(const RunContext& context, Re
     scale_->reason = fmt::format(
         "{} of the first frames' {}: the thickness of the cloud is {}, "
         "its spacing {}",
-        joined, mm(scale_->voxel_m), mm(scale_->noise_m), mm(scale_->spacing_m));
+        joined, length_text(scale_->voxel_m), length_text(scale_->noise_m),
+        length_text(scale_->spacing_m));
     TURNSCAN_ASSIGN(measured, sums_->collect(joined, context));
   }
-  out.choices.push_back({"voxel-size", mm(measured.grid.size_m()), scale_->reason, -1});
+  out.choices.push_back({"voxel-size", length_text(measured.grid.size_m()), scale_->reason, -1});
   return measured;
 }
 

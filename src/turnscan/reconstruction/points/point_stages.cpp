@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <turnscan/reconstruction/length_text.hpp>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/reconstruction/points/base.hpp>
 #include <turnscan/reconstruction/points/components.hpp>
 #include <turnscan/reconstruction/points/normals.hpp>
@@ -53,7 +53,7 @@ class PointStages {
   double length_or(const std::optional<T>& given, const char* option, double automatic,
                    const std::string& reason) {
     const double value = given.value_or(automatic);
-    choose(option, mm(value), given ? "given" : reason);
+    choose(option, length_text(value), given ? "given" : reason);
     return value;
   }
   Result<> save(const std::string& stage, const PointCloud& cloud) {
@@ -147,9 +147,9 @@ Result<> PointStages::refine() {
   const double size = grid_.size_m(), noise = out_.merged_noise_m;
   const double target = std::max(0.1 * noise, 0.05 * size);
   const double wanted = spacing_m_ * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
-  const double radius = length_or(options_.refine.radius_m, "refine-radius",
-                                  std::clamp(wanted, 0.75 * size, 3.0 * size),
-                                  fmt::format("so that a fitted height is good to {}", mm(target)));
+  const double radius = length_or(
+      options_.refine.radius_m, "refine-radius", std::clamp(wanted, 0.75 * size, 3.0 * size),
+      fmt::format("so that a fitted height is good to {}", length_text(target)));
   TURNSCAN_ASSIGN(candidates_, refine_candidates(measurements_, grid_, candidates_, {radius, noise},
                                                  options_.refine.iterations, context_));
   return save("refined", candidates_.cloud);
@@ -207,7 +207,7 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object, std::s
     }
   } else {
     const double alpha = options_.surface.alpha_m.value_or(2.5 * grid_.size_m());
-    choose("alpha", mm(alpha), options_.surface.alpha_m ? "given" : "2.5 voxels");
+    choose("alpha", length_text(alpha), options_.surface.alpha_m ? "given" : "2.5 voxels");
     TURNSCAN_ASSIGN(TriangleMesh raw, surface::concave_hull(object, alpha, context_));
     if (options_.surface.repair) {
       TURNSCAN_ASSIGN(repaired, surface::repair_concave_hull(raw, object, 0.8 * grid_.size_m(),

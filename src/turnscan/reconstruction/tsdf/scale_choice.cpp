@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <turnscan/reconstruction/length_text.hpp>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 
 namespace turnscan::tsdf {
@@ -34,14 +34,14 @@ void widen_for_few(const VolumetricInput& input, double longest, double& cell,
   const double gaps = std::min(input.spacing_m, 1.6 * input.spacing_m / std::sqrt(facing));
   if (cell < gaps) {
     cell = gaps;
-    reason = fmt::format("the spacing of a frame's points, {}, in {} frames", mm(input.spacing_m),
-                         input.views.size());
+    reason = fmt::format("the spacing of a frame's points, {}, in {} frames",
+                         length_text(input.spacing_m), input.views.size());
   }
   const double bend = longest / 16.0, radius = balance(input, facing, bend);
   if (cell < 0.5 * radius) {
     cell = 0.5 * radius;
-    reason = fmt::format("half of {}, where noise of {} and bends of {} err alike", mm(radius),
-                         mm(input.noise_m), mm(bend));
+    reason = fmt::format("half of {}, where noise of {} and bends of {} err alike",
+                         length_text(radius), length_text(input.noise_m), length_text(bend));
   }
 }
 
@@ -60,42 +60,42 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
   const auto choose = [&](const char* option, const std::optional<double>& given, double automatic,
                           const std::string& reason) {
     const double value = given.value_or(automatic);
-    out.choices.push_back({option, mm(value), given ? "given" : reason});
+    out.choices.push_back({option, length_text(value), given ? "given" : reason});
     return value;
   };
   const double longest = box.size().maxCoeff();
   double cell = input.cells_of_spacing * input.spacing_m;
   std::string reason = fmt::format("{:g} of the spacing of a frame's points, {}",
-                                   input.cells_of_spacing, mm(input.spacing_m));
+                                   input.cells_of_spacing, length_text(input.spacing_m));
   if (cell < 0.5 * input.noise_m) {
     cell = 0.5 * input.noise_m;
-    reason = fmt::format("half the noise, {}", mm(input.noise_m));
+    reason = fmt::format("half the noise, {}", length_text(input.noise_m));
   }
   widen_for_few(input, longest, cell, reason);
   if (cell < longest / 600.0) {
     cell = longest / 600.0;
-    reason = fmt::format("a 600th of the longest side, {}", mm(longest));
+    reason = fmt::format("a 600th of the longest side, {}", length_text(longest));
   }
   const double past = std::min(input.seen_past_m, longest * kDeepest / kDeeperThanSeenPast);
   if (cell < past / kSeenPastPerCell) {
     cell = past / kSeenPastPerCell;
     reason = fmt::format("an {:g}th of the {} that frames see past what others measured",
-                         kSeenPastPerCell, mm(past));
+                         kSeenPastPerCell, length_text(past));
   }
   if (input.grid) {
     cell = longest / *input.grid;
-    reason = fmt::format("voxel-grid {} along {}", *input.grid, mm(longest));
+    reason = fmt::format("voxel-grid {} along {}", *input.grid, length_text(longest));
   }
   scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
   // Many views outvote one that is misplaced; few do not.
   const double few = few_views(input) ? 27.0 / double(input.views.size() + 1) : 0.0;
   double truncation = std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m);
   reason = fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
-                       mm(input.noise_m));
+                       length_text(input.noise_m));
   if (truncation < kDeeperThanSeenPast * past) {
     truncation = kDeeperThanSeenPast * past;
     reason = fmt::format("{:g} times the {} that frames see past what others measured",
-                         kDeeperThanSeenPast, mm(past));
+                         kDeeperThanSeenPast, length_text(past));
   }
   scale.truncation_m = choose("truncation", options.truncation_m, truncation, reason);
   scale.full_weight_behind_m = scale.truncation_m * 2.0 / 3.0;

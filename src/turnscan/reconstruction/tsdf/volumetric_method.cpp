@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/geometry/grid/isosurface.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
 #include <turnscan/reconstruction/estimation/seen_past.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
-#include <turnscan/reconstruction/length_text.hpp>
 #include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
@@ -302,10 +302,10 @@ Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& 
   out.notes.push_back(
       noisier ? fmt::format("the frames' places disagree by {}, which the first frames did not "
                             "show: the volume was made again",
-                            mm(noise))
+                            length_text(noise))
               : fmt::format("frames see {} deep past what others measured, which the first frames "
                             "did not show: the volume was made again",
-                            mm(found.seen_past_m)));
+                            length_text(found.seen_past_m)));
   scale_ = scale;
   Integrator integrator(scale_.volume);
   const std::span<const views::DepthView> all(input_.views);

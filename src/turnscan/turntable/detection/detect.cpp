@@ -13,8 +13,6 @@ constexpr std::size_t kLeastPixels = 150;
 constexpr std::size_t kMostRefined = 3;
 constexpr double kLeastWorth = 0.35;  // of the best candidate's
 
-std::string mm(double metres) { return length_text(metres); }
-
 Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels) {
   Vec3d sum = Vec3d::Zero();
   for (const std::int32_t i : pixels) sum += scan.point[std::size_t(i)].cast<double>();
@@ -173,7 +171,7 @@ class PlatterDetector {
       return fail(ErrorCode::kMissingData,
                   "platter: too little of the best disc (radius {}) and its rim is seen to measure "
                   "it; move the sensor nearer or higher, or give points with --points",
-                  mm(*unmeasured_m_));
+                  length_text(*unmeasured_m_));
     if (best == nullptr)
       return fail(ErrorCode::kMissingData,
                   "platter: none of the {} planes seen has a round rim; make room around the "
@@ -193,23 +191,23 @@ class PlatterDetector {
       return fail(ErrorCode::kMissingData,
                   "platter: only {:.0f} % of the rim of the best disc (radius {}) is seen; move "
                   "what hides it, or give points with --points",
-                  100.0 * p.rim_share, mm(p.radius_m));
+                  100.0 * p.rim_share, length_text(p.radius_m));
     if (!(c.support.agreement >= options_.min_agreement))
       return fail(ErrorCode::kMissingData,
                   "platter: the best disc (radius {}) is not round, only {:.0f} % of what is seen "
                   "beside its rim fits it; make room around the platter, or give points with "
                   "--points",
-                  mm(p.radius_m), 100.0 * c.support.agreement);
+                  length_text(p.radius_m), 100.0 * c.support.agreement);
     if (!(p.confidence >= options_.min_confidence))
       return fail(ErrorCode::kMissingData,
                   "platter: the best disc (radius {}) is doubtful, confidence {:.2f}; make room "
                   "around the platter, or give points with --points",
-                  mm(p.radius_m), p.confidence);
+                  length_text(p.radius_m), p.confidence);
     if (!(p.axis_sigma_rad < 0.01 && p.center_sigma_m < 0.003))
       return fail(ErrorCode::kMissingData,
                   "platter: the best disc (radius {}) is too coarse to measure, its centre is "
                   "uncertain by {}; move the sensor nearer or higher",
-                  mm(p.radius_m), mm(p.center_sigma_m));
+                  length_text(p.radius_m), length_text(p.center_sigma_m));
     return {};
   }
 
@@ -222,7 +220,7 @@ class PlatterDetector {
     return fail(ErrorCode::kMissingData,
                 "platter: two round surfaces are seen, of radius {} and {}; say which with "
                 "--platter-radius",
-                mm(a.platter.radius_m), mm(b.platter.radius_m));
+                length_text(a.platter.radius_m), length_text(b.platter.radius_m));
   }
 
   CameraIntrinsics camera_;
@@ -263,7 +261,7 @@ Result<DetectedPlatter> detect_platter(const AveragedScan& scan, const DetectOpt
   if (options.min_radius_m > options.max_radius_m)
     return fail(ErrorCode::kInvalidOption,
                 "platter-min-radius = {} is above platter-max-radius = {}",
-                detection::mm(options.min_radius_m), detection::mm(options.max_radius_m));
+                length_text(options.min_radius_m), length_text(options.max_radius_m));
   return detection::PlatterDetector(scan, options).run(context);
 }
 

@@ -355,14 +355,6 @@ class Judge {
 
 }  // namespace
 
-std::vector<std::uint8_t> measured_vertices(const ObjectResult& object) {
-  std::vector<std::uint8_t> out(object.mesh.vertices.size(), 1);
-  for (std::size_t t = 0; t < object.evidence.size(); ++t)
-    if (object.evidence[t] != Evidence::kMeasured)
-      for (const std::uint32_t v : object.mesh.triangles[t]) out[v] = 0;
-  return out;
-}
-
 Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames>& frames,
                         double noise_m, const RunContext& context, ScanKnowledge& known) {
   std::vector<SequenceView> sequences;

@@ -10,9 +10,6 @@
 
 namespace turnscan {
 
-/// 1 for each vertex all of whose triangles were measured, as far as the evidence is known.
-std::vector<std::uint8_t> measured_vertices(const ObjectResult& object);
-
 /// What is known of a scan besides its meshes.
 struct ScanKnowledge {
   std::optional<TurnSeen> turn;               ///< of the pass that shows most
