@@ -17,8 +17,7 @@ constexpr std::size_t kMaxCavities = 64;
 
 class MeshChecker {
  public:
-  explicit MeshChecker(const TriangleMesh& mesh)
-      : mesh_(mesh), use_(mesh.triangles.size(), 0), places_(mesh.vertices.size(), 0) {}
+  explicit MeshChecker(const TriangleMesh& mesh) : mesh_(mesh), use_(mesh.triangles.size(), 0) {}
 
   MeshReport run() {
     report_.vertices = mesh_.vertices.size();
@@ -33,12 +32,6 @@ class MeshChecker {
     report_.outward =
         report_.closed && report_.manifold && report_.oriented && pieces_face_outward();
     return report_;
-  }
-
-  std::vector<std::uint8_t> non_manifold_places() {
-    classify_triangles();
-    count_edges_and_fans();
-    return std::move(places_);
   }
 
  private:
@@ -78,10 +71,7 @@ class MeshChecker {
       const auto around = edges.half_edges(e);
       report_.boundary_edges += around.size() == 1;
       report_.non_manifold_edges += around.size() > 2;
-      const bool misoriented = around.size() == 2 && origin(around[0]) == origin(around[1]);
-      report_.misoriented_edges += misoriented;
-      if (around.size() != 2 || misoriented)
-        places_[origin(around[0])] = places_[origin(next_in_triangle(around[0]))] = 1;
+      report_.misoriented_edges += around.size() == 2 && origin(around[0]) == origin(around[1]);
       for (std::size_t i = 1; i < around.size(); ++i) join_corners(fans, around[0], around[i]);
     }
     std::vector<std::uint8_t> fans_at(mesh_.vertices.size(), 0);
@@ -89,7 +79,6 @@ class MeshChecker {
       if (!use_[h / 3] || fans.root(h) != h) continue;
       std::uint8_t& count = fans_at[origin(h)];
       report_.non_manifold_vertices += count == 1;
-      if (count == 1) places_[origin(h)] = 1;
       count = std::min<std::uint8_t>(2, count + 1);
     }
   }
@@ -156,8 +145,7 @@ class MeshChecker {
 
   const TriangleMesh& mesh_;
   MeshReport report_;
-  std::vector<std::uint8_t> use_;     // per triangle: takes part in edges
-  std::vector<std::uint8_t> places_;  // see non_manifold_places()
+  std::vector<std::uint8_t> use_;  // per triangle: takes part in edges
   std::vector<std::uint32_t> piece_;
   std::vector<double> volumes_;
   std::vector<Vec3d> anchors_;  // a vertex of each piece
@@ -166,10 +154,6 @@ class MeshChecker {
 }  // namespace
 
 MeshReport check_mesh(const TriangleMesh& mesh) { return MeshChecker(mesh).run(); }
-
-std::vector<std::uint8_t> non_manifold_places(const TriangleMesh& mesh) {
-  return MeshChecker(mesh).non_manifold_places();
-}
 
 std::string MeshReport::text() const {
   std::string text = triangles == 0 ? "empty" : watertight() ? "watertight" : "not watertight";

@@ -6,7 +6,6 @@
 #include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
-#include <vector>
 
 namespace turnscan {
 
@@ -44,9 +43,5 @@ struct MeshReport {
 
 /// Never fails, whatever the mesh holds. O(triangles); about 0.3 s for a million triangles.
 MeshReport check_mesh(const TriangleMesh& mesh);
-
-/// One flag a vertex: 1 at the ends of edges that are not of two triangles in opposite directions,
-/// and where the triangles form more than one fan.
-std::vector<std::uint8_t> non_manifold_places(const TriangleMesh& mesh);
 
 }  // namespace turnscan

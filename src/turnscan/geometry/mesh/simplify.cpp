@@ -11,9 +11,7 @@ namespace turnscan {
 namespace {
 
 constexpr int kTries = 5;
-constexpr int kRingsKept = 2;  ///< of triangles about a place where edges fold together
 
-/// The vertices are those of the mesh, used or not.
 TriangleMesh collapse(const TriangleMesh& mesh, const std::vector<std::uint8_t>& keep,
                       std::size_t triangles, float relative_error) {
   std::vector<unsigned int> from, kept;
@@ -32,28 +30,8 @@ TriangleMesh collapse(const TriangleMesh& mesh, const std::vector<std::uint8_t>&
   out.triangles.clear();
   for (std::size_t i = 0; i + 2 < to.size(); i += 3)
     out.triangles.push_back({to[i], to[i + 1], to[i + 2]});
+  mesh::compact_vertices(out);
   return out;
-}
-
-bool any(const std::vector<std::uint8_t>& flags) {
-  return std::find(flags.begin(), flags.end(), 1) != flags.end();
-}
-
-/// Collapses as far as the error allows, but for the places where edges fold together. Empty where
-/// that does not end.
-TriangleMesh collapse_around_folds(const TriangleMesh& mesh, std::vector<std::uint8_t> keep,
-                                   float error) {
-  keep.resize(mesh.triangles.size(), 0);
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    TriangleMesh out = collapse(mesh, keep, 0, error);
-    std::vector<std::uint8_t> folds = non_manifold_places(out);
-    if (!any(folds)) {
-      mesh::compact_vertices(out);
-      return check_mesh(out).watertight() ? out : TriangleMesh();
-    }
-    mark_triangles_about(mesh, std::move(folds), kRingsKept, keep);
-  }
-  return {};
 }
 
 /// Collapses do not look whether edges fold together: parts the surface there and closes the cuts.
@@ -89,11 +67,8 @@ Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal
       meshopt_simplifyScale(mesh.vertices.data()->data(), mesh.vertices.size(), sizeof(Vec3f)));
   const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;
   const auto error = static_cast<float>(std::min(relative, 1e10));
-  if (watertight && target == 0)
-    if (TriangleMesh out = collapse_around_folds(mesh, goal.keep, error); !out.empty()) return out;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     TriangleMesh out = collapse(mesh, goal.keep, target, error);
-    mesh::compact_vertices(out);
     if (!out.empty() && (!watertight || check_mesh(out).watertight())) return out;
     if (auto mended = mend(out, pieces); mended) return *mended;
     // Collapses are made in order of error: fewer of them end before the one that did harm.
@@ -101,23 +76,6 @@ Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal
     target += (n - target) / 2;
   }
   return mesh;
-}
-
-void mark_triangles_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices, int rings,
-                          std::vector<std::uint8_t>& triangles) {
-  triangles.resize(mesh.triangles.size(), 0);
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<std::size_t> touched;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& corners = mesh.triangles[t];
-      if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return vertices[v] != 0; }))
-        touched.push_back(t);
-    }
-    for (const std::size_t t : touched) {
-      triangles[t] = 1;
-      for (const auto v : mesh.triangles[t]) vertices[v] = 1;
-    }
-  }
 }
 
 }  // namespace turnscan

@@ -19,14 +19,9 @@ struct SimplifyGoal {
 /// Collapses edges by quadric error (Garland and Heckbert 1997; meshoptimizer) until the goal is
 /// met. Vertices stay where they are, with their attributes; triangles keep their order of
 /// vertices. A watertight mesh stays watertight, which is checked: where edges fold together,
-/// the triangles about them are kept if no number is asked for, else the surface is parted and the
-/// cuts are closed; if that does not help it ends sooner, at worst where it began. Other meshes
-/// keep their borders.
+/// the surface is parted and the cuts are closed, and if that does not help it ends sooner, at
+/// worst where it began. Other meshes keep their borders.
 /// Fails with kFormat as validate_mesh does. Deterministic.
 Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal);
-
-/// Sets the flags of the triangles in the rings about the vertices that are marked.
-void mark_triangles_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices, int rings,
-                          std::vector<std::uint8_t>& triangles);
 
 }  // namespace turnscan

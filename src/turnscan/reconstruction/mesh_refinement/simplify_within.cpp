@@ -61,6 +61,23 @@ std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const std::vector<
   return out;
 }
 
+/// Marks the triangles of some rings about vertices.
+void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
+                std::vector<std::uint8_t>& keep) {
+  for (int ring = 0; ring < kRingsKept; ++ring) {
+    std::vector<std::size_t> touched;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& corners = mesh.triangles[t];
+      if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return vertices[v] != 0; }))
+        touched.push_back(t);
+    }
+    for (const std::size_t t : touched) {
+      keep[t] = 1;
+      for (const auto v : mesh.triangles[t]) vertices[v] = 1;
+    }
+  }
+}
+
 }  // namespace
 
 /// Quadrics only estimate how far a surface strays: it is measured, and tried again with a smaller
@@ -86,7 +103,7 @@ Result<TriangleMesh> simplify_within(const TriangleMesh& full, const SimplifyGoa
     if (double(far) > kFewStrays * double(strays.size())) {
       goal.max_error_m *= 0.5;
     } else {
-      mark_triangles_about(full, std::move(strays), kRingsKept, goal.keep);
+      keep_about(full, std::move(strays), goal.keep);
     }
   }
   return full;
