@@ -67,7 +67,9 @@ namespace turnscan {
 void set_thread_count(int count) {
   using oneapi::tbb::global_control;
   static std::mutex mutex;
-  static std::unique_ptr<global_control> control;
+  // Never destroyed: after TBB has failed to allocate within a lock of its own, its destructor
+  // waits for that lock for ever, and the process would not end.
+  static auto& control = *new std::unique_ptr<global_control>;
   std::lock_guard lock(mutex);
   control.reset();
   if (count > 0) {
