@@ -5,9 +5,10 @@
 option(TURNSCAN_PRECOMPILE "Build the libraries and programs with precompiled headers" ON)
 
 set(TURNSCAN_COMMON_HEADERS
-    <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstring> <filesystem> <functional>
-    <limits> <map> <memory> <mutex> <numbers> <optional> <span> <string> <string_view> <thread>
-    <vector> <Eigen/Dense> <fmt/format.h> <tl/expected.hpp>)
+    <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstring> <deque> <filesystem> <functional>
+    <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <span> <string> <string_view>
+    <thread> <variant> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>
+    <oneapi/tbb/blocked_range.h> <oneapi/tbb/parallel_for.h> <tl/expected.hpp>)
 
 # A source with flags of its own (an instruction set, say) cannot use them:
 # turnscan_source_options(SOURCE... OPTIONS option...)
@@ -29,6 +30,7 @@ endfunction()
 if(TURNSCAN_PRECOMPILE)
   add_library(turnscan_precompiled OBJECT "${CMAKE_CURRENT_LIST_DIR}/empty.cpp")
   target_link_libraries(turnscan_precompiled PRIVATE Eigen3::Eigen fmt::fmt tl::expected
+                                                     nlohmann_json::nlohmann_json TBB::tbb
                                                      turnscan_settings turnscan_warnings)
   turnscan_precompile(turnscan_precompiled ${TURNSCAN_COMMON_HEADERS})
 endif()

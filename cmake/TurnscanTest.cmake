@@ -8,7 +8,7 @@ add_custom_target(unit_tests)
 # programs.
 add_executable(turnscan_test_precompiled "${PROJECT_SOURCE_DIR}/cmake/empty.cpp")
 target_link_libraries(turnscan_test_precompiled PRIVATE Eigen3::Eigen fmt::fmt tl::expected
-                      GTest::gmock turnscan_settings turnscan_warnings)
+                      nlohmann_json::nlohmann_json TBB::tbb GTest::gmock turnscan_settings turnscan_warnings)
 turnscan_precompile(turnscan_test_precompiled ${TURNSCAN_COMMON_HEADERS} <gtest/gtest.h>
                     <gmock/gmock.h>)
 
