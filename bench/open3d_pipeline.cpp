@@ -158,13 +158,13 @@ double truncation(const Options& options) {
 /// Without the crumbs that stray pixels leave in the air: pieces of less than 2 % of the triangles
 /// of the largest, as for turnscan's own methods.
 open3d::geometry::TriangleMesh without_crumbs(open3d::geometry::TriangleMesh mesh) {
-  constexpr double kLeastShare = 0.02;
+  constexpr double kMinShare = 0.02;
   const auto [cluster, counts, areas] = mesh.ClusterConnectedTriangles();
   if (counts.empty()) return mesh;
   const auto most = double(*std::max_element(counts.begin(), counts.end()));
   std::vector<bool> crumb(cluster.size());
   for (std::size_t t = 0; t < crumb.size(); ++t)
-    crumb[t] = double(counts[std::size_t(cluster[t])]) < kLeastShare * most;
+    crumb[t] = double(counts[std::size_t(cluster[t])]) < kMinShare * most;
   mesh.RemoveTrianglesByMask(crumb);
   mesh.RemoveUnreferencedVertices();
   return mesh;

@@ -61,7 +61,7 @@ Result<std::vector<Pose>> consecutive(const std::vector<std::vector<Vec3f>>& clo
     correction[i] = correction[i - 1];
     const auto target = transformed(clouds[i - 1], correction[i - 1]);
     const auto found =
-        register_freely(clouds[i], target, correction[i - 1], method, kReach_m, kIterations);
+        pairwise_icp(clouds[i], target, correction[i - 1], method, kReach_m, kIterations);
     if (found) correction[i] = *found;
     context.advance();
   }
@@ -81,7 +81,7 @@ Result<std::vector<Pose>> global(const std::vector<std::vector<Vec3f>>& clouds, 
       others.insert(others.end(), part.begin(), part.end());
     }
     const auto found =
-        register_freely(clouds[i], others, Pose::Identity(), method, kReach_m, kIterations);
+        pairwise_icp(clouds[i], others, Pose::Identity(), method, kReach_m, kIterations);
     if (found) correction[i] = *found;
     context.advance();
   });

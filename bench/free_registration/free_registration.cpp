@@ -39,9 +39,9 @@ Result<Pose> align(pcl::Registration<pcl::PointXYZ, pcl::PointXYZ>& registration
 
 }  // namespace
 
-Result<Pose> register_freely(std::span<const Vec3f> source, std::span<const Vec3f> target,
-                             const Pose& start, FreeMethod method, double max_distance_m,
-                             int iterations) {
+Result<Pose> pairwise_icp(std::span<const Vec3f> source, std::span<const Vec3f> target,
+                          const Pose& start, FreeMethod method, double max_distance_m,
+                          int iterations) {
   const Cloud::Ptr from = cloud_of(source), to = cloud_of(target);
   if (from->size() < 20 || to->size() < 20)
     return fail(ErrorCode::kTooFewPoints, "free registration: {} and {} points; 20 are needed",

@@ -16,8 +16,8 @@ enum class FreeMethod {
 /// T_target_source that moves the source onto the target, from `start` on. Pairs farther apart than
 /// max_distance_m are not used. Fails with kTooFewPoints for fewer than 20 points on either side,
 /// kLibrary when PCL does not converge.
-Result<Pose> register_freely(std::span<const Vec3f> source, std::span<const Vec3f> target,
-                             const Pose& start, FreeMethod method, double max_distance_m,
-                             int iterations);
+Result<Pose> pairwise_icp(std::span<const Vec3f> source, std::span<const Vec3f> target,
+                          const Pose& start, FreeMethod method, double max_distance_m,
+                          int iterations);
 
 }  // namespace turnscan

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr float kSeamReach_m = 0.003f, kSeamCos = 0.9f;
 /// The step between two passes is that of their median distance over so much of the surface.
 constexpr float kSeamBlock_m = 0.02f;
-constexpr std::size_t kFewestOfBlock = 30;
+constexpr std::size_t kMinOfBlock = 30;
 
 /// Of all threads together; another program's work does not count.
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
@@ -107,7 +107,7 @@ std::pair<double, double> seam_of(const Pose& T_first_pass, const Pass& first, c
   if (all.empty()) return {};
   std::vector<double> steps;
   for (auto& [at, offsets] : blocks)
-    if (offsets.size() >= kFewestOfBlock) steps.push_back(std::abs(double(median(offsets))));
+    if (offsets.size() >= kMinOfBlock) steps.push_back(std::abs(double(median(offsets))));
   std::sort(steps.begin(), steps.end());
   return {1e3 * std::abs(double(median(all))),
           steps.empty() ? 0.0 : 1e3 * steps[std::size_t(0.9 * double(steps.size() - 1))]};

@@ -12,7 +12,7 @@ namespace {
 using namespace turnscan::objects;
 
 constexpr double kRadius_m = SolidCylinder::diameter_m / 2;
-constexpr double kLeastCosine = 0.70710678;
+constexpr double kMinCosine = 0.70710678;
 /// A character with a blank around it, so that a full stop is no block.
 constexpr int kColumns = kGlyphColumns + 2, kRows = kGlyphRows + 2;
 using Dots = Eigen::Matrix<double, kColumns * kRows, 1>;
@@ -42,7 +42,7 @@ class Reader {
   bool faces(double angle, double y) const {
     const Vec3d normal(std::sin(angle), 0.0, std::cos(angle));
     const Vec3d p = T_ * Vec3d(kRadius_m * normal + y * Vec3d::UnitY());
-    return -(T_.linear() * normal).dot(p.normalized()) > kLeastCosine;
+    return -(T_.linear() * normal).dot(p.normalized()) > kMinCosine;
   }
 
   /// What stands there; left and base: of the character, metres along the label and above y = 0.

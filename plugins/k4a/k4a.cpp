@@ -11,7 +11,7 @@
 namespace turnscan::plugin {
 namespace {
 
-constexpr double kMostMisfit_px = 0.3;
+constexpr double kMaxMisfit_px = 0.3;
 constexpr int kSamples = 400;
 
 std::string serial_of(k4a_device_t device) {
@@ -139,7 +139,7 @@ void turnscan_device::describe(turnscan_device_info& info) const {
   const auto& parameters = from.intrinsics.parameters.param;
   double k[3] = {};
   const double misfit = fit_polynomial(from, k);
-  if (!(misfit <= kMostMisfit_px))
+  if (!(misfit <= kMaxMisfit_px))
     throw Failure{TURNSCAN_UNSUPPORTED,
                   "the lens of this mode is not described well enough by turnscan's model (" +
                       std::to_string(misfit) + " pixels off); use mode=nfov"};

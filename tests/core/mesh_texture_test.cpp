@@ -47,10 +47,10 @@ TEST(MeshTexture, SplittingItsSeamsAndWeldingThemGivesTheMeshAgain) {
   const TriangleMesh mesh = textured();
   SplitMesh split = split_at_seams(mesh);
   EXPECT_EQ(split.mesh.vertices.size(), 12u);
-  ASSERT_EQ(split.places.size(), 12u);
+  ASSERT_EQ(split.uvs.size(), 12u);
   for (std::size_t t = 0; t < 4; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(split.places[split.mesh.triangles[t][k]], mesh.texture->corners[t][k]);
+      EXPECT_EQ(split.uvs[split.mesh.triangles[t][k]], mesh.texture->corners[t][k]);
       EXPECT_EQ(split.mesh.vertices[split.mesh.triangles[t][k]],
                 mesh.vertices[mesh.triangles[t][k]]);
     }

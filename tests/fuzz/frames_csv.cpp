@@ -2,7 +2,7 @@
 // every second frame as dropped changes nothing else.
 
 #include <turnscan/recording/frames_csv.hpp>
-#include <turnscan/recording/mended_table.hpp>
+#include <turnscan/recording/repaired_frames_csv.hpp>
 
 #include "tests/fuzz/checks.hpp"
 
@@ -22,7 +22,8 @@ TURNSCAN_FUZZ_TARGET(frames_csv) {
                   "the names of the files");
     if (i % 2 == 0) table->rows[i].info.status = FrameStatus::kDropped;
   }
-  const auto mended = mended_table(text.substr(0, text.find_last_not_of('\0') + 1), table->rows, 3);
+  const auto mended =
+      repaired_frames_csv(text.substr(0, text.find_last_not_of('\0') + 1), table->rows, 3);
   fuzz::require(bool(mended), "a table that can be mended");
   return 0;
 }

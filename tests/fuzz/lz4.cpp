@@ -8,8 +8,8 @@
 
 TURNSCAN_FUZZ_TARGET(lz4) {
   using namespace turnscan;
-  constexpr std::size_t kMost = 1 << 20;
-  const auto bytes = lz4::decode(fuzz::text_of(data, size), kMost);
-  fuzz::require(!bytes || bytes->size() <= kMost, "size");
+  constexpr std::size_t kMax = 1 << 20;
+  const auto bytes = lz4::decode(fuzz::text_of(data, size), kMax);
+  fuzz::require(!bytes || bytes->size() <= kMax, "size");
   return 0;
 }

@@ -7,8 +7,8 @@
 
 TURNSCAN_FUZZ_TARGET(lzfse) {
   using namespace turnscan;
-  constexpr std::size_t kMost = 1 << 20;
-  const auto bytes = lzfse::decode(fuzz::text_of(data, size), kMost);
-  fuzz::require(!bytes || bytes->size() <= kMost, "size");
+  constexpr std::size_t kMax = 1 << 20;
+  const auto bytes = lzfse::decode(fuzz::text_of(data, size), kMax);
+  fuzz::require(!bytes || bytes->size() <= kMax, "size");
   return 0;
 }

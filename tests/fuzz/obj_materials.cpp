@@ -24,8 +24,7 @@ TURNSCAN_FUZZ_TARGET(obj_materials) {
     if (!mesh.texture) continue;
     fuzz::require(has_texture(mesh), "a texture that fits its triangles");
     for (const auto& corners : mesh.texture->corners)
-      for (const Eigen::Vector2f& place : corners)
-        fuzz::require(place.allFinite(), "finite places");
+      for (const Eigen::Vector2f& place : corners) fuzz::require(place.allFinite(), "finite uvs");
     (void)split_at_seams(mesh);
   }
   return 0;

@@ -96,12 +96,12 @@ constexpr turnscan_plugin kDriver{TURNSCAN_PLUGIN_VERSION,
                                   stop_it,
                                   stop_it};
 
-constexpr int kMostFrames = 12;
+constexpr int kMaxFrames = 12;
 
 /// The frames that the recording took.
 std::vector<Frame> record(source::Grabber& device, RecordingWriter& writer) {
   std::vector<Frame> taken;
-  for (std::uint32_t i = 0; i < kMostFrames; ++i) {
+  for (std::uint32_t i = 0; i < kMaxFrames; ++i) {
     auto delivery = device.grab(0.01);
     if (!delivery || delivery->kind == Delivery::Kind::kEnd) break;
     if (delivery->kind != Delivery::Kind::kFrame) continue;

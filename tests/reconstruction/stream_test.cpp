@@ -136,8 +136,9 @@ TEST(ReconstructionStream, AGridLiesAlongWhatTheFirstFramesShow) {
   options.voxels.grid = 40;
   const auto result = streamed(ball(64), options, 10);
   ASSERT_TRUE(result);
-  const auto choice = std::find_if(result->choices.begin(), result->choices.end(),
-                                   [](const Choice& c) { return c.option == "voxel-size"; });
+  const auto choice =
+      std::find_if(result->choices.begin(), result->choices.end(),
+                   [](const ResolvedParameter& c) { return c.option == "voxel-size"; });
   ASSERT_NE(choice, result->choices.end());
   double size = 0.0;
   const char* text = choice->value.c_str();

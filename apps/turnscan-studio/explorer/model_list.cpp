@@ -23,7 +23,7 @@ namespace turnscan::studio {
 namespace {
 
 constexpr int kIdRole = Qt::UserRole;
-constexpr int kFewestRows = 3, kMostRows = 8;  // that are seen at once
+constexpr int kMinRows = 3, kMaxRows = 8;  // that are seen at once
 
 QIcon swatch(const Model& model) {
   QPixmap picture(28, 28);
@@ -169,7 +169,7 @@ void ModelList::fill() {
 
 /// As high as what is in it: the verdict below is what people look for.
 void ModelList::fit_height() {
-  const int rows = std::clamp(tree_->topLevelItemCount(), kFewestRows, kMostRows);
+  const int rows = std::clamp(tree_->topLevelItemCount(), kMinRows, kMaxRows);
   const int row =
       tree_->topLevelItemCount() > 0 ? tree_->visualItemRect(tree_->topLevelItem(0)).height() : 24;
   tree_->setFixedHeight(rows * row + 2 * tree_->contentsMargins().top());

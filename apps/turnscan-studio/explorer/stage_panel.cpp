@@ -142,8 +142,8 @@ QString StagePanel::first_error() const {
   return {};
 }
 
-void StagePanel::show_used(const std::vector<Choice>& choices) {
-  for (const Choice& choice : choices)
+void StagePanel::show_used(const std::vector<ResolvedParameter>& choices) {
+  for (const ResolvedParameter& choice : choices)
     for (const auto& [stage, form] : forms_)
       form->show_used(QString::fromStdString(choice.option), QString::fromStdString(choice.value),
                       QString::fromStdString(choice.reason));

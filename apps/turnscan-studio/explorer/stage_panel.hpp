@@ -12,7 +12,7 @@ class QPushButton;
 
 namespace turnscan {
 class OptionTable;
-struct Choice;
+struct ResolvedParameter;
 struct ReconstructOptions;
 }  // namespace turnscan
 
@@ -32,7 +32,7 @@ class StagePanel : public QWidget {
   /// Empty, or the first thing that is wrong with the options.
   QString first_error() const;
   /// What the automatic values were.
-  void show_used(const std::vector<Choice>& choices);
+  void show_used(const std::vector<ResolvedParameter>& choices);
   void show_error(const QString& text);
   void add_error(const QString& text);
   /// What is to stay in sight.

@@ -16,8 +16,8 @@ inline const std::string kMeshStage = "mesh";
 
 struct StageRun {
   NamedModels models;
-  std::vector<Choice> choices;  ///< automatic values as they were used
-  QString not_joined;           ///< why passes are apart, each in a model of its own; else empty
+  std::vector<ResolvedParameter> choices;  ///< automatic values as they were used
+  QString not_joined;  ///< why passes are apart, each in a model of its own; else empty
 };
 
 /// Runs the pipeline on a recording or a cloud up to a stage. For a recording the results are those

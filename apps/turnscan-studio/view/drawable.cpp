@@ -133,15 +133,14 @@ vtkSmartPointer<vtkPolyData> make_surface(const TriangleMesh& mesh) {
 vtkSmartPointer<vtkPolyData> make_textured(const TriangleMesh& mesh) {
   const SplitMesh split = split_at_seams(mesh);
   auto data = make_surface(split.mesh);
-  vtkNew<vtkFloatArray> places;
-  places->SetName("Places");
-  places->SetNumberOfComponents(2);
-  places->SetNumberOfTuples(vtkIdType(split.places.size()));
+  vtkNew<vtkFloatArray> uvs;
+  uvs->SetName("Places");
+  uvs->SetNumberOfComponents(2);
+  uvs->SetNumberOfTuples(vtkIdType(split.uvs.size()));
   static_assert(sizeof(Eigen::Vector2f) == 2 * sizeof(float));
-  if (!split.places.empty())
-    std::memcpy(places->GetPointer(0), split.places.data(),
-                split.places.size() * sizeof(Eigen::Vector2f));
-  data->GetPointData()->SetTCoords(places);
+  if (!split.uvs.empty())
+    std::memcpy(uvs->GetPointer(0), split.uvs.data(), split.uvs.size() * sizeof(Eigen::Vector2f));
+  data->GetPointData()->SetTCoords(uvs);
   return data;
 }
 

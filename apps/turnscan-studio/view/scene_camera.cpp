@@ -48,8 +48,8 @@ bool SceneView::sees(const Box& box) const {
     if (!at || !QRectF(rect()).contains(*at)) return false;
     seen = seen.united(QRectF(*at, QSizeF(1e-3, 1e-3)));
   }
-  constexpr double kLeastShare = 0.05;
-  return std::max(seen.width(), seen.height()) > kLeastShare * std::min(width(), height());
+  constexpr double kMinShare = 0.05;
+  return std::max(seen.width(), seen.height()) > kMinShare * std::min(width(), height());
 }
 
 void SceneView::bring_into_view(const Box& box) {

@@ -6,7 +6,7 @@ void MessageLog::add(const QString& text, bool error) {
   if (text.isEmpty()) return;
   if (!entries_.empty() && entries_.back().text == text && entries_.back().error == error) return;
   entries_.push_back({QDateTime::currentDateTime(), error, text});
-  if (entries_.size() > kMost) entries_.pop_front();
+  if (entries_.size() > kMax) entries_.pop_front();
   Q_EMIT added();
 }
 

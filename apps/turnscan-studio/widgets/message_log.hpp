@@ -8,11 +8,11 @@
 
 namespace turnscan::studio {
 
-/// Errors and lines of the status bar, oldest first; the last kMost of them. Thread of the window.
+/// Errors and lines of the status bar, oldest first; the last kMax of them. Thread of the window.
 class MessageLog : public QObject {
   Q_OBJECT
  public:
-  static constexpr std::size_t kMost = 1000;
+  static constexpr std::size_t kMax = 1000;
   struct Entry {
     QDateTime time;
     bool error = false;

@@ -58,7 +58,7 @@ class ImportCommand : public Command {
   static std::string layouts_text() {
     workflow::TextTable table({0, 1});
     table.add({"format", "layout"});
-    for (const ImporterInfo& importer : importers())
+    for (const ImporterInfo& importer : importer_list())
       table.add({std::string(importer.name), std::string(importer.help)});
     return table.text();
   }

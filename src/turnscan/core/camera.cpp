@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxUndistortSteps = 200;
 
-constexpr double kMostSlope = 10.0;  // 84 degrees from the axis
+constexpr double kMaxSlope = 10.0;  // 84 degrees from the axis
 
 using Distortion = std::array<double, 8>;
 
@@ -51,7 +51,7 @@ RadiusBracket bracket(const Distortion& d, double distorted) {
   const auto covered = [&](double r) { return radial_factor(d, r * r).covers(r * r); };
   const auto distorts_to = [&](double r) { return r * radial_factor(d, r * r).value; };
   for (int i = 1; i <= kSteps; ++i) {
-    double low = kMostSlope * (i - 1) / kSteps, high = kMostSlope * i / kSteps;
+    double low = kMaxSlope * (i - 1) / kSteps, high = kMaxSlope * i / kSteps;
     if (covered(high)) {
       if (distorts_to(high) >= distorted) return {low, high, true};
       continue;
@@ -64,7 +64,7 @@ RadiusBracket bracket(const Distortion& d, double distorted) {
     const bool reached = distorts_to(low) >= distorted;
     return {reached ? begin : low, low, reached};
   }
-  return {kMostSlope, kMostSlope, false};
+  return {kMaxSlope, kMaxSlope, false};
 }
 
 /// The radius of which r * factor is `distorted`, by Newton's method between the two.

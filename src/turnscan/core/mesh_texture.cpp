@@ -100,11 +100,11 @@ SplitMesh split_at_seams(const TriangleMesh& mesh) {
       const std::uint32_t v = mesh.triangles[t][k];
       const Eigen::Vector2f& place = mesh.texture->corners[t][k];
       std::uint32_t at = first[v];
-      while (at != kNone && out.places[at] != place) at = next[at];
+      while (at != kNone && out.uvs[at] != place) at = next[at];
       if (at == kNone) {
         at = std::uint32_t(names.size());
         names.push_back(v);
-        out.places.push_back(place);
+        out.uvs.push_back(place);
         next.push_back(first[v]);
         first[v] = at;
       }

@@ -32,7 +32,7 @@ Vec3f texture_at(const TriangleMesh& mesh, std::uint32_t triangle, float u, floa
 /// files want it. Normals and colours are copied. Precondition: has_texture(mesh).
 struct SplitMesh {
   TriangleMesh mesh;  ///< without texture
-  std::vector<Eigen::Vector2f> places;
+  std::vector<Eigen::Vector2f> uvs;
 };
 SplitMesh split_at_seams(const TriangleMesh& mesh);
 

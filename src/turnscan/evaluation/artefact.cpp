@@ -24,9 +24,9 @@ using Fit = std::function<std::optional<Surface>(const std::vector<Vec3d>&, cons
 constexpr double kRejected = 0.003;   // VDI/VDE 2634 part 2
 constexpr double kRejected95 = 0.05;  // ISO 10360-13
 constexpr std::size_t kSamples = 200000;
-constexpr std::size_t kLeastPoints = 100;
-constexpr double kLeastCovered = 0.05;  // of a sphere; what one view sees is about a third
-constexpr double kReach = 0.15;         // of a ball's radius: what is farther is not of the ball
+constexpr std::size_t kMinPoints = 100;
+constexpr double kMinCovered = 0.05;  // of a sphere; what one view sees is about a third
+constexpr double kReach = 0.15;       // of a ball's radius: what is farther is not of the ball
 constexpr double kPlateReach_m = 5e-3;
 constexpr double kBandSigmas = 6.0;
 
@@ -81,7 +81,7 @@ std::optional<Selection> settle(const Points& points, Surface& surface, double r
     Selection next = select_points(points, surface, reach, band, usable);
     const bool same = next.points.size() == selection.points.size();
     selection = std::move(next);
-    if (selection.points.size() < kLeastPoints) return std::nullopt;
+    if (selection.points.size() < kMinPoints) return std::nullopt;
     const std::optional<Surface> fitted = fit(selection.points, surface);
     if (!fitted) return std::nullopt;
     surface = *fitted;
@@ -153,7 +153,7 @@ class BallMeasurement {
     ball.size_error_m = ball.diameter_m - diameter_m_;
     ball.covered = covered(selection->points, sphere.center);
     const bool right_size = std::abs(ball.size_error_m) < 0.1 * diameter_m_;
-    if (!right_size || ball.covered < kLeastCovered) return std::nullopt;
+    if (!right_size || ball.covered < kMinCovered) return std::nullopt;
     return ball;
   }
 
@@ -240,7 +240,7 @@ Result<> measure_plate(const Points& points, const ArtefactOptions& options,
     return fail(ErrorCode::kMissingData,
                 "artefact: no plane was found; check that the plate is in the scan");
   selection->points = artefact::within_margin(selection->points, *plane, options.margin_m);
-  if (selection->points.size() < kLeastPoints)
+  if (selection->points.size() < kMinPoints)
     return fail(ErrorCode::kTooFewPoints,
                 "artefact: {} points of the plate are left within its margin; choose a smaller "
                 "--plate-margin",
@@ -304,10 +304,10 @@ Result<ArtefactFigures> measure_artefact(const PointCloud& cloud, const Artefact
     points.positions.push_back(cloud.points[i].cast<double>());
     if (normals) points.normals.push_back(cloud.normals[i].cast<double>());
   }
-  if (points.positions.size() < kLeastPoints)
+  if (points.positions.size() < kMinPoints)
     return fail(ErrorCode::kTooFewPoints,
                 "artefact: the scan has {} points, and {} are needed; check the file",
-                points.positions.size(), kLeastPoints);
+                points.positions.size(), kMinPoints);
   ArtefactFigures figures;
   figures.artefact = options.artefact;
   TURNSCAN_TRY(options.artefact == Artefact::kPlate

@@ -10,14 +10,14 @@ namespace turnscan::artefact {
 
 namespace {
 
-constexpr std::size_t kMostScored = 20000;
-constexpr std::size_t kLeastSupport = 50;
+constexpr std::size_t kMaxScored = 20000;
+constexpr std::size_t kMinSupport = 50;
 constexpr std::uint64_t kSeed = 2634;
 constexpr std::uint64_t kTrials = 3000;
 
-/// About kMostScored of the points, evenly picked in their order.
+/// About kMaxScored of the points, evenly picked in their order.
 std::vector<std::size_t> thinned(std::size_t n) {
-  const std::size_t step = (n + kMostScored - 1) / kMostScored;
+  const std::size_t step = (n + kMaxScored - 1) / kMaxScored;
   std::vector<std::size_t> picked;
   for (std::size_t i = 0; i < n; i += std::max<std::size_t>(step, 1)) picked.push_back(i);
   return picked;
@@ -45,7 +45,7 @@ class Best {
       surface_ = surface;
     }
   }
-  std::optional<Surface> get() const { return count_ >= kLeastSupport ? surface_ : std::nullopt; }
+  std::optional<Surface> get() const { return count_ >= kMinSupport ? surface_ : std::nullopt; }
 
  private:
   std::size_t count_ = 0;
@@ -102,7 +102,7 @@ std::optional<Sphere> find_sphere(const Points& points, double radius,
     });
     if (!taken) picked.push_back(i);
   }
-  if (picked.size() < kLeastSupport) return std::nullopt;
+  if (picked.size() < kMinSupport) return std::nullopt;
   Best<Sphere> best;
   for (std::uint64_t trial = 0; trial < kTrials && !context.cancelled(); ++trial) {
     const Vec3d a = points.positions[draw(picked, trial, 0)];

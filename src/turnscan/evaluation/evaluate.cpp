@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kAlignSamples = 20000;
 constexpr std::size_t kChunk = 1024;  // samples between two looks at the context
-constexpr std::size_t kMostThresholds = 64;
+constexpr std::size_t kMaxThresholds = 64;
 
 Vec3f triangle_normal(const TriangleMesh& mesh, std::uint32_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
@@ -285,10 +285,10 @@ Result<std::vector<double>> parse_thresholds(std::string_view text) {
   while (true) {
     const std::size_t comma = text.find(',');
     TURNSCAN_ASSIGN(const double value, parse_quantity(text.substr(0, comma), Quantity::kLength));
-    if (!(value > 0.0) || thresholds.size() == kMostThresholds) {
+    if (!(value > 0.0) || thresholds.size() == kMaxThresholds) {
       return fail(ErrorCode::kInvalidOption,
                   "thresholds: '{}' is not allowed; give up to {} positive lengths, as 0.5mm,1mm",
-                  text, kMostThresholds);
+                  text, kMaxThresholds);
     }
     thresholds.push_back(value);
     if (comma == std::string_view::npos) break;

@@ -7,9 +7,9 @@
 #include <string>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/frame_batch.hpp>
+#include <turnscan/reconstruction/object_partition.hpp>
 #include <turnscan/reconstruction/options.hpp>
 #include <turnscan/reconstruction/result.hpp>
-#include <turnscan/reconstruction/table_share.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -18,7 +18,7 @@ namespace turnscan {
 struct PassInput {
   Pose T_object_table = Pose::Identity();
   const estimation::ScanEstimate& estimate;
-  const TableShare* share = nullptr;  ///< outlives the method; nullptr: all of the table
+  const ObjectPartition* share = nullptr;  ///< outlives the method; nullptr: all of the table
 };
 
 /// One thread adds and finishes; preview() may be called from others between begin() and finish().
@@ -60,7 +60,7 @@ struct MethodInput {
   bool whole = false;                   ///< there will be no others
   /// Where there are several passes: of the first. Otherwise all is in the table frame.
   std::optional<Pose> T_object_table;
-  const TableShare* share = nullptr;  ///< see PassInput
+  const ObjectPartition* share = nullptr;  ///< see PassInput
 };
 
 struct MethodEntry {

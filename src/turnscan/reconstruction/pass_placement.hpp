@@ -3,8 +3,8 @@
 
 #include <optional>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/reconstruction/object_partition.hpp>
 #include <turnscan/reconstruction/result.hpp>
-#include <turnscan/reconstruction/table_share.hpp>
 
 namespace turnscan {
 
@@ -16,7 +16,7 @@ struct PassPlacement {
   std::optional<TurntableInfo> turntable;  ///< that it was recorded on
   std::string name;                        ///< for people, e.g. "pass 1"
   std::optional<FoundMotion> found;        ///< nullopt: it was given, or is the first
-  std::optional<TableShare> share;         ///< other objects on its table are left out
+  std::optional<ObjectPartition> share;    ///< other objects on its table are left out
 };
 
 }  // namespace turnscan

@@ -125,7 +125,7 @@ std::string report_json(const Reconstruction& r, const ReconstructOptions& optio
     total += stage.seconds;
   }
   Json choices = Json::array();
-  for (const Choice& c : r.choices)
+  for (const ResolvedParameter& c : r.choices)
     choices.push_back({{"option", c.option}, {"value", c.value}, {"reason", c.reason}});
   Json objects = Json::array();
   for (const ObjectResult& o : r.objects) objects.push_back(object_json(o));

@@ -18,7 +18,7 @@
 namespace turnscan {
 
 /// A parameter as it was used.
-struct Choice {
+struct ResolvedParameter {
   std::string option;  ///< field name, e.g. "voxel-size"
   std::string value;   ///< with unit
   std::string reason;  ///< "given", or what in the data led to it
@@ -143,7 +143,7 @@ struct SeenSpace;
 
 struct Reconstruction {
   std::vector<ObjectResult> objects;  ///< largest first
-  std::vector<Choice> choices;
+  std::vector<ResolvedParameter> choices;
   std::vector<StageTime> stages;
   std::vector<FusedPass> passes;  ///< empty: there was but one
   std::vector<std::string> notes;

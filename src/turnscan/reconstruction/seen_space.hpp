@@ -7,7 +7,7 @@
 namespace turnscan {
 
 struct SeenSpace {
-  static constexpr std::size_t kMostViews = 40;
+  static constexpr std::size_t kMaxViews = 40;
 
   std::vector<views::DepthView> views;  ///< up to so many, evenly spread
   std::optional<double> floor_m;        ///< height of the platter, where there is one

@@ -96,9 +96,9 @@ class ReconstructionStream::Impl {
     if (first_frames_) TURNSCAN_TRY(start_with_what_is_there(context));
     for (const std::string& name : unused_options(options_))
       out_.notes.push_back(fmt::format("option {}: this method does not use it", name));
-    if (forgotten_ > 0)
+    if (discarded_ > 0)
       out_.notes.push_back(
-          fmt::format("the first {} frames show nothing on the platter", forgotten_));
+          fmt::format("the first {} frames show nothing on the platter", discarded_));
     TURNSCAN_TRY(method_->finish(sink, context, out_));
     TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
     TURNSCAN_TRY(finishing::reduce_triangles(options_, out_, context));
@@ -224,7 +224,7 @@ class ReconstructionStream::Impl {
     TURNSCAN_TRY(method_->add(
         first_frames_->posed_frames(), [&](std::size_t i) -> Result<Frame> { return frames[i]; },
         context, out_));
-    forgotten_ += first_frames_->forgotten();
+    discarded_ += first_frames_->discarded();
     first_frames_.reset();
     return first ? method_->begin(context) : Result<>();
   }
@@ -243,13 +243,13 @@ class ReconstructionStream::Impl {
     return {};
   }
 
-  const TableShare* share_of_table() const {
+  const ObjectPartition* share_of_table() const {
     return passes_.empty() || !passes_[pass_].share ? nullptr : &*passes_[pass_].share;
   }
 
   /// What a further pass's first frames led to.
   void note_pass(const estimation::ScanEstimate& estimate) {
-    for (Choice choice : estimate.choices) {
+    for (ResolvedParameter choice : estimate.choices) {
       choice.reason = fmt::format("{}: {}", passes_[pass_].name, choice.reason);
       out_.choices.push_back(std::move(choice));
     }
@@ -267,7 +267,7 @@ class ReconstructionStream::Impl {
   std::uint32_t pass_ = 0;                               ///< whose frames are being added
   std::optional<SequenceHeader> pass_header_;            ///< with its table, if passes are fused
   std::optional<estimation::FirstFrames> first_frames_;  ///< until their scale is known
-  std::size_t forgotten_ = 0;
+  std::size_t discarded_ = 0;
   std::mutex mutex_;  ///< guards the pointer method_
   std::unique_ptr<Method> method_;
   Reconstruction out_;

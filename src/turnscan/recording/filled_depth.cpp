@@ -9,9 +9,9 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMostFrames = 12;
-constexpr std::uint64_t kFewestRims = 200;
-constexpr float kLeastStrip_px = 6.0f;
+constexpr std::size_t kMaxSampledFrames = 12;
+constexpr std::uint64_t kMinRims = 200;
+constexpr float kMinStrip_px = 6.0f;
 constexpr float kRim_px = 0.7f;       // a step of disparity between neighbours that is a rim
 constexpr float kFarthest = 1.5f;     // widths of the strip within which the far surface begins
 constexpr float kStripMargin = 0.2f;  // of the strip, left out at both its ends
@@ -60,7 +60,7 @@ class Row {
       const float far = disparity_[std::size_t(x - k)];
       if (far == 0.0f) continue;
       const float width = near - far;
-      if (width >= kLeastStrip_px && float(k) <= kFarthest * width + 2.0f) return width;
+      if (width >= kMinStrip_px && float(k) <= kFarthest * width + 2.0f) return width;
     }
     return 0.0f;
   }
@@ -95,7 +95,7 @@ std::vector<std::size_t> chosen(const FrameSequence& sequence, std::uint32_t sen
     if (const FrameInfo& info = sequence.frames()[i];
         info.sensor == sensor && info.status == FrameStatus::kOk)
       all.push_back(i);
-  return evenly_spread(all, kMostFrames);
+  return evenly_spread(all, kMaxSampledFrames);
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ Result<std::optional<double>> filled_share(const FrameSequence& sequence, std::u
     for (std::size_t side = 0; side < all.size(); ++side) all[side] += one[side];
   double least = 1.0;
   for (const Strips& side : all) {
-    if (side.rims < kFewestRims || side.pixels == 0) return std::optional<double>();
+    if (side.rims < kMinRims || side.pixels == 0) return std::optional<double>();
     least = std::min(least, double(side.filled) / double(side.pixels));
   }
   return std::optional(least);

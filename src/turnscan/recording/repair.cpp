@@ -4,10 +4,10 @@
 #include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/recording/file_check.hpp>
 #include <turnscan/recording/frames_csv.hpp>
-#include <turnscan/recording/mended_table.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/recording/recording_json.hpp>
 #include <turnscan/recording/repair.hpp>
+#include <turnscan/recording/repaired_frames_csv.hpp>
 #include <turnscan/recording/table_lock.hpp>
 
 namespace turnscan::recording_format {
@@ -65,7 +65,7 @@ Result<NewTable> new_table(const fs::path& folder, const std::string& text, std:
   }
   report.done = table->notes;
   Inspection inspection = inspect(folder, std::move(table->rows), report);
-  TURNSCAN_ASSIGN(std::string mended, mended_table(text, inspection.rows, sensors));
+  TURNSCAN_ASSIGN(std::string mended, repaired_frames_csv(text, inspection.rows, sensors));
   return NewTable{std::move(mended), std::move(inspection.named), inspection.rows.size()};
 }
 

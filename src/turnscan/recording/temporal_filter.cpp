@@ -8,16 +8,16 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kFewestFrames = 240;
+constexpr std::size_t kMinFrames = 240;
 constexpr std::size_t kInARow = 24;
 constexpr std::size_t kApart = 8;  ///< frames over the whole sequence
-constexpr std::size_t kMostPixels = 40000;
-constexpr std::size_t kFewestPixels = 500;
+constexpr std::size_t kMaxPixels = 40000;
+constexpr std::size_t kMinPixels = 500;
 constexpr std::array<std::size_t, 3> kLags{1, 2, 4};
-constexpr double kStillRange = 5.0;     ///< deviations; eight normal values spread over 2.8
-constexpr double kLeastVariance = 0.5;  ///< steps of depth, squared: below it is mostly rounding
-constexpr double kMostMiss = 0.12;      ///< of the ratios
-constexpr double kTold = 0.3;           ///< a correlation from which it is said
+constexpr double kStillRange = 5.0;   ///< deviations; eight normal values spread over 2.8
+constexpr double kMinVariance = 0.5;  ///< steps of depth, squared: below it is mostly rounding
+constexpr double kMaxMiss = 0.12;     ///< of the ratios
+constexpr double kTold = 0.3;         ///< a correlation from which it is said
 
 /// The same pixels of all frames that are looked at, frame by frame; empty where one is missing.
 using Samples = std::vector<std::vector<std::uint16_t>>;
@@ -51,7 +51,7 @@ Result<Samples> read_samples(const FrameSequence& sequence,
     if (!frame) return;
     const auto& pixels = frame->depth.pixels;
     // An odd step does not keep to the columns.
-    const std::size_t step = pixels.size() / kMostPixels | 1U;
+    const std::size_t step = pixels.size() / kMaxPixels | 1U;
     for (std::size_t p = 0; p < pixels.size(); p += step) samples[i].push_back(pixels[p]);
   });
   TURNSCAN_TRY(context.check());
@@ -83,7 +83,7 @@ bool is_still(const std::array<double, kInARow + kApart>& x) {
   for (std::size_t i = 0; i < kInARow; ++i) squares += (x[i] - mean) * (x[i] - mean);
   const double variance = squares / double(kInARow - 1);
   const auto [low, high] = std::minmax_element(x.begin() + kInARow, x.end());
-  return variance >= kLeastVariance && *high - *low <= kStillRange * std::sqrt(variance);
+  return variance >= kMinVariance && *high - *low <= kStillRange * std::sqrt(variance);
 }
 
 /// Mean square of the second differences over `lag` frames.
@@ -116,7 +116,7 @@ std::optional<double> fit(double one_to_two, double one_to_four) {
                                    one / expected_square(r, 4) - one_to_four);
     if (miss < least) least = miss, best = r;
   }
-  return least <= kMostMiss ? std::optional(best) : std::nullopt;
+  return least <= kMaxMiss ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ Result<std::optional<double>> temporal_correlation(const FrameSequence& sequence
                                                    std::uint32_t sensor,
                                                    const RunContext& context) {
   const std::vector<std::size_t> frames = usable(sequence, sensor);
-  if (frames.size() < kFewestFrames ||
+  if (frames.size() < kMinFrames ||
       sequence.header().sensors[sensor].kind != SensorKind::kDepthCamera)
     return std::optional<double>();
   TURNSCAN_ASSIGN(const Samples samples, read_samples(sequence, chosen(frames), context));
@@ -141,7 +141,7 @@ Result<std::optional<double>> temporal_correlation(const FrameSequence& sequence
       one_to_four.push_back(one / four);
     }
   }
-  if (one_to_two.size() < kFewestPixels) return std::optional<double>();
+  if (one_to_two.size() < kMinPixels) return std::optional<double>();
   return fit(middle(one_to_two), middle(one_to_four));
 }
 

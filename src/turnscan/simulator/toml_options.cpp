@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uintmax_t kLargest = 1u << 20u;
 constexpr std::size_t kLongestLine = 4096;
-constexpr int kMostDots = 32;
+constexpr int kMaxDots = 32;
 constexpr int kDeepest = 32;
 
 /// What the library parses by recursion, or in a time that grows with the square of a key's length.
@@ -34,8 +34,8 @@ std::string excess_of(std::string_view line, int& depth) {
     }
     if (quote != '\0') continue;
     if (c == ',' || c == '=') dots = 0;
-    if (c == '.' && ++dots > kMostDots)
-      return fmt::format("has a key of more than {} parts", kMostDots);
+    if (c == '.' && ++dots > kMaxDots)
+      return fmt::format("has a key of more than {} parts", kMaxDots);
     if (c == ']' || c == '}') depth = std::max(depth - 1, 0);
     if ((c == '[' || c == '{') && ++depth > kDeepest)
       return fmt::format("nests lists and tables more than {} deep", kDeepest);

@@ -6,7 +6,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMostScanners = 64;  // that a recording holds
+constexpr std::size_t kMaxScanners = 64;  // that a recording holds
 
 template <class Options>
 Result<> check_fields(const Options& options) {
@@ -37,10 +37,10 @@ OptionTable describe(MeasureOptions& o) {
               "edge and background. The other kinds mix what a pixel really sees.")
       .number("mixed-reach", o.mixed_reach_m, Quantity::kLength, {0.0, 10.0},
               "How far behind the edge such a pixel may lie.")
-      .number("noise-window", o.noise_window_px, {1, kMostNoiseWindow_px},
+      .number("noise-window", o.noise_window_px, {1, kMaxNoiseWindow_px},
               "With noise = model, of structured light and stereo: side of the matching window in "
               "pixels; where windows overlap, errors are alike. 1: each pixel has its own error.")
-      .number("edge-fattening", o.edge_fattening_px, Quantity::kNone, {0.0, kMostFattening_px},
+      .number("edge-fattening", o.edge_fattening_px, Quantity::kNone, {0.0, kMaxFattening_px},
               "Of structured light and stereo: by how many pixels the foreground grows over its "
               "edges, about half the matching window at most.")
       .number("exposure", o.exposure_s, Quantity::kTime, {0.0, 10.0},
@@ -71,9 +71,9 @@ OptionTable describe(RecordOptions& o) {
 }
 
 Result<> check(const VirtualScanOptions& o) {
-  if (o.scanners.empty() || o.scanners.size() > kMostScanners)
+  if (o.scanners.empty() || o.scanners.size() > kMaxScanners)
     return fail(ErrorCode::kInvalidOption, "there are {} scanners; give 1 to {}", o.scanners.size(),
-                kMostScanners);
+                kMaxScanners);
   for (const VirtualScanner& scanner : o.scanners) {
     TURNSCAN_TRY(scanner.model.check());
     TURNSCAN_TRY(check_fields(scanner.placement));

@@ -58,8 +58,8 @@ double invented_area(const ObjectResult& object) {
   return out;
 }
 
-const Choice* choice_of(const Reconstruction& made, const std::string& option) {
-  for (const Choice& choice : made.choices)
+const ResolvedParameter* choice_of(const Reconstruction& made, const std::string& option) {
+  for (const ResolvedParameter& choice : made.choices)
     if (choice.option == option) return &choice;
   return nullptr;
 }
@@ -73,7 +73,7 @@ TEST(FewerTriangles, AreWorthAnEighthOfTheExpectedError) {
   EXPECT_TRUE(object.check.watertight());
   EXPECT_LT(rms_distance(full, object.mesh), 0.4e-3 / 8.0);
   EXPECT_GT(rms_distance(full, object.mesh), 0.4e-3 / 8.0 / 4.0);
-  const Choice* choice = choice_of(made, "triangles");
+  const ResolvedParameter* choice = choice_of(made, "triangles");
   ASSERT_NE(choice, nullptr);
   EXPECT_EQ(choice->value, std::to_string(object.mesh.triangles.size()));
   EXPECT_NE(choice->reason.find("an eighth of the expected error, 0.4 mm"), std::string::npos)

@@ -145,7 +145,7 @@ TEST(TakeSteps, NoneTurnsATriangleOverHoweverLarge) {
     }
     TriangleMesh moved = mesh;
     take_steps(moved, step);
-    EXPECT_GE(least_turn(mesh, moved), kLeastTurn - 1e-4f) << size;
+    EXPECT_GE(least_turn(mesh, moved), kMinTurn - 1e-4f) << size;
     EXPECT_NE(moved.vertices, mesh.vertices) << size;
   }
 }

@@ -72,9 +72,9 @@ TEST(VertexVisibility, SaysZeroWithoutViewsAndStopsWhenItIsCancelled) {
 }
 
 TEST(WithoutReturn, IsWhatHalfOfTheViewsThatItFacesLookedAtInVain) {
-  const auto looked_at = [](std::size_t in_vain, std::uint32_t word, std::uint8_t asked) {
+  const auto looked_at = [](std::size_t no_return, std::uint32_t word, std::uint8_t asked) {
     std::vector<views::DepthView> views(6, view_from(45.0 * kRadiansPerDegree));
-    for (std::size_t v = 0; v < in_vain; ++v) views[v].pixels.assign(kSide * kSide, word);
+    for (std::size_t v = 0; v < no_return; ++v) views[v].pixels.assign(kSide * kSide, word);
     return *without_return(cube(), views, std::vector<std::uint8_t>(8, asked), {});
   };
   const std::vector<std::uint8_t> none(8, 0), two_corners{0, 0, 0, 0, 0, 1, 0, 1};

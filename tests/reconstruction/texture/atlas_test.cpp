@@ -94,7 +94,7 @@ TEST(TextureAtlas, StretchesNoSideBeyondWhatItSays) {
   const TriangleMesh mesh = torus(60, 30);
   const auto atlas = make_atlas(mesh, 1024, 1e9, RunContext());
   ASSERT_TRUE(atlas);
-  EXPECT_LE(atlas->stretch, 1.0 / double(kLeastChartCosine) + 1e-3);
+  EXPECT_LE(atlas->stretch, 1.0 / double(kMinChartCosine) + 1e-3);
   const auto [least, most] = scales(mesh, *atlas);
   EXPECT_LE(most, 1.02 * atlas->texels_per_m);
   EXPECT_GE(least, 0.97 * atlas->texels_per_m / atlas->stretch);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/random.hpp>
-#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
+#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
 #include <turnscan/reconstruction/tsdf/volume.hpp>
 
 namespace turnscan::tsdf {
@@ -74,7 +74,7 @@ TEST(CloseHoles, FillsWhatAWalkFromBeyondDoesNotReach) {
     const std::vector<bool> reached = walked(volume);
     VolumeScale scale;
     scale.cell_m = 1.0, scale.truncation_m = 3.0;
-    ASSERT_TRUE(close_holes(volume, scale, RoundBottoms(), RunContext()));
+    ASSERT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
     std::size_t wrong = 0;
     for (std::size_t s = 0; s < reached.size(); ++s)
       wrong += (volume.value[s] >= 0.0f) != reached[s] ? 1 : 0;
@@ -104,7 +104,7 @@ double cap_height(double inside) {
   }
   VolumeScale scale;
   scale.cell_m = 1.0, scale.truncation_m = 3.0;
-  EXPECT_TRUE(close_holes(volume, scale, RoundBottoms(), RunContext()));
+  EXPECT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
   int i = kHalf;
   while (i + 1 < 2 * kHalf && volume.value[sample(volume, i, kHalf, kHalf)] < 0.0f) ++i;
   return volume.position(i, 0, 0).x() - 0.5;
@@ -149,7 +149,7 @@ TEST(CloseHoles, WhatNoPassSawEndsFlatOnALeaningPlatter) {
       volume.weight[volume.first_sample(b) + s] = 1.0f;
     }
   }
-  ASSERT_TRUE(close_holes(volume, scale, RoundBottoms(), RunContext()));
+  ASSERT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
   for (int k = 0; k < 2 * kHalf; ++k) {
     for (int j = 0; j < 2 * kHalf; ++j) {
       for (int i = 0; i < 2 * kHalf; ++i) {
@@ -179,12 +179,12 @@ TEST(CloseHoles, StopsWhenItIsCancelled) {
   const VolumeScale scale;
   RunContext before;
   before.cancel();
-  EXPECT_EQ(close_holes(volume, scale, RoundBottoms(), before).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(close_holes(volume, scale, TaperedFoot(), before).error().code, ErrorCode::kCancelled);
   RunContext within;  // after its phase began
   within.set_listener([&](const Progress& progress) {
     if (progress.phase == "closing") within.cancel();
   });
-  EXPECT_EQ(close_holes(volume, scale, RoundBottoms(), within).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(close_holes(volume, scale, TaperedFoot(), within).error().code, ErrorCode::kCancelled);
 }
 
 }  // namespace

@@ -65,8 +65,9 @@ TEST(Volumetric, KeepsFeetWhereNoPlatterIsSeenThoughItsRadiusIsKnown) {
     recording.header_value.turntable->radius_m = 0.12;
     const auto result = reconstruct(recording, volumetric(), {}, RunContext());
     ASSERT_TRUE(result) << result.error().text();
-    const auto margin = std::find_if(result->choices.begin(), result->choices.end(),
-                                     [](const Choice& c) { return c.option == "crop-margin"; });
+    const auto margin =
+        std::find_if(result->choices.begin(), result->choices.end(),
+                     [](const ResolvedParameter& c) { return c.option == "crop-margin"; });
     ASSERT_NE(margin, result->choices.end());
     EXPECT_THAT(margin->reason, HasSubstr(platter ? "the platter's returns lie at"
                                                   : "no platter is seen, so that nothing"));
@@ -222,7 +223,7 @@ TEST(Volumetric, ForPlacingHasTheSameMeasuredSurfaceAndNothingMore) {
 
 /// Value of an automatic choice, metres.
 double chosen(const Reconstruction& result, const std::string& option) {
-  for (const Choice& choice : result.choices) {
+  for (const ResolvedParameter& choice : result.choices) {
     if (choice.option == option)
       return parse_quantity(choice.value, Quantity::kLength).value_or(0.0);
   }

@@ -13,8 +13,8 @@ TEST(ViewStore, KeepsBoundedlyManyViewsEvenlySpreadOverEverySensor) {
     view.translation.x() = float(v);
     store.add(view, v % 2);
   }
-  EXPECT_LE(store.views().size(), ViewStore::kMostViews);
-  EXPECT_GE(store.views().size(), ViewStore::kMostViews / 2);
+  EXPECT_LE(store.views().size(), ViewStore::kMaxViews);
+  EXPECT_GE(store.views().size(), ViewStore::kMaxViews / 2);
   EXPECT_EQ(store.stride(), 8u);
   int odd = 0;
   for (const DepthView& kept : store.views()) odd += int(kept.translation.x()) % 2;

@@ -50,7 +50,7 @@ TEST(MeasureAxisOffset, DoesNotTakeForThePlatterWhatNothingStandsOn) {
   PlatterMemory memory{true, clutter};
   const auto offset = measure_axis_offset(letter_on(rig), {}, &memory);
   ASSERT_TRUE(offset && *offset);
-  EXPECT_FALSE((*offset)->bad());
+  EXPECT_FALSE((*offset)->significant());
   EXPECT_FALSE(memory.platter);
 }
 
@@ -59,7 +59,7 @@ TEST(MeasureAxisOffset, IsSmallWhereTheRecordingIsRight) {
     const testing::Rig rig = turning_rig(seed);
     const auto offset = measure_axis_offset(letter_on(rig), {});
     ASSERT_TRUE(offset && *offset);
-    EXPECT_FALSE((*offset)->bad());
+    EXPECT_FALSE((*offset)->significant());
     EXPECT_LT((*offset)->shift_m, 0.0005);
     EXPECT_LT((*offset)->tilt_rad, 0.2 * kRadiansPerDegree);
   }
@@ -90,10 +90,10 @@ TEST(MeasureAxisOffset, ShowsATableThatWasMovedThoughItsTurnCloses) {
   move_table(sequence, 0.005, kRadiansPerDegree);
   const auto closure = measure_closure(sequence, {});
   ASSERT_TRUE(closure && *closure);
-  EXPECT_FALSE((*closure)->bad());
+  EXPECT_FALSE((*closure)->significant());
   const auto offset = measure_axis_offset(sequence, {});
   ASSERT_TRUE(offset && *offset);
-  EXPECT_TRUE((*offset)->bad());
+  EXPECT_TRUE((*offset)->significant());
   EXPECT_NEAR((*offset)->tilt_rad, kRadiansPerDegree, 0.2 * kRadiansPerDegree);
   EXPECT_NEAR((*offset)->shift_m, 0.005, 0.002);  // measured beside the object, above the platter
 }
@@ -107,7 +107,7 @@ TEST(MeasureAxisOffset, SaysNothingOfABallWhichLiesAlikeAboutAnyAxis) {
     const testing::Rig rig(o);
     const auto offset = measure_axis_offset(letter_on(rig), {});
     ASSERT_TRUE(offset) << offset.error().text();
-    EXPECT_FALSE(*offset && (*offset)->bad()) << (*offset)->tilt_rad * kDegreesPerRadian;
+    EXPECT_FALSE(*offset && (*offset)->significant()) << (*offset)->tilt_rad * kDegreesPerRadian;
   }
 }
 

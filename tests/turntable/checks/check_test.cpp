@@ -109,22 +109,22 @@ TEST(MeasureClosure, NeedsATurntableAndAWholeTurn) {
 
 TEST(MeasureClosure, WhatNoiseAloneShowsCondemnsNoCalibration) {
   ClosureError closure{.shift_m = 0.0027, .noise_m = 0.0024, .pairs = 2};
-  EXPECT_FALSE(closure.bad());
+  EXPECT_FALSE(closure.significant());
   closure.noise_m = 0.0005;
-  EXPECT_TRUE(closure.bad());
+  EXPECT_TRUE(closure.significant());
   closure = {.turn_rad = 0.02, .shift_m = 0.0, .noise_m = 0.0024, .pairs = 2};
-  EXPECT_TRUE(closure.bad());
+  EXPECT_TRUE(closure.significant());
 }
 
 TEST(MeasureClosure, PairsThatDisagreeAmongEachOtherCondemnNoCalibration) {
   ClosureError closure{.turn_rad = 0.056, .shift_m = 0.0009, .noise_m = 0.0013, .pairs = 2};
-  EXPECT_TRUE(closure.bad());
+  EXPECT_TRUE(closure.significant());
   closure.turn_sigma_rad = 0.038;
-  EXPECT_FALSE(closure.bad());
+  EXPECT_FALSE(closure.significant());
   closure = {.turn_rad = 0.0, .shift_m = 0.0022, .noise_m = 0.0006, .pairs = 6};
-  EXPECT_TRUE(closure.bad());
+  EXPECT_TRUE(closure.significant());
   closure.excess_sigma_m2 = 3e-6;
-  EXPECT_FALSE(closure.bad());
+  EXPECT_FALSE(closure.significant());
 }
 
 TEST(MeasureClosure, SaysHowFarChanceMovesItsPairs) {

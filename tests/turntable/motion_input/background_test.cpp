@@ -5,7 +5,7 @@
 #include <numbers>
 #include <turnscan/core/random.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
-#include <turnscan/turntable/motion_input/still_surface.hpp>
+#include <turnscan/turntable/motion_input/static_background.hpp>
 
 #include "tests/support/memory_sequence.hpp"
 
@@ -140,8 +140,8 @@ TEST(SpatialNoise, FeaturesOfAnObjectAreNoNoise) {
 }
 
 /// A floor that rises, seen around a square; candidates within the square.
-StillDepths floor_around_a_square(double candidate_m) {
-  StillDepths out;
+StaticBackground floor_around_a_square(double candidate_m) {
+  StaticBackground out;
   out.width = out.height = 80;
   for (int i = 0; i < 6400; ++i) {
     const int x = i % 80, y = i / 80;
@@ -154,7 +154,7 @@ StillDepths floor_around_a_square(double candidate_m) {
   return out;
 }
 
-std::ptrdiff_t reached(const StillDepths& depths) {
+std::ptrdiff_t reached(const StaticBackground& depths) {
   const auto found = continued_from_seen(depths);
   return std::count(found.begin(), found.end(), 1);
 }
@@ -168,7 +168,7 @@ TEST(ContinuedFromSeen, ThingsBeforeTheFloorAreNotIt) {
 }
 
 TEST(ContinuedFromSeen, TheAxisOfAnObjectIsNoFloor) {
-  StillDepths depths = floor_around_a_square(0.0);
+  StaticBackground depths = floor_around_a_square(0.0);
   for (int i = 0; i < 6400; ++i) {
     const int x = i % 80, y = i / 80;
     const bool middle = x >= 35 && x < 45 && y >= 35 && y < 45;

@@ -17,7 +17,7 @@
 namespace turnscan {
 namespace {
 
-using motion::PlatterSight;
+using motion::PlatterObservation;
 
 double angle_deg(const Vec3d& a, const Vec3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian;
@@ -69,7 +69,7 @@ TEST(SeePlatter, TellsByHowMuchItLeansInOneFrame) {
           Eigen::AngleAxisd(lean_deg * kRadiansPerDegree, platter.axis.unitOrthogonal()) *
           platter.axis;
       const Vec3d at = platter.center_m + 0.002 * platter.axis;
-      const auto sight = motion::see_platter(image_of_plane(sensor, axis, at, hidden), sensor, rays,
+      const auto sight = motion::fit_platter(image_of_plane(sensor, axis, at, hidden), sensor, rays,
                                              platter, kNoise_m);
       ASSERT_TRUE(sight) << lean_deg << " " << hidden;
       EXPECT_LT(angle_deg(sight->axis, axis), 4.0 * sight->slope_sigma * kDegreesPerRadian + 0.005);
@@ -84,22 +84,23 @@ TEST(SeePlatter, IsSilentWhereTooLittleOfItIsSeen) {
   const RayTable rays(sensor.intrinsics);
   const DetectedPlatter platter = platter_before_camera();
   DepthImage image = image_of_plane(sensor, platter.axis, platter.center_m, 256);
-  EXPECT_FALSE(motion::see_platter(image, sensor, rays, platter, kNoise_m))
+  EXPECT_FALSE(motion::fit_platter(image, sensor, rays, platter, kNoise_m))
       << "something before it";
   image = image_of_plane(sensor, platter.axis, platter.center_m);
   std::fill(image.pixels.begin(), image.pixels.end(), kOutsideCrop);
-  EXPECT_FALSE(motion::see_platter(image, sensor, rays, platter, kNoise_m)) << "cut out";
+  EXPECT_FALSE(motion::fit_platter(image, sensor, rays, platter, kNoise_m)) << "cut out";
   image.pixels.clear();
-  EXPECT_FALSE(motion::see_platter(image, sensor, rays, platter, kNoise_m)) << "no image";
+  EXPECT_FALSE(motion::fit_platter(image, sensor, rays, platter, kNoise_m)) << "no image";
 }
 
 /// Sights of an axis that goes round a cone.
-std::vector<std::optional<PlatterSight>> cone(const DetectedPlatter& platter, const Vec3d& middle,
-                                              double lean_rad, double way_rad, int frames) {
-  std::vector<std::optional<PlatterSight>> out;
+std::vector<std::optional<PlatterObservation>> cone(const DetectedPlatter& platter,
+                                                    const Vec3d& middle, double lean_rad,
+                                                    double way_rad, int frames) {
+  std::vector<std::optional<PlatterObservation>> out;
   for (int i = 0; i < frames; ++i) {
     const Vec3d about = Eigen::AngleAxisd(way_rad * i / frames, middle) * middle.unitOrthogonal();
-    PlatterSight sight;
+    PlatterObservation sight;
     sight.axis = Eigen::AngleAxisd(lean_rad, about) * middle;
     out.emplace_back(sight);
   }
@@ -114,7 +115,7 @@ std::vector<std::optional<PlatterSight>> cone(const DetectedPlatter& platter, co
 TEST(Level, LaysAWobblingPlatterStillAboutTheMiddleOfItsCone) {
   const DetectedPlatter platter = platter_before_camera();
   auto sights = cone(platter, platter.axis, 0.01, 2.5 * std::numbers::pi, 40);
-  const std::vector<std::optional<PlatterSight>> all = sights;
+  const std::vector<std::optional<PlatterObservation>> all = sights;
   sights[11].reset();
   const auto found = motion::level(sights, platter);
   ASSERT_TRUE(found);

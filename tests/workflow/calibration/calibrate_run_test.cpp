@@ -163,7 +163,7 @@ TEST(CalibrationChoiceOf, WhatCoarseFramesShowIsLookedAtInFinerOnes) {
   const SequenceView large = with_more_pixels(still), disturbed = with_more_pixels(moved);
   const auto sound = choose_calibration(large, {"auto", {}, false}, RunContext());
   ASSERT_TRUE(sound) << sound.error().text();
-  EXPECT_TRUE(sound->checks.closure && !sound->checks.closure->bad());
+  EXPECT_TRUE(sound->checks.closure && !sound->checks.closure->significant());
   EXPECT_FALSE(sound->calibration);
   EXPECT_TRUE(sound->note.empty() && sound->poses.empty()) << sound->note;
   const auto found = choose_calibration(disturbed, {"auto", {}, false}, RunContext());

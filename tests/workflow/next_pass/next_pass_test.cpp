@@ -49,10 +49,10 @@ PassViews turn(double elevation_deg = 17.0) {
   T_table_sensor.linear().col(1) = forward.cross(right);
   T_table_sensor.linear().col(2) = forward;
   T_table_sensor.translation() = eye;
-  for (std::size_t k = 0; k < PassViews::kMostViews; ++k) {
+  for (std::size_t k = 0; k < PassViews::kMaxViews; ++k) {
     CoverageView view;
     view.T_table_sensor =
-        rotation_about_y(-kTurn * double(k) / double(PassViews::kMostViews)) * T_table_sensor;
+        rotation_about_y(-kTurn * double(k) / double(PassViews::kMaxViews)) * T_table_sensor;
     pass.views.push_back(view);
   }
   return pass;

@@ -73,14 +73,14 @@ TEST(LiveSurface, KeepsABoundedNumberOfFramesSpreadOverTheWholeTime) {
   const testing::Rig rig = ball_rig();
   LiveSurface surface(rig.header());
   Frame frame = *rig.read(0);
-  constexpr int kMany = 5 * int(LiveSurface::kMostFrames);
+  constexpr int kMany = 5 * int(LiveSurface::kMaxFrames);
   for (int i = 0; i < kMany; ++i) {
     frame.info.index = std::uint32_t(i);
     surface.add(frame);
   }
   const auto kept = surface.frames();
-  ASSERT_GT(kept.size(), LiveSurface::kMostFrames / 2);
-  ASSERT_LE(kept.size(), LiveSurface::kMostFrames);
+  ASSERT_GT(kept.size(), LiveSurface::kMaxFrames / 2);
+  ASSERT_LE(kept.size(), LiveSurface::kMaxFrames);
   const std::uint32_t step = kept[1]->info.index - kept[0]->info.index;
   for (std::size_t i = 1; i < kept.size(); ++i)
     EXPECT_EQ(kept[i]->info.index - kept[i - 1]->info.index, step);

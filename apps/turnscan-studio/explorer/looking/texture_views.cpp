@@ -13,7 +13,7 @@ namespace turnscan::studio {
 namespace {
 
 constexpr Rgb kNoViewColor{150, 150, 150};
-constexpr std::size_t kMostListed = 18;  // lines of the legend that a small window has room for
+constexpr std::size_t kMaxListed = 18;  // lines of the legend that a small window has room for
 
 /// Degrees about the mesh's vertical, 0 to 360.
 double azimuth_deg(const Vec3f& eye, const Vec3d& center) {
@@ -65,11 +65,11 @@ ColoredMesh color_by_view(const TriangleMesh& mesh, const TextureReport& report)
   }
   std::vector<std::size_t> listed = order;
   std::erase_if(listed, [&](std::size_t v) { return count[v] == 0; });
-  if (listed.size() > kMostListed) {
+  if (listed.size() > kMaxListed) {
     std::vector<std::size_t> largest = listed;
-    std::nth_element(largest.begin(), largest.begin() + kMostListed, largest.end(),
+    std::nth_element(largest.begin(), largest.begin() + kMaxListed, largest.end(),
                      [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
-    const std::size_t least = count[largest[kMostListed]];
+    const std::size_t least = count[largest[kMaxListed]];
     std::erase_if(listed, [&](std::size_t v) { return count[v] <= least; });
   }
   ColoredMesh out;

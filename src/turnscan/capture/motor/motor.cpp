@@ -75,8 +75,8 @@ Error at_port(Error error, const std::string& port) {
 }  // namespace
 
 Result<double> checked_angle(double deg) {
-  constexpr double kMost_deg = 3.6e8;
-  if (std::abs(deg) <= kMost_deg) return deg;
+  constexpr double kMax_deg = 3.6e8;
+  if (std::abs(deg) <= kMax_deg) return deg;
   return fail(ErrorCode::kIo, "the table says that it stands at {:.1f} deg; check --motor-units",
               deg);
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kWays = 120;  // places on a ring
 constexpr std::array<double, 4> kRings_deg{2.0, 4.0, 8.0, 15.0};
 constexpr double kFinest_rad = 0.002;
-constexpr std::size_t kMostCandidates = 400;  // the lowest, of what is round
+constexpr std::size_t kMaxCandidates = 400;  // the lowest, of what is round
 
 /// The corners of the hull, from the centre of mass.
 class HullBody {
@@ -147,7 +147,7 @@ std::vector<RestingPose> resting_poses(const TriangleMesh& mesh, const RestingOp
   std::sort(found.begin(), found.end(), [](const RestingPose& one, const RestingPose& other) {
     return one.center_height_m < other.center_height_m;
   });
-  if (found.size() > kMostCandidates) found.resize(kMostCandidates);
+  if (found.size() > kMaxCandidates) found.resize(kMaxCandidates);
   std::vector<RestingPose> out;
   const double least_cosine = std::cos(options.least_apart_rad);
   for (RestingPose& pose : found) {

@@ -18,7 +18,7 @@ using mesh::previous_in_triangle;
 
 constexpr double kSeedsApart = 0.25;  ///< of the longest loop
 constexpr int kShortenings = 4;       ///< of a loop that was found from a seed beside it
-constexpr int kMostPasses = 16;
+constexpr int kMaxPasses = 16;
 constexpr float kRetreat = 0.25f;  ///< of the way to the neighbours: the two sides move apart
 
 constexpr float kFar = std::numeric_limits<float>::max();
@@ -370,7 +370,7 @@ Result<std::size_t> cut_handles(TriangleMesh& mesh, std::vector<std::uint8_t> cu
     return fail(ErrorCode::kFormat, "cut handles: the mesh is not closed and 2-manifold");
   std::vector<std::uint8_t> searched(mesh.vertices.size(), 0);
   std::size_t cuts = 0;
-  for (int pass = 0; pass < kMostPasses && genus(mesh) > 0; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && genus(mesh) > 0; ++pass) {
     TURNSCAN_ASSIGN(const std::size_t made,
                     HandleCutter(mesh, cuttable, searched, longest_m).run(genus(mesh), context));
     if (made == 0) break;

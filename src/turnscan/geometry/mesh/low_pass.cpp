@@ -13,7 +13,7 @@ namespace {
 
 /// Of the right side's norm.
 constexpr double kTolerance = 1e-3;
-constexpr int kMostIterations = 20000;
+constexpr int kMaxIterations = 20000;
 /// Edges shorter than this share of the mean count as this long.
 constexpr double kShortestEdge = 0.5;
 
@@ -50,7 +50,7 @@ class LowPass {
     const double wanted = kTolerance * kTolerance * product.sum();
     for (int i = 0; product.sum() > wanted; ++i) {
       if (i % 16 == 0) TURNSCAN_TRY(context.check());
-      if (i == kMostIterations || !product.allFinite())
+      if (i == kMaxIterations || !product.allFinite())
         return fail(ErrorCode::kLibrary, "smooth: no solution was found; choose a shorter length");
       const Rows image = apply(direction);
       const Vec3d along = dot(direction, image);

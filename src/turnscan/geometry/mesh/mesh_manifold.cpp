@@ -134,8 +134,8 @@ class ManifoldCutter {
       }
     };
     // So many triangles on one edge are no surface; pairing them all would take forever.
-    constexpr std::size_t kMostCompared = 64;
-    if (around.size() > kMostCompared) around = around.first(kMostCompared);
+    constexpr std::size_t kMaxCompared = 64;
+    if (around.size() > kMaxCompared) around = around.first(kMaxCompared);
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Vec3d in = into_triangle(around[i]);

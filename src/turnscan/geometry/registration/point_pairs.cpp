@@ -8,7 +8,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kFewestPointPairs = 3;
+constexpr std::size_t kMinPointPairs = 3;
 
 /// Points as columns, about their mean.
 struct Centred {
@@ -53,9 +53,9 @@ Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& covariance) {
 }  // namespace
 
 Result<PairFit> fit_point_pairs(std::span<const PointPair> pairs, const PairLimits& limits) {
-  if (pairs.size() < kFewestPointPairs)
+  if (pairs.size() < kMinPointPairs)
     return fail(ErrorCode::kTooFewPoints, "point pairs: {} of at least {}", pairs.size(),
-                kFewestPointPairs);
+                kMinPointPairs);
   const Centred source = centre(pairs, &PointPair::source);
   const Centred target = centre(pairs, &PointPair::target);
   TURNSCAN_TRY(check_spread(source.points, limits.min_spread_m));

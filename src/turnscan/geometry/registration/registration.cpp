@@ -13,7 +13,7 @@
 namespace turnscan {
 namespace {
 
-constexpr std::size_t kFewestPairs = 6;
+constexpr std::size_t kMinPairs = 6;
 constexpr double kHeldEigenvalue = 1e-3;  // of the largest
 
 struct Pair {
@@ -72,7 +72,7 @@ class PointToPlaneIcp {
       pairs_.push_back({p, found[i].normal, between.dot(found[i].normal), between.norm()});
     }
     overlap_ = source_.empty() ? 0.0 : double(pairs_.size()) / double(source_.size());
-    if (pairs_.size() < kFewestPairs || overlap_ < options_.min_overlap) {
+    if (pairs_.size() < kMinPairs || overlap_ < options_.min_overlap) {
       return fail(ErrorCode::kTooFewPoints,
                   "alignment: {} of {} points lie within {} of the target; start nearer or allow a "
                   "larger distance",
@@ -85,8 +85,7 @@ class PointToPlaneIcp {
 
   /// Keeps the nearest pairs, in their order.
   void trim() {
-    const auto keep =
-        std::max(kFewestPairs, std::size_t(options_.keep * double(pairs_.size()) + 0.5));
+    const auto keep = std::max(kMinPairs, std::size_t(options_.keep * double(pairs_.size()) + 0.5));
     if (keep >= pairs_.size()) return;
     std::vector<double> distances;
     for (const Pair& pair : pairs_) distances.push_back(pair.distance);

@@ -24,7 +24,7 @@ struct Source {
   std::size_t allowed;  // further bytes that may be taken
 };
 
-constexpr std::size_t kMostBehindRows = 64 * 1024;
+constexpr std::size_t kMaxBehindRows = 64 * 1024;
 
 struct Failure {
   std::array<char, 128> text;
@@ -84,7 +84,7 @@ bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_byte
   for (int pass = 0; pass < passes; ++pass) {
     for (png_uint_32 y = 0; y < height; ++y) {
       // With the last row libpng unpacks whatever is left of the data, a thousandfold at worst.
-      if (pass + 1 == passes && y + 1 == height) source->allowed = row_bytes + kMostBehindRows;
+      if (pass + 1 == passes && y + 1 == height) source->allowed = row_bytes + kMaxBehindRows;
       png_read_row(png, rows[y], nullptr);
     }
   }

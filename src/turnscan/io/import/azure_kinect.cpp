@@ -5,7 +5,7 @@
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -151,4 +151,4 @@ Result<AzureKinectCameras> parse_azure_kinect(std::string_view json, const Image
   return out;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

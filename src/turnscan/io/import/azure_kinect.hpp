@@ -8,7 +8,7 @@
 #include <string_view>
 #include <turnscan/core/camera.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 struct AzureKinectCameras {
   CameraIntrinsics depth;
@@ -33,4 +33,4 @@ std::string_view azure_kinect_depth_mode(const ImageSize& size);
 Result<AzureKinectCameras> parse_azure_kinect(std::string_view json, const ImageSize& depth,
                                               const std::optional<ImageSize>& color);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -8,7 +8,7 @@
 #include <turnscan/io/text/opencv_yaml.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -73,11 +73,11 @@ auto parsed(const std::filesystem::path& path, const Parse& parse) -> decltype(p
 
 }  // namespace
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers
 
 namespace turnscan {
 
-using namespace foreign;
+using namespace importers;
 
 Result<Kinect2Calibration> read_iai_kinect2(const std::filesystem::path& folder) {
   Kinect2Calibration out;

@@ -9,7 +9,7 @@
 #include <turnscan/io/rosbag/bag_file.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -206,11 +206,11 @@ Result<> check_meaning(const Importer& importer, const ImportOptions& options) {
 
 }  // namespace
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers
 
 namespace turnscan {
 
-using namespace foreign;
+using namespace importers;
 namespace fs = std::filesystem;
 
 Result<> ImportOptions::check() const {
@@ -268,7 +268,7 @@ OptionTable describe(ImportOptions& o) {
   return table;
 }
 
-const std::vector<ImporterInfo>& importers() {
+const std::vector<ImporterInfo>& importer_list() {
   static const std::vector<ImporterInfo> infos = [] {
     std::vector<ImporterInfo> out;
     for (const Importer& importer : table()) out.push_back(importer.info);

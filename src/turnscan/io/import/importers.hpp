@@ -70,7 +70,7 @@ struct ImporterInfo {
   std::string_view name;  ///< as in the option "format"
   std::string_view help;
 };
-const std::vector<ImporterInfo>& importers();
+const std::vector<ImporterInfo>& importer_list();
 
 /// Opens a data set. path is a file (.conf, .json, .mkv, .bag, .r3d, .sens) or a folder. Files are
 /// read when frames are read; read() may be called from several threads. What was assumed stands in

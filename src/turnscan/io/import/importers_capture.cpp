@@ -5,7 +5,7 @@
 #include <numbers>
 #include <turnscan/io/import/importers_capture.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::vector<std::uint32_t> missing_before(std::span<const double> times_s) {
   return missing;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

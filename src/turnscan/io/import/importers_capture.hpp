@@ -9,7 +9,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <vector>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 /// Decides by options.device_poses what becomes of the poses of the device (T_world_sensor, none
 /// where tracking was lost), and says so in a note. Ignored ones are removed.
@@ -91,4 +91,4 @@ void drop_without_pose(std::vector<Frame>& frames, SequenceHeader& header) {
                                  lost));
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -9,7 +9,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -151,4 +151,4 @@ OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& option
   return std::make_unique<ForeignSequence>(std::move(header), frames, metres_per_unit);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

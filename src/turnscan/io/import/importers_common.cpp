@@ -8,7 +8,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -189,4 +189,4 @@ Result<Pose> placed_pose(const Pose& pose, const ImportOptions& options) {
   return Pose(rotation_between(up, Vec3d::UnitY())) * T_world_sensor;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

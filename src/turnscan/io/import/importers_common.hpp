@@ -9,7 +9,7 @@
 #include <turnscan/io/import/importers.hpp>
 #include <vector>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 /// One frame of a foreign data set and the files that hold it; empty paths: none.
 struct ForeignFrame {
@@ -118,4 +118,4 @@ Result<> apply_iai_kinect2(const ImportOptions& options, const std::vector<Forei
 /// drops the colour of all frames, with a note, when it is not registered and has no camera.
 Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>& frames);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -8,7 +8,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -106,4 +106,4 @@ OpenResult open_stanford_conf(const fs::path& path, const ImportOptions& options
   return std::make_unique<ForeignSequence>(std::move(header), frames, metres_per_unit);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -11,7 +11,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "frame-";
 constexpr std::string_view kDepthSuffix = ".depth.png";
-constexpr std::uint32_t kMaxNumber = 4000000000;
+constexpr std::uint32_t kMaxFileNumber = 4000000000;
 
 /// Whether the text has 16 numbers of which one is not finite.
 bool lost_tracking(std::string_view text) {
@@ -58,7 +58,7 @@ Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder,
     if (!name.starts_with(kPrefix) || !name.ends_with(kDepthSuffix)) continue;
     const std::string base = name.substr(0, name.size() - kDepthSuffix.size());
     const auto number =
-        text::parse_index(std::string_view(base).substr(kPrefix.size()), kMaxNumber);
+        text::parse_index(std::string_view(base).substr(kPrefix.size()), kMaxFileNumber);
     if (!number) return at_path(folder / name, number.error());
     ForeignFrame frame;
     frame.info.index = *number;
@@ -132,4 +132,4 @@ OpenResult open_frame_pose(const fs::path& folder, const ImportOptions& options)
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

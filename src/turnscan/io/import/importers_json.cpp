@@ -11,7 +11,7 @@
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -281,4 +281,4 @@ OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -12,7 +12,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/matroska/matroska.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 using matroska::Block;
@@ -290,7 +290,7 @@ const Track* color_track(const MatroskaFile& file, SequenceHeader& header) {
 
 // ---- the frames
 
-constexpr double kMostGap = 1.5;  // of the time between frames
+constexpr double kMaxGap = 1.5;  // of the time between frames
 
 /// Stated, else the middle of the times between the frames; 0: there is only one.
 double frame_time_of(const Track& track, const std::vector<Block>& blocks) {
@@ -317,7 +317,7 @@ std::vector<std::uint32_t> missing_before(const std::vector<Block>& blocks, doub
   double left = double(blocks.size()) + 1000.0;
   for (std::size_t i = 1; i < blocks.size(); ++i) {
     const double gap = double(blocks[i].time_ns - blocks[i - 1].time_ns);
-    if (!(frame_time_ns > 0.0) || gap <= kMostGap * frame_time_ns) continue;
+    if (!(frame_time_ns > 0.0) || gap <= kMaxGap * frame_time_ns) continue;
     const double count = std::round(gap / frame_time_ns) - 1.0;
     if (count > left) continue;
     left -= count;
@@ -418,4 +418,4 @@ OpenResult open_matroska(const fs::path& path, const ImportOptions& options) {
                                             std::move(sensor.covered));
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

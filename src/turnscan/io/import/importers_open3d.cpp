@@ -13,7 +13,7 @@
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -163,4 +163,4 @@ OpenResult open_open3d_rgbd(const fs::path& folder, const ImportOptions& options
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

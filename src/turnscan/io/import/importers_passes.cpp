@@ -4,7 +4,7 @@
 #include <map>
 #include <turnscan/io/import/importers_common.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -89,17 +89,17 @@ class PassSequence : public FrameSequence {
 
 }  // namespace
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers
 
 namespace turnscan {
 
 Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
     const std::vector<std::filesystem::path>& paths, const ImportOptions& options) {
   if (paths.size() == 1) return open_foreign(paths[0], options);
-  auto out = std::make_unique<foreign::PassSequence>();
+  auto out = std::make_unique<importers::PassSequence>();
   for (std::size_t k = 0; k < paths.size(); ++k) {
     TURNSCAN_ASSIGN(auto set, open_foreign(paths[k], options));
-    if (k > 0 && !foreign::same_rig(out->header(), set->header()))
+    if (k > 0 && !importers::same_rig(out->header(), set->header()))
       return fail_at(paths[k].string(), ErrorCode::kInvalidOption,
                      "its sensor or turntable is another than that of {}; import each to a "
                      "recording of its own, and give all of them to turnscan reconstruct",

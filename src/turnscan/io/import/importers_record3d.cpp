@@ -15,14 +15,14 @@
 #include <turnscan/io/record3d/metadata.hpp>
 #include <turnscan/io/zip/zip_file.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t kMostFrames = 4000000;
-constexpr std::uint64_t kMostJpegBytes = std::uint64_t(256) << 20;
+constexpr std::uint32_t kMaxFrames = 4000000;
+constexpr std::uint64_t kMaxJpegBytes = std::uint64_t(256) << 20;
 
 struct R3dFrame {
   FrameInfo info;
@@ -40,7 +40,7 @@ std::optional<std::pair<std::uint32_t, std::string_view>> frame_file(std::string
   name.remove_prefix(5);
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc() || number >= kMostFrames) return std::nullopt;
+  if (error != std::errc() || number >= kMaxFrames) return std::nullopt;
   return std::pair(number, name.substr(std::size_t(end - name.data())));
 }
 
@@ -123,7 +123,7 @@ class Record3dSequence : public FrameSequence {
   };
 
   Result<> read_jpeg(const zip::Entry& entry, const SensorInfo& sensor, Frame& frame) const {
-    TURNSCAN_ASSIGN(const std::string bytes, zip::read_entry(file_, entry, kMostJpegBytes));
+    TURNSCAN_ASSIGN(const std::string bytes, zip::read_entry(file_, entry, kMaxJpegBytes));
     if (auto good = decode_frame_color(bytes, frame); !good)
       return at_path(file_.path(), std::move(good).error());
     const ColorImage& image = frame.color;
@@ -195,7 +195,7 @@ Result<> describe_sensor(const R3dFile& data, const record3d::Metadata& metadata
                                     [](const R3dFrame& f) { return f.color.has_value(); });
   if (colored != data.frames.end()) {
     TURNSCAN_ASSIGN(const std::string bytes,
-                    zip::read_entry(data.file, *colored->color, kMostJpegBytes));
+                    zip::read_entry(data.file, *colored->color, kMaxJpegBytes));
     auto image = decode_color(bytes);
     if (!image) return at_path(data.file.path(), std::move(image).error());
     if (image->width != metadata.depth_width || image->height != metadata.depth_height)
@@ -307,4 +307,4 @@ OpenResult open_record3d(const fs::path& path, const ImportOptions& options) {
                                             least_confidence(options));
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

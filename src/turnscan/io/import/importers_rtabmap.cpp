@@ -16,7 +16,7 @@
 #include <turnscan/io/text/opencv_yaml.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -241,4 +241,4 @@ OpenResult open_rtabmap(const fs::path& folder, const ImportOptions& options) {
   return std::make_unique<ForeignSequence>(std::move(header), images, 1.0);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

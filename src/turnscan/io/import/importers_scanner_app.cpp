@@ -13,13 +13,13 @@
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t kMostNumber = 4000000;
+constexpr std::uint32_t kMaxFrameNumber = 4000000;
 /// Of ARKit's images, where none says their size.
 constexpr int kColorWidth = 1920, kColorHeight = 1440;
 
@@ -92,7 +92,7 @@ Result<std::vector<AppFrame>> list_app_frames(const fs::path& folder) {
                       color = fmt::format("frame_{}.jpg", number);
     if (!names.contains(depth)) continue;
     AppFrame& frame = frames.emplace_back();
-    TURNSCAN_ASSIGN(frame.info.index, text::parse_index(number, kMostNumber));
+    TURNSCAN_ASSIGN(frame.info.index, text::parse_index(number, kMaxFrameNumber));
     frame.info.file = depth;
     frame.depth = folder / depth;
     if (names.contains(confidence)) frame.confidence = folder / confidence;
@@ -199,4 +199,4 @@ OpenResult open_scanner_app(const fs::path& folder, const ImportOptions& options
       least_confidence(options));
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

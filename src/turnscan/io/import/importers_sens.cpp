@@ -9,7 +9,7 @@
 #include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -200,4 +200,4 @@ OpenResult open_sens(const fs::path& path, const ImportOptions& options) {
                                         std::move(frames));
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -6,7 +6,7 @@
 #include <turnscan/io/import/iai_kinect2.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -123,4 +123,4 @@ Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>&
   return {};
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -11,7 +11,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace fs = std::filesystem;
 
@@ -199,4 +199,4 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
   return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -1,7 +1,7 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -53,4 +53,4 @@ Result<> apply_turntable_options(const ImportOptions& options, bool on_platter,
   return {};
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -10,7 +10,7 @@
 #include <turnscan/io/import_ros/bag_sequence.hpp>
 #include <turnscan/io/import_ros/ros_images.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -319,4 +319,4 @@ Result<std::unique_ptr<FrameSequence>> make_bag_sequence(Bag bag, BagStreams str
   return out;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

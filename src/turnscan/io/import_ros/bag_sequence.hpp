@@ -6,7 +6,7 @@
 #include <turnscan/io/import_ros/rosbag_streams.hpp>
 #include <vector>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 /// Times are those of the messages' headers, from the first frame on (where they run back or are
 /// zero, those of the recorder, with a note). A gap in the headers' numbers, or in the times where
@@ -16,4 +16,4 @@ namespace turnscan::foreign {
 Result<std::unique_ptr<FrameSequence>> make_bag_sequence(rosbag::Bag bag, BagStreams streams,
                                                          SequenceHeader header);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -3,7 +3,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/import_ros/bag_sequence.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options) {
   TURNSCAN_ASSIGN(rosbag::Bag bag, rosbag::Bag::open(path));
@@ -23,4 +23,4 @@ OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& o
   return sequence;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

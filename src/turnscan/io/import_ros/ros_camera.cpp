@@ -3,13 +3,13 @@
 #include <cmath>
 #include <turnscan/io/import_ros/ros_camera.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
 using rosbag::CameraInfoMessage;
 
-constexpr double kMostMisfit_px = 0.3;
+constexpr double kMaxMisfit_px = 0.3;
 constexpr int kGrid = 24;  // image points a side, to which a lens is fitted
 
 using Coefficients = Eigen::Matrix<double, 5, 1>;  // k1 k2 p1 p2 k3
@@ -46,7 +46,7 @@ Result<Coefficients> inverted(const Coefficients& inverse, const CameraIntrinsic
     const Eigen::Vector2d off = straight + terms_of(straight) * fitted - seen;
     misfit = std::max(misfit, std::hypot(off.x() * camera.fx, off.y() * camera.fy));
   }
-  if (misfit <= kMostMisfit_px) return fitted;
+  if (misfit <= kMaxMisfit_px) return fitted;
   return fail(ErrorCode::kUnsupported,
               "the lens (Inverse Brown Conrady) is {:.2f} pixels off the nearest one that turnscan "
               "has",
@@ -94,4 +94,4 @@ Result<CameraIntrinsics> ros_camera(const CameraInfoMessage& info, bool rectifie
   return camera;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -5,7 +5,7 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/io/rosbag/ros_messages.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 /// rectified: of images that image_proc has rectified, whose camera is P without distortion
 /// (https://wiki.ros.org/image_pipeline/CameraInfo). Known models: none, plumb_bob,
@@ -15,4 +15,4 @@ namespace turnscan::foreign {
 /// kFormat when it is no camera.
 Result<CameraIntrinsics> ros_camera(const rosbag::CameraInfoMessage& info, bool rectified);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

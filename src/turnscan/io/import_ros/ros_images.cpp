@@ -5,14 +5,14 @@
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import_ros/ros_images.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
 using rosbag::CompressedImageMessage;
 using rosbag::ImageMessage;
 
-constexpr float kMostSteps = 65534.0f;
+constexpr float kMaxSteps = 65534.0f;
 
 enum class Layout { kRgb, kBgr, kGrey, kYuyv, kUyvy };
 
@@ -63,7 +63,7 @@ Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes) {
 std::uint16_t steps_of(float metres, float per_metre) {
   const float steps = metres * per_metre;
   // Not a number fails, too.
-  return steps >= 0.5f && steps <= kMostSteps ? std::uint16_t(std::lround(steps)) : kNoReturn;
+  return steps >= 0.5f && steps <= kMaxSteps ? std::uint16_t(std::lround(steps)) : kNoReturn;
 }
 
 template <bool kSwap>
@@ -192,4 +192,4 @@ Result<> take_ros_color(const CompressedImageMessage& image, Frame& frame) {
   return decode_frame_color(image.data, frame);
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -9,7 +9,7 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/io/rosbag/ros_messages.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 bool is_integer_depth(std::string_view encoding);  ///< 16UC1, mono16
 bool is_float_depth(std::string_view encoding);    ///< 32FC1
@@ -28,4 +28,4 @@ Result<ColorImage> ros_color(const rosbag::ImageMessage& image);
 /// JPEG or PNG, into the frame's colour.
 Result<> take_ros_color(const rosbag::CompressedImageMessage& image, Frame& frame);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -5,7 +5,7 @@
 #include <turnscan/io/import_ros/ros_images.hpp>
 #include <turnscan/io/import_ros/rosbag_streams.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -167,4 +167,4 @@ Result<BagStreams> realsense_streams(const Bag& bag, const ImportOptions& option
   return out;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

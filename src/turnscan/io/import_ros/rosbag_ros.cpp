@@ -5,7 +5,7 @@
 #include <turnscan/io/import_ros/ros_images.hpp>
 #include <turnscan/io/import_ros/rosbag_streams.hpp>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 namespace {
 
@@ -13,7 +13,7 @@ using rosbag::Bag;
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kFloatStep = 1e-4;  // as live floating-point depth is rounded
-constexpr int kMostLinks = 64;       // of a chain of frames
+constexpr int kMaxLinks = 64;        // of a chain of frames
 
 /// A topic of images, as its first message shows it.
 struct ImageTopic {
@@ -140,9 +140,9 @@ Result<CameraIntrinsics> depth_camera(const Bag& bag, const ImageTopic& topic,
 std::map<std::string, rosbag::TransformStamped> transforms_of(const Bag& bag) {
   std::map<std::string, rosbag::TransformStamped> out;
   for (const char* topic : {"/tf_static", "tf_static", "/tf", "tf"}) {
-    constexpr std::size_t kMostMessages = 1000;  // what moves is not asked for
+    constexpr std::size_t kMaxMessages = 1000;  // what moves is not asked for
     const auto places = bag.messages(topic);
-    for (std::size_t i = 0; i < std::min(places.size(), kMostMessages); ++i) {
+    for (std::size_t i = 0; i < std::min(places.size(), kMaxMessages); ++i) {
       const auto message = bag.read(places[i]);
       if (!message) continue;
       const auto transforms = rosbag::parse_transforms(message->bytes);
@@ -160,7 +160,7 @@ std::optional<Pose> T_between(const std::map<std::string, rosbag::TransformStamp
   const auto chain = [&](std::string frame) {
     std::map<std::string, Pose> out{{frame, Pose::Identity()}};
     Pose T = Pose::Identity();
-    for (int i = 0; i < kMostLinks; ++i) {
+    for (int i = 0; i < kMaxLinks; ++i) {
       const auto up = transforms.find(frame);
       if (up == transforms.end()) break;
       T = up->second.T_parent_child * T;
@@ -252,4 +252,4 @@ Result<BagStreams> ros_streams(const Bag& bag, const ImportOptions& options) {
   return out;
 }
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -8,7 +8,7 @@
 #include <turnscan/io/rosbag/bag_file.hpp>
 #include <vector>
 
-namespace turnscan::foreign {
+namespace turnscan::importers {
 
 struct BagStreams {
   std::string origin;  ///< for people
@@ -37,4 +37,4 @@ Result<BagStreams> ros_streams(const rosbag::Bag& bag, const ImportOptions& opti
 /// The first message of a topic. Fails with kMissingData where there is none, and as Bag::read().
 Result<rosbag::Payload> first_message(const rosbag::Bag& bag, std::string_view topic);
 
-}  // namespace turnscan::foreign
+}  // namespace turnscan::importers

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kFrame("\x04\x22\x4d\x18", 4);
 constexpr std::size_t kFirstRoom = std::size_t(16) << 20;
-constexpr std::size_t kMostOfAByte = 255;  // a byte of a match's length stands for so many
+constexpr std::size_t kMaxPerByte = 255;  // a byte of a match's length stands for so many
 constexpr std::size_t kWindow = std::size_t(64) << 10;
 
 tl::unexpected<Error> damaged(std::string_view why) {
@@ -94,8 +94,7 @@ class BlockReader {
     const std::size_t raw = take_number(bytes_), size = take_number(bytes_);
     if (bytes_.size() < size) return damaged("its data end too early");
     if (raw > max_bytes_ - out_.size()) return too_long();
-    if (raw > size * kMostOfAByte || size > LZ4_MAX_INPUT_SIZE)
-      return damaged("a block is damaged");
+    if (raw > size * kMaxPerByte || size > LZ4_MAX_INPUT_SIZE) return damaged("a block is damaged");
     const std::size_t before = out_.size(), window = std::min(before, kWindow);
     out_.resize(before + raw);
     char* to = out_.data() + before;

@@ -7,9 +7,9 @@ namespace {
 constexpr std::size_t kHeaderV1Bytes = 772;  // 770, padded to a multiple of 4
 constexpr std::size_t kFrequenciesV1 = 50;
 constexpr std::size_t kHeaderV2Bytes = 32;  // before the frequencies
-constexpr std::uint32_t kMostSequences = 10000;
-constexpr std::uint32_t kMostLiterals = 4 * kMostSequences;
-constexpr std::uint32_t kMostL = 315, kMostM = 2359;
+constexpr std::uint32_t kMaxSequences = 10000;
+constexpr std::uint32_t kMaxLiterals = 4 * kMaxSequences;
+constexpr std::uint32_t kMaxL = 315, kMaxM = 2359;
 
 std::uint32_t field(std::uint64_t word, unsigned from, unsigned bits) {
   return std::uint32_t(word >> from & ((std::uint64_t(1) << bits) - 1));
@@ -19,7 +19,7 @@ bool plausible(const EntropyHeader& h) {
   for (const std::uint16_t state : h.literal_state) {
     if (state >= 1024) return false;
   }
-  return h.literals <= kMostLiterals && h.sequences <= kMostSequences && h.length_state < 64 &&
+  return h.literals <= kMaxLiterals && h.sequences <= kMaxSequences && h.length_state < 64 &&
          h.match_state < 64 && h.distance_state < 256 && h.literal_unused < 8 &&
          h.sequence_unused < 8;
 }
@@ -74,7 +74,7 @@ class FrequencyReader {
 }  // namespace
 
 std::uint64_t EntropyHeader::most_bytes() const {
-  return std::uint64_t(sequences) * (kMostL + kMostM);
+  return std::uint64_t(sequences) * (kMaxL + kMaxM);
 }
 
 std::optional<EntropyHeader> parse_header_v1(std::string_view bytes) {

@@ -7,7 +7,7 @@ namespace turnscan::lzfse {
 
 namespace {
 
-constexpr std::size_t kMostOfAnLzvnByte = 272;  // an instruction of two bytes repeats 271
+constexpr std::size_t kMaxPerLzvnByte = 272;  // an instruction of two bytes repeats 271
 
 class StreamReader {
  public:
@@ -59,7 +59,7 @@ class StreamReader {
     const std::uint64_t raw_bytes = number_at(stream_, at_ + 4, 4);
     const std::size_t size = number_at(stream_, at_ + 8, 4);
     if (rest().size() - 12 < size) return damaged("a block is cut off");
-    if (raw_bytes > size * kMostOfAnLzvnByte) return damaged("a block is damaged");
+    if (raw_bytes > size * kMaxPerLzvnByte) return damaged("a block is damaged");
     TURNSCAN_TRY(check_room(raw_bytes));
     BlockOutput output(out_, raw_bytes);
     if (!unpack_lzvn(rest().substr(12, size), output)) return damaged("a block is damaged");

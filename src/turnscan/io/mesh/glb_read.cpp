@@ -136,11 +136,11 @@ class SceneReader {
     return nullptr;
   }
 
-  /// If all of the mesh has places in the same picture. What is wrong with a picture costs the mesh
-  /// its texture, not its shape.
+  /// If all of the mesh has texture coordinates in the same picture. What is wrong with a picture
+  /// costs the mesh its texture, not its shape.
   void add_texture(const tinygltf::Mesh& source, TriangleMesh& mesh) {
-    const auto places = std::exchange(places_, {});
-    if (places.size() != mesh.vertices.size() || source.primitives.empty()) return;
+    const auto uvs = std::exchange(uvs_, {});
+    if (uvs.size() != mesh.vertices.size() || source.primitives.empty()) return;
     int picture = -1;
     for (const tinygltf::Primitive& primitive : source.primitives) {
       const int own = picture_of(primitive);
@@ -152,12 +152,12 @@ class SceneReader {
     auto texture = std::make_shared<MeshTexture>();
     texture->image = std::move(*image);
     for (const auto& t : mesh.triangles)
-      texture->corners.push_back({places[t[0]], places[t[1]], places[t[2]]});
+      texture->corners.push_back({uvs[t[0]], uvs[t[1]], uvs[t[2]]});
     mesh.texture = std::move(texture);
     if (has_texture(mesh)) weld_seams(mesh);
   }
 
-  /// Of the base colour, on the first set of places; -1 where there is none.
+  /// Of the base colour, on the first set of texture coordinates; -1 where there is none.
   int picture_of(const tinygltf::Primitive& primitive) const {
     if (primitive.material < 0 ||
         static_cast<std::size_t>(primitive.material) >= model_.materials.size())
@@ -210,11 +210,10 @@ class SceneReader {
     const auto vector = [](const GlbAccessor& a, std::size_t i) {
       return Vec3d(a.at(i, 0), a.at(i, 1), a.at(i, 2));
     };
-    if (const auto places = attribute(primitive, "TEXCOORD_0");
-        places && places->count() == n && places->components() == 2 &&
-        places_.size() == mesh.vertices.size())
+    if (const auto uvs = attribute(primitive, "TEXCOORD_0");
+        uvs && uvs->count() == n && uvs->components() == 2 && uvs_.size() == mesh.vertices.size())
       for (std::size_t i = 0; i < n; ++i)
-        places_.emplace_back(float(places->at(i, 0)), float(places->at(i, 1)));
+        uvs_.emplace_back(float(uvs->at(i, 0)), float(uvs->at(i, 1)));
     const bool all_normals = mesh.normals.size() == mesh.vertices.size();
     const bool all_colors = mesh.colors.size() == mesh.vertices.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -275,7 +274,7 @@ class SceneReader {
   std::vector<Open> open_;
   std::vector<TriangleMesh> meshes_;
   TextureBudget budget_;
-  std::vector<Eigen::Vector2f> places_;  // in the picture, of the vertices of the mesh being read
+  std::vector<Eigen::Vector2f> uvs_;  // in the picture, of the vertices of the mesh being read
 };
 
 }  // namespace

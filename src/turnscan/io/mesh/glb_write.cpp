@@ -30,7 +30,7 @@ class Builder {
         continue;
       }
       const SplitMesh split = split_at_seams(mesh);
-      add(split.mesh, &split.places);
+      add(split.mesh, &split.uvs);
       pictures_.push_back({model_.meshes.size() - 1, &mesh.texture->image});
     }
   }
@@ -80,17 +80,16 @@ class Builder {
   }
 
   /// Colours of vertices would be multiplied with the texture.
-  void add(const TriangleMesh& mesh, const std::vector<Eigen::Vector2f>* places) {
+  void add(const TriangleMesh& mesh, const std::vector<Eigen::Vector2f>* uvs) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
     primitive.attributes["POSITION"] = add_positions(mesh);
     if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = add_vectors(mesh.normals);
-    if (!mesh.colors.empty() && places == nullptr)
-      primitive.attributes["COLOR_0"] = add_colors(mesh);
-    if (places != nullptr)
+    if (!mesh.colors.empty() && uvs == nullptr) primitive.attributes["COLOR_0"] = add_colors(mesh);
+    if (uvs != nullptr)
       primitive.attributes["TEXCOORD_0"] = add_array(
-          places->data(), sizeof(Eigen::Vector2f), places->size(), TINYGLTF_COMPONENT_TYPE_FLOAT,
+          uvs->data(), sizeof(Eigen::Vector2f), uvs->size(), TINYGLTF_COMPONENT_TYPE_FLOAT,
           TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.indices = add_indices(mesh);
     tinygltf::Mesh& target = model_.meshes.emplace_back();

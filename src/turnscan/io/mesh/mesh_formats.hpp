@@ -25,13 +25,13 @@ Meshes decode_obj(std::string_view bytes);
 
 /// Places of an object's triangles in the picture of a material, as MeshTexture has them; empty
 /// where not all have one, or they have several materials.
-struct ObjPlaces {
+struct ObjTexCoords {
   std::vector<std::array<Eigen::Vector2f, 3>> corners;
   std::string material;
 };
 struct ObjObjects {
   std::vector<TriangleMesh> meshes;
-  std::vector<ObjPlaces> places;       ///< per mesh
+  std::vector<ObjTexCoords> uvs;       ///< per mesh
   std::vector<std::string> libraries;  ///< names of material libraries
 };
 Result<ObjObjects> parse_obj(std::string_view bytes);

@@ -22,9 +22,9 @@ struct ObjContent {
   bool one_normal_each = true;           ///< no vertex has different normals in different faces
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Object> objects;
-  std::vector<Eigen::Vector2f> places;                 ///< in pictures, from the lower left corner
-  std::vector<std::array<std::uint32_t, 3>> place_of;  ///< per triangle, kNone where no face says
-  std::vector<std::uint32_t> material_of;              ///< per triangle
+  std::vector<Eigen::Vector2f> uvs;                 ///< in pictures, from the lower left corner
+  std::vector<std::array<std::uint32_t, 3>> uv_of;  ///< per triangle, kNone where no face says
+  std::vector<std::uint32_t> material_of;           ///< per triangle
   std::vector<std::string> materials{""}, libraries;
 };
 
@@ -95,7 +95,7 @@ class ObjReader {
     Eigen::Vector2f at;
     for (int i = 0; i < 2; ++i)
       if (!cursor_.floating(at[i])) at[i] = 0.0F;  // one number is a place in a line of colours
-    content_.places.push_back(at);
+    content_.uvs.push_back(at);
     return nullptr;
   }
 
@@ -108,13 +108,13 @@ class ObjReader {
 
   const char* face() {
     polygon_.clear();
-    polygon_places_.clear();
+    polygon_uvs_.clear();
     for (cursor_.skip_blanks(); !cursor_.at_line_end(); cursor_.skip_blanks())
       if (const char* why = corner(cursor_.word())) return why;
     if (polygon_.size() < 3) return "a face without three vertices";
     for (std::size_t i = 2; i < polygon_.size(); ++i) {
       content_.triangles.push_back({polygon_[0], polygon_[i - 1], polygon_[i]});
-      content_.place_of.push_back({polygon_places_[0], polygon_places_[i - 1], polygon_places_[i]});
+      content_.uv_of.push_back({polygon_uvs_[0], polygon_uvs_[i - 1], polygon_uvs_[i]});
       content_.material_of.push_back(material_);
     }
     return nullptr;
@@ -127,12 +127,12 @@ class ObjReader {
     if (vertex == kNone) return "the index of a vertex is out of range";
     polygon_.push_back(vertex);
     const std::size_t second = slash == std::string_view::npos ? slash : text.find('/', slash + 1);
-    polygon_places_.push_back(
+    polygon_uvs_.push_back(
         slash == std::string_view::npos
             ? kNone
             : index(text.substr(slash + 1,
                                 second == std::string_view::npos ? second : second - slash - 1),
-                    content_.places.size()));
+                    content_.uvs.size()));
     if (second == std::string_view::npos) return nullptr;
     const std::uint32_t normal = index(text.substr(second + 1), content_.normals.size());
     if (normal == kNone) return "the index of a normal is out of range";
@@ -154,7 +154,7 @@ class ObjReader {
 
   text::TextCursor cursor_;
   ObjContent content_;
-  std::vector<std::uint32_t> polygon_, polygon_places_;
+  std::vector<std::uint32_t> polygon_, polygon_uvs_;
   std::uint32_t material_ = 0;
 };
 
@@ -220,16 +220,16 @@ class Cutter {
 };
 
 /// Places of the triangles [begin, end), if all have some and are of one material.
-ObjPlaces places_of(const ObjContent& content, std::size_t begin, std::size_t end) {
-  ObjPlaces out;
+ObjTexCoords uvs_of(const ObjContent& content, std::size_t begin, std::size_t end) {
+  ObjTexCoords out;
   for (std::size_t t = begin; t < end; ++t) {
-    const auto& place = content.place_of[t];
+    const auto& place = content.uv_of[t];
     if (content.material_of[t] != content.material_of[begin] ||
         std::find(place.begin(), place.end(), kNone) != place.end())
       return {};
     auto& corners = out.corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector2f& p = content.places[place[k]];
+      const Eigen::Vector2f& p = content.uvs[place[k]];
       corners[k] = {p.x(), 1.0F - p.y()};
       if (!corners[k].allFinite()) return {};
     }
@@ -238,7 +238,7 @@ ObjPlaces places_of(const ObjContent& content, std::size_t begin, std::size_t en
   return out;
 }
 
-std::vector<TriangleMesh> objects_of(ObjContent&& content, std::vector<ObjPlaces>& places) {
+std::vector<TriangleMesh> objects_of(ObjContent&& content, std::vector<ObjTexCoords>& uvs) {
   auto objects = std::move(content.objects);
   if (objects.size() > 1 && objects.back().first_triangle == content.triangles.size())
     objects.pop_back();
@@ -246,9 +246,8 @@ std::vector<TriangleMesh> objects_of(ObjContent&& content, std::vector<ObjPlaces
   const std::size_t count = objects.size();
   content.objects = objects;
   for (std::size_t i = 0; i < count; ++i)
-    places.push_back(
-        places_of(content, objects[i].first_triangle,
-                  i + 1 < count ? objects[i + 1].first_triangle : content.triangles.size()));
+    uvs.push_back(uvs_of(content, objects[i].first_triangle,
+                         i + 1 < count ? objects[i + 1].first_triangle : content.triangles.size()));
   TriangleMesh whole = whole_mesh(std::move(content));
   if (count == 1) {
     meshes.push_back(std::move(whole));
@@ -290,7 +289,7 @@ Result<ObjObjects> parse_obj(std::string_view bytes) {
   ObjObjects out;
   out.libraries = std::move(content.libraries);
   file::from_file(frame_of(bytes), content.vertices, content.normals);
-  out.meshes = objects_of(std::move(content), out.places);
+  out.meshes = objects_of(std::move(content), out.uvs);
   return out;
 }
 

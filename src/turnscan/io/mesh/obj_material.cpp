@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kMostMaterialBytes = 1 << 20;
-constexpr std::uint64_t kMostPictureBytes = std::uint64_t(256) << 20;
+constexpr std::uint64_t kMaxMaterialBytes = 1 << 20;
+constexpr std::uint64_t kMaxTextureFileBytes = std::uint64_t(256) << 20;
 
 std::string without_spaces_about(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r");
@@ -82,23 +82,23 @@ Meshes read_obj(const fs::path& path, std::string_view bytes) {
   for (const std::string& library : objects.libraries) {
     const fs::path file = file_beside(path, library);
     const auto mtl = file.empty() ? Result<std::string>(fail(ErrorCode::kNotFound, "elsewhere"))
-                                  : read_file(file, kMostMaterialBytes);
+                                  : read_file(file, kMaxMaterialBytes);
     if (mtl) pictures.merge(pictures_of_materials(*mtl));
   }
   TextureBudget budget;
   for (std::size_t i = 0; i < objects.meshes.size(); ++i) {
-    ObjPlaces& places = objects.places[i];
-    const auto picture = pictures.find(places.material);
-    if (places.corners.empty() || picture == pictures.end()) continue;
+    ObjTexCoords& uvs = objects.uvs[i];
+    const auto picture = pictures.find(uvs.material);
+    if (uvs.corners.empty() || picture == pictures.end()) continue;
     const fs::path file = file_beside(path, picture->second);
     if (file.empty()) continue;
-    const auto picture_bytes = read_file(file, kMostPictureBytes);
+    const auto picture_bytes = read_file(file, kMaxTextureFileBytes);
     if (!picture_bytes) continue;
     auto image = budget.decode(*picture_bytes);
     if (!image) continue;
     auto texture = std::make_shared<MeshTexture>();
     texture->image = std::move(*image);
-    texture->corners = std::move(places.corners);
+    texture->corners = std::move(uvs.corners);
     objects.meshes[i].texture = std::move(texture);
   }
   return std::move(objects.meshes);

@@ -20,16 +20,16 @@ void append_vertex(fmt::memory_buffer& text, const TriangleMesh& mesh, std::size
   text.push_back('\n');
 }
 
-/// places: numbers of the corners' places in the picture, or nullptr.
+/// uvs: numbers of the corners' texture coordinates, or nullptr.
 void append_face(fmt::memory_buffer& text, const std::array<std::uint32_t, 3>& triangle,
-                 std::uint64_t first, bool normals, const std::array<std::uint64_t, 3>* places) {
+                 std::uint64_t first, bool normals, const std::array<std::uint64_t, 3>* uvs) {
   text.push_back('f');
   for (std::size_t k = 0; k < 3; ++k) {
     const std::uint64_t number = first + triangle[k];
-    if (places != nullptr && normals)
-      fmt::format_to(fmt::appender(text), " {}/{}/{}", number, (*places)[k], number);
-    else if (places != nullptr)
-      fmt::format_to(fmt::appender(text), " {}/{}", number, (*places)[k]);
+    if (uvs != nullptr && normals)
+      fmt::format_to(fmt::appender(text), " {}/{}/{}", number, (*uvs)[k], number);
+    else if (uvs != nullptr)
+      fmt::format_to(fmt::appender(text), " {}/{}", number, (*uvs)[k]);
     else if (normals)
       fmt::format_to(fmt::appender(text), " {}//{}", number, number);
     else
@@ -69,7 +69,7 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
   // Normals have the numbers of their vertices: all objects have them or none.
   const bool normals = std::none_of(meshes.begin(), meshes.end(),
                                     [](const TriangleMesh& m) { return m.normals.empty(); });
-  std::uint64_t first = 1, first_place = 1;
+  std::uint64_t first = 1, first_uv = 1;
   for (std::size_t number = 0; number < meshes.size(); ++number) {
     const TriangleMesh& mesh = meshes[number];
     if (meshes.size() > 1 || !mesh.name.empty())
@@ -82,22 +82,22 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
     }));
     SplitMesh split;
     if (!library.empty() && has_texture(mesh)) split = split_at_seams(mesh);
-    TURNSCAN_TRY(write_lines(sink, split.places.size(), [&](auto& text, auto i) {
-      const Eigen::Vector2f& p = split.places[i];
+    TURNSCAN_TRY(write_lines(sink, split.uvs.size(), [&](auto& text, auto i) {
+      const Eigen::Vector2f& p = split.uvs[i];
       fmt::format_to(fmt::appender(text), "vt {} {}\n", p.x(), 1.0F - p.y());
     }));
-    if (!split.places.empty()) TURNSCAN_TRY(sink.write("usemtl " + material_name(number) + "\n"));
+    if (!split.uvs.empty()) TURNSCAN_TRY(sink.write("usemtl " + material_name(number) + "\n"));
     TURNSCAN_TRY(write_lines(sink, mesh.triangles.size(), [&](auto& text, auto i) {
-      if (split.places.empty()) {
+      if (split.uvs.empty()) {
         append_face(text, mesh.triangles[i], first, normals, nullptr);
         return;
       }
-      std::array<std::uint64_t, 3> places{};
-      for (std::size_t k = 0; k < 3; ++k) places[k] = first_place + split.mesh.triangles[i][k];
-      append_face(text, mesh.triangles[i], first, normals, &places);
+      std::array<std::uint64_t, 3> uvs{};
+      for (std::size_t k = 0; k < 3; ++k) uvs[k] = first_uv + split.mesh.triangles[i][k];
+      append_face(text, mesh.triangles[i], first, normals, &uvs);
     }));
     first += n;
-    first_place += split.places.size();
+    first_uv += split.uvs.size();
   }
   return {};
 }

@@ -5,12 +5,12 @@ namespace turnscan::mesh_io {
 
 namespace {
 
-constexpr std::uint64_t kMostTries = 1000;  // small ones cost time, too
+constexpr std::uint64_t kMaxTries = 1000;  // small ones cost time, too
 
 }  // namespace
 
 Result<ColorImage> TextureBudget::decode(std::string_view bytes) {
-  if (pixels_ >= kMaxImagePixels || ++tries_ > kMostTries)
+  if (pixels_ >= kMaxImagePixels || ++tries_ > kMaxTries)
     return fail(ErrorCode::kResourceLimit, "the file asks for too many pictures");
   TURNSCAN_ASSIGN(ColorImage image, decode_color(bytes));
   pixels_ += image.pixels.size();

@@ -176,22 +176,22 @@ class ThreemfReader {
           (transform * Vec3f(v.m_fPosition[0], v.m_fPosition[1], v.m_fPosition[2]).cast<double>())
               .cast<float>());
     add_triangles(triangles, first, vertex_count, transform.linear().determinant() < 0.0, target);
-    add_places(object, triangle_count, transform.linear().determinant() < 0.0);
+    add_uvs(object, triangle_count, transform.linear().determinant() < 0.0);
     if (target.colors.size() == first) add_colors(object, triangles, vertex_count, target);
   }
 
   /// Places of an object's triangles, if all have one in the same picture.
-  void add_places(const Lib3mfHandle& object, std::size_t count, bool mirrored) {
+  void add_uvs(const Lib3mfHandle& object, std::size_t count, bool mirrored) {
     Lib3mfHandle handler;
-    std::vector<NMR::MODELMESHTEXTURE2D> places(count);
+    std::vector<NMR::MODELMESHTEXTURE2D> uvs(count);
     if (NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()) != LIB3MF_OK ||
-        NMR::lib3mf_propertyhandler_gettexturearray(handler.get(), places.data()) != LIB3MF_OK)
+        NMR::lib3mf_propertyhandler_gettexturearray(handler.get(), uvs.data()) != LIB3MF_OK)
       return;
-    for (const NMR::MODELMESHTEXTURE2D& place : places) {
+    for (const NMR::MODELMESHTEXTURE2D& place : uvs) {
       if (place.m_nTextureID == 0) return;
       if (texture_id_ != 0 && texture_id_ != place.m_nTextureID) return;
       texture_id_ = place.m_nTextureID;
-      auto& corners = places_.emplace_back();
+      auto& corners = uvs_.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t from = mirrored ? 2 - k : k;
         corners[k] = {place.m_fU[from], 1.0F - place.m_fV[from]};
@@ -201,7 +201,7 @@ class ThreemfReader {
 
   /// To the item that was read. What is wrong with a picture costs it its texture, not its shape.
   void add_texture(TriangleMesh& mesh) {
-    auto corners = std::exchange(places_, {});
+    auto corners = std::exchange(uvs_, {});
     const DWORD id = std::exchange(texture_id_, 0);
     if (id == 0 || corners.size() != mesh.triangles.size()) return;
     Lib3mfHandle texture, attachment;
@@ -262,7 +262,7 @@ class ThreemfReader {
   Lib3mfHandle model_;
   std::vector<TriangleMesh> meshes_;
   std::size_t placed_ = 0, elements_left_;
-  std::vector<std::array<Eigen::Vector2f, 3>> places_;  // of the item being read
+  std::vector<std::array<Eigen::Vector2f, 3>> uvs_;  // of the item being read
   DWORD texture_id_ = 0;
   TextureBudget budget_;
 };

@@ -49,7 +49,7 @@ bool is_degenerate(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// lib3mf writes places in textures through streams, which take the global locale: while it lives,
+/// lib3mf writes texture coordinates through streams, which take the global locale: while it lives,
 /// that one has points. Programs that leave it alone see no change.
 class ClassicStreams {
  public:
@@ -178,21 +178,21 @@ class Writer {
             texture);
     DWORD id = 0;
     require(NMR::lib3mf_resource_getresourceid(texture.get(), &id), texture);
-    std::vector<NMR::MODELMESHTEXTURE2D> places(triangles_.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      places[i].m_nTextureID = id;
+    std::vector<NMR::MODELMESHTEXTURE2D> uvs(triangles_.size());
+    for (std::size_t i = 0; i < uvs.size(); ++i) {
+      uvs[i].m_nTextureID = id;
       for (std::size_t k = 0; k < 3; ++k) {
         const Eigen::Vector2f& p = mesh.texture->corners[kept_[i]][k];
-        places[i].m_fU[k] = p.x();
-        places[i].m_fV[k] = 1.0F - p.y();
+        uvs[i].m_fU[k] = p.x();
+        uvs[i].m_fV[k] = 1.0F - p.y();
       }
     }
     Lib3mfHandle handler, fallback;
     require(NMR::lib3mf_meshobject_createpropertyhandler(object.get(), handler.out()), object);
-    require(NMR::lib3mf_propertyhandler_settexturearray(handler.get(), places.data()), handler);
+    require(NMR::lib3mf_propertyhandler_settexturearray(handler.get(), uvs.data()), handler);
     require(NMR::lib3mf_object_createdefaultpropertyhandler(object.get(), fallback.out()), object);
-    require(NMR::lib3mf_defaultpropertyhandler_settexture(fallback.get(), id, places[0].m_fU[0],
-                                                          places[0].m_fV[0]),
+    require(NMR::lib3mf_defaultpropertyhandler_settexture(fallback.get(), id, uvs[0].m_fU[0],
+                                                          uvs[0].m_fV[0]),
             fallback);
   }
 

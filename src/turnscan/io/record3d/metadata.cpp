@@ -9,7 +9,7 @@ namespace turnscan::record3d {
 
 namespace {
 
-constexpr int kMostSide = 16384;
+constexpr int kMaxSide = 16384;
 
 /// A list of lists of `width` numbers each; empty where there is none.
 Result<std::vector<std::vector<double>>> rows_of(const text::JsonObject& root, const char* key,
@@ -51,8 +51,8 @@ Result<> take_cameras_of_frames(const text::JsonObject& root, Metadata& out) {
 /// K stands column by column.
 Result<> parse_camera(const text::JsonObject& root, Metadata& out) {
   CameraIntrinsics& camera = out.camera;
-  TURNSCAN_ASSIGN(camera.width, root.integer("w", 1, kMostSide));
-  TURNSCAN_ASSIGN(camera.height, root.integer("h", 1, kMostSide));
+  TURNSCAN_ASSIGN(camera.width, root.integer("w", 1, kMaxSide));
+  TURNSCAN_ASSIGN(camera.height, root.integer("h", 1, kMaxSide));
   TURNSCAN_ASSIGN(const std::vector<double> k, root.numbers("K"));
   if (k.size() != 9) return fail(ErrorCode::kFormat, "K has {} numbers, not 9", k.size());
   camera.fx = k[0];
@@ -82,8 +82,8 @@ Result<Metadata> parse_metadata(std::string_view json) {
   Metadata out;
   TURNSCAN_TRY(parse_camera(root, out));
   if (root.has("dw") || root.has("dh")) {
-    TURNSCAN_ASSIGN(out.depth_width, root.integer("dw", 1, kMostSide));
-    TURNSCAN_ASSIGN(out.depth_height, root.integer("dh", 1, kMostSide));
+    TURNSCAN_ASSIGN(out.depth_width, root.integer("dw", 1, kMaxSide));
+    TURNSCAN_ASSIGN(out.depth_height, root.integer("dh", 1, kMaxSide));
   }
   TURNSCAN_ASSIGN(out.fps, root.number_or("fps", 0.0));
   if (root.has("frameTimestamps")) {

@@ -12,7 +12,7 @@ constexpr std::size_t kCached = 4;                               // chunks
 constexpr std::uint32_t kCachedBytes = 32U << 20;                // of each, at most
 constexpr std::uint64_t kScannedBytes = std::uint64_t(1) << 30;  // on opening, and
 constexpr std::uint64_t kScannedTimes = 16;                      // so often the file's size
-constexpr std::uint64_t kMostByLz4 = 255;                        // times as long unpacked
+constexpr std::uint64_t kMaxByLz4 = 255;                         // times as long unpacked
 constexpr std::size_t kFirstPiece = 512;                         // most headers are shorter
 
 std::uint32_t little_u32(const char* at) { return file::load<std::uint32_t, false>(at); }
@@ -147,7 +147,7 @@ Result<> Bag::take_chunk(const Head& head, std::uint64_t& next) {
   Chunk chunk{head.data_at, head.data_bytes, *size, *packing, false};
   const bool lies = *packing == Packing::kNone ? *size != head.data_bytes
                     : *packing == Packing::kLz4
-                        ? *size > kMostByLz4 * (std::uint64_t(head.data_bytes) + 1)
+                        ? *size > kMaxByLz4 * (std::uint64_t(head.data_bytes) + 1)
                         : false;
   if (lies)
     return fail(ErrorCode::kFormat, "a chunk claims {} bytes out of {}", *size, head.data_bytes);

@@ -13,10 +13,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::uint32_t kVersion = 4;
-constexpr std::uint64_t kMostName = 1024;
-constexpr std::uint32_t kMostSide = 16384;
+constexpr std::uint64_t kMaxName = 1024;
+constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::uint64_t kFrameHeaderBytes = 64 + 4 * 8;
-constexpr std::uint64_t kMostFrames = 4000000;
+constexpr std::uint64_t kMaxFrames = 4000000;
 
 /// Fields one after another.
 class Fields {
@@ -40,9 +40,9 @@ T value_at(std::string_view bytes, std::size_t at) {
 }
 
 bool good_sizes(const Header& h) {
-  const auto side = [](std::uint32_t s) { return s >= 1 && s <= kMostSide; };
-  return side(h.depth_width) && side(h.depth_height) && h.color_width <= kMostSide &&
-         h.color_height <= kMostSide;
+  const auto side = [](std::uint32_t s) { return s >= 1 && s <= kMaxSide; };
+  return side(h.depth_width) && side(h.depth_height) && h.color_width <= kMaxSide &&
+         h.color_height <= kMaxSide;
 }
 
 /// The header, and where the frames begin.
@@ -53,7 +53,7 @@ Result<std::pair<Header, std::uint64_t>> read_header(const file::RandomAccessFil
     return fail_at(file.path().string(), ErrorCode::kUnsupported,
                    "the .sens file has version {}; version {} is read", version, kVersion);
   const auto name = value_at<std::uint64_t>(begin, 4);
-  if (name > kMostName)
+  if (name > kMaxName)
     return fail_at(file.path().string(), ErrorCode::kFormat,
                    "the sensor's name has {} characters by the header; this is no .sens file, or "
                    "it is damaged",
@@ -102,7 +102,7 @@ bool unpack_zlib(const std::string& packed, std::vector<std::uint16_t>& pixels) 
 
 bool looks_like_sens(std::string_view begin) {
   return begin.size() >= 12 && value_at<std::uint32_t>(begin, 0) == kVersion &&
-         value_at<std::uint64_t>(begin, 4) <= kMostName;
+         value_at<std::uint64_t>(begin, 4) <= kMaxName;
 }
 
 Result<Index> read_index(const file::RandomAccessFile& file) {
@@ -110,9 +110,9 @@ Result<Index> read_index(const file::RandomAccessFile& file) {
   Index index{std::move(header.first), {}};
   std::uint64_t at = header.second;
   while (index.frames.size() < index.header.frame_count && file.size() - at >= kFrameHeaderBytes) {
-    if (index.frames.size() == kMostFrames)
+    if (index.frames.size() == kMaxFrames)
       return fail_at(file.path().string(), ErrorCode::kResourceLimit,
-                     "there are more than {} frames", kMostFrames);
+                     "there are more than {} frames", kMaxFrames);
     TURNSCAN_ASSIGN(const std::string bytes, file.read(at, kFrameHeaderBytes));
     Fields fields(bytes);
     FramePlace frame;
@@ -138,10 +138,10 @@ Result<std::vector<std::uint16_t>> read_depth(const file::RandomAccessFile& file
     return fail_at(path, ErrorCode::kUnsupported,
                    "depth is packed by method {}; raw (0) and zlib (1) are read",
                    std::int32_t(header.depth_packing));
-  constexpr std::uint64_t kMostRatio = 1040;  // of deflate
+  constexpr std::uint64_t kMaxRatio = 1040;  // of deflate
   const std::uint64_t pixels = std::uint64_t(header.depth_width) * header.depth_height;
   const bool raw = header.depth_packing == DepthPacking::kRaw;
-  if (raw ? frame.depth_bytes != 2 * pixels : 2 * pixels / kMostRatio > frame.depth_bytes)
+  if (raw ? frame.depth_bytes != 2 * pixels : 2 * pixels / kMaxRatio > frame.depth_bytes)
     return fail_at(path, ErrorCode::kFormat,
                    "the depth image at byte {} has {} bytes, which do not fit its size", at,
                    frame.depth_bytes);

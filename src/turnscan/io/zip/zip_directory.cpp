@@ -8,8 +8,8 @@ namespace turnscan::zip {
 
 namespace {
 
-constexpr std::uint64_t kMostListBytes = std::uint64_t(256) << 20;
-constexpr std::size_t kEndBytes = 22, kListHeaderBytes = 46, kMostComment = 65535;
+constexpr std::uint64_t kMaxListBytes = std::uint64_t(256) << 20;
+constexpr std::size_t kEndBytes = 22, kListHeaderBytes = 46, kMaxComment = 65535;
 
 struct ListPlace {
   std::uint64_t at = 0, size = 0;
@@ -42,7 +42,7 @@ bool take_zip64(std::string_view extra, std::initializer_list<std::uint64_t*> fi
 
 /// From the record at the end, or from its 64-bit twin before it.
 std::optional<ListPlace> find_list(const file::RandomAccessFile& file) {
-  const std::uint64_t tail_size = std::min<std::uint64_t>(file.size(), kEndBytes + kMostComment);
+  const std::uint64_t tail_size = std::min<std::uint64_t>(file.size(), kEndBytes + kMaxComment);
   const std::uint64_t tail_at = file.size() - tail_size;
   const auto tail = file.read(tail_at, tail_size);
   if (!tail || tail->size() < kEndBytes) return std::nullopt;
@@ -123,10 +123,10 @@ Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file) {
 Result<Directory> read_directory(const file::RandomAccessFile& file) {
   Directory directory;
   const std::optional<ListPlace> place = find_list(file);
-  if (place && place->size > kMostListBytes && place->size <= file.size())
+  if (place && place->size > kMaxListBytes && place->size <= file.size())
     return fail_at(file.path().string(), ErrorCode::kResourceLimit,
                    "the list of the archive's entries has {} bytes; at most {} are read",
-                   place->size, kMostListBytes);
+                   place->size, kMaxListBytes);
   if (place) {
     const auto list = file.read(place->at, place->size);
     auto entries = list ? parse_list(*list, file.size()) : std::nullopt;

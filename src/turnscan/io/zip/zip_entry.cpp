@@ -8,7 +8,7 @@ namespace turnscan::zip {
 
 namespace {
 
-constexpr std::uint64_t kMostRatio = 1032;  // of deflate: 258 bytes from 2 bits
+constexpr std::uint64_t kMaxRatio = 1032;  // of deflate: 258 bytes from 2 bits
 
 struct FreeDecompressor {
   void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
@@ -60,7 +60,7 @@ Result<std::string> read_entry(const file::RandomAccessFile& file, const Entry& 
                    "the entry of the archive at byte {} has {} bytes; at most {} are expected",
                    entry.header_at, entry.size, max_bytes);
   if (entry.method == 0 ? entry.size != entry.packed_size
-                        : entry.size / kMostRatio > entry.packed_size)
+                        : entry.size / kMaxRatio > entry.packed_size)
     return fail_at(path, ErrorCode::kFormat,
                    "the entry of the archive at byte {} states a size that it cannot have",
                    entry.header_at);

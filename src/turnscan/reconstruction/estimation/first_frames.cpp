@@ -9,7 +9,7 @@ namespace {
 /// Profiles of line scanners that an estimate needs.
 constexpr std::size_t kProfilesNeeded = 256;
 /// Of more than these the older half is forgotten.
-constexpr std::size_t kMostKept = 512;
+constexpr std::size_t kMaxKept = 512;
 
 }  // namespace
 
@@ -54,12 +54,12 @@ Result<bool> FirstFrames::enough() {
 }
 
 void FirstFrames::ask_for_more() {
-  if (frames_.size() < kMostKept) {
+  if (frames_.size() < kMaxKept) {
     needed_ = 2 * frames_.size();
     return;
   }
   const auto half = std::ptrdiff_t(frames_.size() / 2);
-  forgotten_ += std::size_t(half);
+  discarded_ += std::size_t(half);
   frames_.erase(frames_.begin(), frames_.begin() + half);
   poses_.erase(poses_.begin(), poses_.begin() + half);
 }

@@ -21,7 +21,7 @@ class FirstFrames {
   Result<bool> enough();
 
   /// Nothing stands on the platter yet: an estimate needs more frames, and the oldest of many are
-  /// forgotten.
+  /// discarded.
   void ask_for_more();
 
   /// Fails as estimate_scan() does.
@@ -30,7 +30,7 @@ class FirstFrames {
   const std::vector<Frame>& frames() const { return frames_; }
   /// In the order of frames(), which is what their positions count.
   std::vector<PosedFrame> posed_frames() const;
-  std::size_t forgotten() const { return forgotten_; }
+  std::size_t discarded() const { return discarded_; }
   void clear();
 
  private:
@@ -41,7 +41,7 @@ class FirstFrames {
   std::size_t needed_;
   std::vector<Frame> frames_;
   std::vector<Pose> poses_;  ///< T_table_sensor of each
-  std::size_t forgotten_ = 0;
+  std::size_t discarded_ = 0;
 };
 
 }  // namespace turnscan::estimation

@@ -7,8 +7,8 @@ namespace turnscan::estimation {
 
 namespace {
 
-constexpr int kRimPlaces = 3;    ///< along and across the rim, of a sector
-constexpr int kFewestLooks = 3;  ///< looks at a sector that tell
+constexpr int kRimPlaces = 3;  ///< along and across the rim, of a sector
+constexpr int kMinLooks = 3;   ///< looks at a sector that tell
 constexpr int kSectorsThatTell = 3;
 
 }  // namespace
@@ -42,7 +42,7 @@ void PlatterRim::add(const Frame& frame, const SensorInfo& sensor, const Pose& T
 double PlatterRim::share_seen() const {
   int tell = 0, seen = 0;
   for (const Looks& looks : looks_) {
-    if (looks.on + looks.past < kFewestLooks) continue;
+    if (looks.on + looks.past < kMinLooks) continue;
     ++tell;
     seen += looks.on > looks.past ? 1 : 0;
   }

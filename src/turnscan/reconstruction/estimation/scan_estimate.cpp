@@ -6,7 +6,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
-#include <turnscan/reconstruction/estimation/object_reach.hpp>
+#include <turnscan/reconstruction/estimation/object_extent.hpp>
 #include <turnscan/reconstruction/estimation/platter_rim.hpp>
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
@@ -16,9 +16,9 @@ namespace turnscan::estimation {
 namespace {
 
 constexpr std::size_t kSampledFrames = 12;
-constexpr std::size_t kFewestPoints = 10;  // of a frame on the object
+constexpr std::size_t kMinPoints = 10;  // of a frame on the object
 /// So many points of a frame say where the platter and the object end; of more, every n-th is used.
-constexpr std::size_t kMostUncropped = 500'000;
+constexpr std::size_t kMaxUncropped = 500'000;
 /// Cells in which the object's points hang together, in distances between the points of a frame.
 constexpr double kCellSpacings = 3.0;
 /// A crop ends so many spreads above what it leaves out.
@@ -72,7 +72,7 @@ void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
   if (!reach) return;
   const double platter = cylinder.radius_m;
   cylinder.radius_m = kBeyondReach * *reach + kBeyondReach_m;
-  for (Choice& choice : estimate.choices)
+  for (ResolvedParameter& choice : estimate.choices)
     if (choice.option == "crop-radius")
       choice = {"crop-radius", length_text(cylinder.radius_m),
                 fmt::format("the object reaches {} from the axis, beyond the platter's {}; 25 % "
@@ -102,7 +102,7 @@ std::optional<PlatterReturns> platter_in(const PlatterReturns& returns,
                                          const std::vector<Vec3f>& sample,
                                          const std::optional<double>& known_m,
                                          const PlatterRim& rim, bool calibrated, double noise_m) {
-  const double most_sigma_m = std::max(PlatterReturns::kMostSigma_m, 2.0 * noise_m);
+  const double most_sigma_m = std::max(PlatterReturns::kMaxSigma_m, 2.0 * noise_m);
   if (known_m) return platter_with_rim(returns, most_sigma_m, sample, *known_m, rim);
   // A calibration that knows no radius has looked for a platter in vain: only what is as thin as
   // the noise proves the opposite.
@@ -132,7 +132,7 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
     return {std::max(0.002, clear),
             fmt::format("4 times the sensor's noise of {}", length_text(noise_m))};
   const double below = -std::max(0.005, clear);
-  if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMostSigma_m))
+  if (returns.height_m < below && returns.lie_flat(PlatterReturns::kMaxSigma_m))
     return {
         std::clamp(returns.height_m + kClearNoises * returns.sigma_m, below, 0.0),
         fmt::format("no platter is seen, but a plane {} below it", length_text(-returns.height_m))};
@@ -196,7 +196,7 @@ Result<FramePoints> object_points(const Frame& frame, const Pose& pose,
   TURNSCAN_ASSIGN(FramePoints points, points_of(frame, header.sensors[frame.info.sensor], rays));
   if (all != nullptr) {
     const Eigen::Affine3f T_table_sensor = pose.cast<float>();
-    const std::size_t step = 1 + points.cloud.size() / kMostUncropped;
+    const std::size_t step = 1 + points.cloud.size() / kMaxUncropped;
     for (std::size_t i = 0; i < points.cloud.size(); i += step)
       all->push_back(T_table_sensor * points.cloud.points[i]);
   }
@@ -281,12 +281,12 @@ class FrameSamples {
     Sample out;
     const std::optional<views::LightSheet>& sheet = scan_.sheets.at(scan_.frames[i].info.sensor);
     TURNSCAN_ASSIGN(const FramePoints points, points_on_object(i, &out.uncropped));
-    if (points.cloud.size() < kFewestPoints) return out;
+    if (points.cloud.size() < kMinPoints) return out;
     out.statistics = frame_statistics(points);
     const auto next = sheet ? next_of_sensor(scan_.frames, i) : std::nullopt;
     if (!next) return out;
     TURNSCAN_ASSIGN(const FramePoints neighbour, points_on_object(*next, nullptr));
-    if (neighbour.cloud.size() >= kFewestPoints)
+    if (neighbour.cloud.size() >= kMinPoints)
       out.across_m = profile_distance(points, scan_.poses[i], neighbour, scan_.poses[*next]);
     return out;
   }
@@ -314,7 +314,7 @@ Result<std::vector<std::optional<views::LightSheet>>> find_sheets(
     const std::size_t s = frame.info.sensor;
     if (header.sensors.at(s).kind != SensorKind::kPointScanner) continue;
     TURNSCAN_ASSIGN(const FramePoints points, points_of(frame, header.sensors[s], rays.at(s)));
-    if (points.cloud.size() < kFewestPoints) continue;
+    if (points.cloud.size() < kMinPoints) continue;
     ++some[s];
     const auto sheet = views::find_sheet(points);
     if (!sheet) continue;

@@ -17,7 +17,7 @@ struct ScanEstimate {
   std::vector<std::optional<views::LightSheet>> sheets;  ///< per sensor: of line scanners
   bool profiles = false;             ///< all sensors that the estimate saw are line scanners
   std::optional<Cylinder> cylinder;  ///< the crop; nullopt: everything is kept
-  std::vector<Choice> choices;
+  std::vector<ResolvedParameter> choices;
   std::vector<std::string> notes;
 };
 

@@ -112,13 +112,13 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
 
 /// So much farther than across the rays may neighbours lie along the surface before the frame says
 /// more about the surface's slope than about its points.
-constexpr double kMostBySlope = 1.25;
+constexpr double kMaxBySlope = 1.25;
 
 /// A second difference this many times the noise is a step from one surface to another.
 constexpr double kJump = 3.5;
 constexpr int kNoiseRounds = 6;
 /// Fewer than this share of the second differences beside no step say nothing.
-constexpr std::size_t kLeastShareOfBends = 8, kFewestBends = 16;
+constexpr std::size_t kMinShareOfBends = 8, kMinBends = 16;
 
 /// Second differences along the rows of a grid, z[i] - (z[i-1] + z[i+1]) / 2, of the depth along
 /// the ray.
@@ -156,7 +156,7 @@ class GridBends {
       if (within(i - 1, jump_m) && within(i, jump_m) && within(i + 1, jump_m))
         bends.push_back(bend_[i]);
     }
-    if (bends.size() < std::max(kFewestBends, all / kLeastShareOfBends)) return std::nullopt;
+    if (bends.size() < std::max(kMinBends, all / kMinShareOfBends)) return std::nullopt;
     return noise_of(bends);
   }
 
@@ -205,7 +205,7 @@ FrameStatistics frame_statistics(const FramePoints& points) {
     out.noise_m = bends.noise_within(kJump * std::sqrt(1.5) * out.noise_m).value_or(out.noise_m);
   out.spacing_m = bends.spacing();
   // A frame that looks along a flat part would ask for voxels too coarse for all the others.
-  out.even_spacing_m = std::min(out.spacing_m, std::hypot(kMostBySlope * bends.spacing_across(),
+  out.even_spacing_m = std::min(out.spacing_m, std::hypot(kMaxBySlope * bends.spacing_across(),
                                                           std::numbers::sqrt2 * out.noise_m));
   return out;
 }

@@ -12,15 +12,15 @@ namespace {
 
 /// Differences over this many pixels are free of a filter over three.
 constexpr int kApart = 3;
-constexpr std::size_t kFewest = 2000;  // differences that an estimate needs
+constexpr std::size_t kMin = 2000;  // differences that an estimate needs
 /// What the differences may exceed the noise by, which a filter hides half of, before they show how
 /// the surface turned.
 constexpr double kNoiseSlack = 3.0;
 /// Below, what neighbours have in common moves no edge that matters.
-constexpr double kLeastShare = 0.1;
+constexpr double kMinShare = 0.1;
 /// Of the ratios of variances, beside a mesh: what it lacks of the surface fits no filter.
-constexpr double kMostMiss = 0.08;
-constexpr std::size_t kMostDrawn = 24;  // views beside which a mesh is drawn
+constexpr double kMaxMiss = 0.08;
+constexpr std::size_t kMaxDrawn = 24;  // views beside which a mesh is drawn
 /// Of the noise: what lies farther off the mesh is not its surface.
 constexpr double kFarthestOff = 8.0;
 
@@ -128,7 +128,7 @@ std::array<double, 2> expected_of_second(double share) {
 /// too few, or where rounding or the surface makes them.
 std::optional<double> share_from(Differences& all, double variances, double most_miss,
                                  double unit_m, double noise_m) {
-  if (all.over[0].size() < kFewest) return std::nullopt;
+  if (all.over[0].size() < kMin) return std::nullopt;
   std::array<double, kApart> deviation{};
   for (std::size_t n = 0; n < deviation.size(); ++n)
     deviation[n] = spread(all.over[n]) * unit_m / std::sqrt(variances);
@@ -143,7 +143,7 @@ std::optional<double> share_from(Differences& all, double variances, double most
     const double miss = std::hypot(one - first, two - second);
     if (miss < least) least = miss, best = share;
   }
-  return best < kLeastShare || least > most_miss ? 0.0 : best;
+  return best < kMinShare || least > most_miss ? 0.0 : best;
 }
 
 Differences joined(const std::vector<Differences>& parts) {
@@ -169,13 +169,13 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
                            double noise_m) {
   if (views.empty()) return 0.0;
   const float unit_m = views[0].unit_m;
-  std::vector<Differences> own(views::views_for_statistics(views, kMostDrawn));
+  std::vector<Differences> own(views::views_for_statistics(views, kMaxDrawn));
   parallel_for(own.size(), 1, [&](std::size_t i) {
     const views::DepthView& view = views[i * views.size() / own.size()];
     if (!view.parallel && view.unit_m == unit_m) own[i] = differences(view, mesh, noise_m);
   });
   Differences all = joined(own);
-  return share_from(all, 6.0, kMostMiss, double(unit_m), noise_m).value_or(0.0);
+  return share_from(all, 6.0, kMaxMiss, double(unit_m), noise_m).value_or(0.0);
 }
 
 /// Along rows and down columns, of each the root of the variance.

@@ -227,7 +227,7 @@ Result<> finish_objects(const FinishOptions& options, Reconstruction& reconstruc
     ObjectResult chosen = std::move(objects[number - 1]);
     objects.clear();
     objects.push_back(std::move(chosen));
-    std::erase_if(reconstruction.choices, [&](Choice& choice) {
+    std::erase_if(reconstruction.choices, [&](ResolvedParameter& choice) {
       const bool others = choice.object >= 0 && choice.object != int(number) - 1;
       choice.object = std::min(choice.object, 0);
       return others;

@@ -14,13 +14,13 @@ constexpr std::size_t kGrain = 4096;
 /// Support from which on a bend beside a vertex may be a crease: a pixel or two on an edge.
 constexpr float kCreaseSupport = 0.15f;
 /// Fitted to scans of 36 to 460 frames.
-constexpr double kStiffer = 1.31, kMostStiffer = 16.0;
+constexpr double kStiffer = 1.31, kMaxStiffer = 16.0;
 /// The same where neighbours have errors in common.
-constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMostStifferInCommon = 32.0;
+constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMaxStifferInCommon = 32.0;
 /// Conjugate gradients: they end when so little of the residual is left, or after so many rounds,
 /// more of them where the surface is many times as stiff: they grow with the root of the condition.
 constexpr double kTolerance = 1e-4;
-constexpr int kMostRounds = 80;
+constexpr int kMaxRounds = 80;
 constexpr double kRoundsSufficeFor = 8.0;  // times
 /// Weight with which each vertex stays where it is, in measurements: what is hardly measured is
 /// known from the volume, too.
@@ -205,7 +205,7 @@ class OffsetSolver {
     std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), part(n),
                                        image(n);
     double before = 0.0, first = 0.0;
-    const int most = int(kMostRounds * std::sqrt(std::max(1.0, stiffer_ / kRoundsSufficeFor)));
+    const int most = int(kMaxRounds * std::sqrt(std::max(1.0, stiffer_ / kRoundsSufficeFor)));
     for (int round = 0; round < most; ++round) {
       parallel_for(n, kGrain, [&](std::size_t v) { scaled[v] = left[v] / scale[v]; });
       const double now = dot(left, scaled);
@@ -259,8 +259,8 @@ double stiffening(double noise_m, double correlation, double spacing_m, double e
   const double all = correlation * alone;
   const double in_common =
       kStifferInCommon * (std::pow(all, kPowerInCommon) - std::pow(alone, kPowerInCommon));
-  return std::max(std::clamp(kStiffer * all, 1.0, kMostStiffer),
-                  std::min(in_common, kMostStifferInCommon));
+  return std::max(std::clamp(kStiffer * all, 1.0, kMaxStiffer),
+                  std::min(in_common, kMaxStifferInCommon));
 }
 
 /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +

@@ -8,8 +8,8 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr std::size_t kMostColorViews = 256;
-constexpr float kLeastColorCosine = 0.2f;  // rays that graze the surface mix what lies beside it
+constexpr std::size_t kMaxColorViews = 256;
+constexpr float kMinColorCosine = 0.2f;  // rays that graze the surface mix what lies beside it
 constexpr Rgb kPlain{190, 190, 190};
 
 /// Sum of colours, and of their weights in the last place.
@@ -19,7 +19,7 @@ Eigen::Vector4f seen_color(const views::DepthView& view, const Vec3f& vertex, co
   const Vec3f p = view.rotation * vertex + view.translation;
   const Vec3f ray = view.parallel ? Vec3f(Vec3f::UnitZ()) : Vec3f(p.normalized());
   const float cosine = -(view.rotation * normal).dot(ray);
-  if (!(cosine > kLeastColorCosine)) return nothing;
+  if (!(cosine > kMinColorCosine)) return nothing;
   const std::ptrdiff_t i = view.pixel_at(p);
   if (i < 0) return nothing;
   const std::uint32_t word = view.pixels[std::size_t(i)];
@@ -75,7 +75,7 @@ Result<bool> color_from_views(TriangleMesh& mesh, std::span<const views::DepthVi
     if (!view.colors.empty()) colored.push_back(&view);
   }
   if (colored.empty()) return false;
-  const std::size_t step = (colored.size() + kMostColorViews - 1) / kMostColorViews;
+  const std::size_t step = (colored.size() + kMaxColorViews - 1) / kMaxColorViews;
   const std::vector<Vec3f> normals = vertex_normals(mesh);
   std::vector<std::uint8_t> known(mesh.vertices.size(), 0);
   mesh.colors.assign(mesh.vertices.size(), kPlain);

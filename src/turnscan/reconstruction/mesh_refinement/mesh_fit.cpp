@@ -9,21 +9,21 @@ namespace turnscan::mesh_refinement {
 namespace {
 
 /// Each iteration uses twice as many views as the one before it, but not fewer than these.
-constexpr std::size_t kFewestFitViews = 128;
+constexpr std::size_t kMinFitViews = 128;
 /// Dark or slanted places are noisier than others, up to so many times as far as it matters.
-constexpr float kMostSpread = 4.0f;
+constexpr float kMaxSpread = 4.0f;
 /// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
 constexpr float kUsualSpread = 1.2f;
 /// A rim scatters, too, by what else is measured near it, but it is narrow: noisy places are wider
 /// than twice so many rings of neighbours.
 constexpr int kRimRings = 6;
 /// Fewer views do not show how measurements scatter.
-constexpr std::size_t kLeastViewsForSpread = 24;
+constexpr std::size_t kMinViewsForSpread = 24;
 
 /// How many times the noise measurements scatter, when a share of them lies within kNear of its
 /// deviations: of normal errors it is erf(kNear / (sqrt(2) times)).
 float times_the_noise(float share) {
-  float low = 1.0f, high = kMostSpread * kUsualSpread;
+  float low = 1.0f, high = kMaxSpread * kUsualSpread;
   for (int round = 0; round < 12; ++round) {
     const float middle = 0.5f * (low + high);
     (std::erf(kNear / (1.4142136f * middle)) > share ? low : high) = middle;
@@ -41,12 +41,12 @@ class MeshFitter {
 
   Result<MeshFit> run(const RunContext& context) {
     const std::size_t n = fit_.mesh.vertices.size();
-    const bool estimates_spread = scale_.iterations > 0 && views_.size() >= kLeastViewsForSpread;
+    const bool estimates_spread = scale_.iterations > 0 && views_.size() >= kMinViewsForSpread;
     const int rounds = std::max(1, scale_.iterations), extra = estimates_spread ? 1 : 0;
     context.begin_phase("fit", observer_.blocks() * std::size_t(rounds + extra));
     spread_.assign(n, 1.0f);
     if (estimates_spread) {
-      std::fill(spread_.begin(), spread_.end(), kMostSpread * kMostSpread);
+      std::fill(spread_.begin(), spread_.end(), kMaxSpread * kMaxSpread);
       update_vertices(0);
       TURNSCAN_TRY(measure_all(view_stride(rounds - 1), context));
       estimate_spread();
@@ -69,7 +69,7 @@ class MeshFitter {
   /// Distance between the views that are used when so many iterations are to follow.
   std::size_t view_stride(int to_go) const {
     std::size_t stride = 1;
-    for (; to_go > 0 && views_.size() / (2 * stride) >= kFewestFitViews; --to_go) stride *= 2;
+    for (; to_go > 0 && views_.size() / (2 * stride) >= kMinFitViews; --to_go) stride *= 2;
     return stride;
   }
 
@@ -95,7 +95,7 @@ class MeshFitter {
       const float all = measured_.support[v] + count * neighbours_.mean(measured_.support, v, 0.0f);
       const float near = near_[v] + count * neighbours_.mean(near_, v, 0.0f);
       const float times = times_the_noise(all > 1e-3f ? near / all : 1.0f) / kUsualSpread;
-      const float spread = std::clamp(times, 1.0f, kMostSpread);
+      const float spread = std::clamp(times, 1.0f, kMaxSpread);
       spread_[v] = spread * spread;
     });
     spread_ = neighbours_.least(std::move(spread_), kRimRings);

@@ -46,7 +46,7 @@ std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours
                                   const VertexMeasurements& measured, const MeshFitScale& scale);
 
 /// Least cosine between a triangle's normals before and after take_steps().
-inline constexpr float kLeastTurn = 0.3f;
+inline constexpr float kMinTurn = 0.3f;
 /// Adds the steps to the vertices: shorter ones, or none, where a triangle would turn by more.
 void take_steps(TriangleMesh& mesh, std::vector<Vec3f> step);
 

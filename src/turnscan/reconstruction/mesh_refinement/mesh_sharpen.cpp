@@ -11,13 +11,13 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr std::size_t kMostDrawnViews = 64, kFewestDrawnViews = 16;
-constexpr std::size_t kMostDrawnBytes = std::size_t(64) << 20;
+constexpr std::size_t kMaxDrawnViews = 64, kMinDrawnViews = 16;
+constexpr std::size_t kMaxDrawnBytes = std::size_t(64) << 20;
 /// Neighbours this much nearer or farther do not mix: such pixels are rejected, or phases apart.
 constexpr float kApart_m = 0.06f;
 /// Each vertex goes with those around it: alone, rims would become saws.
 constexpr int kRings = 8;
-constexpr float kLeast_m = 1e-4f;   // shorter steps are mostly what noise left on the surface
+constexpr float kMin_m = 1e-4f;     // shorter steps are mostly what noise left on the surface
 constexpr float kTrusted = 0.005f;  // of the usual support; with less vertices go less far
 constexpr float kUnseen = 1e-4f;    // with less they stay
 /// Inwards the far side of what is thin, which no view measured, needs more support: it is no
@@ -76,9 +76,8 @@ Result<std::vector<views::DepthView>> draw_some(const TriangleMesh& mesh,
                                                 float share, const RunContext& context) {
   std::size_t pixels = 1;
   for (const views::DepthView& view : views) pixels = std::max(pixels, view.pixels.size());
-  const std::size_t fit = kMostDrawnBytes / (sizeof(std::uint32_t) * pixels);
-  const std::size_t count =
-      std::min(views.size(), std::clamp(fit, kFewestDrawnViews, kMostDrawnViews));
+  const std::size_t fit = kMaxDrawnBytes / (sizeof(std::uint32_t) * pixels);
+  const std::size_t count = std::min(views.size(), std::clamp(fit, kMinDrawnViews, kMaxDrawnViews));
   std::vector<views::DepthView> out(count);
   parallel_for(count, 1, [&](std::size_t i) {
     if (!context.cancelled()) out[i] = draw(views[i * views.size() / count], mesh, share);
@@ -142,7 +141,7 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
   const ThinParts thin(mesh.vertices, normals, kThinSpacings * scale.spacing_m);
   parallel_for(n, 1024, [&](std::size_t v) {
     const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
-    if (!(weight[v] > kUnseen * typical) || !(length > kLeast_m) ||
+    if (!(weight[v] > kUnseen * typical) || !(length > kMin_m) ||
         below_floor(mesh.vertices[v], scale)) {
       step[v].setZero();
       return;
@@ -152,7 +151,7 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
     if (inwards > 0.0f && weight[v] < kTrustedInwards * typical && thin.contain(v))
       trusted = std::lerp(kTrusted, kTrustedInwards, inwards);
     const float trust = std::min(1.0f, weight[v] / (trusted * typical));
-    step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kLeast_m) / step[v].norm();
+    step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
   });
   return step;
 }

@@ -21,7 +21,7 @@ bool shorten_folding(const TriangleMesh& mesh, std::vector<Vec3f>& step, float t
     const Vec3f before = (p[b] - p[a]).cross(p[c] - p[a]);
     const Vec3f pa = p[a] + step[a];
     const Vec3f after = (p[b] + step[b] - pa).cross(p[c] + step[c] - pa);
-    folds[i] = before.dot(after) < kLeastTurn * before.norm() * after.norm() ? 1 : 0;
+    folds[i] = before.dot(after) < kMinTurn * before.norm() * after.norm() ? 1 : 0;
   });
   std::vector<std::uint8_t> shorter(p.size(), 0);
   bool any = false;

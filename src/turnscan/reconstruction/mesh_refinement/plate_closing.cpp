@@ -11,8 +11,8 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr int kMostContacts = 4;       ///< solutions, each with the contacts of those before it
-constexpr int kMostRests = 3;          ///< vertices that are put onto the platter
+constexpr int kMaxContacts = 4;        ///< solutions, each with the contacts of those before it
+constexpr int kMaxRests = 3;           ///< vertices that are put onto the platter
 constexpr float kTouchCells = 1.0f;    ///< above the platter touches it
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
 /// Around what passes through other surface.
@@ -46,7 +46,7 @@ class PlateCloser {
     const std::vector<Vec3f> start = mesh_.vertices;
     const Marks before = winding_faults(mesh_, closing_.cell_m);
     TURNSCAN_TRY(bend(start));
-    for (int n = 0; n < kMostRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
+    for (int n = 0; n < kMaxRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
     for (const std::uint32_t v : rests_) loose_[v] = 1;
     bool crosses = true;
@@ -94,7 +94,7 @@ class PlateCloser {
     RelaxOptions plate;
     plate.tension = kTension;
     plate.hold = hold_;
-    for (int round = 0; round < kMostContacts; ++round) {
+    for (int round = 0; round < kMaxContacts; ++round) {
       TURNSCAN_ASSIGN(const TriangleMesh bent, relax(mesh_, free, plate, context_));
       Marks touches(loose_.size(), 0);
       parallel_for(loose_.size(), 1024, [&](std::size_t v) {

@@ -8,9 +8,9 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;   // vertices that are projected together
-constexpr float kTukey = 4.685f;      // standard deviations; 95 % efficient for normal noise
-constexpr float kLeastCosine = 0.2f;  // rays that graze the surface say little about it
+constexpr std::size_t kBlock = 256;  // vertices that are projected together
+constexpr float kTukey = 4.685f;     // standard deviations; 95 % efficient for normal noise
+constexpr float kMinCosine = 0.2f;   // rays that graze the surface say little about it
 
 /// Vertices that face alike and lie near each other stand together, so that a view that sees one
 /// of them sees most, and one that sees none can be left out.
@@ -98,7 +98,7 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
                               float(scale.noise_m),
                               float(scale.floor_m),
                               kTukey,
-                              kLeastCosine,
+                              kMinCosine,
                               scale.edge_weight};
   std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
   parallel_for(blocks(), 1, [&](std::size_t b) {
@@ -156,7 +156,7 @@ bool VertexObserver::turned_away(const views::DepthView& view, const Patch& patc
     wide += std::asin(patch.radius / distance);
   }
   const float facing = view.parallel ? -axis.z() : -axis.dot(c) / distance;
-  return std::acos(std::clamp(facing, -1.0f, 1.0f)) - wide > std::acos(kLeastCosine) &&
+  return std::acos(std::clamp(facing, -1.0f, 1.0f)) - wide > std::acos(kMinCosine) &&
          wide < kHalfPi;
 }
 

@@ -10,7 +10,7 @@ namespace turnscan::passes {
 namespace {
 
 /// A pattern of less contrast is noise, or what is left of the light.
-constexpr double kLeastDeviation = 0.05;
+constexpr double kMinDeviation = 0.05;
 /// Of the deviation of all colours: a label that is small against the object differs by more.
 constexpr double kSpread = 2.5;
 /// Puts places in another order; prime to most counts.
@@ -124,7 +124,7 @@ ColorScale color_scale(const PreparedPass& a, const PreparedPass& b) {
   for (const Vec3f& color : of_a) squares += double(color.squaredNorm()) / double(of_a.size());
   for (const Vec3f& color : of_b) squares += double(color.squaredNorm()) / double(of_b.size());
   const double deviation = std::sqrt(squares / 2.0);
-  if (deviation > kLeastDeviation) out.spread = float(kSpread * deviation);
+  if (deviation > kMinDeviation) out.spread = float(kSpread * deviation);
   return out;
 }
 

@@ -7,11 +7,11 @@ namespace turnscan::passes {
 
 class FreeSpace {
  public:
-  static constexpr std::size_t kMostViews = 40;
+  static constexpr std::size_t kMaxViews = 40;
 
   /// Nothing is known to be empty.
   FreeSpace() = default;
-  /// Asks up to kMostViews of the surface's views, evenly spread. Nearer than margin_m to what a
+  /// Asks up to kMaxViews of the surface's views, evenly spread. Nearer than margin_m to what a
   /// ray met counts for nothing.
   FreeSpace(const PassSurface& surface, double margin_m);
   /// Empty is, too, what another pass saw to be.

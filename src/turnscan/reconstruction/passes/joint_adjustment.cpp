@@ -14,7 +14,7 @@ namespace turnscan::passes {
 namespace {
 
 constexpr float kPlaneCos = 0.85f;
-constexpr double kTukey = 4.0, kLeastSigma = 3e-5, kConverged = 3e-6;
+constexpr double kTukey = 4.0, kMinSigma = 3e-5, kConverged = 3e-6;
 /// Errors of a fitted mesh are alike over several of its cells, and where the same frames saw it.
 constexpr double kBlock = 0.012;
 /// What no scatter of the distances shows: a sensor that looks down sees what faces up better than
@@ -27,8 +27,8 @@ constexpr double kRaised = 0.018, kTilted = 0.0045;
 /// rms distance from the axis of the turn, and shifted by in each direction. From simulated scans
 /// with a Kinect v2's physics (bench/pass_motion).
 constexpr double kFilterTilted = 1.7, kFilterShifted = 0.7;
-constexpr std::size_t kFewestPairs = 50;
-constexpr double kLeastColorSigma = 0.02;
+constexpr std::size_t kMinPairs = 50;
+constexpr double kMinColorSigma = 0.02;
 
 /// A point and a tangent plane of another pass, in the first pass's frame.
 struct PlanePair {
@@ -134,9 +134,9 @@ class JointAdjustment {
         if (pair.weight > 0.0f) distances.push_back(std::abs(pair.distance));
     }
     out_.pairs = distances.size();
-    if (out_.pairs < kFewestPairs)
+    if (out_.pairs < kMinPairs)
       return fail(ErrorCode::kTooFewPoints, "the passes' surfaces do not meet");
-    out_.sigma_m = std::max(kLeastSigma, estimation::mad_sigma(distances));
+    out_.sigma_m = std::max(kMinSigma, estimation::mad_sigma(distances));
     for (DirectedPairs& directed : directed_)
       if (directed.by_colors) take_out_light(directed);
     return {};
@@ -156,7 +156,7 @@ class JointAdjustment {
       for (const ShadingFit::Pair& p : pairs)
         sizes.push_back((p.difference - light.at(p.up_a, p.up_b)).norm());
       // Of three normal deviates the median length is 1.54 of their deviation.
-      return std::max(kLeastColorSigma, median(sizes) / 1.54);
+      return std::max(kMinColorSigma, median(sizes) / 1.54);
     };
     ShadingFit light(pairs, float(kTukey * scatter_of({})));
     directed.color_sigma = scatter_of(light);

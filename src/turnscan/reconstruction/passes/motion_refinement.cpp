@@ -2,9 +2,9 @@
 
 #include <memory>
 #include <turnscan/reconstruction/passes/coarse_alignment.hpp>
+#include <turnscan/reconstruction/passes/merged_pass.hpp>
 #include <turnscan/reconstruction/passes/pair_verdict.hpp>
 #include <turnscan/reconstruction/passes/undetermined.hpp>
-#include <turnscan/reconstruction/passes/united_pass.hpp>
 
 namespace turnscan::passes {
 
@@ -67,7 +67,7 @@ Result<RefinedMotion> refine_motion(std::span<const PlacedSurface> placed, const
   }
   TURNSCAN_TRY(check_surface(pass));
   if (placed.empty()) throw std::invalid_argument("refine_motion: nothing is placed");
-  const UnitedPass whole(surfaces, poses);
+  const MergedPass whole(surfaces, poses);
   return refine(whole.prepared(), PreparedPass(pass), T_here_pass, options, context);
 }
 

@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <turnscan/reconstruction/passes/merged_pass.hpp>
 #include <turnscan/reconstruction/passes/object_groups.hpp>
-#include <turnscan/reconstruction/passes/united_pass.hpp>
 
 namespace turnscan::passes {
 
@@ -110,7 +110,7 @@ class Grouping {
     from = {};
   }
 
-  UnitedPass united(const ObjectGroup& group) const {
+  MergedPass united(const ObjectGroup& group) const {
     std::vector<const PreparedPass*> surfaces;
     for (const std::size_t k : group.members) surfaces.push_back(objects_[k].surface);
     return {surfaces, group.T_here_member};
@@ -122,11 +122,11 @@ class Grouping {
     std::size_t into = 0, from = 0;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       if (groups_[i].members.size() < 2) continue;
-      const UnitedPass whole = united(groups_[i]);
+      const MergedPass whole = united(groups_[i]);
       for (std::size_t j = 0; j < groups_.size(); ++j) {
         const std::size_t count = groups_[j].members.size();
         if (i == j || count == 0 || (count > 1 && j < i) || refused(i, j)) continue;
-        const UnitedPass part = united(groups_[j]);
+        const MergedPass part = united(groups_[j]);
         TURNSCAN_ASSIGN(PairVerdict verdict,
                         judge_pair(whole.prepared(), part.prepared(), options_, context_));
         if (!verdict.certain || contradicts(groups_[i], groups_[j], verdict.best.T_a_b)) {

@@ -7,9 +7,9 @@ namespace turnscan::passes {
 
 namespace {
 
-constexpr std::size_t kFewestPoints = 200;
+constexpr std::size_t kMinPoints = 200;
 /// The volume ends in rags where less than this share of the usual measurements is behind it.
-constexpr float kLeastConfidence = 0.1f;
+constexpr float kMinConfidence = 0.1f;
 constexpr int kRagRings = 2;
 
 /// The corners of triangles that hold a marked vertex are marked, too.
@@ -29,7 +29,7 @@ std::vector<bool> unmeasured(const ObjectResult& object) {
     for (const std::uint32_t v : mesh.triangles[i]) out[v] = true;
   }
   for (std::size_t v = 0; v < object.confidence.size(); ++v)
-    if (object.confidence[v] < kLeastConfidence) out[v] = true;
+    if (object.confidence[v] < kMinConfidence) out[v] = true;
   for (int ring = 0; ring < kRagRings; ++ring) widen(mesh, out);
   return out;
 }
@@ -38,9 +38,9 @@ std::vector<bool> unmeasured(const ObjectResult& object) {
 
 Result<> check_surface(const PassSurface& surface) {
   const std::size_t points = surface.points.size();
-  if (points < kFewestPoints)
+  if (points < kMinPoints)
     return fail(ErrorCode::kTooFewPoints, "{} points of it were measured, {} are needed", points,
-                kFewestPoints);
+                kMinPoints);
   if (surface.normals.size() != points || surface.areas.size() != points ||
       surface.weights.size() != points ||
       (!surface.colors.empty() && surface.colors.size() != points))

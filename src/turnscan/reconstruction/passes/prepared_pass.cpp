@@ -11,7 +11,7 @@ constexpr std::size_t kVoting = 350, kCoarse = 500, kMedium = 4000;
 /// What lies nearer than this in front of a surface may be its noise, or the mesh's smoothing.
 constexpr double kFreeSigmas = 3.0, kFreeLeast = 0.001;
 
-constexpr std::size_t kColorNeighbors = 12, kFewestColored = 5;
+constexpr std::size_t kColorNeighbors = 12, kMinColored = 5;
 constexpr float kSameSide = 0.5f;
 
 double extent(const PassSurface& surface) { return bounds(surface.points).size().norm(); }
@@ -39,7 +39,7 @@ std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
       vector += (colors[near[k]] - colors[i]) * along.transpose();
       ++known;
     }
-    if (known < kFewestColored) return;
+    if (known < kMinColored) return;
     const float spread = matrix.trace();
     // Along the normal nothing changes.
     matrix +=

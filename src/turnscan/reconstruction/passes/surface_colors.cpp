@@ -10,13 +10,13 @@ namespace turnscan::passes {
 
 namespace {
 
-constexpr float kLeastCosine = 0.3f;  // rays that graze the surface mix what lies beside it
-constexpr float kGamma = 2.2f;        // about that of sRGB
-constexpr float kDark = 4.0f;         // of 255: below it the logarithm is noise
+constexpr float kMinCosine = 0.3f;  // rays that graze the surface mix what lies beside it
+constexpr float kGamma = 2.2f;      // about that of sRGB
+constexpr float kDark = 4.0f;       // of 255: below it the logarithm is noise
 /// Light from elsewhere changes lightness more than it changes hue.
 constexpr float kLightnessWeight = 0.5f;
 constexpr std::size_t kHarmonics = 8, kPointsAtOnce = 1024;
-constexpr double kFewestSeen = 0.2;  // of the points
+constexpr double kMinSeen = 0.2;  // of the points
 
 using Basis = Eigen::Matrix<double, kHarmonics, 1>;
 
@@ -65,7 +65,7 @@ class ColorsOfPass {
     }));
     std::size_t known = 0;
     for (const Vec3f& color : out) known += color.allFinite() ? 1 : 0;
-    if (double(known) < kFewestSeen * double(out.size())) out.clear();
+    if (double(known) < kMinSeen * double(out.size())) out.clear();
     return out;
   }
 
@@ -76,7 +76,7 @@ class ColorsOfPass {
       const Vec3f p = view->rotation * surface_.points[i] + view->translation;
       const Vec3f n = view->rotation * surface_.normals[i];
       const Vec3f ray = view->parallel ? Vec3f(Vec3f::UnitZ()) : Vec3f(p.normalized());
-      if (!(-n.dot(ray) > kLeastCosine)) continue;
+      if (!(-n.dot(ray) > kMinCosine)) continue;
       const std::ptrdiff_t at = view->pixel_at(p);
       if (at < 0) continue;
       const std::uint32_t word = view->pixels[std::size_t(at)];

@@ -12,7 +12,7 @@ namespace turnscan::points {
 namespace {
 
 /// Fewer points than this are no object, and give no scale.
-constexpr std::size_t kLeastPoints = 100;
+constexpr std::size_t kMinPoints = 100;
 /// Automatic voxels are no finer than this part of the cloud's longest side.
 constexpr double kFinest = 1.0 / 1000.0;
 
@@ -141,7 +141,7 @@ Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
   }
   if (options_.merge.cloud_outliers) return {};  // all are needed before any can be counted
   if (known) return sums_->add(frames);
-  if (cloud_.cloud.size() < kLeastPoints) return {};
+  if (cloud_.cloud.size() < kMinPoints) return {};
   TURNSCAN_TRY(context.check());
   return choose_scale(whole_);
 }
@@ -212,7 +212,7 @@ Result<> PointMethod::filter_cloud(const RunContext& context) {
   cloud.points.resize(kept);
   cloud.frame.resize(kept);
   if (!cloud.colors.empty()) cloud.colors.resize(kept);
-  return cloud.size() < kLeastPoints ? Result<>() : choose_scale(true);
+  return cloud.size() < kMinPoints ? Result<>() : choose_scale(true);
 }
 
 /// Gives the sums. The scan may have turned out thicker, or sparser, than its first frames: then

@@ -17,7 +17,7 @@ constexpr double kReach = 2.45;  // times radius_m
 constexpr double kTukey = 4.685;  // times noise_m
 /// A measurement supports a surface if its ray met it at less than about 80 degrees.
 constexpr float kFacing = 0.17f;
-constexpr double kLeastSupport = 0.1;  // of the median support
+constexpr double kMinSupport = 0.1;  // of the median support
 
 struct Site {
   Vec3d p, n;
@@ -192,7 +192,7 @@ Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, 
                         std::vector<Site>& out_sites, const RunContext& context) {
   std::vector<Vec3f> points;
   std::vector<std::uint32_t> origin;
-  const double least = kLeastSupport * median_support(sites);
+  const double least = kMinSupport * median_support(sites);
   for (std::uint32_t i = 0; i < sites.size(); ++i) {
     if (sites[i].lost || sites[i].support < least) continue;
     points.push_back(sites[i].p.cast<float>());

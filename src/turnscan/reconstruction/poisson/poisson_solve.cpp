@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kChunk = 64;  // bricks that one sum is taken over
 /// Steps of a level: a smooth error is the coarser levels' to reduce; what is left after these is
 /// below a hundredth of a millimetre on a figure of 40 cm.
-constexpr int kMostSteps = 40;
+constexpr int kMaxSteps = 40;
 constexpr double kTolerance = 1e-2;  // of the residual
 /// Of the stiffness matrix.
 constexpr float kDiagonal = 3.0f * (66.0f / 120.0f) * (66.0f / 120.0f);
@@ -91,7 +91,7 @@ Result<> solve(const ScreenedOperator& equation, std::size_t bricks, const Field
     return dot(&p[b], &r[b], n);
   });
   const double enough = kTolerance * kTolerance * rz;
-  for (int step = 0; step < kMostSteps && rz > enough; ++step) {
+  for (int step = 0; step < kMaxSteps && rz > enough; ++step) {
     TURNSCAN_TRY(context.check());
     equation.apply(p, q);
     const double pq =

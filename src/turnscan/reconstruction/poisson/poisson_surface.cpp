@@ -7,12 +7,12 @@
 namespace turnscan::poisson {
 namespace {
 
-constexpr std::size_t kMostGridBytes = std::size_t(4) << 30;
-constexpr int kMostCells = kSide + 2;
+constexpr std::size_t kMaxGridBytes = std::size_t(4) << 30;
+constexpr int kMaxCells = kSide + 2;
 
 /// Coefficients of the finest level around the corners of a brick of the marched grid.
 struct CoefficientPatch {
-  std::array<float, std::size_t(kMostCells* kMostCells* kMostCells)> value;
+  std::array<float, std::size_t(kMaxCells* kMaxCells* kMaxCells)> value;
   int wide = 0;
 };
 
@@ -44,8 +44,8 @@ class CornerInterpolator {
 
   void values(const CoefficientPatch& p, float* out) const {
     const int w = p.wide;
-    std::array<float, std::size_t(kMostCells * kMostCells * kSide)> rows;
-    std::array<float, std::size_t(kMostCells * kSide * kSide)> layers;
+    std::array<float, std::size_t(kMaxCells * kMaxCells * kSide)> rows;
+    std::array<float, std::size_t(kMaxCells * kSide * kSide)> layers;
     for (int r = 0; r < w * w; ++r)
       for (int i = 0; i < kSide; ++i)
         rows[std::size_t(r * kSide + i)] = at(&p.value[std::size_t(r * w)], 1, i);
@@ -80,7 +80,7 @@ Result<BrickGrid> uniform_grid(const OctreeLevels& levels, const Cube& cube, int
   const int cells = 1 << depth;
   TURNSCAN_ASSIGN(BrickGrid grid, BrickGrid::create(cube.corner, cube.side_m / cells,
                                                     {cells + 1, cells + 1, cells + 1},
-                                                    float(kOutside), kMostGridBytes));
+                                                    float(kOutside), kMaxGridBytes));
   parallel_for(grid.brick_count(), 64, [&](std::size_t b) {
     const auto at = grid.brick_at(b);
     const auto cell = [&](std::size_t a) {

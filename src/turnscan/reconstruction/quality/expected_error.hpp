@@ -8,7 +8,7 @@ namespace turnscan::quality {
 /// What the pixels of a sensor see of the surface.
 enum class Pixels {
   kSharp,     ///< the place that they look at
-  kRagged,    ///< places beside it, others in each frame (estimation/ragged_outlines.hpp)
+  kRagged,    ///< places beside it, others in each frame (estimation/silhouette_roughness.hpp)
   kFiltered,  ///< the mean over their neighbours (estimation/sensor_filter.hpp)
 };
 

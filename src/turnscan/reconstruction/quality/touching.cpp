@@ -10,8 +10,8 @@ namespace turnscan::quality {
 namespace {
 
 constexpr int kDirections = 36;
-constexpr double kNarrow = 0.25;      ///< of the largest section of the lesser side
-constexpr double kLeastVolume = 0.1;  ///< of the whole
+constexpr double kNarrow = 0.25;    ///< of the largest section of the lesser side
+constexpr double kMinVolume = 0.1;  ///< of the whole
 
 constexpr double kShort_m = 0.01;  ///< so far to either side of it sections are twice as large
 
@@ -66,7 +66,7 @@ class Sections {
       const double share = section.area_m2 / lesser;
       const double whole = before.volume + after.volume;
       if (!(share < (neck ? neck->share : kNarrow)) ||
-          std::min(before.volume, after.volume) < kLeastVolume * whole)
+          std::min(before.volume, after.volume) < kMinVolume * whole)
         continue;
       add_feet(stands_below_m, at(i), before, after);
       if (!before.stands() || !after.stands()) continue;

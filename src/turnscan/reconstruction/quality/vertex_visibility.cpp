@@ -10,14 +10,14 @@ namespace turnscan::quality {
 
 namespace {
 
-constexpr std::size_t kMostViews = 128;
-constexpr float kLeastCosine = 0.1f;
+constexpr std::size_t kMaxViews = 128;
+constexpr float kMinCosine = 0.1f;
 constexpr float kFacingCosine = 0.4f;  ///< a surface that does not reflect hardly at all returns
-constexpr std::size_t kLeastInVain = 3;
+constexpr std::size_t kMinNoReturnViews = 3;
 
 /// Of the views that are looked at.
 std::vector<std::size_t> spread_views(std::size_t count) {
-  std::vector<std::size_t> out(std::min(count, kMostViews));
+  std::vector<std::size_t> out(std::min(count, kMaxViews));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = i * count / out.size();
   return out;
 }
@@ -40,7 +40,7 @@ PixelOfVertex pixel_of(const views::DepthView& view, const Vec3f& vertex, const 
 
 bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
          float tolerance_m) {
-  const PixelOfVertex at = pixel_of(view, vertex, normal, kLeastCosine);
+  const PixelOfVertex at = pixel_of(view, vertex, normal, kMinCosine);
   if (at.pixel < 0) return false;
   const std::uint32_t word = view.pixels[std::size_t(at.pixel)];
   if ((word & 0xffffu) == 0) return false;
@@ -99,7 +99,7 @@ Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
   TURNSCAN_TRY(context.check());
   parallel_for(out.size(), 256, [&](std::size_t v) {
     if (!asked[v]) return;
-    std::size_t facing = 0, in_vain = 0;
+    std::size_t facing = 0, no_return = 0;
     for (const std::size_t i : chosen) {
       const views::DepthView& view = views[i];
       const PixelOfVertex at = pixel_of(view, mesh.vertices[v], normals[v], kFacingCosine);
@@ -107,9 +107,9 @@ Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
       const auto x = at.pixel % view.width, y = at.pixel / view.width;
       if (x == 0 || y == 0 || x + 1 == view.width || y + 1 == view.height) continue;  // border
       ++facing;
-      in_vain += view.pixels[std::size_t(at.pixel)] == 0 ? 1 : 0;
+      no_return += view.pixels[std::size_t(at.pixel)] == 0 ? 1 : 0;
     }
-    out[v] = in_vain >= kLeastInVain && 2 * in_vain >= facing ? 1 : 0;
+    out[v] = no_return >= kMinNoReturnViews && 2 * no_return >= facing ? 1 : 0;
   });
   TURNSCAN_TRY(context.check());
   return out;

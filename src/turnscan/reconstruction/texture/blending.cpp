@@ -19,10 +19,10 @@ constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
 constexpr float kShineLevels = 4.0f;  // of a highlight that is taken out: counts a quarter
 constexpr float kUnsureShadowWeight = 0.02f;
-constexpr double kMostShift_px = 1.0;
+constexpr double kMaxShift_px = 1.0;
 constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
 constexpr double kExplained = 0.4;  // of the squared difference, by a shift
-constexpr float kLeastSharpness = 0.3f, kMostSharpness = 1.5f;
+constexpr float kMinSharpness = 0.3f, kMaxSharpness = 1.5f;
 
 /// A view's colours as floats of 255, after its correction, which it refers to.
 class Corrector {
@@ -76,7 +76,7 @@ class Corrector {
     if (lamp_ != nullptr) {
       const float light = lamp_->light.on(
           surface.normal[std::size_t(texel)].dot(lamp_->to_lamp[view]), Lit(s.lit) != Lit::kNo);
-      level *= std::pow(std::max(kLeastLight, light), -1.0f / 2.4f);
+      level *= std::pow(std::max(kMinLight, light), -1.0f / 2.4f);
     }
     Vec3f color(table[s.r], table[256u + s.g], table[512u + s.b]);
     if (const float light = shine(surface, slot, texel); light > 0.0f)
@@ -172,7 +172,7 @@ class Blender {
       const Shift shift = shift_of(sum_around(b, k));
       if (!shift.known) continue;
       px.push_back(float(shift.texels / texels_per_px));
-      if (shift.explains && shift.texels > kMostShift_px * texels_per_px)
+      if (shift.explains && shift.texels > kMaxShift_px * texels_per_px)
         out = std::uint8_t(out | 1u << k);
     }
     return out;
@@ -218,7 +218,7 @@ class Blender {
              int texel) const {
     const std::uint16_t view = chosen_.view[b][k];
     Taken out{corrected_(b, k, view, s, surface, texel)};
-    const float sharp = std::clamp(samples_.sharpness[view], kLeastSharpness, kMostSharpness);
+    const float sharp = std::clamp(samples_.sharpness[view], kMinSharpness, kMaxSharpness);
     out.weight = chosen_.weight[b][k] / std::max(chosen_.weight[b][0], 1e-20f) * sharp * sharp;
     if (float(std::max({s.r, s.g, s.b})) >= kSaturated) out.weight *= kSaturatedWeight;
     if (s.valid == Sample::kNearRim) out.weight *= kNearRimWeight;

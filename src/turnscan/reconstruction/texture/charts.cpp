@@ -194,7 +194,7 @@ std::vector<std::uint32_t> badly_seen(const std::vector<Vec3f>& normals, const C
   std::vector<std::uint32_t> out;
   for (std::uint32_t t = 0; t < charts.of.size(); ++t)
     if (normals[t].squaredNorm() > 0.0f &&
-        !(normals[t].dot(charts.axis[charts.of[t]]) >= kLeastChartCosine))
+        !(normals[t].dot(charts.axis[charts.of[t]]) >= kMinChartCosine))
       out.push_back(t);
   return out;
 }

@@ -19,7 +19,7 @@ std::vector<Vec3f> face_normals(const TriangleMesh& mesh);
 
 /// A triangle's normal is turned from its chart's axis by no more than the angle of this cosine:
 /// drawn along the axis, it is stretched by no more than 1 / 0.35.
-inline constexpr float kLeastChartCosine = 0.35f;
+inline constexpr float kMinChartCosine = 0.35f;
 
 struct Charts {
   std::vector<std::uint32_t> of;  ///< per triangle

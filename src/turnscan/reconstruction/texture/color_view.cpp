@@ -10,7 +10,7 @@ namespace {
 constexpr float kStepOfSurface = 6.0f;  // of depth from pixel to pixel, in widths of a pixel
 constexpr float kBehind = 3.0f;         // a point farther behind what is drawn is hidden; the same
 constexpr double kViewStep_deg = 6.5;
-constexpr std::size_t kMostViews = 240;
+constexpr std::size_t kMaxViews = 240;
 
 }  // namespace
 
@@ -195,7 +195,7 @@ std::vector<ColorView> spread_views(const std::vector<ColorView>& views, const V
       kept.push_back(view);
       directions.push_back(direction);
     }
-    if (kept.size() <= kMostViews) return kept;
+    if (kept.size() <= kMaxViews) return kept;
   }
 }
 

@@ -13,9 +13,9 @@ namespace {
 constexpr float kDarkest = 0.004f, kBrightest = 0.96f;  // linear light that tells of exposure
 constexpr int kGainRounds = 4;
 constexpr double kGainScale = 0.08;  // log ratios beyond are taken for something else than exposure
-constexpr double kEnoughBlocks = 20.0;    // that compare two views
-constexpr double kUsualGain = 0.15;       // log of how far gains are from 1
-constexpr double kLeastPairError = 0.01;  // log
+constexpr double kEnoughBlocks = 20.0;  // that compare two views
+constexpr double kUsualGain = 0.15;     // log of how far gains are from 1
+constexpr double kMinPairError = 0.01;  // log
 constexpr int kStayRounds = 3;
 constexpr std::size_t kGainChunks = 32;
 
@@ -62,14 +62,14 @@ Eigen::VectorXd balanced(const Eigen::MatrixXd& weight, const Eigen::MatrixXd& r
   matrix.diagonal() += weight.rowwise().sum();
   const Eigen::VectorXd right = weight.cwiseProduct(ratio).rowwise().sum();
   Eigen::VectorXd gains = Eigen::VectorXd::Zero(n);
-  double error = kLeastPairError;
+  double error = kMinPairError;
   for (int round = 0; round < kStayRounds; ++round) {
     Eigen::MatrixXd stayed = matrix;
     stayed.diagonal().array() += error * error / (kUsualGain * kUsualGain);
     gains = estimation::solve_ldlt(stayed, right);
     const Eigen::MatrixXd fitted = gains.replicate(1, n) - gains.transpose().replicate(n, 1);
     const double squared = weight.cwiseProduct((ratio - fitted).cwiseAbs2()).sum();
-    error = std::max(kLeastPairError, std::sqrt(squared / std::max(weight.sum(), 1e-9)));
+    error = std::max(kMinPairError, std::sqrt(squared / std::max(weight.sum(), 1e-9)));
   }
   return gains;
 }

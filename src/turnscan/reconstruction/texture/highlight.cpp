@@ -15,11 +15,11 @@ constexpr float kBrightestShine = 0.96f;    // linear light; beyond it an image 
 constexpr float kUsualShare = 0.1f, kUsualLight = 0.02f;
 // Linear light of a highlight with which a view counts half in what a place's light is.
 constexpr float kDoubtful = 0.05f;
-constexpr double kLeastShineExplained = 0.2;  // of the disagreement
-constexpr float kNothing = 1e-3f;             // linear light
-constexpr float kMuch = 0.1f;                 // of the light of the darkest channel
-constexpr int kMostShineRounds = 40;
-constexpr double kLeastShineStep = 0.004;
+constexpr double kMinShineExplained = 0.2;  // of the disagreement
+constexpr float kNothing = 1e-3f;           // linear light
+constexpr float kMuch = 0.1f;               // of the light of the darkest channel
+constexpr int kMaxShineRounds = 40;
+constexpr double kMinShineStep = 0.004;
 // Exponents that are tried, and taken: to the shading of a lamp the widest lobe fits best.
 constexpr double kWidest = 12.0, kWidestTaken = 16.0, kNarrowest = 2000.0;
 
@@ -85,7 +85,7 @@ class HighlightSearch {
   void refine() {
     double angle = kTurn / 36, log_step = 0.5;
     for (int round = 0;
-         round < kMostShineRounds && angle > kLeastShineStep && found() && !context_.cancelled();
+         round < kMaxShineRounds && angle > kMinShineStep && found() && !context_.cancelled();
          ++round) {
       const Lobe at = best_;
       const double before = least_;
@@ -103,7 +103,7 @@ class HighlightSearch {
 
   std::optional<Highlight> best() const {
     const double explained = even_ > 0.0 ? 1.0 - least_ / even_ : 0.0;
-    if (!(explained > kLeastShineExplained && best_.log_exponent > std::log(kWidestTaken)))
+    if (!(explained > kMinShineExplained && best_.log_exponent > std::log(kWidestTaken)))
       return std::nullopt;
     return Highlight{rig_direction(best_.azimuth, best_.elevation),
                      float(std::exp(best_.log_strength)), float(std::exp(best_.log_exponent))};

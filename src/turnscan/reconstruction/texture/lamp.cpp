@@ -15,10 +15,10 @@ constexpr std::size_t kLookTriangles = 8'000;  // that cast shadows while it is
 constexpr double kLookMap_px = 200.0;          // across the object
 constexpr double kMap_px = 800.0;
 constexpr double kUsualDisagreement = 0.1;  // of albedos
-constexpr double kLeastCompared = 0.3;      // of what there is to compare, that shadows may leave
-constexpr double kLeastExplained = 2e-3;    // less tells of no lamp
-constexpr int kMostRounds = 40;
-constexpr double kLeastStep = 0.004;
+constexpr double kMinCompared = 0.3;        // of what there is to compare, that shadows may leave
+constexpr double kMinExplained = 2e-3;      // less tells of no lamp
+constexpr int kMaxRounds = 40;
+constexpr double kMinStep = 0.004;
 
 /// A block as the lamp finds it.
 struct LightBlock {
@@ -90,7 +90,7 @@ class LampSearch {
 
   void refine() {
     for (int round = 0;
-         round < kMostRounds && step_angle_ > kLeastStep && share_ > 0.0 && !context_.cancelled();
+         round < kMaxRounds && step_angle_ > kMinStep && share_ > 0.0 && !context_.cancelled();
          ++round) {
       const double a = azimuth_, e = elevation_, s = share_;
       const std::initializer_list<double> shares{s - step_share_, s, s + step_share_};
@@ -140,7 +140,7 @@ class LampSearch {
     for (const double share : shares) {
       if (share < 0.0 || share > 0.97) continue;
       const Agreement found = agreement(light_from(azimuth, elevation, share), reached);
-      if (found.explained < kLeastExplained || found.disagreement >= least_) continue;
+      if (found.explained < kMinExplained || found.disagreement >= least_) continue;
       least_ = found.disagreement, azimuth_ = azimuth, elevation_ = elevation, share_ = share;
     }
   }
@@ -191,7 +191,7 @@ class LampSearch {
     for (const Sums& part : parts)
       sums.even += part.even, sums.lit += part.lit, sums.compared += part.compared,
           sums.all += part.all;
-    if (!(sums.compared > kLeastCompared * sums.all)) return {};
+    if (!(sums.compared > kMinCompared * sums.all)) return {};
     return {sums.lit / sums.compared, (sums.even - sums.lit) / sums.compared};
   }
 

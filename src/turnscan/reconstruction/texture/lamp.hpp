@@ -21,7 +21,7 @@ struct FixedLight {
 Vec3f rig_direction(double azimuth, double elevation);
 
 /// Light that is divided by is at least this.
-inline constexpr float kLeastLight = 0.05f;
+inline constexpr float kMinLight = 0.05f;
 
 /// What a lamp is looked for in. Refers to its parts.
 struct LampScene {

@@ -7,7 +7,7 @@ namespace turnscan::texture {
 namespace {
 
 constexpr double kFarAway = 200.0;  // distance of the camera, in radii of the object
-constexpr int kMostMap_px = 2048;
+constexpr int kMaxMap_px = 2048;
 
 /// A camera from whose place the directions to all of the object are alike to a third of a degree.
 ColorView lamp_camera(const TriangleMesh& mesh, const Vec3f& to_lamp, double pixel_m) {
@@ -15,7 +15,7 @@ ColorView lamp_camera(const TriangleMesh& mesh, const Vec3f& to_lamp, double pix
   const double radius = std::max(0.5 * box.size().norm(), 1e-6);
   const double distance = kFarAway * radius;
   const double wanted = std::ceil(2.1 * radius / pixel_m);
-  const int size = int(std::clamp(wanted, 16.0, double(kMostMap_px)));
+  const int size = int(std::clamp(wanted, 16.0, double(kMaxMap_px)));
   ColorView view;
   CameraIntrinsics camera;
   camera.width = camera.height = size;

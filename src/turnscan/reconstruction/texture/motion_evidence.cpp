@@ -7,7 +7,7 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr double kLeastDeviations = 2.0;
+constexpr double kMinDeviations = 2.0;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ DeterminedMotion determined_part(const MotionEvidence& evidence, const Motion& m
   Motion kept = Motion::Zero();
   for (int i = 0; i < 6; ++i) {
     out.deviation_px += std::max(0.0, axes.values[i]);
-    if (!(std::abs(deviations[i]) > kLeastDeviations)) continue;
+    if (!(std::abs(deviations[i]) > kMinDeviations)) continue;
     kept[i] = deviations[i];
     ++out.directions;
   }

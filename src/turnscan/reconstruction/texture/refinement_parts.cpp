@@ -7,12 +7,12 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr float kLeastEdge = 6.0f;      // levels a pixel
+constexpr float kMinEdge = 6.0f;        // levels a pixel
 constexpr double kPatternScale = 12.0;  // levels: a place that looks different counts less
-constexpr std::size_t kLeastSeen = 3;   // views of a point
+constexpr std::size_t kMinSeen = 3;     // views of a point
 constexpr float kFacing = 0.45f;        // cosine
 constexpr int kOutlineStep = 3;         // pixels along the outline
-constexpr float kMostEdge = 25.0f;      // levels a pixel; stronger edges are worth no more
+constexpr float kMaxEdge = 25.0f;       // levels a pixel; stronger edges are worth no more
 /// The surface ends about half a pixel beyond the last pixel whose centre it covers.
 constexpr float kBeyond = 0.5f;
 
@@ -35,7 +35,7 @@ bool on_outline(const DrawnMesh& drawn, int x, int y) {
 bool edge_along(const GreyWindow& grey, const Eigen::Vector2f& from, const Eigen::Vector2f& normal,
                 double reach_px, double& offset) {
   const int steps = int(2.0 * reach_px) + 1;
-  float strongest = kLeastEdge;
+  float strongest = kMinEdge;
   std::vector<float> slope(std::size_t(2 * steps + 1), 0.0f);
   int best = steps * 2;
   for (int i = -steps; i <= steps; ++i) {
@@ -148,7 +148,7 @@ double edge_strength(const ColorView& view, const std::vector<OutlinePoint>& out
     float value = 0.0f;
     Eigen::Vector2f gradient;
     if (q.z > 0.0f && grey.at(at.x(), at.y(), value, gradient))
-      sum += double(std::min(std::abs(gradient.dot(point.normal)), kMostEdge));
+      sum += double(std::min(std::abs(gradient.dot(point.normal)), kMaxEdge));
   }
   return sum;
 }
@@ -262,7 +262,7 @@ MotionEquations pattern_equations(const std::vector<ColorView>& views,
         std::vector<PatternView> seen;
         for (std::size_t i = begin; i < end; ++i) {
           find_pattern_views(views, drawn, grey, points[i], normals[i], seen);
-          if (seen.size() >= kLeastSeen) add_pattern(seen, part);
+          if (seen.size() >= kMinSeen) add_pattern(seen, part);
         }
         return part;
       });

@@ -17,7 +17,7 @@ constexpr std::size_t kCompared = 40000;  // blocks, or up to twice as many
 constexpr double kAgree = 20.0;           // beside 1 for two cells of a view
 constexpr double kStayLevel = 0.02;       // of a factor of 1
 constexpr double kTolerance = 1e-3;
-constexpr float kMostLevel = 2.0f;
+constexpr float kMaxLevel = 2.0f;
 
 /// A lattice over the surface; each cell has a number for each view that a block of it has.
 class Cells {
@@ -191,8 +191,8 @@ BlockLevels seam_levels(const TexelBlocks& blocks, const ChosenViews& chosen,
       out[b][k] = cells.between(logs, b, chosen.view[b][k])
                       .array()
                       .exp()
-                      .max(1.0f / kMostLevel)
-                      .min(kMostLevel)
+                      .max(1.0f / kMaxLevel)
+                      .min(kMaxLevel)
                       .matrix();
   });
   return out;

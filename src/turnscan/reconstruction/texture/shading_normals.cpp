@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kSquare = NormalTilts::kSquare_px, kInRow = kBlock_px / kSquare;
 constexpr double kReach_m = 0.5e-3;         // Gaussian over the squares that share a tilt
-constexpr int kMostReach = 6;               // squares
+constexpr int kMaxReach = 6;                // squares
 constexpr float kUsualAlbedoError = 0.15f;  // beyond it is no shading
 /// Added to the mean squared change of light with a tilt: holds it where the views do not tell.
 constexpr float kStays = 0.005f;
-constexpr float kMostTilt = 0.5f;
+constexpr float kMaxTilt = 0.5f;
 constexpr std::uint8_t kDarkestLevel = 12, kBrightestLevel = 250;
 constexpr int kAlbedoRounds = 3;
 
@@ -73,7 +73,7 @@ class ShadingSolver {
       const Vec3f& to_lamp = to_lamp_[view];
       const float facing = Lit(s.lit) == Lit::kYes ? normal.dot(to_lamp) : 0.0f;
       const float light = light_.on(facing, true);
-      if (!(light > kLeastLight)) continue;
+      if (!(light > kMinLight)) continue;
       const Vec3f& gain = gains_[view];
       albedo[n] =
           (linear_[s.r] * gain.x() + linear_[s.g] * gain.y() + linear_[s.b] * gain.z()) / light;
@@ -132,7 +132,7 @@ Vec3f tilt_of(const TiltSums& sums) {
   matrix.diagonal().array() += kStays;
   const Vec3f tilt = estimation::solve_ldlt(matrix, Vec3f(sums.right / sums.count));
   const float size = tilt.norm();
-  return size > kMostTilt ? Vec3f(tilt * (kMostTilt / size)) : tilt;
+  return size > kMaxTilt ? Vec3f(tilt * (kMaxTilt / size)) : tilt;
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ NormalTilts shading_normals(const TexelBlocks& blocks, const ChosenViews& chosen
   std::vector<BlockSums> sums(blocks.count());
   parallel_for(sums.size(), 64, [&](std::size_t b) { sums[b] = solver.sums_of(b); });
   const double reach = kReach_m * texels_per_m / kSquare;  // squares
-  const int most = std::clamp(int(std::ceil(2.0 * reach)), 1, kMostReach);
+  const int most = std::clamp(int(std::ceil(2.0 * reach)), 1, kMaxReach);
   std::vector<float> kernel;
   for (int d = -most; d <= most; ++d)
     kernel.push_back(float(std::exp(-0.5 * d * d / std::max(reach * reach, 0.05))));

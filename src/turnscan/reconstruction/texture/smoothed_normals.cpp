@@ -9,7 +9,7 @@ namespace turnscan::texture {
 namespace {
 
 constexpr double kSmooth_m = 1.2e-3;  // standard deviation
-constexpr int kMostSmoothRounds = 30;
+constexpr int kMaxSmoothRounds = 30;
 // Of the place of one of six neighbours or of the vertex itself, along one axis, in squared edges.
 constexpr double kRoundVariance = 3.0 / 7.0;
 
@@ -26,7 +26,7 @@ std::vector<Vec3f> smoothed_normals(const TriangleMesh& mesh) {
   std::vector<Vec3f> normals = vertex_normals(mesh);
   const double edges = kSmooth_m / std::max(mean_edge(mesh), 1e-9);
   const int rounds =
-      int(std::lround(std::min(edges * edges / kRoundVariance, double(kMostSmoothRounds))));
+      int(std::lround(std::min(edges * edges / kRoundVariance, double(kMaxSmoothRounds))));
   std::vector<Vec3f> sum;
   for (int round = 0; round < rounds; ++round) {
     sum = normals;

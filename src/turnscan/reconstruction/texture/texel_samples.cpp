@@ -9,10 +9,10 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr float kLeastViewCosine = 0.12f;
+constexpr float kMinViewCosine = 0.12f;
 constexpr float kNearRim = 0.02f;  // what a place near a rim is worth: better than nothing
 constexpr std::size_t kViewsAtOnce = 8;
-constexpr int kMostSubsamples = 4;
+constexpr int kMaxSubsamples = 4;
 // By how well they see a block. Beside the best few, ones farther apart: a highlight is where the
 // best views look, and must not be in most of what is compared.
 constexpr std::size_t kRanked = 16;
@@ -69,7 +69,7 @@ float quality_of(const BlockProbe& probe, const ColorView& view, const DrawnMesh
   const Vec3f to_eye = view.eye() - probe.position[1];
   const float distance = to_eye.norm();
   const float cosine = probe.normal.dot(to_eye) / distance;
-  if (!(cosine > kLeastViewCosine)) return 0.0f;
+  if (!(cosine > kMinViewCosine)) return 0.0f;
   float seen = 0.0f;
   for (const Vec3f& p : probe.position) {
     const Shown shown = drawn.shows(view.project(p));
@@ -129,7 +129,7 @@ int subsamples(const TexelBlocks::Surface& s, const ColorView& view) {
                    c = view.project(s.position + s.down);
   if (!(a.z > 0.0f && b.z > 0.0f && c.z > 0.0f)) return 1;
   const float step = std::max(std::hypot(b.u - a.u, b.v - a.v), std::hypot(c.u - a.u, c.v - a.v));
-  return std::clamp(int(step + 0.5f), 1, kMostSubsamples);
+  return std::clamp(int(step + 0.5f), 1, kMaxSubsamples);
 }
 
 class BlockSampler {

@@ -17,11 +17,11 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr int kLeastSize_px = 256, kMostSize_px = 4096;  // chosen by itself
+constexpr int kMinSize_px = 256, kMaxSize_px = 4096;  // chosen by itself
 constexpr int kLightRounds = 3;
 constexpr int kTurnedRounds = 3;
-constexpr double kLeastTurned_px = 0.15;  // that is worth reading the images again
-constexpr double kLeastOfScale = 0.97;
+constexpr double kMinTurned_px = 0.15;  // that is worth reading the images again
+constexpr double kMinOfScale = 0.97;
 constexpr double kTexelsPerPixel = 2.0;  // so that the texels blur little that the images show
 
 double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& center) {
@@ -33,7 +33,7 @@ double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& cente
 
 int rounded_size(double side_px) {
   const int rounded = int(std::min(side_px / 256.0, 1000.0) + 1.0) * 256;
-  return std::clamp(rounded, kLeastSize_px, kMostSize_px);
+  return std::clamp(rounded, kMinSize_px, kMaxSize_px);
 }
 
 /// In a picture of the size that was asked for, which is then used in full, or in the smallest that
@@ -46,9 +46,9 @@ Result<Atlas> atlas_for(const TriangleMesh& mesh, const TextureOptions& options,
   for (;;) {
     TURNSCAN_ASSIGN(Atlas atlas, make_atlas(mesh, size, texels_per_m, context));
     const double share = atlas.texels_per_m / texels_per_m;
-    if (share > kLeastOfScale || size == kMostSize_px) return atlas;
+    if (share > kMinOfScale || size == kMaxSize_px) return atlas;
     // Charts of this mesh fill less than those of most.
-    size = std::min(kMostSize_px, std::max(size + 256, rounded_size(double(size) / share)));
+    size = std::min(kMaxSize_px, std::max(size + 256, rounded_size(double(size) / share)));
   }
 }
 
@@ -151,7 +151,7 @@ Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
   for (int round = 0; round < kTurnedRounds; ++round) {
     TURNSCAN_ASSIGN(const std::vector<double> turns,
                     solve_turns(blocks, chosen, samples, views, context));
-    if (!(turned_px(turns, views, mesh) > kLeastTurned_px)) break;
+    if (!(turned_px(turns, views, mesh) > kMinTurned_px)) break;
     const double before = pattern_misfit(blocks, chosen, samples);
     const std::vector<ColorView> old = views;
     const std::vector<TextureReport::Camera> old_cameras = report.cameras;

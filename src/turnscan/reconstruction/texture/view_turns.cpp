@@ -10,11 +10,11 @@ namespace turnscan::texture {
 namespace {
 
 constexpr std::size_t kTurnBlocks = 40000, kTurnChunks = 16;
-constexpr int kTurnSteps = 12;          // to either side
-constexpr double kTurnReach = 3.0;      // texels that the middle block moves by at the last step
-constexpr float kMostTexels = 3.0f;     // that a block is looked at beside where it is
-constexpr float kLeastContrast = 4.0f;  // levels, rms: weaker patterns say nothing of their place
-constexpr float kPatternNoise = 3.0f;   // levels, of a smoothed texel
+constexpr int kTurnSteps = 12;         // to either side
+constexpr double kTurnReach = 3.0;     // texels that the middle block moves by at the last step
+constexpr float kMaxTexels = 3.0f;     // that a block is looked at beside where it is
+constexpr float kMinContrast = 4.0f;   // levels, rms: weaker patterns say nothing of their place
+constexpr float kPatternNoise = 3.0f;  // levels, of a smoothed texel
 constexpr int kTurnRounds = 200;
 constexpr double kStayShare = 1e-3;  // of the evidence speaks for no turn
 
@@ -104,7 +104,7 @@ template <class Visit>
 void for_each_pair(const ChosenViews& chosen, const TexelSamples& samples, std::size_t block,
                    const Visit& visit) {
   const auto best = pattern_of(samples, block, 0);
-  if (!best || contrast(*best) < kLeastContrast) return;
+  if (!best || contrast(*best) < kMinContrast) return;
   for (std::size_t k = 1; k < kSlots && chosen.view[block][k] != kNoView; ++k)
     if (const auto other = pattern_of(samples, block, k)) visit(k, *best, *other);
 }
@@ -218,7 +218,7 @@ Result<std::vector<double>> solve_turns(const TexelBlocks& blocks, const ChosenV
                 Curve own;
                 for (int j = -kTurnSteps; j <= kTurnSteps; ++j) {
                   Eigen::Vector2f shift = float(j) * speed;
-                  if (shift.norm() > kMostTexels) shift *= kMostTexels / shift.norm();
+                  if (shift.norm() > kMaxTexels) shift *= kMaxTexels / shift.norm();
                   own[std::size_t(j + kTurnSteps)] =
                       double(difference(best, other, shift.x(), shift.y()));
                 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kFinestRounds = 40, kCoarseRounds = 30;
 constexpr int kCoarsestSide = 4;  // cells
-constexpr int kLeastKnown = 8;    // of a cell's 64 samples, for it to be fixed
+constexpr int kMinKnown = 8;      // of a cell's 64 samples, for it to be fixed
 
 /// Whether a sample of a brick and those around it in that brick are known.
 bool surrounded(const float* weight, int i, int j, int k) {
@@ -42,7 +42,7 @@ bool boundary_of_cell(const Volume& volume, std::size_t brick, int p, int q, int
     }
   }
   value = border > 0 ? border_sum / float(border) : sum / float(std::max(known, 1));
-  return known >= kLeastKnown;
+  return known >= kMinKnown;
 }
 
 }  // namespace

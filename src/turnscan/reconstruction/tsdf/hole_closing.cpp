@@ -4,17 +4,17 @@
 #include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/reconstruction/tsdf/guessed_threads.hpp>
 #include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
 #include <turnscan/reconstruction/tsdf/outside_flood.hpp>
-#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
+#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/unobserved_filaments.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {
 
 namespace {
 
-constexpr int kMostExtensions = 8;
+constexpr int kMaxExtensions = 8;
 constexpr int kThreadRadius = 2;                   // samples
 constexpr float kBelowPlatter = -1.0f;             // weight of an unknown sample there, for a time
 constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
@@ -31,7 +31,7 @@ void for_each_in_brick(const Body& body) {
 
 class HoleClosing {
  public:
-  HoleClosing(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+  HoleClosing(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
               const RunContext& context)
       : v_(volume), scale_(scale), round_(round), context_(context), samples_(volume) {}
 
@@ -40,7 +40,7 @@ class HoleClosing {
     if (!round_.none()) end_above_platter();
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
-    for (int round = 0; round < kMostExtensions; ++round) {
+    for (int round = 0; round < kMaxExtensions; ++round) {
       TURNSCAN_TRY(relax(bricks_at_surface(), round == 0 ? kFirstRounds : kMoreRounds));
       if (!extend(fill)) break;
     }
@@ -324,7 +324,7 @@ class HoleClosing {
 
   /// Between rims of what was seen the harmonic function leaves threads and fins.
   Result<> cut_threads() {
-    const SampleBits threads = guessed_threads(v_, guessed_, kThreadRadius);
+    const SampleBits threads = unobserved_filaments(v_, guessed_, kThreadRadius);
     std::vector<std::uint8_t> around(v_.brick_count(), 0);
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
       if (cut(b, threads.brick(b))) mark_around(b, around);
@@ -423,7 +423,7 @@ class HoleClosing {
 
   Volume& v_;
   const VolumeScale& scale_;
-  const RoundBottoms& round_;
+  const TaperedFoot& round_;
   const RunContext& context_;
   VolumeSamples samples_;
   std::vector<std::uint8_t> has_unknown_;  // per brick with samples
@@ -436,7 +436,7 @@ int floor_layer(const Volume& volume, double floor_m) {
   return std::max(0, int(std::ceil((floor_m - volume.origin_m.y()) / volume.cell_m)));
 }
 
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
                      const RunContext& context) {
   context.begin_phase("closing", 0);
   return HoleClosing(volume, scale, round, context).run();

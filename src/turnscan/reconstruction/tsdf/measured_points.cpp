@@ -11,7 +11,7 @@ using Columns = std::array<std::vector<float>, 3>;
 
 constexpr double kStray = 2e-4;             // of the points, on each side
 constexpr std::size_t kViewsPerBatch = 16;  // of which points are held twice
-constexpr std::size_t kMostPoints = 4'000'000;
+constexpr std::size_t kMaxPoints = 4'000'000;
 
 void append(Columns& all, Columns& more) {
   for (std::size_t a = 0; a < 3; ++a) {
@@ -42,7 +42,7 @@ Box measured_box(std::span<const views::DepthView> views, const std::optional<Cy
   const std::size_t count = (views.size() + stride - 1) / stride;
   std::size_t kept = 0;
   for (std::size_t v = 0; v < count; ++v) kept += views[v * stride].kept;
-  const std::size_t step = 1 + kept / kMostPoints;  // of so many points one is taken
+  const std::size_t step = 1 + kept / kMaxPoints;  // of so many points one is taken
   Columns points;
   for (std::size_t first = 0; first < count; first += kViewsPerBatch) {
     std::vector<Columns> own(std::min(kViewsPerBatch, count - first));

@@ -7,11 +7,11 @@ namespace turnscan::tsdf {
 
 namespace {
 
-constexpr std::size_t kMostViews = 128;
-constexpr int kLeastInVain = 3;          ///< views that looked at a sample in vain
-constexpr float kLeastShare = 0.4f;      ///< of the views that looked at it or were kept from it
-constexpr int kSeenPast = 2;             ///< so many views make a sample free
-constexpr std::size_t kLeastPart = 216;  ///< samples; fewer are no part of an object
+constexpr std::size_t kMaxViews = 128;
+constexpr int kMinNoReturnViews = 3;   ///< views that looked at a sample in vain
+constexpr float kMinShare = 0.4f;      ///< of the views that looked at it or were kept from it
+constexpr int kSeenPast = 2;           ///< so many views make a sample free
+constexpr std::size_t kMinPart = 216;  ///< samples; fewer are no part of an object
 
 constexpr int kWidestRim = 3;  ///< pixels: median of a sensor whose shadows do not matter
 
@@ -26,17 +26,17 @@ bool rims_are_narrow(const std::vector<std::vector<int>>& widths) {
 }
 
 /// A view with pixels in vain, and their number in the rectangle from the image's first pixel on.
-struct VainView {
+struct NoReturnView {
   const views::DepthView* view;
-  Image<std::uint8_t> in_vain;
+  Image<std::uint8_t> no_return;
   Image<std::uint32_t> sums;
 
-  VainView(const views::DepthView& v, Image<std::uint8_t> mask)
-      : view(&v), in_vain(std::move(mask)), sums(v.width + 1, v.height + 1, 0) {
+  NoReturnView(const views::DepthView& v, Image<std::uint8_t> mask)
+      : view(&v), no_return(std::move(mask)), sums(v.width + 1, v.height + 1, 0) {
     for (int y = 0; y < v.height; ++y) {
       std::uint32_t row = 0;
       for (int x = 0; x < v.width; ++x) {
-        row += in_vain.at(x, y);
+        row += no_return.at(x, y);
         sums.at(x + 1, y + 1) = sums.at(x + 1, y) + row;
       }
     }
@@ -60,16 +60,16 @@ struct VainView {
 
 /// What the views say of a sample.
 struct Votes {
-  int past = 0, in_vain = 0, hidden = 0;
+  int past = 0, no_return = 0, hidden = 0;
 
-  void add(const VainView& v, const Vec3f& p_table, float tolerance_m) {
+  void add(const NoReturnView& v, const Vec3f& p_table, float tolerance_m) {
     const views::DepthView& view = *v.view;
     const Vec3f p = view.rotation * p_table + view.translation;
     const std::ptrdiff_t at = view.pixel_at(p);
     if (at < 0) return;
     const std::uint32_t word = view.pixels[std::size_t(at)];
-    if (v.in_vain.pixels[std::size_t(at)] != 0) {
-      ++in_vain;
+    if (v.no_return.pixels[std::size_t(at)] != 0) {
+      ++no_return;
     } else if (word != 0) {
       const auto depth = [&](std::uint32_t raw) { return float(raw) * view.unit_m + view.bias_m; };
       if (depth(word >> 17 << 1) > p.z() + tolerance_m)
@@ -80,14 +80,14 @@ struct Votes {
   }
   bool free() const { return past >= kSeenPast; }
   bool hull() const {
-    return !free() && in_vain >= kLeastInVain &&
-           float(in_vain) >= kLeastShare * float(in_vain + hidden);
+    return !free() && no_return >= kMinNoReturnViews &&
+           float(no_return) >= kMinShare * float(no_return + hidden);
   }
 };
 
 class HullFinder {
  public:
-  HullFinder(Volume& volume, std::vector<VainView> views)
+  HullFinder(Volume& volume, std::vector<NoReturnView> views)
       : v_(volume), views_(std::move(views)), unknown_(unseen_samples(volume)) {}
 
   Result<SampleBits> run(const RunContext& context) {
@@ -108,16 +108,16 @@ class HullFinder {
     const double half = 0.5 * (kBrickSide - 1) * v_.cell_m;
     const Vec3f middle = (first.array() + half).cast<float>();
     const float radius = float(1.75 * half);  // of the ball around it
-    const auto showing = std::count_if(views_.begin(), views_.end(), [&](const VainView& view) {
+    const auto showing = std::count_if(views_.begin(), views_.end(), [&](const NoReturnView& view) {
       return view.shows(middle, radius);
     });
-    if (showing < kLeastInVain) return;
+    if (showing < kMinNoReturnViews) return;
     for (std::size_t c = 0; c < kBrickSamples; ++c) {
       if (!contains(unknown, c)) continue;
       const Vec3d offset(double(c & 7), double(c >> 3 & 7), double(c >> 6));
       const Vec3f p = (first + v_.cell_m * offset).cast<float>();
       Votes votes;
-      for (const VainView& view : views_) votes.add(view, p, float(v_.truncation_m));
+      for (const NoReturnView& view : views_) votes.add(view, p, float(v_.truncation_m));
       if (votes.free()) insert(c, free);
       if (votes.hull()) insert(c, hull);
     }
@@ -152,7 +152,7 @@ class HullFinder {
         part.clear();
         take(b, c);
         for (std::size_t i = 0; i < part.size(); ++i) visit_neighbours(part[i], take);
-        if (part.size() >= kLeastPart) continue;
+        if (part.size() >= kMinPart) continue;
         for (const std::size_t s : part) {
           const std::size_t sample = s % kBrickSamples;
           hull.brick(s / kBrickSamples)[sample >> 6] &= ~(std::uint64_t(1) << (sample & 63));
@@ -181,7 +181,7 @@ class HullFinder {
   }
 
   Volume& v_;
-  const std::vector<VainView> views_;
+  const std::vector<NoReturnView> views_;
   const SampleBits unknown_;
 };
 
@@ -189,7 +189,7 @@ class HullFinder {
 
 Result<SampleBits> no_return_hull(Volume& volume, std::span<const views::DepthView> views,
                                   const RunContext& context) {
-  const std::size_t count = std::min(views.size(), kMostViews);
+  const std::size_t count = std::min(views.size(), kMaxViews);
   std::vector<Image<std::uint8_t>> masks(count);
   std::vector<std::vector<int>> rims(count);
   const auto chosen = [&](std::size_t i) -> const views::DepthView& {
@@ -199,10 +199,10 @@ Result<SampleBits> no_return_hull(Volume& volume, std::span<const views::DepthVi
     masks[i] = views::enclosed_no_return(chosen(i));
     rims[i] = views::rim_widths(chosen(i));
   }));
-  const auto in_vain =
+  const auto no_return =
       std::count_if(masks.begin(), masks.end(), [](const auto& mask) { return !mask.empty(); });
-  if (in_vain < kLeastInVain || !rims_are_narrow(rims)) return SampleBits(volume.bricks);
-  std::vector<VainView> asked;
+  if (no_return < kMinNoReturnViews || !rims_are_narrow(rims)) return SampleBits(volume.bricks);
+  std::vector<NoReturnView> asked;
   for (std::size_t i = 0; i < count; ++i) {
     Image<std::uint8_t> none(chosen(i).width, chosen(i).height, 0);
     asked.emplace_back(chosen(i), masks[i].empty() ? std::move(none) : std::move(masks[i]));

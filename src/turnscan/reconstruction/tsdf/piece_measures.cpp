@@ -3,7 +3,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
-#include <turnscan/reconstruction/estimation/ragged_outlines.hpp>
+#include <turnscan/reconstruction/estimation/silhouette_roughness.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 #include <turnscan/reconstruction/quality/expected_error.hpp>
 #include <turnscan/reconstruction/quality/vertex_visibility.hpp>
@@ -15,7 +15,7 @@ namespace turnscan::tsdf {
 namespace {
 
 /// Less invented surface without a return than this is not worth a note: rims have some.
-constexpr double kLeastNoReturn_m2 = 3e-4;
+constexpr double kMinNoReturn_m2 = 3e-4;
 /// Gaussian noise alone has shares of 0.01 to 0.09, the published lateral noises 0.12 to 0.28
 /// (bench/expected_error).
 constexpr double kRaggedShare = 0.11;
@@ -83,12 +83,12 @@ Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthV
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (piece.evidence[i] == Evidence::kInvented)
       for (const std::uint32_t v : triangles[i]) asked[v] = 1;
-  TURNSCAN_ASSIGN(const std::vector<std::uint8_t> in_vain,
+  TURNSCAN_ASSIGN(const std::vector<std::uint8_t> no_return,
                   quality::without_return(piece.mesh, views, asked, context));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& t = triangles[i];
     if (piece.evidence[i] == Evidence::kInvented &&
-        in_vain[t[0]] + in_vain[t[1]] + in_vain[t[2]] > 1)
+        no_return[t[0]] + no_return[t[1]] + no_return[t[2]] > 1)
       piece.no_return_area_m2 += triangle_area(piece.mesh, i);
   }
   return {};
@@ -119,7 +119,7 @@ ObjectResult object_of(VolumetricPiece& piece, bool color_wanted) {
   if (piece.base_area_m2 > 0.0)
     object.notes.push_back(
         fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
-  if (piece.no_return_area_m2 >= kLeastNoReturn_m2)
+  if (piece.no_return_area_m2 >= kMinNoReturn_m2)
     object.notes.push_back(fmt::format(
         "{:.1f} cm^2 of its invented surface face sensors that had no return from there: "
         "too dark, too shiny or transparent",

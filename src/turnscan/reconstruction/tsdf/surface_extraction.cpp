@@ -1,4 +1,4 @@
-#include <turnscan/reconstruction/tsdf/doubtful_surface.hpp>
+#include <turnscan/reconstruction/tsdf/mixed_pixel_surface.hpp>
 #include <turnscan/reconstruction/tsdf/no_return_hull.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 
@@ -49,7 +49,7 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   TURNSCAN_ASSIGN(const SampleBits hull, timed(times, "no return", [&] {
                     return no_return_hull(volume, views, context);
                   }));
-  EvenOutScale marched;
+  ClusterScale marched;
   marched.origin_m = volume.origin_m;
   marched.cell_m = volume.cell_m;
   if (scale.floor_m || !scale.platters.empty()) marched.flat_m = 0.0f;
@@ -57,7 +57,7 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));
     set_inside(volume, hull);
-    if (scale.floor_m) out.round = RoundBottoms(volume, floor_layer(volume, *scale.floor_m));
+    if (scale.floor_m) out.round = TaperedFoot(volume, floor_layer(volume, *scale.floor_m));
     return close_holes(volume, scale, out.round, context);
   };
   TURNSCAN_TRY(timed(times, "closing", close));

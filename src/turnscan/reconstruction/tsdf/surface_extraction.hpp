@@ -1,10 +1,10 @@
 #pragma once
 
-#include <turnscan/geometry/mesh/even_out.hpp>
+#include <turnscan/geometry/mesh/merge_clustered_vertices.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
-#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
 #include <turnscan/reconstruction/tsdf/sample_bits.hpp>
+#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
 
 namespace turnscan::tsdf {
 
@@ -25,9 +25,9 @@ class UnseenSpace {
 
 struct ExtractedSurface {
   TriangleMesh mesh;  ///< closed, 2-manifold, outward; may be empty
-  EvenOutScale grid;  ///< that it was marched on
+  ClusterScale grid;  ///< that it was marched on
   UnseenSpace unseen;
-  RoundBottoms round;
+  TaperedFoot round;
 };
 
 /// The zero set of what was integrated in and around the box, but for forget_doubtful_surface(),

@@ -10,7 +10,7 @@
 
 namespace turnscan::tsdf {
 
-class RoundBottoms;
+class TaperedFoot;
 
 /// A platter on which the object lay in one of several passes, in the object's frame.
 struct Platter {
@@ -81,7 +81,7 @@ Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 /// the bottom is round. Of several passes, only what none of them saw ends on a platter, and flat.
 /// Enclosed free spaces that do not reach the outside are filled. Fails with kCancelled, and then
 /// leaves the volume half done.
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const RoundBottoms& round,
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
                      const RunContext& context);
 
 /// The first layer of samples that is looked up above a platter.

@@ -11,8 +11,8 @@ namespace {
 /// One view that saw past a sample outweighs this many measured distances: passing through is
 /// certain, being behind a surface is not.
 constexpr float kFreeWeight = 0.5f;
-constexpr float kLeastWeight = 0.3f;   // below, a sample counts as not seen
-constexpr float kLeastShare = 0.008f;  // of the typical weight, likewise
+constexpr float kMinWeight = 0.3f;         // below, a sample counts as not seen
+constexpr float kMinWeightShare = 0.008f;  // of the typical weight, likewise
 /// But so much is enough, however many views saw other places: what few of many frames saw deep in
 /// a hollow is no less sure than it would be with those few alone.
 constexpr float kEnoughWeight = 1.0f;
@@ -113,7 +113,7 @@ LeastWeights Integrator::least_weights() const {
     }
   }
   const float share =
-      std::max(kLeastShare * weight_beside_surface(all, float(scale_.cell_m)), kLeastWeight);
+      std::max(kMinWeightShare * weight_beside_surface(all, float(scale_.cell_m)), kMinWeight);
   return {std::min(share, std::max(kEnoughWeight, kEnoughShareOfViews * views_)),
           std::min(share, kEnoughWeight)};
 }

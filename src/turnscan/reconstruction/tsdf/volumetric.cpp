@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numeric>
 #include <turnscan/geometry/mesh/cut_handles.hpp>
-#include <turnscan/geometry/mesh/even_out.hpp>
+#include <turnscan/geometry/mesh/merge_clustered_vertices.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
@@ -24,9 +24,9 @@ constexpr std::size_t kSampledViews = 64;
 constexpr double kUntangleCells = 0.5;
 constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
 /// Of what the best measured piece has per vertex: clutter that stands still has 0.02 to 0.04.
-constexpr double kLeastSupport = 0.08;
+constexpr double kMinSupport = 0.08;
 constexpr double kLongestLoopCells = 16.0;  ///< around a handle that nothing measured
-constexpr double kLeastSection_m = 0.0005;  ///< between the sections that look for a neck
+constexpr double kMinSection_m = 0.0005;    ///< between the sections that look for a neck
 
 using mesh_refinement::MeshFit;
 using mesh_refinement::MeshFitScale;
@@ -92,7 +92,8 @@ class VolumetricReconstruction {
     std::vector<TriangleMesh> refined;
     for (TriangleMesh& component : object.components) {
       TURNSCAN_ASSIGN(const TriangleMesh even, timed("even out", [&] {
-                        return even_out(std::move(component), surface.grid, context_);
+                        return merge_clustered_vertices(std::move(component), surface.grid,
+                                                        context_);
                       }));
       const double share = filter_share(even);
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
@@ -129,7 +130,7 @@ class VolumetricReconstruction {
     for (const VolumetricPiece& piece : out_.pieces) best = std::max(best, mean_support(piece));
     const std::size_t all = out_.pieces.size();
     std::erase_if(out_.pieces, [&](const VolumetricPiece& piece) {
-      return piece.points == 0 || mean_support(piece) < kLeastSupport * best;
+      return piece.points == 0 || mean_support(piece) < kMinSupport * best;
     });
     out_.left_out = all - out_.pieces.size();
   }
@@ -188,7 +189,7 @@ class VolumetricReconstruction {
       if (input_.measured_only) return {};
       if (scale_.volume.floor_m)
         piece.neck = quality::narrowest_neck(
-            piece.mesh, std::max(scale_.volume.cell_m, kLeastSection_m), *scale_.volume.floor_m);
+            piece.mesh, std::max(scale_.volume.cell_m, kMinSection_m), *scale_.volume.floor_m);
       TURNSCAN_TRY(measure_quality(piece, input_, scale_, filter_share_ > 0.0, context_));
       return measure_no_return(piece, input_.views, context_);
     };

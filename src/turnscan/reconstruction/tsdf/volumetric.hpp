@@ -14,7 +14,7 @@ namespace turnscan::tsdf {
 struct VolumetricInput {
   std::vector<views::DepthView> views;  ///< all, or as many as are kept, evenly spread
   double noise_m = 0.0;                 ///< of a depth along its ray
-  double seen_past_m = 0.0;             ///< see estimation/seen_past.hpp
+  double seen_past_m = 0.0;             ///< see estimation/free_space_violation.hpp
   double spacing_m = 0.0;               ///< of the points of one frame
   /// Distance between samples over spacing_m. A camera's many frames fall between each other's
   /// pixels; a few range scans do not.
@@ -63,7 +63,7 @@ Box measured_box(const VolumetricInput& input);
 struct VolumetricScale {
   VolumeScale volume;
   double fit_reach_m = 0.0;
-  std::vector<Choice> choices;
+  std::vector<ResolvedParameter> choices;
 };
 VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
                              const Box& box);

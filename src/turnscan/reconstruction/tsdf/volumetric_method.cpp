@@ -3,13 +3,13 @@
 #include <mutex>
 #include <turnscan/core/figure_text.hpp>
 #include <turnscan/geometry/grid/isosurface.hpp>
+#include <turnscan/reconstruction/estimation/free_space_violation.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
-#include <turnscan/reconstruction/estimation/seen_past.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
-#include <turnscan/reconstruction/tsdf/round_bottoms.hpp>
+#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>
@@ -30,11 +30,11 @@ constexpr std::size_t kPreviewBricks = 1500;
 constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
 
 /// Fewer points than this make no object.
-constexpr std::uint64_t kFewestPoints = 100;
+constexpr std::uint64_t kMinPoints = 100;
 
 /// How far the views disagree. thickness_m: where the frames' places do, the cloud is thicker than
 /// one frame's noise; 0 when there are too few points to tell. seen_past_m: see
-/// estimation/seen_past.hpp.
+/// estimation/free_space_violation.hpp.
 struct Disagreement {
   double thickness_m = 0.0, seen_past_m = 0.0;
 };
@@ -45,8 +45,8 @@ Disagreement disagreement(const VolumetricInput& input, double noise_m, bool ima
   const double start_m = 3.0 * std::max(input.spacing_m, noise_m);
   out.thickness_m = estimation::one_sided_statistics(sample, start_m, input.profiles).noise_m;
   if (images)
-    out.seen_past_m =
-        estimation::depth_seen_past(input.views, sample.cloud.points, noise_m, input.spacing_m);
+    out.seen_past_m = estimation::free_space_violation(input.views, sample.cloud.points, noise_m,
+                                                       input.spacing_m);
   return out;
 }
 
@@ -55,7 +55,7 @@ struct CurrentPass {
   std::optional<Pose> T_object_table;  ///< nullopt: there is but one pass
   std::optional<Cylinder> cylinder;    ///< above its table
   std::vector<std::optional<views::LightSheet>> sheets;
-  const TableShare* share;  ///< nullptr: all of the table
+  const ObjectPartition* share;  ///< nullptr: all of the table
 };
 
 /// The height above the margin in the frame of a sensor, whose recorder may have cropped higher
@@ -329,14 +329,14 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   if (volume.brick_count() == 0) return TriangleMesh();
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
-  TURNSCAN_TRY(close_holes(volume, scale, RoundBottoms(), context));
+  TURNSCAN_TRY(close_holes(volume, scale, TaperedFoot(), context));
   TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(1) << 30));
   return isosurface(grid, IsosurfaceOptions(), context);
 }
 
 std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space(bool filtered) const {
   auto seen = std::make_shared<SeenSpace>();
-  const std::size_t count = input_.views.size(), most = std::min(count, SeenSpace::kMostViews);
+  const std::size_t count = input_.views.size(), most = std::min(count, SeenSpace::kMaxViews);
   for (std::size_t i = 0; i < most; ++i) seen->views.push_back(input_.views[i * count / most]);
   if (pass_.cylinder && pass_.cylinder->margin_m > 0.0) seen->floor_m = 0.0;
   seen->noise_m = noise_m_;
@@ -349,7 +349,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                                   Reconstruction& out) {
   TURNSCAN_TRY(flush_profiles(context));
   out.points = out.inside_crop;
-  if (out.inside_crop < kFewestPoints)
+  if (out.inside_crop < kMinPoints)
     return fail(ErrorCode::kTooFewPoints,
                 "{} of {} returns are left after the crop; check the turntable's place, "
                 "--crop-margin and --crop-radius",

@@ -173,12 +173,12 @@ DepthView view_of_points(FramePoints points, const Pose& T_table_sensor, const V
 }  // namespace
 
 std::size_t views_for_statistics(std::span<const DepthView> views, std::size_t most) {
-  constexpr std::size_t kFewest = 4;
-  constexpr double kMostPixels = 4e6;
+  constexpr std::size_t kMin = 4;
+  constexpr double kMaxPixels = 4e6;
   double pixels = 0.0;
   for (const DepthView& view : views) pixels += double(view.pixels.size());
-  const double share = std::min(1.0, kMostPixels / std::max(pixels, 1.0));
-  const std::size_t fitting = std::max(kFewest, std::size_t(share * double(views.size())));
+  const double share = std::min(1.0, kMaxPixels / std::max(pixels, 1.0));
+  const std::size_t fitting = std::max(kMin, std::size_t(share * double(views.size())));
   return std::min({views.size(), most, fitting});
 }
 

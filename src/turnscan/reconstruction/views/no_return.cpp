@@ -10,7 +10,7 @@ namespace {
 using Mask = Image<std::uint8_t>;
 
 /// Of the outermost pixels that show something else than the empty border.
-constexpr double kLeastOutside = 0.8;
+constexpr double kMinOutside = 0.8;
 
 /// Calls body(x, y) along a line of pixels inside the empty border.
 template <class Body>
@@ -34,7 +34,7 @@ class NoReturn {
     };
     for (const int row : {1, view_.height - 2}) along(view_, 0, row, false, count);
     for (const int column : {1, view_.width - 2}) along(view_, 1, column, false, count);
-    return with >= kLeastOutside * all;
+    return with >= kMinOutside * all;
   }
 
   Mask enclosed() {

@@ -13,9 +13,9 @@ namespace {
 /// Largest thickness of a sheet, seen from the viewpoint, over its width.
 constexpr double kThickestOfWidth = 0.01;
 /// A group's profiles are seen from directions that differ by so much at most...
-const double kLeastGroupCosine = std::cos(8.0 * std::numbers::pi / 180.0);
+const double kMinGroupCosine = std::cos(8.0 * std::numbers::pi / 180.0);
 /// ... but for one that turns faster; and they are so many at most.
-constexpr std::size_t kFewestProfiles = 3, kMostProfiles = 128;
+constexpr std::size_t kMinProfiles = 3, kMaxProfiles = 128;
 
 /// Where a point lies along the line: an angle, or a length where rays are parallel.
 double position_along(const LightSheet& sheet, const Viewpoint& eye, const Vec3f& p) {
@@ -111,7 +111,7 @@ FramePoints in_sheet_order(const FramePoints& points, const LightSheet& sheet) {
 }
 
 bool ProfileGroups::fits(const Profile& profile) const {
-  if (group_.size() >= kMostProfiles) return false;
+  if (group_.size() >= kMaxProfiles) return false;
   const Profile& first = group_.front();
   const auto& points = first.points.cloud.points.empty() ? profile.points : first.points;
   const Vec3d middle = (first.points.cloud.points.empty() ? profile : first).T_table_sensor *
@@ -119,8 +119,7 @@ bool ProfileGroups::fits(const Profile& profile) const {
   const auto direction = [&](const Profile& p) {
     return p.points.viewpoint.transformed(p.T_table_sensor).direction_from(middle);
   };
-  return group_.size() < kFewestProfiles ||
-         direction(first).dot(direction(profile)) > kLeastGroupCosine;
+  return group_.size() < kMinProfiles || direction(first).dot(direction(profile)) > kMinGroupCosine;
 }
 
 std::vector<Profile> ProfileGroups::add(Profile profile) {

@@ -17,7 +17,7 @@ void ViewStore::add(DepthView view, std::uint32_t sensor) {
   bytes_ += bytes_of(view);
   views_.push_back(std::move(view));
   key_.emplace_back(sensor, number);
-  while (views_.size() > kMostViews || (bytes_ > kMostBytes && views_.size() > kFewViews)) thin();
+  while (views_.size() > kMaxViews || (bytes_ > kMaxBytes && views_.size() > kFewViews)) thin();
 }
 
 void ViewStore::thin() {

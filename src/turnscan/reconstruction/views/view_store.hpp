@@ -11,8 +11,8 @@ namespace turnscan::views {
 /// memory does not grow with the scan.
 class ViewStore {
  public:
-  static constexpr std::size_t kMostViews = 1024, kFewViews = 64;
-  static constexpr std::size_t kMostBytes = std::size_t(256) << 20;
+  static constexpr std::size_t kMaxViews = 1024, kFewViews = 64;
+  static constexpr std::size_t kMaxBytes = std::size_t(256) << 20;
 
   void add(DepthView view, std::uint32_t sensor);
   const std::vector<DepthView>& views() const { return views_; }

@@ -2,8 +2,8 @@
 // From frames to one cloud in the table frame (thesis 3.4.1).
 
 #include <turnscan/core/frame.hpp>
+#include <turnscan/reconstruction/object_partition.hpp>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
-#include <turnscan/reconstruction/table_share.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan::voxels {
@@ -27,8 +27,8 @@ struct FrameRecipe {
   std::vector<RayTable> rays;  ///< per sensor
   std::optional<Cylinder> cylinder;
   OutlierOptions outliers;
-  std::optional<Pose> T_object_table;  ///< then points are in the object's frame
-  const TableShare* share = nullptr;   ///< of its table; nullptr: all of it
+  std::optional<Pose> T_object_table;      ///< then points are in the object's frame
+  const ObjectPartition* share = nullptr;  ///< of its table; nullptr: all of it
 
   static FrameRecipe make(const SequenceHeader& header);
 };

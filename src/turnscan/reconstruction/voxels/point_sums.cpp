@@ -15,14 +15,14 @@ constexpr int kPlaceBits = 12;                     // of a place within its cell
 constexpr std::int64_t kPlaces = 1 << kPlaceBits;  // along a cell
 constexpr float kDirections = 2048.0f;             // steps of a unit vector's component
 /// 2^20 times the largest place or direction still fits 32 bits.
-constexpr std::uint32_t kMostPoints = (1U << 20) - 1;
+constexpr std::uint32_t kMaxPoints = (1U << 20) - 1;
 /// A brick holds 2 x 2 x 2 voxels of 2 x 2 x 2 cells, voxel by voxel.
 constexpr int kBrickBits = 2;
 constexpr std::size_t kVoxels = 8, kCells = 8;
 constexpr std::size_t kParts = 64;
 /// Cells are numbered from the lowest that is allowed.
-constexpr std::int64_t kMostCells = std::int64_t{1} << 21;
-constexpr double kOffset = double(kMostCells * kPlaces);
+constexpr std::int64_t kMaxCells = std::int64_t{1} << 21;
+constexpr double kOffset = double(kMaxCells * kPlaces);
 
 }  // namespace
 
@@ -59,7 +59,7 @@ std::uint64_t spread_key(std::int64_t x, std::int64_t y, std::int64_t z) {
 /// The brick's lowest voxel.
 VoxelIndex low_voxel(std::uint64_t brick) {
   constexpr std::uint64_t kMask = (1ULL << 21) - 1;
-  constexpr int kLow = int(kMostCells / 2);
+  constexpr int kLow = int(kMaxCells / 2);
   return {2 * int(brick & kMask) - kLow, 2 * int((brick >> 21) & kMask) - kLow,
           2 * int(brick >> 42) - kLow};
 }
@@ -137,7 +137,7 @@ class PointSums::Part {
       const std::uint32_t b = find(entry.brick);
       CellSums& cell = bricks_[b][entry.cell];
       if (sub_voxels_ > 0) walk(entry, b);
-      if (cell.count++ >= kMostPoints) continue;
+      if (cell.count++ >= kMaxPoints) continue;
       for (std::size_t a = 0; a < 3; ++a) {
         cell.place[a] += entry.place[a];
         cell.towards[a] += entry.towards[a];
@@ -177,7 +177,7 @@ class PointSums::Part {
       const std::size_t k = ref.voxel * kCells + c;
       const CellSums& cell = bricks_[ref.brick][k];
       if (cell.count == 0) continue;
-      const double n = std::min(cell.count, kMostPoints);
+      const double n = std::min(cell.count, kMaxPoints);
       const VoxelIndex low = 2 * ref.index + octant(c);
       for (std::size_t a = 0; a < 3; ++a) {
         // Places were floored: half a step more in the mean.

@@ -7,7 +7,7 @@ namespace turnscan::coverage {
 
 namespace {
 
-constexpr std::size_t kMostPatches = 4'000'000;
+constexpr std::size_t kMaxPatches = 4'000'000;
 constexpr double kPlainAlbedo = 0.8;
 constexpr double kSliver = 0.4;  // of a cell's face
 
@@ -115,9 +115,9 @@ std::vector<std::uint32_t> absorb_slivers(std::span<const CellKey> keys,
 
 CoveragePatches::CoveragePatches(std::span<const TriangleMesh> objects, double size)
     : cell_m(size), objects_(objects) {
-  while (count(objects, cell_m) > kMostPatches) {
+  while (count(objects, cell_m) > kMaxPatches) {
     const std::size_t faces = count(objects, 1e9);
-    if (faces >= kMostPatches) break;  // nothing is cut any more
+    if (faces >= kMaxPatches) break;  // nothing is cut any more
     cell_m *= 1.5;
   }
   for (std::uint32_t o = 0; o < objects.size(); ++o) {
@@ -158,7 +158,7 @@ std::int32_t CoveragePatches::cut(const std::array<Vec3f, 3>& corners, std::uint
                                   std::uint32_t face) {
   const int edge = longest_edge(corners);
   const double smallest = std::max(cell_m, float_step(corners));
-  if (edge_length(corners, edge) <= smallest || patches.size() >= kMostPatches) {
+  if (edge_length(corners, edge) <= smallest || patches.size() >= kMaxPatches) {
     patches.push_back({corners, object, face, 0, 0});
     return static_cast<std::int32_t>(patches.size() - 1);
   }

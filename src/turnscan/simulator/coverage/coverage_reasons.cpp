@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kTestedPoses = 64;  // of a matrix scanner
 constexpr int kDirections = 48;           // around the table
 constexpr double kHeightStep_m = 0.05;
-constexpr int kMostHeights = 9;
+constexpr int kMaxHeights = 9;
 constexpr double kLift_m = 20e-6;  // rays start so far outside the surface
 constexpr std::size_t kCellsPerTask = 64;
 
@@ -186,7 +186,7 @@ std::vector<Vec3d> places_around(const CoverageJob& job, std::uint32_t pass) {
   }
   if (low > high) return {};
   const int heights = static_cast<int>(
-      std::clamp(1.0 + std::ceil((high - low) / kHeightStep_m), 1.0, double(kMostHeights)));
+      std::clamp(1.0 + std::ceil((high - low) / kHeightStep_m), 1.0, double(kMaxHeights)));
   std::vector<Vec3d> places;
   for (int h = 0; h < heights; ++h) {
     for (int d = 0; d < kDirections; ++d) {

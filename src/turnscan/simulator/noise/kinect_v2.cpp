@@ -141,8 +141,8 @@ double grazing_sigma_m(const NoiseModel& m, double z_m, double incidence_rad) {
 
 double sigma_m(const NoiseModel& m, double range_m, double incidence_rad, double albedo) {
   const double amplitude = amplitude_of(m, range_m, incidence_rad, albedo);
-  constexpr double kLeast = 10.0 / 3.0;  // in each frequency, for the driver's sum of 10
-  if (!(amplitude >= kLeast)) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double kMin = 10.0 / 3.0;  // in each frequency, for the driver's sum of 10
+  if (!(amplitude >= kMin)) return std::numeric_limits<double>::quiet_NaN();
   return std::hypot(correlation_sigma_m(m, amplitude),
                     grazing_after_filter_m(m, range_m, incidence_rad));
 }

@@ -27,12 +27,12 @@ Result<> check(const NoiseOptions& o) {
   if (!(o.mixed_reach_m >= 0.0 && o.mixed_reach_m <= 10.0))
     return fail(ErrorCode::kInvalidOption, "mixed-reach = {} m is outside 0 to 10 m",
                 o.mixed_reach_m);
-  if (o.window_px < 1 || o.window_px > kMostNoiseWindow_px)
+  if (o.window_px < 1 || o.window_px > kMaxNoiseWindow_px)
     return fail(ErrorCode::kInvalidOption, "noise-window = {} is outside 1 to {}", o.window_px,
-                kMostNoiseWindow_px);
-  if (!(o.edge_fattening_px >= 0.0 && o.edge_fattening_px <= kMostFattening_px))
+                kMaxNoiseWindow_px);
+  if (!(o.edge_fattening_px >= 0.0 && o.edge_fattening_px <= kMaxFattening_px))
     return fail(ErrorCode::kInvalidOption, "edge-fattening = {} is outside 0 to {}",
-                o.edge_fattening_px, kMostFattening_px);
+                o.edge_fattening_px, kMaxFattening_px);
   if (!(std::abs(o.wiggling_m) <= 1.0))
     return fail(ErrorCode::kInvalidOption, "wiggling = {} m is outside -1 to 1 m", o.wiggling_m);
   if (!(o.wiggling_period_m > 0.0))

@@ -22,8 +22,8 @@ enum class NoiseKind {
   kPhysics    ///< NoiseModel::physics
 };
 
-inline constexpr int kMostNoiseWindow_px = 31;
-inline constexpr double kMostFattening_px = 15.0;
+inline constexpr int kMaxNoiseWindow_px = 31;
+inline constexpr double kMaxFattening_px = 15.0;
 
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::kNone;

@@ -9,7 +9,7 @@ namespace turnscan::noise {
 namespace {
 
 constexpr double kSteepestSlope = 4.0;  // along which depth is carried at most
-constexpr int kMostRadius = 8;          // pixels about a step that its lateral noise reaches
+constexpr int kMaxRadius = 8;           // pixels about a step that its lateral noise reaches
 
 /// What a pixel sees, mixed or not.
 struct Seen {
@@ -69,7 +69,7 @@ class Formulae {
     for (std::size_t i = 0; i < counts_.size(); ++i)
       if (counts_[i] != 0) nearest = std::min(nearest, job_.exact.z[i]);
     const double reach = 0.5 * noise_.footprint_px + 3.0 * lateral(nearest) - 0.5;
-    return static_cast<int>(std::clamp(std::ceil(reach), 0.0, double(kMostRadius)));
+    return static_cast<int>(std::clamp(std::ceil(reach), 0.0, double(kMaxRadius)));
   }
 
   std::size_t pixel_of(std::size_t i) const {

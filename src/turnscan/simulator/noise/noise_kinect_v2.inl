@@ -174,8 +174,8 @@ constexpr float kUnits[kFrequencies] = {3.0f, 15.0f, 2.0f};
 constexpr float kDirection[kFrequencies] = {0.551318f, 0.110264f, 0.826977f};
 /// Half path for a mean of one turn: c / (2 * (80 + 16 + 120) MHz) * 3.
 constexpr float kMetresPerTurn = 3.0f * 299792458.0f / (2.0f * 216e6f);
-constexpr float kLeastAmplitude = 3.0f, kLeastSum = 10.0f;
-constexpr float kLeastDoubt = 0.3490659f, kMostDoubt = 0.6108653f;
+constexpr float kMinAmplitude = 3.0f, kMinSum = 10.0f;
+constexpr float kMinDoubt = 0.3490659f, kMaxDoubt = 0.6108653f;
 constexpr float kDoubtSlope = -0.5330578f, kDoubtOffset = 0.7694894f * 3.321928f;
 
 struct Turns {
@@ -218,8 +218,8 @@ void unwrap(int n, Phasors in, float* __restrict half_path, float* __restrict am
     const float mean = (turns.t[0] + turns.t[1] + turns.t[2]) * (1.0f / 3.0f);
     const float doubt =
         power_of_two(1.442695f * (logarithm(larger(least, 1e-6f)) * kDoubtSlope + kDoubtOffset));
-    const float bound = smaller(larger(doubt, kLeastDoubt), kMostDoubt);
-    const bool dark = !(least >= kLeastAmplitude && sum >= kLeastSum);
+    const float bound = smaller(larger(doubt, kMinDoubt), kMaxDoubt);
+    const bool dark = !(least >= kMinAmplitude && sum >= kMinSum);
     const bool aliased = !(mean > 0.0f && disagreement(turns) <= bound * bound);
     amplitude[i] = sum;
     half_path[i] = dark || aliased ? 0.0f : mean * kMetresPerTurn;

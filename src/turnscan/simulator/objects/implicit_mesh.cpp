@@ -38,7 +38,8 @@ class Mesher {
     std::vector<KeyTriangle> triangles;
     for (const auto& block : blocks) triangles.insert(triangles.end(), block.begin(), block.end());
     TURNSCAN_ASSIGN(TriangleMesh out, index(triangles));
-    for (int round = 0; round < grid_.smoothing; ++round) TURNSCAN_TRY(even_out(out));
+    for (int round = 0; round < grid_.smoothing; ++round)
+      TURNSCAN_TRY(merge_clustered_vertices(out));
     TURNSCAN_TRY(set_normals(out));
     return out;
   }
@@ -169,7 +170,7 @@ class Mesher {
     return p;
   }
 
-  Result<> even_out(TriangleMesh& mesh) const {
+  Result<> merge_clustered_vertices(TriangleMesh& mesh) const {
     std::vector<Vec3f> sum(mesh.vertices.size(), Vec3f::Zero());
     std::vector<float> count(mesh.vertices.size(), 0.0f);
     for (const auto& t : mesh.triangles) {

@@ -10,7 +10,7 @@ namespace turnscan::planning {
 
 namespace {
 
-constexpr std::uint32_t kMostOthers = 6;
+constexpr std::uint32_t kMaxOthers = 6;
 constexpr float kOffSurface_m = 20e-6f;
 constexpr int kSideRays = 32;
 constexpr double kGoldenAngle = 2.399963229728653;
@@ -132,8 +132,8 @@ Result<PlanSurface> sample_plan_surface(const TriangleMesh& mesh, const SurfaceS
     spot.albedo_step = patches.albedo_step(largest.object, largest.face);
     spot.first_other = std::uint32_t(out.others.size());
     const auto& all = of_cell[c];
-    const std::size_t step = std::max<std::size_t>(1, all.size() / kMostOthers);
-    for (std::size_t k = step / 2; k < all.size() && spot.others < kMostOthers; k += step) {
+    const std::size_t step = std::max<std::size_t>(1, all.size() / kMaxOthers);
+    for (std::size_t k = step / 2; k < all.size() && spot.others < kMaxOthers; k += step) {
       if (all[k] == patches.largest[c]) continue;
       out.others.push_back(point_of(patches, all[k]));
       ++spot.others;

@@ -99,9 +99,9 @@ bool cut_off(const PixelRect& rect, const View& view, const PixelRect& border) {
 /// Whether any triangle of a small body reaches, by its box, into a box of the sensor's frame; of a
 /// large body it is taken to.
 bool reaches_into(const Body& body, const Pose& T_sensor_body, const Box& where) {
-  constexpr std::size_t kMostTriangles = 20000;
+  constexpr std::size_t kMaxTriangles = 20000;
   const Scene::Impl& scene = body.scene->impl();
-  if (scene.triangle_count() > kMostTriangles) return true;
+  if (scene.triangle_count() > kMaxTriangles) return true;
   const auto meets = [&](const Box& box) {
     return (box.min.array() <= where.max.array()).all() &&
            (box.max.array() >= where.min.array()).all();

@@ -5,7 +5,7 @@
 /// How often what is drawn is looked through for tiles without a gap, and how much nearer than a
 /// tile's farthest pixel a group must be to be drawn there.
 constexpr int kRounds = 12;
-constexpr int kLeastRound = 96;
+constexpr int kMinRound = 96;
 constexpr float kTileMargin = 1.0f + 0x1p-16f;
 constexpr int kDepthSteps = 32;
 
@@ -128,7 +128,7 @@ inline void draw_body(const View& view, const BodyView& body, const Canvas& canv
   const int count = find_groups(view, body, canvas);
   sort_groups(canvas, count);
   // Looking through the tiles must pay.
-  const int round = count / kRounds > kLeastRound ? count / kRounds : kLeastRound;
+  const int round = count / kRounds > kMinRound ? count / kRounds : kMinRound;
   for (int k = 0; k < count; ++k) {
     if (k > 0 && k % round == 0) find_tiles(canvas);
     const GroupView& seen = canvas.seen[canvas.order[k]];

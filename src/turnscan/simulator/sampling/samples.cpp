@@ -50,7 +50,7 @@ struct Sheet {
 /// Drawing costs by the triangle, rays by the pixel: up to so many of the one for the other it pays
 /// to draw (measured, docs/performance.md).
 constexpr double kTrianglesPerPixel = 30.0;
-constexpr std::uint64_t kMostSlots = 0xffffff00u;
+constexpr std::uint64_t kMaxSlots = 0xffffff00u;
 
 bool worth_drawing(std::span<const Body> bodies, const PixelRect& rect) {
   double triangles = 0.0;
@@ -61,7 +61,7 @@ bool worth_drawing(std::span<const Body> bodies, const PixelRect& rect) {
 bool slots_suffice(std::span<const Body> bodies) {
   std::uint64_t slots = 0;
   for (const Body& body : bodies) slots += body.scene->impl().triangle_count() + sampling::kLanes;
-  return slots < kMostSlots;
+  return slots < kMaxSlots;
 }
 
 sampling::Output output_of(Samples& samples) {

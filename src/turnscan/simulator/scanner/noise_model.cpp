@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRightAngle = kTurn / 4;
 /// Keeps the formulae finite at a right angle: 0.06 deg short of it.
-constexpr double kMostIncidence = kRightAngle - 1e-3;
+constexpr double kMaxIncidence = kRightAngle - 1e-3;
 
 constexpr Range kLength{0.0, 1.0};
 constexpr Range kFactor{-1e3, 1e3};
@@ -19,7 +19,7 @@ constexpr Range kPixels{0.0, 100.0};
 constexpr Range kAngle{0.0, kRightAngle};
 constexpr Range kCount{0.0, 1e9};
 
-double clamped(double incidence_rad) { return std::clamp(incidence_rad, 0.0, kMostIncidence); }
+double clamped(double incidence_rad) { return std::clamp(incidence_rad, 0.0, kMaxIncidence); }
 
 void describe_axial(OptionTable& table, NoiseModel& m) {
   table

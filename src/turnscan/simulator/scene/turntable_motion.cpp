@@ -9,7 +9,7 @@ namespace turnscan {
 namespace {
 
 constexpr int kDefaultFrames = 920;
-constexpr double kMostFrames = 1e6;
+constexpr double kMaxFrames = 1e6;
 constexpr double kNever = 1e300;
 constexpr std::uint64_t kDropSalt = 0x64726f70ULL;
 
@@ -41,11 +41,11 @@ Result<int> frame_count(const MotionOptions& o) {
   const double time_s = std::abs(o.turns) * kTurn / std::abs(*o.speed_rad_s) + o.start_delay_s +
                         o.halt_s + 0.5 * (o.start_ramp_s + o.stop_ramp_s);
   const double frames = std::round(time_s * o.fps);
-  if (frames > kMostFrames)
+  if (frames > kMaxFrames)
     return fail(ErrorCode::kInvalidOption,
                 "{} turns at {} take {:.0f} frames, more than {:.0f}; give a number of frames",
                 o.turns, format_quantity(*o.speed_rad_s, Quantity::kAngularSpeed), frames,
-                kMostFrames);
+                kMaxFrames);
   return std::max(1, static_cast<int>(frames));
 }
 
@@ -102,7 +102,7 @@ Result<Course> course_of(const MotionOptions& o) {
 OptionTable describe(MotionOptions& o, const std::string& speed_name) {
   OptionTable table;
   table
-      .number("frames", o.frames, {1, kMostFrames},
+      .number("frames", o.frames, {1, kMaxFrames},
               "Number of frames of each scanner; auto: 920, or with a speed as many as the turns "
               "take.")
       .number("turns", o.turns, Quantity::kNone, {-1000.0, 1000.0},

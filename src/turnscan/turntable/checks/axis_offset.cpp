@@ -10,8 +10,8 @@ namespace turnscan::checks {
 
 namespace {
 
-constexpr std::size_t kMostFrames = 36, kLeastFrames = 4;
-constexpr double kLeastTurn = kTurn / 8.0;
+constexpr std::size_t kMaxFrames = 36, kMinFrames = 4;
+constexpr double kMinTurn = kTurn / 8.0;
 // What a mesh does not forgive, and what noise that is not Gaussian makes of a right axis.
 constexpr double kLargestShift_m = 0.0015;
 constexpr double kLargestTilt = 0.5 * kRadiansPerDegree;
@@ -22,7 +22,7 @@ std::vector<std::size_t> placed_frames(const std::vector<double>& angle) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < angle.size(); ++i)
     if (std::isfinite(angle[i])) out.push_back(i);
-  return motion::spread_subset(std::move(out), kMostFrames);
+  return motion::spread_subset(std::move(out), kMaxFrames);
 }
 
 AxisOffset offset_between(const TurntableInfo& recorded, const motion::AxisFit& fit) {
@@ -42,7 +42,7 @@ AxisOffset offset_between(const TurntableInfo& recorded, const motion::AxisFit& 
 
 namespace turnscan {
 
-bool AxisOffset::bad() const {
+bool AxisOffset::significant() const {
   const auto beyond = [](double value, double limit, double sigma) {
     return value > std::max(limit, checks::kSigmas * sigma);
   };
@@ -66,8 +66,7 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   std::vector<double> placed;
   for (const std::size_t i : positions) placed.push_back(angle[i]);
   const auto [least, most] = std::minmax_element(placed.begin(), placed.end());
-  if (placed.size() < checks::kLeastFrames || *most - *least < checks::kLeastTurn)
-    return std::nullopt;
+  if (placed.size() < checks::kMinFrames || *most - *least < checks::kMinTurn) return std::nullopt;
   motion::MotionDataOptions loading;
   loading.hint = table;
   loading.memory = memory;
@@ -82,7 +81,7 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   if (!fit) return nothing_if_unseen(fit.error());
   AxisOffset out = checks::offset_between(*table, *fit);
   out.frames = positions.size();
-  if (!out.bad()) return out;
+  if (!out.significant()) return out;
   TURNSCAN_ASSIGN(const double gain, motion::gain_over_start(*fit, *data, *table, placed, context));
   if (gain < checks::kSigmas * checks::kSigmas) return std::nullopt;
   return out;

@@ -16,8 +16,8 @@ struct AxisOffset {
   double shift_m = 0.0;         ///< between them beside the object
   double tilt_sigma_rad = 0.0;  ///< standard deviations
   double shift_sigma_m = 0.0;
-  std::size_t frames = 0;  ///< that were compared
-  bool bad() const;        ///< over 1.5 mm or half a degree, and over four standard deviations
+  std::size_t frames = 0;    ///< that were compared
+  bool significant() const;  ///< over 1.5 mm or half a degree, and over four standard deviations
 };
 
 /// Compares up to 36 frames of the first sensor at the angles that the recording states. nullopt

@@ -59,10 +59,10 @@ class RecordingCheck {
       return {};
     }
     const ClosureError& e = **closure;
-    say(rating_of(!e.bad()),
+    say(rating_of(!e.significant()),
         "Closure: one turn later the object lies {} from where it was ({} pairs of frames; {}).{}",
         e.offset_text(), e.pairs, e.noise_text(),
-        e.bad() ? " Axis, centre or speed of the recording are wrong." : "");
+        e.significant() ? " Axis, centre or speed of the recording are wrong." : "");
     return {};
   }
 

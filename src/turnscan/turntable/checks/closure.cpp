@@ -19,11 +19,11 @@ using motion::MotionData;
 using motion::MotionFrame;
 using motion::SurfaceSample;
 
-constexpr std::size_t kMostPairs = 6;
+constexpr std::size_t kMaxPairs = 6;
 /// Between frames that show nearly the same view: a wrong axis or speed moves one against the other
 /// by a tenth of what it does half a turn apart, or less.
 constexpr double kSameView = 12.0 / kDegreesPerRadian;
-constexpr double kLeastLever = 0.02;  // share of a turn that the normals see; noise alone is less
+constexpr double kMinLever = 0.02;  // share of a turn that the normals see; noise alone is less
 /// How many deviations of what few, noisy pairs show are taken for chance.
 constexpr double kChance = 2.5;
 /// Deviation of a median of normal values over that of their mean, and over their median one.
@@ -61,10 +61,10 @@ std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vecto
     }
     if (best != i) all.push_back({i, best, frame_beside(sequence, angle, i)});
   }
-  if (all.size() <= kMostPairs) return all;
+  if (all.size() <= kMaxPairs) return all;
   std::vector<TurnPair> out;
-  for (std::size_t k = 0; k < kMostPairs; ++k)
-    out.push_back(all[k * (all.size() - 1) / (kMostPairs - 1)]);
+  for (std::size_t k = 0; k < kMaxPairs; ++k)
+    out.push_back(all[k * (all.size() - 1) / (kMaxPairs - 1)]);
   return out;
 }
 
@@ -108,7 +108,7 @@ std::optional<PairClosure> compare_frames(const MotionFrame& first, const Motion
   }
   // Of a displacement, its normals see a third of the square where they point in all directions.
   const double shift = std::sqrt(3.0 * moved / double(points.size()));
-  const bool shown = lever > kLeastLever * reach;
+  const bool shown = lever > kMinLever * reach;
   return PairClosure{shown ? moved_by_turn / lever : std::nan(""), shift};
 }
 
@@ -206,11 +206,11 @@ Result<std::optional<ClosureError>> compare_pairs(const std::vector<TurnPair>& p
 
 namespace turnscan {
 
-bool ClosureError::bad() const {
+bool ClosureError::significant() const {
   using checks::kChance;
-  constexpr double kMost_m = 0.0015;
+  constexpr double kMax_m = 0.0015;
   const double excess = shift_m * shift_m - noise_m * noise_m;
-  return excess > kMost_m * kMost_m + kChance * excess_sigma_m2 ||
+  return excess > kMax_m * kMax_m + kChance * excess_sigma_m2 ||
          (std::isfinite(turn_rad) &&
           std::abs(turn_rad) > std::hypot(1.0 / kDegreesPerRadian, kChance * turn_sigma_rad));
 }

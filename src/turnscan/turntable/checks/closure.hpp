@@ -23,7 +23,7 @@ struct ClosureError {
   double turn_sigma_rad = 0.0, excess_sigma_m2 = 0.0;
   /// Over 1.5 mm beyond the noise (squares), or 1 degree, and more than chance makes of so few
   /// pairs.
-  bool bad() const;
+  bool significant() const;
   /// "2.31 mm and +0.42 deg", or without the turn where it is not known.
   std::string offset_text() const;
   /// "noise alone makes 0.31 mm", or that it was not measured.

@@ -42,13 +42,13 @@ class MotorCheck {
     };
     TURNSCAN_ASSIGN(const MotorObservation evenly, events_from(steady, {}));
     if (!has_angles_) {
-      say_events(evenly, "frames from there on have other angles than a constant speed gives");
+      add_events(evenly, "frames from there on have other angles than a constant speed gives");
       return std::move(findings_);
     }
     const auto expected = expected_angles(data);
     TURNSCAN_ASSIGN(const MotorObservation recorded, events_from(first, expected));
-    if (recorded.events.empty() && turns_evenly(data)) say_followed(evenly);
-    say_events(recorded, "the recorded angles do not follow it");
+    if (recorded.events.empty() && turns_evenly(data)) add_followed(evenly);
+    add_events(recorded, "the recorded angles do not follow it");
     return std::move(findings_);
   }
 
@@ -118,14 +118,14 @@ class MotorCheck {
            event.time_s + event.lasts_s > sequence_.frames().back().time_s - 1.5;
   }
 
-  void say_followed(const MotorObservation& seen) {
+  void add_followed(const MotorObservation& seen) {
     for (const MotorEvent& event : seen.events)
       if (!is_rest(event))
         say(Rating::kGood, "Motor: {}; the recorded angles follow it.",
             text_of(event, seen.speed_rad_s));
   }
 
-  void say_events(const MotorObservation& seen, const char* consequence) {
+  void add_events(const MotorObservation& seen, const char* consequence) {
     bool any = false;
     for (const MotorEvent& event : seen.events) {
       if (!has_angles_ && is_rest(event)) continue;

@@ -16,7 +16,7 @@ constexpr double kStretchTurn = 12.0 * kRadiansPerDegree;  ///< between the fram
 constexpr double kReach = 70.0 * kRadiansPerDegree;        ///< that is searched, coarse to fine
 constexpr double kCoarse = 1.5 * kRadiansPerDegree, kFine = 0.5 * kRadiansPerDegree;
 /// Of an event; and half the turn that was expected.
-constexpr double kLeastEvent = 5.0 * kRadiansPerDegree;
+constexpr double kMinEvent = 5.0 * kRadiansPerDegree;
 constexpr std::size_t kPairsPerStretch = 6, kSamples = 250;
 
 struct Stretch {
@@ -126,7 +126,7 @@ class MotorEventFinder {
     const double middle = best;
     for (int i = -fine; i <= fine; ++i) try_turn(middle + kFine * i);
     s.turn = expected(s.first, s.last) + best;
-    s.steepness = std::min(cost(s, best - kLeastEvent), cost(s, best + kLeastEvent)) - s.least;
+    s.steepness = std::min(cost(s, best - kMinEvent), cost(s, best + kMinEvent)) - s.least;
   }
 
   /// Turned farther, on either side, it fits clearly worse.
@@ -135,7 +135,7 @@ class MotorEventFinder {
   double off(const Stretch& s) const { return s.turn - expected(s.first, s.last); }
 
   bool is_event(const Stretch& s) const {
-    const double wide = std::max(kLeastEvent, 0.5 * std::abs(expected(s.first, s.last)));
+    const double wide = std::max(kMinEvent, 0.5 * std::abs(expected(s.first, s.last)));
     if (std::abs(off(s)) < wide) return false;
     return cost(s, 0.0) - s.least > std::max(0.04, 0.3 * s.least);
   }

@@ -35,7 +35,7 @@ FramePoints crop(const FramePoints& points, const SensorCrop& crop) {
 
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m) {
   constexpr auto kReach = float(PlatterReturns::kReach_m);
-  constexpr std::size_t kMostHeights = 200000;  // more tell no more, and have to be sorted
+  constexpr std::size_t kMaxHeights = 200000;  // more tell no more, and have to be sorted
   std::vector<float> heights;
   const float r2 = static_cast<float>(radius_m * radius_m);
   for (const Vec3f& p : p_table) {
@@ -44,7 +44,7 @@ PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_
   if (heights.size() < 200) return {};
   PlatterReturns out;
   out.count = heights.size();
-  const std::size_t stride = 1 + heights.size() / kMostHeights;
+  const std::size_t stride = 1 + heights.size() / kMaxHeights;
   for (std::size_t i = 0; i * stride < heights.size(); ++i) heights[i] = heights[i * stride];
   heights.resize((heights.size() + stride - 1) / stride);
   // The platter is the densest height: the median of the densest 3 mm window.
@@ -70,7 +70,7 @@ std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
                                           const PlatterReturns& platter) {
   constexpr double kRing = 0.004;
   constexpr std::size_t kRings = 150;
-  constexpr double kLeastDensity = 2e4;  // returns per square metre: one in 50 mm^2
+  constexpr double kMinDensity = 2e4;  // returns per square metre: one in 50 mm^2
   if (!platter.plane()) return std::nullopt;
   std::vector<double> density(kRings, 0.0);
   const double band = std::max(4.0 * platter.sigma_m, 0.001);
@@ -82,7 +82,7 @@ std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
   for (std::size_t i = 0; i < kRings; ++i)
     density[i] /= EIGEN_PI * kRing * kRing * double(2 * i + 1);
   const auto densest = std::max_element(density.begin(), density.end());
-  if (*densest < kLeastDensity) return std::nullopt;
+  if (*densest < kMinDensity) return std::nullopt;
   const auto end =
       std::find_if(densest, density.end(), [&](double d) { return d < 0.3 * *densest; });
   if (end == density.end()) return std::nullopt;

@@ -68,14 +68,14 @@ struct PlatterReturns {
   double height_m = 0.0;     ///< their median height
   double sigma_m = 0.0;      ///< robust standard deviation of their height
   double dense_share = 0.0;  ///< of the returns that lie in the 3 mm that hold most of them
-  static constexpr double kReach_m = 0.015, kMostSigma_m = 0.0045;
+  static constexpr double kReach_m = 0.015, kMaxSigma_m = 0.0045;
 
   /// Whether they lie at one height. Of what is spread evenly over 15 mm or more, 3 mm hold a fifth
   /// at most.
   bool lie_flat(double most_sigma_m) const { return dense_share > 0.25 && sigma_m < most_sigma_m; }
   /// Whether they are a platter's. Without one, what is seen at its height are the object's own
   /// feet and walls; where it widens upwards, most returns lie at the upper end.
-  bool plane(double most_sigma_m = kMostSigma_m) const {
+  bool plane(double most_sigma_m = kMaxSigma_m) const {
     return lie_flat(most_sigma_m) && std::abs(height_m) < 0.0115;
   }
 };

@@ -14,10 +14,10 @@ namespace {
 using detection::ScanPixels;
 
 constexpr Range kDiameter{0.02, 1.0};
-constexpr double kLeastCosine = 0.42;  // 65 degrees
-constexpr double kFree = 0.6;          // of the pixels that the ball should show
+constexpr double kMinCosine = 0.42;  // 65 degrees
+constexpr double kFree = 0.6;        // of the pixels that the ball should show
 constexpr double kHuber = 2.0;
-constexpr std::size_t kLeastPixels = 60;
+constexpr std::size_t kMinPixels = 60;
 constexpr int kRounds = 12;
 constexpr double kSystematic_m = 3e-5;  // of depth seen at a right angle less than at a low one
 constexpr int kBlock = 4;               // pixels of a side, over which errors may be shared
@@ -131,7 +131,7 @@ class BallFinder {
         if (!n || -n->dot(ray(at(x, y)).normalized()) < 0.5) continue;
         const Ball ball{p.cast<double>() - radius_ * *n, 0.0};
         const BallPixels visible = visible_pixels(ball, tolerance, 3);
-        if (visible.pixels.size() * 9 < kLeastPixels || visible.share() < 0.8 * kFree) continue;
+        if (visible.pixels.size() * 9 < kMinPixels || visible.share() < 0.8 * kFree) continue;
         votes.push_back({ball, visible.pixels.size()});
       }
       y += 4;
@@ -178,7 +178,7 @@ class BallFinder {
     const Vec3d d = direction.normalized();
     const double along = d.dot(ball.center);
     const double aside2 = ball.center.squaredNorm() - along * along;
-    const double most2 = radius_ * radius_ * (1.0 - kLeastCosine * kLeastCosine);
+    const double most2 = radius_ * radius_ * (1.0 - kMinCosine * kMinCosine);
     return along > 0.0 && aside2 < most2;
   }
 
@@ -187,7 +187,7 @@ class BallFinder {
     double tolerance = std::max(0.12 * radius_, 4.0 * noise_);
     for (int round = 0; round < kRounds; ++round) {
       fit.visible = visible_pixels(fit.ball, tolerance, 1);
-      if (fit.visible.pixels.size() < kLeastPixels || fit.visible.share() < kFree)
+      if (fit.visible.pixels.size() < kMinPixels || fit.visible.share() < kFree)
         return std::nullopt;
       if (!step(fit)) return std::nullopt;
       if (std::abs(fit.ball.offset_m) > 0.3 * fit.ball.center.z()) return std::nullopt;

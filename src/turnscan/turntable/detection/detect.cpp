@@ -8,10 +8,10 @@ namespace turnscan::detection {
 
 namespace {
 
-constexpr int kMostPlanes = 14;
-constexpr std::size_t kLeastPixels = 150;
-constexpr std::size_t kMostRefined = 3;
-constexpr double kLeastWorth = 0.35;  // of the best candidate's
+constexpr int kMaxPlanes = 14;
+constexpr std::size_t kMinPixels = 150;
+constexpr std::size_t kMaxRefined = 3;
+constexpr double kMinWorth = 0.35;  // of the best candidate's
 
 Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels) {
   Vec3d sum = Vec3d::Zero();
@@ -37,7 +37,7 @@ class PlatterDetector {
       : camera_(scan.intrinsics), rays_(camera_), pixels_(pixels_of(scan)), options_(options) {}
 
   Result<DetectedPlatter> run(const RunContext& context) {
-    const auto planes = find_planes(pixels_, rays_, kMostPlanes, kLeastPixels, context);
+    const auto planes = find_planes(pixels_, rays_, kMaxPlanes, kMinPixels, context);
     context.begin_phase("look for the platter", planes.size());
     for (std::size_t i = 0; i < planes.size(); ++i) {
       TURNSCAN_TRY(context.check());
@@ -64,7 +64,7 @@ class PlatterDetector {
       if (!circle) break;
       const auto own = inside(view, *circle);
       const auto estimate = fit_plane(pixels_, rays_, own);
-      if (!estimate || own.size() < kLeastPixels) {
+      if (!estimate || own.size() < kMinPixels) {
         if (round == 0) return;
         break;
       }
@@ -81,10 +81,10 @@ class PlatterDetector {
   void refine_best(const RunContext& context) {
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& l, const auto& r) { return worth(l) > worth(r); });
-    if (candidates_.size() > kMostRefined) candidates_.resize(kMostRefined);
+    if (candidates_.size() > kMaxRefined) candidates_.resize(kMaxRefined);
     std::vector<PlatterCandidate> refined;
     for (const PlatterCandidate& c : candidates_) {
-      if (!refined.empty() && worth(c) < kLeastWorth * worth(candidates_.front())) break;
+      if (!refined.empty() && worth(c) < kMinWorth * worth(candidates_.front())) break;
       auto better = refine_platter({pixels_, camera_, rays_}, c, options_.radius_m, context);
       if (better) refined.push_back(std::move(*better));
     }

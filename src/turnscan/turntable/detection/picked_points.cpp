@@ -12,16 +12,16 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t kMostPoints = 300;  // 4.5 million triples
-constexpr double kOnALine = 1e-6;         // twice the area over the longest side squared
+constexpr std::size_t kMaxPoints = 300;  // 4.5 million triples
+constexpr double kOnALine = 1e-6;        // twice the area over the longest side squared
 
 Result<> check_points(std::span<const Vec3d> points) {
   if (points.size() < 3)
     return fail(ErrorCode::kTooFewPoints,
                 "picked points: {} are given; pick 3 or more on the platter's rim", points.size());
-  if (points.size() > kMostPoints)
+  if (points.size() > kMaxPoints)
     return fail(ErrorCode::kInvalidOption, "picked points: {} are given; give at most {}",
-                points.size(), kMostPoints);
+                points.size(), kMaxPoints);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite())
       return fail(ErrorCode::kInvalidOption, "picked points: point {} is not finite", i + 1);

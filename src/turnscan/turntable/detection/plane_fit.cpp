@@ -34,9 +34,9 @@ Sample sample_of(const ScanPixels& scan, const std::vector<std::uint8_t>& free) 
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (free[i]) all.push_back(static_cast<std::int32_t>(i));
   }
-  constexpr std::size_t kMost = 6000;
+  constexpr std::size_t kMax = 6000;
   Sample sample;
-  const std::size_t n = std::min(kMost, all.size());
+  const std::size_t n = std::min(kMax, all.size());
   for (std::size_t k = 0; k < n; ++k) {
     sample.pixels.push_back(all[k * all.size() / n]);
     sample.points.push_back(scan.point[std::size_t(sample.pixels.back())]);

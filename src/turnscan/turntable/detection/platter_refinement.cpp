@@ -7,9 +7,9 @@ namespace turnscan::detection {
 
 namespace {
 
-constexpr std::size_t kLeastSurface = 150;  // pixels
-constexpr double kHeightFloor_m = 1e-5;     // no residual shows how true a sensor's depth is
-constexpr double kRoundness = 4e-4;         // of the radius: by how much no platter is rounder
+constexpr std::size_t kMinSurface = 150;  // pixels
+constexpr double kHeightFloor_m = 1e-5;   // no residual shows how true a sensor's depth is
+constexpr double kRoundness = 4e-4;       // of the radius: by how much no platter is rounder
 
 std::vector<std::uint8_t> mask_of(const ScanPixels& scan, const Plane& plane, double tolerance) {
   std::vector<std::uint8_t> in(scan.point.size(), 0);
@@ -76,7 +76,7 @@ std::optional<Refinement> refine_once(const ScanImage& image, const Refinement& 
   const auto own = undisturbed(view, model, from.noise.blur_px, context);
   if (context.cancelled()) return std::nullopt;
   const auto plane = fit_plane(image.pixels, image.rays, own);
-  if (!plane || own.size() < kLeastSurface) return std::nullopt;
+  if (!plane || own.size() < kMinSurface) return std::nullopt;
   Refinement out;
   out.plane = *plane;
   out.pixels = own.size();

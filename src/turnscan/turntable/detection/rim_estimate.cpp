@@ -9,11 +9,11 @@ namespace turnscan::detection {
 namespace {
 
 constexpr double kFirstReach_px = 6.0, kReach_px = 4.5;
-constexpr std::size_t kMostInSearch = 2000;  // pixels
+constexpr std::size_t kMaxInSearch = 2000;  // pixels
 constexpr std::array kThicknesses_m{0.0, 0.003, 0.007, 0.012, 0.02, 0.03, 0.045, 0.065};
 constexpr double kThickestMode_m = 0.03;  // of a higher wall enough is seen
 constexpr std::array kSpreads_px{1.0, 0.7, 0.5, 0.36, 0.27, 0.2, 0.14, 0.1};
-constexpr std::size_t kLeastRimPixels = 60;
+constexpr std::size_t kMinRimPixels = 60;
 
 struct RimState {
   RimModel model;
@@ -144,7 +144,7 @@ RimState best_spread(const RimData& data, const RimState& start) {
 /// Evenly fewer pixels: while searching, what all of them say is not needed.
 RimData thinned(const RimData& data) {
   RimData out{data.rays, {}, data.noise, data.empty_share, data.radius_m};
-  const std::size_t n = std::min(kMostInSearch, data.pixels.size());
+  const std::size_t n = std::min(kMaxInSearch, data.pixels.size());
   for (std::size_t k = 0; k < n; ++k) out.pixels.push_back(data.pixels[k * data.pixels.size() / n]);
   return out;
 }
@@ -244,7 +244,7 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
     if (round == 0) about.thickness_m = kThicknesses_m.back();
     data.pixels = label_rim(view, rays, about, noise, round == 0 ? kFirstReach_px : kReach_px,
                             slack, context);
-    if (data.pixels.size() < kLeastRimPixels || context.cancelled()) return std::nullopt;
+    if (data.pixels.size() < kMinRimPixels || context.cancelled()) return std::nullopt;
     data.empty_share = empty_share(data.pixels);
     const RimData few = thinned(data);
     if (round == 0) state = best_thickness(few, state.model);

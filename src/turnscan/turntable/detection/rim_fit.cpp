@@ -18,7 +18,7 @@ constexpr double kEdgeSigma_px = 0.35;  // a rim between two pixels: 0.29, and a
 constexpr double kWallSigma_px = 0.25;
 // How far mixed pixels shift a rim: not at all, or by half a pixel where each of them is lost.
 constexpr double kOffset_px = 0.25, kOffsetSigma_px = 0.35;
-constexpr std::size_t kMostCircles = 8, kMostEnds = 600;
+constexpr std::size_t kMaxCircles = 8, kMaxEnds = 600;
 constexpr std::array<std::array<int, 2>, 4> kAround{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 struct Circle2 {
@@ -315,7 +315,7 @@ std::vector<RimCircle> find_circles(const std::vector<RimPoint>& all, double min
   std::vector<RimCircle> found;
   if (all.size() < 20) return found;
   std::vector<RimPoint> points;
-  const std::size_t n = std::min(kMostEnds, all.size());
+  const std::size_t n = std::min(kMaxEnds, all.size());
   for (std::size_t k = 0; k < n; ++k) points.push_back(all[k * all.size() / n]);
   constexpr std::size_t kTrials = 1500;
   std::vector<std::size_t> score(kTrials, 0);
@@ -334,7 +334,7 @@ std::vector<RimCircle> find_circles(const std::vector<RimPoint>& all, double min
   for (std::size_t t = 0; t < kTrials; ++t) order[t] = t;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t l, std::size_t r) { return score[l] > score[r]; });
-  for (std::size_t k = 0; k < kMostCircles && score[order[k]] >= 24; ++k) {
+  for (std::size_t k = 0; k < kMaxCircles && score[order[k]] >= 24; ++k) {
     const auto circle = refine(points, circles[order[k]], radius_m);
     if (circle && circle->radius_m >= min_radius_m && circle->radius_m <= max_radius_m)
       found.push_back(*circle);

@@ -9,7 +9,7 @@ enum class Seen : std::uint8_t { kUnknown, kPlatter, kFlickers, kBehind, kNothin
 
 constexpr double kInwards_px = 7.0;  // from the outermost pixels that count into the platter
 constexpr int kCrowdReach = 2, kBareReach = 3;  // pixels
-constexpr int kMostInCrowd = 12;                // flickering, of 25: an edge has up to 10
+constexpr int kMaxInCrowd = 12;                 // flickering, of 25: an edge has up to 10
 
 class RimLabelling {
  public:
@@ -106,7 +106,7 @@ class RimLabelling {
   bool in_crowd(int x, int y) const {
     int count = 0;
     any_near(x, y, kCrowdReach, [&](Seen s) { return (count += s == Seen::kFlickers), false; });
-    return count > kMostInCrowd;
+    return count > kMaxInCrowd;
   }
 
   /// Whether a pixel behind the platter lies between it and what is seen beside, as a filter joins

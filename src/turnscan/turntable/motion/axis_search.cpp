@@ -11,8 +11,8 @@ namespace turnscan::motion {
 namespace {
 
 // Views that are compared: near enough to see the same, far enough apart to show the axis.
-constexpr double kLeastApart = 8.0 * kRadiansPerDegree, kBestApart = 35.0 * kRadiansPerDegree;
-constexpr std::size_t kMostPairs = 12, kMostQueries = 32, kMostSurfacePoints = 600;
+constexpr double kMinApart = 8.0 * kRadiansPerDegree, kBestApart = 35.0 * kRadiansPerDegree;
+constexpr std::size_t kMaxPairs = 12, kMaxQueries = 32, kMaxSurfacePoints = 600;
 /// Places are tried up to so many mean widths from the middle of what is seen, four a width.
 constexpr int kPlaces = 6;
 constexpr double kStep = 0.5;
@@ -59,17 +59,17 @@ class AxisSearch {
       const std::size_t to = partner_of(from);
       if (to != from) pairs.emplace_back(from, to);
     }
-    const std::size_t n = std::min(kMostPairs, pairs.size());
+    const std::size_t n = std::min(kMaxPairs, pairs.size());
     surfaces_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
       const auto [from, to] = pairs[k * pairs.size() / n];
-      for (const SurfaceSample& s : evenly_spread(data_.frames[to].samples, kMostSurfacePoints)) {
+      for (const SurfaceSample& s : evenly_spread(data_.frames[to].samples, kMaxSurfacePoints)) {
         surfaces_[k].points.push_back(s.p);
         surfaces_[k].normals.push_back(s.n);
       }
       surfaces_[k].tree = KdTree(surfaces_[k].points);
       pairs_.push_back(
-          {k, angle_[to] - angle_[from], evenly_spread(data_.frames[from].samples, kMostQueries)});
+          {k, angle_[to] - angle_[from], evenly_spread(data_.frames[from].samples, kMaxQueries)});
     }
   }
 
@@ -79,7 +79,7 @@ class AxisSearch {
     double least = kTurn;
     for (const std::size_t to : data_.keys) {
       const double apart = std::abs(std::remainder(angle_[to] - angle_[from], kTurn));
-      if (data_.frames[to].pass != data_.frames[from].pass || apart < kLeastApart) continue;
+      if (data_.frames[to].pass != data_.frames[from].pass || apart < kMinApart) continue;
       if (data_.frames[to].samples.empty() || data_.frames[from].samples.empty()) continue;
       const double off = std::abs(apart - kBestApart);
       if (off < least) best = to, least = off;

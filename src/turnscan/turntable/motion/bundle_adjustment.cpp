@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFirstReach_m = 0.008, kLeastReach_m = 0.003;
-constexpr double kMostHeight_m = 0.003;  // in one step
-constexpr double kStationary = 2e-5;     // radians
+constexpr double kFirstReach_m = 0.008, kMinReach_m = 0.003;
+constexpr double kMaxHeight_m = 0.003;  // in one step
+constexpr double kStationary = 2e-5;    // radians
 /// How evenly tables turn: AnglePrior::speed_walk, from a good motor to one that is pushed by hand.
 constexpr std::array kSpeedWalks{2e-4, 5e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1.2e-2, 2e-2, 4e-2};
 
@@ -56,7 +56,7 @@ class BundleAdjustment {
       if (!options_.axis_only) choose_speed_walk();
       TURNSCAN_TRY(system_.solve(now_, prior_, options_.axis_only));
       if (apply() < kStationary) break;
-      reach = std::max(kLeastReach_m, 8.0 * observations_.scale_m());
+      reach = std::max(kMinReach_m, 8.0 * observations_.scale_m());
     }
     return finished();
   }
@@ -80,7 +80,7 @@ class BundleAdjustment {
     for (std::size_t s = 0; s < heights.size(); ++s) {
       if (!heights[s]) continue;
       Surfel& surfel = now_.surfels[s];
-      surfel.p += std::clamp(*heights[s], -kMostHeight_m, kMostHeight_m) * surfel.n;
+      surfel.p += std::clamp(*heights[s], -kMaxHeight_m, kMaxHeight_m) * surfel.n;
     }
     const Eigen::VectorXd& step = system_.step();
     const Index n = knots_.size();

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
+#include <turnscan/turntable/motion/motion_result.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
-#include <turnscan/turntable/motion/publication.hpp>
 
 namespace turnscan::motion {
 
@@ -12,7 +12,7 @@ namespace {
 /// An axis that is known no better is none.
 constexpr double kLargestAxisSigma = 1.0 * kRadiansPerDegree;
 /// Of a platter that the object's own turn checks (DetectOptions).
-constexpr double kLeastAgreement = 0.65, kLeastConfidence = 0.5;
+constexpr double kMinAgreement = 0.65, kMinConfidence = 0.5;
 
 struct Attempt {
   MotionData data;
@@ -63,8 +63,8 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
   loading.detect = detect;
   loading.level = true;
   // What turns checks the platter; edges of stereo cameras are rough (0.73 on a D435's table).
-  loading.detect.min_agreement = std::min(detect.min_agreement, kLeastAgreement);
-  loading.detect.min_confidence = std::min(detect.min_confidence, kLeastConfidence);
+  loading.detect.min_agreement = std::min(detect.min_agreement, kMinAgreement);
+  loading.detect.min_confidence = std::min(detect.min_confidence, kMinConfidence);
   loading.max_keys = std::size_t(options.key_frames);
   if (options.use_table) loading.hint = sequence.header().turntable;
   TURNSCAN_ASSIGN(Attempt found, first_attempt(sequence, options, loading, context));
@@ -82,7 +82,7 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
                : "the object does not turn square to the platter, or wobbles");
   }
   TURNSCAN_ASSIGN(Calibration calibration,
-                  publish_motion(found.data, found.refined, sequence, options));
+                  to_calibration(found.data, found.refined, sequence, options));
   return with_model(std::move(calibration), found.data, found.refined.solution.state, max_samples);
 }
 

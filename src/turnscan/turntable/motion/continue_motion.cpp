@@ -9,9 +9,9 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kOverlap = 0.35;           ///< rad: how far partners of later frames lie off
-constexpr std::size_t kMostLater = 240;     ///< of the later frames; others lie between them
-constexpr std::size_t kMostPartners = 100;  ///< on either side
+constexpr double kOverlap = 0.35;          ///< rad: how far partners of later frames lie off
+constexpr std::size_t kMaxLater = 240;     ///< of the later frames; others lie between them
+constexpr std::size_t kMaxPartners = 100;  ///< on either side
 
 class MotionContinuation {
  public:
@@ -92,10 +92,10 @@ class MotionContinuation {
     }
     for (std::size_t i = known_; i < frames_.size(); ++i)
       if (usable(i)) later.push_back(i);
-    std::vector<std::size_t> out = spread_subset(earlier, kMostPartners);
-    for (const std::size_t i : spread_subset(before, kMostPartners)) out.push_back(i);
+    std::vector<std::size_t> out = spread_subset(earlier, kMaxPartners);
+    for (const std::size_t i : spread_subset(before, kMaxPartners)) out.push_back(i);
     std::sort(out.begin(), out.end());
-    for (const std::size_t i : spread_subset(later, kMostLater)) out.push_back(i);
+    for (const std::size_t i : spread_subset(later, kMaxLater)) out.push_back(i);
     return out;
   }
 

@@ -62,7 +62,7 @@ double key_step_s(const MotionData& data) {
 }
 
 /// Pairs of frames that are compared, and the fewest that tell something.
-constexpr std::size_t kRecurrencePairs = 16, kLeastRecurringPairs = 4;
+constexpr std::size_t kRecurrencePairs = 16, kMinRecurringPairs = 4;
 /// Of how frames that do not show the same view differ, what those do that do, at most.
 constexpr double kRecurs = 0.6;
 /// And of the least such, those of other turns.
@@ -75,7 +75,7 @@ constexpr double kFarthestSpeed = 3.0;
 /// The usual cost of frames that are so many key frames apart, as if nothing had turned.
 double recurrence_cost(const MotionData& data, std::size_t gap) {
   const auto pairs = spread_pairs(data, gap, kRecurrencePairs);
-  if (pairs.size() < kLeastRecurringPairs) return 1.0;
+  if (pairs.size() < kMinRecurringPairs) return 1.0;
   std::vector<double> costs;
   for (const FramePair& pair : pairs)
     costs.push_back(pair_cost(data, MotionState(), pair, 0.0, data.inlier_gate_m(), 300));

@@ -12,7 +12,7 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr std::size_t kMostStarts = 6;    ///< that are solved with care
+constexpr std::size_t kMaxStarts = 6;     ///< that are solved with care
 constexpr std::size_t kSieveStride = 12;  ///< of the samples that the others are judged by
 /// Logarithm of the ratio of two speeds that are not the same.
 constexpr double kMisled = 0.15;
@@ -111,7 +111,7 @@ class Initialisation {
 
   /// Of many starts those that fit best after a quick look.
   Result<> keep_promising(std::vector<Start>& starts) const {
-    if (starts.size() <= kMostStarts) return {};
+    if (starts.size() <= kMaxStarts) return {};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < starts.size(); ++i) {
       TURNSCAN_TRY(solve_roughly(starts[i], kSieveStride, 3));
@@ -119,8 +119,7 @@ class Initialisation {
     }
     std::sort(order.begin(), order.end());
     std::vector<Start> kept;
-    for (std::size_t k = 0; k < kMostStarts; ++k)
-      kept.push_back(std::move(starts[order[k].second]));
+    for (std::size_t k = 0; k < kMaxStarts; ++k) kept.push_back(std::move(starts[order[k].second]));
     starts = std::move(kept);
     return {};
   }
@@ -188,7 +187,7 @@ class Initialisation {
   /// Scans that lie far apart are aligned only from near by.
   Result<> search_everywhere(std::vector<Start>& starts) const {
     const std::vector<double> told = told_angles();
-    TURNSCAN_ASSIGN(const auto trials, search_axes(data_, told, kMostStarts, context_));
+    TURNSCAN_ASSIGN(const auto trials, search_axes(data_, told, kMaxStarts, context_));
     for (const AxisTrial& trial : trials)
       starts.push_back(start_with(trial.state, told, trial.sign));
     return {};

@@ -4,25 +4,25 @@
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_adjustment.hpp>
 #include <turnscan/turntable/motion/initial_guess.hpp>
-#include <turnscan/turntable/motion/motor_law.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/refinement.hpp>
+#include <turnscan/turntable/motion/speed_profile.hpp>
 
 namespace turnscan::motion {
 
 namespace {
 
 /// Fewer views, far apart, have too little in common for a model of the surface.
-constexpr std::size_t kLeastBundleFrames = 24;
+constexpr std::size_t kMinBundleFrames = 24;
 /// turn_contrast() below which the object looks the same from all sides.
-constexpr double kLeastTurnContrast = 0.02;
+constexpr double kMinTurnContrast = 0.02;
 /// Logarithm of the ratio of two speeds that may be the same, if the table slipped.
 constexpr double kSameSpeed = 0.1;
 /// What a platter is believed with, and from how many standard deviations on it is not.
 constexpr double kLargestLean = 0.5 * kRadiansPerDegree, kLargestShift_m = 0.003;
 constexpr double kDisagreement = 6.0;
-constexpr std::size_t kLeastPhaseFrames = 24, kLeastEvidenceFrames = 12;
+constexpr std::size_t kMinPhaseFrames = 24, kMinEvidenceFrames = 12;
 
 /// What outlines shift the axis by, as shares of a pixel (standard deviation of each tilt, over the
 /// size of what turns, and of each shift). Measured with mixed pixels on bench/random_rigs.
@@ -57,7 +57,7 @@ class Refinement {
     options.covariance = true;
     TURNSCAN_TRY(solve(options, true));
     // Where the angles are the prior's, pairs of views do not drift.
-    if (data_.projective && out_.turn_observable && data_.keys.size() >= kLeastBundleFrames) {
+    if (data_.projective && out_.turn_observable && data_.keys.size() >= kMinBundleFrames) {
       TURNSCAN_TRY(adjust());
     }
     return std::move(out_);
@@ -130,7 +130,7 @@ class Refinement {
   /// are those of the prior then.
   Result<> judge_turn(const SolveOptions& options) {
     out_.turn_observable = out_.source == AngleSource::kNothing ||
-                           turn_contrast(data_, state_) > kLeastTurnContrast || view_comes_back();
+                           turn_contrast(data_, state_) > kMinTurnContrast || view_comes_back();
     if (out_.turn_observable) return {};
     TURNSCAN_TRY(reset_to_prior());
     return solve(options, false);
@@ -168,13 +168,13 @@ class Refinement {
   /// The motor's phases and how evenly it turns, where the frames have times and show the turn.
   Result<> fit_motor(SolveOptions& options) {
     if (out_.source != AngleSource::kTimes || !out_.turn_observable) return {};
-    if (data_.keys.size() >= kLeastPhaseFrames && find_transients(data_, state_, out_.prior)) {
+    if (data_.keys.size() >= kMinPhaseFrames && find_transients(data_, state_, out_.prior)) {
       options.iterations = 4;
       options.reach_m = std::max(0.004, 12.0 * out_.solution.scale_m);
       TURNSCAN_TRY(solve(options, false));
       find_standstills(state_, out_.prior);
     }
-    if (data_.keys.size() < kLeastEvidenceFrames) return {};
+    if (data_.keys.size() < kMinEvidenceFrames) return {};
     TURNSCAN_TRY(find_slips(data_, out_.solution, options, out_.prior, state_, context_));
     return choose_speed_walk(data_, out_.solution, options, out_.prior, state_, context_);
   }

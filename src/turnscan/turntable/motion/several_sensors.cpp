@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/sequence_views.hpp>
-#include <turnscan/turntable/motion/heading.hpp>
+#include <turnscan/turntable/motion/relative_yaw.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan::motion {
@@ -221,7 +221,7 @@ class SensorMerger {
       s.p = (back * s.p.cast<double>()).cast<float>();
       s.n = (back.linear() * s.n.cast<double>()).cast<float>();
     }
-    auto heading = find_heading(*found_[0], own, context_);
+    auto heading = find_relative_yaw(*found_[0], own, context_);
     if (!heading) return of_sensor(k, heading.error());
     TURNSCAN_ASSIGN(const Pose T_own, table_from_sensor(own.calibration.table));
     SensorPlace place;

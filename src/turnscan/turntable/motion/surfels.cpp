@@ -8,12 +8,12 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kLeastCosine = 0.5;                   // of incidence
-constexpr double kLeastWeight = 3.0;                   // in samples seen head-on
-constexpr double kLeastNormalAgreement = 0.8;          // length of the mean of unit normals
+constexpr double kMinCosine = 0.5;                     // of incidence
+constexpr double kMinWeight = 3.0;                     // in samples seen head-on
+constexpr double kMinNormalAgreement = 0.8;            // length of the mean of unit normals
 constexpr double kLowCosine = 0.3, kFullCosine = 0.5;  // of incidence: weight 0 to full between
-constexpr double kLeastRamp = 0.02;
-constexpr std::size_t kLeastObservations = 1000;
+constexpr double kMinRamp = 0.02;
+constexpr std::size_t kMinObservations = 1000;
 
 /// By the cosine of incidence. Where a surface is seen at low angles tells most of the axis: seen
 /// head-on, a lean of the axis towards the sensor looks like a cone. Noise is along the ray, so
@@ -21,7 +21,7 @@ constexpr std::size_t kLeastObservations = 1000;
 /// much as everywhere, for its filter errs there.
 double incidence_weight(double cosine, bool filtered) {
   const double ramp = (cosine - kLowCosine) / (kFullCosine - kLowCosine);
-  return std::clamp(ramp, kLeastRamp, 1.0) / (filtered ? 1.0 : cosine * cosine);
+  return std::clamp(ramp, kMinRamp, 1.0) / (filtered ? 1.0 : cosine * cosine);
 }
 
 struct TurnedSample {
@@ -35,7 +35,7 @@ std::vector<TurnedSample> turned_samples(const MotionData& data, const MotionSta
     const Eigen::Matrix3d R = Eigen::AngleAxisd(-state.angle[f], state.axis).toRotationMatrix();
     for (const SurfaceSample& s : data.frames[f].samples) {
       const double cosine = -double(s.n.dot(s.p)) / double(s.p.norm());
-      if (cosine < kLeastCosine) continue;
+      if (cosine < kMinCosine) continue;
       out.push_back(
           {R * (s.p.cast<double>() - state.center), R * s.n.cast<double>(), cosine * cosine});
     }
@@ -70,7 +70,7 @@ std::vector<Surfel> cell_means(const std::vector<TurnedSample>& samples, const V
       const TurnedSample& s = samples[order[b].second];
       p += s.weight * s.p, n += s.weight * s.n, weight += s.weight;
     }
-    if (weight < kLeastWeight || n.norm() < kLeastNormalAgreement * weight) continue;
+    if (weight < kMinWeight || n.norm() < kMinNormalAgreement * weight) continue;
     out.push_back({center + p / weight, n.normalized()});
   }
   return out;
@@ -124,7 +124,7 @@ bool SurfelObservations::weigh() {
     for (const auto& observed : observed_)
       for (std::size_t i = 0; i < observed.size(); i += 4)
         sizes.push_back(std::abs(residual(observed[i])));
-    if (sizes.size() < kLeastObservations / 4) return false;
+    if (sizes.size() < kMinObservations / 4) return false;
     scale_m_ = std::max(estimation::mad_sigma(sizes), 1e-7);
     std::vector<double> sum(height_.size(), 0.0), total(height_.size(), 0.0);
     for (auto& observed : observed_) {

@@ -6,7 +6,7 @@
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
 #include <turnscan/turntable/motion_input/depth_steps.hpp>
-#include <turnscan/turntable/motion_input/still_surface.hpp>
+#include <turnscan/turntable/motion_input/static_background.hpp>
 
 namespace turnscan::motion {
 
@@ -14,18 +14,18 @@ namespace {
 
 /// A patch that flickers, where a mixed pixel jumps between two surfaces at rest, is smaller than
 /// what turns.
-constexpr double kLeastShareOfLargest = 0.15;
-constexpr std::size_t kLeastMovingPixels = 100;
+constexpr double kMinShareOfLargest = 0.15;
+constexpr std::size_t kMinMovingPixels = 100;
 /// Standard deviations between the tenths at both ends of a pixel's depths: 2.6 of normal noise.
 constexpr double kMovingSigmas = 4.0;
-constexpr double kLeastMove_m = 0.003;
+constexpr double kMinMove_m = 0.003;
 /// Of the steps in which a sensor tells depth: it may fall to either side of what stands still.
 constexpr double kMovingSteps = 2.5;
 /// A pixel shows two things where nothing lies between them, in ranges of what stands still.
 constexpr double kClearGap = 3.0;
 /// What is seen now and then at one depth stands still if that is so of a wide patch: of an object
 /// that turns only lines along its outline are. A share of all that moves.
-constexpr double kLeastPassing = 0.02;
+constexpr double kMinPassing = 0.02;
 
 /// The depths of every pixel, frame after frame; 0: none.
 class DepthStack {
@@ -167,7 +167,7 @@ class BackgroundSearch {
     find_moving();
     keep_large_patches();
     const auto moving = std::size_t(std::count(moving_.begin(), moving_.end(), 1));
-    if (moving < kLeastMovingPixels)
+    if (moving < kMinMovingPixels)
       return fail(ErrorCode::kTooFewPoints,
                   "motion: nothing turns in the recording, or nothing that can be seen to turn");
     Background out{w_, h_, std::vector<float>(moving_.size(), 0.0f), noise_m_};
@@ -189,7 +189,7 @@ class BackgroundSearch {
     }
     const double noise = differences.size() < 4 ? noise_m_ : noise_from(differences);
     const double steps = kMovingSteps * steps_.at(depth_m);
-    return std::max({kMovingSigmas * std::max(noise, noise_m_), steps, kLeastMove_m});
+    return std::max({kMovingSigmas * std::max(noise, noise_m_), steps, kMinMove_m});
   }
 
   void find_moving() {
@@ -256,7 +256,7 @@ class BackgroundSearch {
     for (std::size_t i = 0; i < core.size(); ++i)
       if (core[i] != 0 && label[i] == 0) widest = std::max(widest, fill(core, label, i, 1));
     const auto moving = double(std::count(moving_.begin(), moving_.end(), 1));
-    if (widest < kLeastMovingPixels || double(widest) < kLeastPassing * moving) return false;
+    if (widest < kMinMovingPixels || double(widest) < kMinPassing * moving) return false;
     const auto wide = dilated(core);
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (moving_[i] == 0) continue;
@@ -266,7 +266,7 @@ class BackgroundSearch {
         lone_[i] = 1, still_.candidate[i] = farthest_[i];
       }
     }
-    still_.least_patch = kLeastPassing;
+    still_.least_patch = kMinPassing;
     return true;
   }
 
@@ -282,7 +282,7 @@ class BackgroundSearch {
     const std::size_t largest = *std::max_element(sizes.begin(), sizes.end());
     for (std::size_t i = 0; i < core.size(); ++i)
       core[i] = core[i] != 0 &&
-                double(sizes[std::size_t(label[i])]) >= kLeastShareOfLargest * double(largest);
+                double(sizes[std::size_t(label[i])]) >= kMinShareOfLargest * double(largest);
     const auto wide = dilated(dilated(core));
     for (std::size_t i = 0; i < core.size(); ++i) moving_[i] = moving_[i] != 0 && wide[i] != 0;
   }
@@ -337,9 +337,9 @@ class BackgroundSearch {
   std::vector<std::uint8_t> apart_ = moving_;  ///< nothing is seen shortly before the candidate
   std::vector<float> passing_ = std::vector<float>(moving_.size(), 0.0f);  ///< seen now and then
   std::vector<float> farthest_ = passing_;
-  StillDepths still_{w_, h_, std::vector<float>(moving_.size(), 0.0f),
-                     std::vector<float>(moving_.size(), 0.0f),
-                     std::vector<float>(moving_.size(), 0.0f)};
+  StaticBackground still_{w_, h_, std::vector<float>(moving_.size(), 0.0f),
+                          std::vector<float>(moving_.size(), 0.0f),
+                          std::vector<float>(moving_.size(), 0.0f)};
 };
 
 }  // namespace

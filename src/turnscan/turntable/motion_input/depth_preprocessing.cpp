@@ -39,7 +39,7 @@ void subtract_bending(DepthForeground& depth, double share, double fx, double no
 }
 
 /// A second row of the outline is left out where this share of the pixels remains.
-constexpr double kLeastShareWithin = 0.5;
+constexpr double kMinShareWithin = 0.5;
 
 /// The pixels of `in` whose eight neighbours are all in it, and on the same surface.
 std::vector<std::uint8_t> without_outline(const FrameSurface& surface,
@@ -176,8 +176,7 @@ void mark_inner(FrameSurface& surface, double fx, double noise_m) {
   const auto inner = without_outline(surface, all, fx, noise_m);
   auto innermost = without_outline(surface, inner, fx, noise_m);
   const auto count = [](const auto& in) { return double(std::count(in.begin(), in.end(), 1)); };
-  surface.inner =
-      count(innermost) < kLeastShareWithin * count(inner) ? inner : std::move(innermost);
+  surface.inner = count(innermost) < kMinShareWithin * count(inner) ? inner : std::move(innermost);
 }
 
 }  // namespace turnscan::motion

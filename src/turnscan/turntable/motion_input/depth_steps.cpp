@@ -10,17 +10,17 @@ namespace {
 
 constexpr std::size_t kEveryStepPixel = 3;
 /// A depth that is seen less often may be missing by chance; two that are seen are no neighbours.
-constexpr std::size_t kLeastTimes = 10;
+constexpr std::size_t kMinTimes = 10;
 /// Share of a depth that its neighbours lie within, and how many of them tell a step.
 constexpr double kAbout = 0.02;
-constexpr std::ptrdiff_t kLeastValues = 6;
+constexpr std::ptrdiff_t kMinValues = 6;
 
 /// Of ascending values, about the one at `at`.
 double step_about(const std::vector<float>& values, std::size_t at) {
   const double depth_m = values[at];
   const auto first = std::lower_bound(values.begin(), values.end(), (1.0 - kAbout) * depth_m);
   const auto last = std::upper_bound(first, values.end(), (1.0 + kAbout) * depth_m);
-  if (last - first < kLeastValues) return 0.0;
+  if (last - first < kMinValues) return 0.0;
   std::vector<float> gaps;
   for (auto it = first; it + 1 != last; ++it) gaps.push_back(it[1] - it[0]);
   return median(gaps);
@@ -34,7 +34,7 @@ DepthSteps::DepthSteps(const std::vector<std::vector<float>>& images, double uni
     for (std::size_t i = 0; i < image.size(); i += kEveryStepPixel)
       if (image[i] > 0.0f) ++times[std::lround(double(image[i]) / unit_m)];
   for (const auto& [value, count] : times)
-    if (count >= kLeastTimes) values_.push_back(float(double(value) * unit_m));
+    if (count >= kMinTimes) values_.push_back(float(double(value) * unit_m));
   for (std::size_t i = 0; i < values_.size(); ++i) steps_.push_back(float(step_about(values_, i)));
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSamplingSeed = 0x6d6f74696f6eULL;
 /// Of a scan: more take time to search and say no more of its place.
-constexpr std::size_t kMostScanPoints = 150000;
+constexpr std::size_t kMaxScanPoints = 150000;
 
 /// At most about `most` of the points, chosen by chance: every few of a grid would be its columns.
 std::vector<Vec3f> thin_out(std::vector<Vec3f> points, std::size_t most, std::uint64_t seed) {
@@ -111,7 +111,7 @@ class FrameLoader {
                                                data_.camera, rays_, foreground_);
     if (data_.platter && (options_.sights || options_.level))
       frame.platter =
-          see_platter(raw.depth, sequence_.header().sensors.front(), rays_, *data_.platter, noise);
+          fit_platter(raw.depth, sequence_.header().sensors.front(), rays_, *data_.platter, noise);
     drop_mixed_pixels(depth, fx, noise);
     if (data_.correlated_noise) {
       const auto before = double(depth.pixels.size());
@@ -129,7 +129,7 @@ class FrameLoader {
 
   /// A platter that wobbles carries the object with it.
   void level_frames() {
-    std::vector<std::optional<PlatterSight>> sights;
+    std::vector<std::optional<PlatterObservation>> sights;
     for (const MotionFrame& frame : data_.frames) sights.push_back(frame.platter);
     const auto levelling = level(sights, *data_.platter);
     if (!levelling) return;
@@ -162,7 +162,7 @@ class FrameLoader {
     TURNSCAN_ASSIGN(FramePoints points, points_of(raw, sensor, RayTable()));
     if (points.cloud.points.size() < 50) return {};
     FrameSurface surface;
-    surface.points = thin_out(std::move(points.cloud.points), kMostScanPoints, seed);
+    surface.points = thin_out(std::move(points.cloud.points), kMaxScanPoints, seed);
     surface.tree = KdTree(surface.points);
     sample_points(surface, points.viewpoint, seed, samples_per_frame(key), frame, cloud);
     if (key) frame.surface = std::move(surface);

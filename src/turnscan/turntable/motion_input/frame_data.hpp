@@ -45,7 +45,7 @@ struct MotionFrame {
   FrameSurface surface;      ///< smoothed; empty unless a key frame
   FrameSurface raw_surface;  ///< of depth images: not smoothed, without mixed pixels
   double inner_share = 1.0;  ///< of the foreground's pixels, those that drop_outline() leaves
-  std::optional<PlatterSight> platter;  ///< where it is seen; of depth images
+  std::optional<PlatterObservation> platter;  ///< where it is seen; of depth images
 };
 
 struct MotionData {

@@ -11,30 +11,30 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kLeastCell_m = 0.006;      ///< edge of a cell that turns with the object
-constexpr double kCellSpacings = 2.0;       ///< and at least so many distances between pixels
-constexpr std::uint32_t kLeastSupport = 3;  ///< frames that saw a cell
-constexpr double kLeastAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
+constexpr double kMinCell_m = 0.006;      ///< edge of a cell that turns with the object
+constexpr double kCellSpacings = 2.0;     ///< and at least so many distances between pixels
+constexpr std::uint32_t kMinSupport = 3;  ///< frames that saw a cell
+constexpr double kMinAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
 /// Of thin and rugged parts (a jaw, legs) the motion uses no pixel, as all are outline. Where
 /// nothing stands still below, their cells count if this share of the frames saw them, which mixed
 /// pixels, wherever they fall, do not reach, and only where they lie this many cells below the
 /// rest; all, if they have so many times the support that they would have if they stood still.
 constexpr double kThinShare = 0.2, kThinCells = 3.0, kTurnsRather = 1.4;
-constexpr double kLeastStill = 20.0;  ///< pixels of what stands still below
-constexpr std::size_t kTurningFrames = 48, kMostPoints = 20000;
+constexpr double kMinStill = 20.0;  ///< pixels of what stands still below
+constexpr std::size_t kTurningFrames = 48, kMaxPoints = 20000;
 constexpr double kSlice_m = 0.002;
 constexpr std::size_t kSlices = 204;
-constexpr double kLeastGap_m = 0.006;   ///< without a surface: the object has ended
-constexpr double kGapRows = 1.8;        ///< and at least so many rows of pixels
-constexpr double kLeastWidth_m = 0.01;  ///< of a foot
+constexpr double kMinGap_m = 0.006;   ///< without a surface: the object has ended
+constexpr double kGapRows = 1.8;      ///< and at least so many rows of pixels
+constexpr double kMinWidth_m = 0.01;  ///< of a foot
 constexpr std::size_t kSpreadSlices = 3;
 constexpr double kSpreadShare = 0.12;   ///< of its disc that a desk or a platter shows
 constexpr double kSpreadColumns = 2.0;  ///< times what an upright column as wide shows
-constexpr double kLeastDesk_m = 0.05;   ///< radius of what may be one
+constexpr double kMinDesk_m = 0.05;     ///< radius of what may be one
 constexpr double kAbove_m = 0.008;      ///< where what stands still may touch what turns
 constexpr double kTouches_m = 0.01;     ///< from what turns down to the surface that it stands on
 constexpr std::size_t kFrames = 15;
-constexpr double kLeastSeen = 0.7;  ///< of the frames, in a pixel that shows what stands still
+constexpr double kMinSeen = 0.7;  ///< of the frames, in a pixel that shows what stands still
 /// Noise deviations between the tenths at both ends of a pixel's depths: 2.6 where nothing moves.
 constexpr double kStillSigmas = 4.0;
 
@@ -85,7 +85,7 @@ class TurningCells {
   std::optional<Extent> extent() const {
     std::optional<Extent> out;
     for (const auto& [key, cell] : cells_) {
-      if (cell.frames < kLeastSupport || cell.around_rad < kLeastAround_rad) continue;
+      if (cell.frames < kMinSupport || cell.around_rad < kMinAround_rad) continue;
       if (!out) out = Extent{cell.low_m, cell.reach_m};
       out->low_m = std::min(out->low_m, cell.low_m);
       out->reach_m = std::max(out->reach_m, cell.reach_m);
@@ -103,11 +103,11 @@ class TurningCells {
 
   /// Mean height of the lowest cell that many frames saw, if it lies well below low_m; else low_m.
   double thin_low(double low_m) const {
-    const auto least = std::max(kLeastSupport, std::uint32_t(kThinShare * double(frames_)));
+    const auto least = std::max(kMinSupport, std::uint32_t(kThinShare * double(frames_)));
     const double highest = low_m - kThinCells * cell_m_;
     double lowest = highest;
     for (const auto& [key, cell] : cells_) {
-      if (cell.frames < least || cell.around_rad < kLeastAround_rad) continue;
+      if (cell.frames < least || cell.around_rad < kMinAround_rad) continue;
       lowest = std::min(lowest, cell.heights_m / cell.points);
     }
     return lowest < highest ? lowest : low_m;
@@ -189,7 +189,7 @@ class StillImage {
     std::size_t n = 0;
     for (const auto& image : images)
       if (image[i] != kNoReturn && image[i] != kOutsideCrop) values[n++] = image[i];
-    if (n < 3 || double(n) < kLeastSeen * double(images.size())) return 0.0f;
+    if (n < 3 || double(n) < kMinSeen * double(images.size())) return 0.0f;
     std::sort(values.begin(), values.begin() + std::ptrdiff_t(n));
     const double spread = values[n - 1 - n / 10] - values[n / 10];
     if (spread * sensor.depth_unit_m > most_m) return 0.0f;
@@ -225,7 +225,7 @@ std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFra
                                          const RayTable& rays, const StillImage& image) {
   std::vector<TurningPoint> out;
   if (!data.projective) {
-    const std::size_t step = 1 + frame.surface.points.size() / kMostPoints;
+    const std::size_t step = 1 + frame.surface.points.size() / kMaxPoints;
     for (std::size_t i = 0; i < frame.surface.points.size(); i += step)
       out.push_back({frame.surface.points[i].cast<double>(), true});
     return out;
@@ -304,8 +304,8 @@ class StillSlices {
   ObjectBase base(double spacing_m, double up) const {
     const double pixel = spacing_m * spacing_m, across = std::sqrt(1.0 - up * up);
     const double column = kSlice_m * std::max(across, 0.1) / pixel;  // pixels per metre of width
-    const double least = std::max(1.5, kLeastWidth_m * column);
-    const double gap = std::max(kLeastGap_m, kGapRows * spacing_m / std::max(across, 0.3));
+    const double least = std::max(1.5, kMinWidth_m * column);
+    const double gap = std::max(kMinGap_m, kGapRows * spacing_m / std::max(across, 0.3));
     const double top = turning_.low_m + kAbove_m;
     double end = kAbove_m, empty = 0.0;
     for (std::size_t k = 0; k + kSpreadSlices <= kSlices; ++k) {
@@ -314,7 +314,7 @@ class StillSlices {
       // Of a disc as wide as what is seen at this height, and of an upright column as wide.
       const double wide = window.wide_m();
       const double disc = std::numbers::pi * wide * wide * up / pixel;
-      if (wide > kLeastDesk_m &&
+      if (wide > kMinDesk_m &&
           window.pixels > std::max(kSpreadShare * disc,
                                    kSpreadColumns * 2.0 * wide * column * double(kSpreadSlices)))
         return {surface_at(k), turning_.low_m - surface_at(k) < kTouches_m, true, turning_.reach_m};
@@ -393,7 +393,7 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   if (data.projective) {
     TURNSCAN_ASSIGN(image, StillImage::read(data, sequence));
   }
-  const double cell_m = std::max(kLeastCell_m, kCellSpacings * data.spacing_m);
+  const double cell_m = std::max(kMinCell_m, kCellSpacings * data.spacing_m);
   TurningCells cells(frame, cell_m);
   const RayTable rays(data.camera);
   for (const std::size_t i : spread_subset(data.keys, kTurningFrames))
@@ -404,7 +404,7 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   if (!data.projective) return ObjectBase{turning->low_m, true, false, turning->reach_m};
   StillSlices slices(frame, *turning);
   slices.add(image, data.camera, rays, data.noise_m);
-  if (slices.pixels() < kLeastStill) {
+  if (slices.pixels() < kMinStill) {
     TURNSCAN_ASSIGN(const double low_m,
                     low_of_thin_parts(data, angles_rad, sequence, rays, frame, *turning, cell_m));
     if (low_m < turning->low_m) return ObjectBase{low_m, true, false, turning->reach_m};

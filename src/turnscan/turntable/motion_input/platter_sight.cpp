@@ -12,16 +12,16 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kWithinRim = 0.93;  ///< farther out pixels mix with what lies behind
-constexpr double kMostTilt_rad = 3.0 * kRadiansPerDegree;
-constexpr std::size_t kLeastPixels = 200;
+constexpr double kMaxTilt_rad = 3.0 * kRadiansPerDegree;
+constexpr std::size_t kMinPixels = 200;
 constexpr double kTukeySigmas = 4.0;
 constexpr int kRounds = 8;
 /// Of the platter's radius: what is seen of it must spread so far in each direction (rms).
-constexpr double kLeastSpread = 0.15;
+constexpr double kMinSpread = 0.15;
 
 /// Of tilts that tell a wobble, rms.
-constexpr double kLeastWobble_rad = 0.1 * kRadiansPerDegree, kWobbleOverNoise = 2.5;
-constexpr double kLeastShare = 0.8;  ///< of the frames, those that show the platter
+constexpr double kMinWobble_rad = 0.1 * kRadiansPerDegree, kWobbleOverNoise = 2.5;
+constexpr double kMinShare = 0.8;  ///< of the frames, those that show the platter
 /// Of a circle through the tilts, what they may be off it (rms), in its radius.
 constexpr double kRoundest = 0.35;
 
@@ -67,9 +67,9 @@ Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& points) {
 
 }  // namespace
 
-std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInfo& sensor,
-                                        const RayTable& rays, const DetectedPlatter& platter,
-                                        double noise_m) {
+std::optional<PlatterObservation> fit_platter(const DepthImage& depth, const SensorInfo& sensor,
+                                              const RayTable& rays, const DetectedPlatter& platter,
+                                              double noise_m) {
   if (depth.pixels.size() != rays.x().size()) return std::nullopt;
   Eigen::Matrix3d R;  // from the platter's frame to the sensor's
   R.col(1) = platter.axis;
@@ -77,7 +77,7 @@ std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInf
   R.col(2) = R.col(0).cross(R.col(1));
   const double reach = kWithinRim * platter.radius_m;
   const double steep = std::max(0.1, std::abs(platter.axis.dot(platter.center_m.normalized())));
-  const double gate = std::tan(kMostTilt_rad) * reach + kTukeySigmas * noise_m * steep;
+  const double gate = std::tan(kMaxTilt_rad) * reach + kTukeySigmas * noise_m * steep;
   PlatterPlane fit;
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     const std::uint16_t value = depth.pixels[i];
@@ -87,7 +87,7 @@ std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInf
     if (std::abs(p.y()) < gate && p.x() * p.x() + p.z() * p.z() < reach * reach)
       fit.points.push_back(p);
   }
-  if (fit.points.size() < kLeastPixels) return std::nullopt;
+  if (fit.points.size() < kMinPixels) return std::nullopt;
   double limit = gate;
   for (int round = 0; round < kRounds; ++round) {
     fit.solve(limit);
@@ -101,16 +101,16 @@ std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInf
                                      (count * count);
   const double least =
       0.5 * (spread.trace() - std::hypot(spread(0, 0) - spread(1, 1), 2.0 * spread(0, 1)));
-  if (!(count >= double(kLeastPixels)) || !(least > std::pow(kLeastSpread * reach, 2)))
+  if (!(count >= double(kMinPixels)) || !(least > std::pow(kMinSpread * reach, 2)))
     return std::nullopt;
-  PlatterSight out;
+  PlatterObservation out;
   out.axis = R * Vec3d(-fit.plane.x(), 1.0, -fit.plane.y()).normalized();
   out.height_m = fit.plane.z();
   out.slope_sigma = fit.scatter() / std::sqrt(count * least);
   return out;
 }
 
-std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& sights,
+std::optional<Levelling> level(const std::vector<std::optional<PlatterObservation>>& sights,
                                const DetectedPlatter& platter) {
   Eigen::Matrix<double, 3, 2> beside;
   beside.col(0) = platter.axis.unitOrthogonal();
@@ -124,7 +124,7 @@ std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& s
     tilts.push_back(beside.transpose() * sights[i]->axis);
     mean += tilts.back();
   }
-  if (at.empty() || double(at.size()) < kLeastShare * double(sights.size())) return std::nullopt;
+  if (at.empty() || double(at.size()) < kMinShare * double(sights.size())) return std::nullopt;
   mean /= double(at.size());
   double squares = 0.0, steps = 0.0;
   for (std::size_t k = 0; k < tilts.size(); ++k) {
@@ -134,7 +134,7 @@ std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& s
   }
   const double scatter = std::sqrt(squares / double(at.size()));
   const double noise = std::sqrt(steps / double(std::max<std::size_t>(1, at.size() - 1)));
-  if (scatter < std::max(kLeastWobble_rad, kWobbleOverNoise * noise)) return std::nullopt;
+  if (scatter < std::max(kMinWobble_rad, kWobbleOverNoise * noise)) return std::nullopt;
   Levelling out;
   out.axis = (platter.axis + beside * middle_of(tilts)).normalized();
   for (std::size_t i = 0, k = 0; i < sights.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace turnscan::motion {
 
 /// The plane through what one depth image sees of a platter, relative to the one that was detected.
-struct PlatterSight {
+struct PlatterObservation {
   Vec3d axis = Vec3d::UnitY();  ///< its normal, unit, sensor frame
   double height_m = 0.0;        ///< along the detected axis, at the detected center
   double slope_sigma = 0.0;     ///< by the noise alone, of the worse direction, rad
@@ -19,9 +19,9 @@ struct PlatterSight {
 /// Robust (Tukey) least squares over the pixels within the rim and near the plane. noise_m:
 /// standard deviation of a depth. nullopt where too little of the platter is seen, as in a frame
 /// that was cut out while recording.
-std::optional<PlatterSight> see_platter(const DepthImage& depth, const SensorInfo& sensor,
-                                        const RayTable& rays, const DetectedPlatter& platter,
-                                        double noise_m);
+std::optional<PlatterObservation> fit_platter(const DepthImage& depth, const SensorInfo& sensor,
+                                              const RayTable& rays, const DetectedPlatter& platter,
+                                              double noise_m);
 
 /// How frames are turned so that a wobbling platter lies still in them.
 struct Levelling {
@@ -32,7 +32,7 @@ struct Levelling {
 /// By the platter as each frame shows it (nullopt: it does not); frames that do not are turned as
 /// the nearest one. nullopt where it lies still: its tilts scatter by less than 0.1 degrees, or
 /// hardly more than successive ones differ, or where a fifth of the frames do not show it.
-std::optional<Levelling> level(const std::vector<std::optional<PlatterSight>>& sights,
+std::optional<Levelling> level(const std::vector<std::optional<PlatterObservation>>& sights,
                                const DetectedPlatter& platter);
 
 }  // namespace turnscan::motion

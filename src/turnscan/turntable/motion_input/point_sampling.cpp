@@ -72,7 +72,7 @@ Vec3d unit_normal(const Vec3d& scaled, const Vec3d& ray, const Vec3d& p) {
 }
 
 /// Of scans whose points lie nearer together than they are noisy.
-constexpr std::size_t kMostNeighbours = 100;
+constexpr std::size_t kMaxNeighbours = 100;
 
 std::size_t place_of(std::uint64_t key, std::size_t count) {
   return std::size_t(uniform01(key) * double(count));
@@ -81,8 +81,8 @@ std::size_t place_of(std::uint64_t key, std::size_t count) {
 /// The plane through the points nearest to p; nothing where they lie in none.
 std::optional<SurfaceSample> plane_at(const FrameSurface& surface, const Vec3f& p,
                                       std::size_t neighbours, const Viewpoint& viewpoint) {
-  std::array<std::uint32_t, kMostNeighbours> index{};
-  std::array<float, kMostNeighbours> squared{};
+  std::array<std::uint32_t, kMaxNeighbours> index{};
+  std::array<float, kMaxNeighbours> squared{};
   if (surface.tree.knn(p, neighbours, index.data(), squared.data()) < neighbours)
     return std::nullopt;
   const std::span near(index.data(), neighbours);
@@ -135,11 +135,11 @@ void sample_depth(const MotionData& data, const RayTable& rays, const DepthForeg
 
 void sample_points(const FrameSurface& surface, const Viewpoint& viewpoint, std::uint64_t seed,
                    std::size_t wanted, MotionFrame& frame, std::vector<Vec3f>& cloud) {
-  for (const std::size_t neighbours : {std::size_t{20}, kMostNeighbours}) {
+  for (const std::size_t neighbours : {std::size_t{20}, kMaxNeighbours}) {
     frame.samples.clear();
     for (std::size_t t = 0; t < 2 * wanted && frame.samples.size() < wanted; ++t) {
       const Vec3f p = surface.points[place_of(hash_key(seed, t), surface.points.size())];
-      if (neighbours != kMostNeighbours) cloud.push_back(p);
+      if (neighbours != kMaxNeighbours) cloud.push_back(p);
       const auto sample = plane_at(surface, p, neighbours, viewpoint);
       if (sample) frame.samples.push_back(*sample);
     }

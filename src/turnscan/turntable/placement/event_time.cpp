@@ -5,7 +5,7 @@ namespace turnscan::placement {
 
 namespace {
 
-constexpr std::size_t kNeighbours = 3, kMostBetween = 40;
+constexpr std::size_t kNeighbours = 3, kMaxBetween = 40;
 
 bool is_step(ModelKind kind) {
   return kind == ModelKind::kSlip || kind == ModelKind::kObject || kind == ModelKind::kSensor;
@@ -22,7 +22,7 @@ Window window_of(const FrameSequence& sequence, const Keyframes& keyframes,
   const auto& infos = sequence.frames();
   for (std::size_t i = model.last + 1; i < model.first; ++i)
     if (infos[i].status == FrameStatus::kOk && infos[i].sensor == 0) out.between.push_back(i);
-  out.between = motion::spread_subset(std::move(out.between), kMostBetween);
+  out.between = motion::spread_subset(std::move(out.between), kMaxBetween);
   const auto& keys = keyframes.positions;
   const auto after = std::lower_bound(keys.begin(), keys.end(), model.first);
   const auto low = after - std::min<std::ptrdiff_t>(kNeighbours, after - keys.begin());

@@ -29,7 +29,7 @@ constexpr Eigen::Index kBiases = 6;
 constexpr double kPlatterBias_rad = 1.0 * kRadiansPerDegree;
 /// What hides the platter, and light that comes by way of the object, change with the turn.
 constexpr double kTiltFloor_rad = 0.1 * kRadiansPerDegree;
-constexpr std::size_t kLeastTilts = 12;
+constexpr std::size_t kMinTilts = 12;
 
 using TiltRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
@@ -126,7 +126,7 @@ void Evidence::find_tilts(const Keyframes& frames, const std::vector<Pose>& beli
     if (last) steps.push_back((sight->axis - *last).squaredNorm() / 4.0);
     last = sight->axis;
   }
-  if (tilts_.size() < kLeastTilts) tilts_.clear();
+  if (tilts_.size() < kMinTilts) tilts_.clear();
   // Of two degrees of freedom.
   tilt_sigma_ = std::sqrt(median(steps) / std::numbers::ln2);
   tilt_sigma_ = std::hypot(tilt_sigma_, kTiltFloor_rad);

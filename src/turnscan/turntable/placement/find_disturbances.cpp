@@ -9,7 +9,7 @@ namespace turnscan::placement {
 
 namespace {
 
-constexpr std::size_t kMostKeyframes = 72, kLeastKeyframes = 12;
+constexpr std::size_t kMaxKeyframes = 72, kMinKeyframes = 12;
 constexpr PairWeighting kFirstLook{0.02, 0.01, 8};
 
 std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
@@ -17,7 +17,7 @@ std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
   const auto& frames = sequence.frames();
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (frames[i].status == FrameStatus::kOk && frames[i].sensor == 0) out.push_back(i);
-  return motion::spread_subset(std::move(out), kMostKeyframes);
+  return motion::spread_subset(std::move(out), kMaxKeyframes);
 }
 
 class DisturbanceSearch {
@@ -30,10 +30,10 @@ class DisturbanceSearch {
 
   Result<std::optional<Placement>> run() {
     const auto positions = keyframe_positions(sequence_);
-    if (positions.size() < kLeastKeyframes) return std::nullopt;
+    if (positions.size() < kMinKeyframes) return std::nullopt;
     TURNSCAN_ASSIGN(auto keyframes,
                     load_keyframes(sequence_, believed_, positions, memory_, context_));
-    if (!keyframes || keyframes->size() < kLeastKeyframes) return std::nullopt;
+    if (!keyframes || keyframes->size() < kMinKeyframes) return std::nullopt;
     context_.begin_phase("compare frames", 1);
     find_shown(*keyframes,
                constrain_all(*keyframes, believed_keys(*keyframes),
@@ -42,9 +42,9 @@ class DisturbanceSearch {
     if (!graph) return nothing_if_unseen(graph.error());
     const auto hidden = hidden_frames(*keyframes, graph->poses);
     if (!hidden.empty()) {
-      say_hidden(*keyframes, hidden);
+      add_hidden(*keyframes, hidden);
       leave_out(*keyframes, hidden);
-      if (keyframes->size() < kLeastKeyframes) return std::move(out_);
+      if (keyframes->size() < kMinKeyframes) return std::move(out_);
       graph = solve_freely(*keyframes, believed_keys(*keyframes), context_);
       if (!graph) return nothing_if_unseen(graph.error());
     }
@@ -64,7 +64,7 @@ class DisturbanceSearch {
   }
 
   /// Hidden are all frames between the nearest keyframes that are not.
-  void say_hidden(const Keyframes& keyframes, const std::vector<std::size_t>& hidden) {
+  void add_hidden(const Keyframes& keyframes, const std::vector<std::size_t>& hidden) {
     const auto& at = keyframes.positions;
     for (std::size_t k = 0; k < hidden.size();) {
       std::size_t end = k + 1;

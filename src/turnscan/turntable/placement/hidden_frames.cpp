@@ -10,7 +10,7 @@ namespace turnscan::placement {
 namespace {
 
 /// What a frame shows more of than the usual one before it is left out: share of its points.
-constexpr double kLeastHidden = 0.25, kSpreads = 6.0;
+constexpr double kMinHidden = 0.25, kSpreads = 6.0;
 /// A point counts where the neighbour's surface lies this much farther.
 constexpr double kGap_m = 0.012, kNoises = 6.0;
 /// And no nearer surface within so many pixels: what is thin loses its outline's mixed pixels, more
@@ -83,7 +83,7 @@ std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vecto
   std::vector<double> off;
   for (const double s : share) off.push_back(std::abs(s - usual));
   const double limit =
-      usual + std::max(kLeastHidden, kSpreads * estimation::kMadToSigma * median(off));
+      usual + std::max(kMinHidden, kSpreads * estimation::kMadToSigma * median(off));
   // One alone is a view that has little in common with its neighbours, as a plate seen edge on.
   const auto over = [&](std::size_t i) { return i < share.size() && share[i] > limit; };
   std::vector<std::size_t> out;

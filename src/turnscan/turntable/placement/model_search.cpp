@@ -9,7 +9,7 @@ namespace turnscan::placement {
 
 namespace {
 
-constexpr int kMostRounds = 4;
+constexpr int kMaxRounds = 4;
 /// What a model must explain, in chi square, of where the frames end up when they are left free.
 constexpr double kClearGain = 100.0, kGainPerUnknown = 6.0;
 /// And of where they are: frames that overlap in little more than edges end up anywhere. A step of
@@ -22,21 +22,21 @@ constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 10.0;
 constexpr double kClearWobble = 60.0, kClearWobbleHere = 40.0;
 /// One that leans less is no more than a shift that a sensor's errors may feign, and must explain
 /// as much as other disturbances.
-constexpr double kLeastWobble_rad = 0.1 * kRadiansPerDegree;
+constexpr double kMinWobble_rad = 0.1 * kRadiansPerDegree;
 /// Frames that see the same side see it at the same place of a wobble, and the others share little:
 /// their mismatch tells nothing of it, but may not grow by more than this.
-constexpr double kMostMismatch = 1.02;
+constexpr double kMaxMismatch = 1.02;
 /// Nor by more than this where the platter's tilts alone explain as much as a clear disturbance.
-constexpr double kClearTilts = 100.0, kMostMismatchTilted = 1.1;
+constexpr double kClearTilts = 100.0, kMaxMismatchTilted = 1.1;
 /// Keyframes on either side of an event: a few that are off, by errors that they share, are no
 /// other place.
-constexpr std::size_t kLeastBeside = 5;
+constexpr std::size_t kMinBeside = 5;
 /// How far it must move the object's points.
-constexpr double kLeastSize_m = 0.0005;
+constexpr double kMinSize_m = 0.0005;
 /// Of a speed: beyond this it is looked for before anything else.
 constexpr double kFarOff = 0.08;
 /// A smaller error of the calibration is left alone: a sensor's warped depth looks like one.
-constexpr double kLeastCalibration_m = 0.0015;
+constexpr double kMinCalibration_m = 0.0015;
 /// No table wobbles by more: what the shape hardly shows, together with another calibration, does.
 constexpr double kLargestWobble_rad = 3.0 * kRadiansPerDegree;
 constexpr PairWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
@@ -49,7 +49,7 @@ double full_penalty_of(const DisturbanceModel& model, double = 0.0) {
 }
 
 bool leans(const DisturbanceModel& model, double lever_m) {
-  return model.kind == ModelKind::kWobble && wobble_rad(model, lever_m) > kLeastWobble_rad;
+  return model.kind == ModelKind::kWobble && wobble_rad(model, lever_m) > kMinWobble_rad;
 }
 
 /// From which on one is believed.
@@ -87,7 +87,7 @@ class ModelSearch {
   Result<Models> run(const PoseGraph& graph) {
     models_ = {model_of(ModelKind::kCalibration)};
     TURNSCAN_TRY(try_other_speed(graph));
-    for (int k = 0; k < kMostRounds; ++k) {
+    for (int k = 0; k < kMaxRounds; ++k) {
       TURNSCAN_TRY(context_.check());
       TURNSCAN_ASSIGN(const bool found, add_best(graph));
       if (!found) break;
@@ -129,7 +129,7 @@ class ModelSearch {
     for (const double cycles : {1.0, 2.0, 3.0, 4.0})
       out.push_back(model_of(ModelKind::kWobble, 0, 0, cycles));
     const auto& at = keyframes_.positions;
-    for (std::size_t k = kLeastBeside; k + kLeastBeside <= at.size(); ++k) {
+    for (std::size_t k = kMinBeside; k + kMinBeside <= at.size(); ++k) {
       for (const ModelKind kind : {ModelKind::kSlip, ModelKind::kObject, ModelKind::kSensor})
         out.push_back(model_of(kind, at[k], at[k - 1]));
       for (const std::size_t lasts : {2, 3, 4, 6, 9, 14})
@@ -210,7 +210,7 @@ class ModelSearch {
       models.insert(models.end(), set.begin(), set.end());
       const ModelFit freely = free.fit(models), shown = here.fit(models);
       const double gain = gain_over(freely, free_before, full_penalty_of);
-      if (!(gain > most) || freely.sizes_m.back() < kLeastSize_m) continue;
+      if (!(gain > most) || freely.sizes_m.back() < kMinSize_m) continue;
       if (!(gain_over(freely, free_before, penalty_of) > 0.0)) continue;
       if (!(gain_over(shown, here_before, penalty_here) > 0.0)) continue;
       most = gain;
@@ -238,7 +238,7 @@ class ModelSearch {
       const double here = mismatch(keyframes_, poses());
       const RefinedGain gain = wobbles ? gain_when_refined(before.size()) : RefinedGain();
       const double cost = wobbles ? -gain.all : here;
-      const double most = gain.tilts > kClearTilts ? kMostMismatchTilted : kMostMismatch;
+      const double most = gain.tilts > kClearTilts ? kMaxMismatchTilted : kMaxMismatch;
       if (!(cost < least) || !all_plausible() || here > most * without) continue;
       least = cost;
       best = models_;
@@ -320,7 +320,7 @@ class ModelSearch {
 
   Result<> settle_calibration() {
     Eigen::VectorXd& values = models_.front().values;
-    if (values.norm() > kLeastCalibration_m) return {};
+    if (values.norm() > kMinCalibration_m) return {};
     values.setZero();
     models_.front().held = true;
     return refine();

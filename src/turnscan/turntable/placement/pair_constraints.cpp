@@ -21,7 +21,7 @@ motion::PairMotion motion_between(const std::vector<Pose>& poses, const FramePai
 
 /// Of the mean square of the points' ways along their normals: what the normals' noise alone shows
 /// of a direction, as a multiple, and at least.
-constexpr double kNoiseShare = 0.3, kLeastShare = 0.02;
+constexpr double kNoiseShare = 0.3, kMinShare = 0.02;
 
 void add_both(std::vector<FramePair>& pairs, const Keyframes& frames, std::size_t a,
               std::size_t b) {
@@ -68,7 +68,7 @@ void find_shown(Keyframes& frames, const std::vector<PairConstraint>& constraint
   for (const PairConstraint& c : constraints) sum += c.normal, noise += c.normal_noise;
   const auto eigen = estimation::symmetric_eigen(sum);
   const double all = sum.bottomRightCorner<3, 3>().trace();
-  const double limit = std::max(kLeastShare * all, kNoiseShare * noise);
+  const double limit = std::max(kMinShare * all, kNoiseShare * noise);
   Twist shown;
   for (int k = 0; k < 6; ++k) shown[k] = eigen.values[k] > limit ? 1.0 : 0.0;
   frames.shown = eigen.vectors * shown.asDiagonal() * eigen.vectors.transpose();

@@ -12,7 +12,7 @@ using namespace batch;
 
 namespace {
 
-constexpr std::size_t kMostLines = 50;  // of failures, and of what runs
+constexpr std::size_t kMaxLines = 50;  // of failures, and of what runs
 
 std::string duration_text(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
@@ -45,7 +45,7 @@ void add_rows(const BatchSummary& summary, TaskState state, std::string& text) {
   const double now =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   for (const SummaryRow& row : summary.rows) {
-    if (row.record.state != state || ++count > kMostLines) continue;
+    if (row.record.state != state || ++count > kMaxLines) continue;
     const bool failed = state == TaskState::kFailed;
     table.add({row.task->name,
                failed ? row.record.reason
@@ -54,8 +54,7 @@ void add_rows(const BatchSummary& summary, TaskState state, std::string& text) {
   }
   if (count == 0) return;
   text += fmt::format("{}:\n{}", state == TaskState::kFailed ? "Failed" : "Running", table.text(2));
-  if (count > kMostLines)
-    text += fmt::format("  and {} more; see summary.csv\n", count - kMostLines);
+  if (count > kMaxLines) text += fmt::format("  and {} more; see summary.csv\n", count - kMaxLines);
 }
 
 }  // namespace

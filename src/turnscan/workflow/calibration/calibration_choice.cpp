@@ -70,17 +70,17 @@ Result<CalibrationChecks> check_calibration(const FrameSequence& sequence, Platt
                                             const RunContext& context) {
   CalibrationChecks out;
   TURNSCAN_ASSIGN(out.closure, if_measurable(measure_closure(sequence, context, &memory)));
-  if (out.closure && out.closure->bad()) return out;
+  if (out.closure && out.closure->significant()) return out;
   TURNSCAN_ASSIGN(out.axis_offset, if_measurable(measure_axis_offset(sequence, context, &memory)));
   return out;
 }
 
 /// Why the checks speak against the calibration; nullopt: they do not.
 std::optional<std::string> doubt_of(const CalibrationChecks& checks) {
-  if (checks.closure && checks.closure->bad())
+  if (checks.closure && checks.closure->significant())
     return fmt::format("with the recording's calibration the object lies {} away after one turn",
                        checks.closure->offset_text());
-  if (checks.axis_offset && checks.axis_offset->bad())
+  if (checks.axis_offset && checks.axis_offset->significant())
     return fmt::format(
         "the recording's axis lies {:.1f} mm beside the one about which the object turns, and "
         "leans by {:.1f} deg",

@@ -9,8 +9,8 @@ namespace turnscan::workflow {
 
 namespace {
 
-constexpr double kLeastTurn_rad = 0.4 * kTurn;
-constexpr std::size_t kLeastFrames = 16;
+constexpr double kMinTurn_rad = 0.4 * kTurn;
+constexpr std::size_t kMinFrames = 16;
 /// Of a disturbance's size: by how much it shifts an axis that is fitted to all frames, roughly.
 constexpr double kShiftShare = 0.3;
 
@@ -30,7 +30,7 @@ Positions longest_rest(const FrameSequence& recording, const Calibration& found,
     if (moves_rigidly(d) && d.first_frame < n) borders.push_back(d.first_frame);
   if (borders.size() == 2) return {};
   std::sort(borders.begin(), borders.end());
-  double longest = kLeastTurn_rad;
+  double longest = kMinTurn_rad;
   Positions out;
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     Positions rest;
@@ -39,7 +39,7 @@ Positions longest_rest(const FrameSequence& recording, const Calibration& found,
           std::binary_search(placement.left_out.begin(), placement.left_out.end(), i);
       if (recording.frames()[i].status == FrameStatus::kOk && !left_out) rest.push_back(i);
     }
-    if (rest.size() < kLeastFrames) continue;
+    if (rest.size() < kMinFrames) continue;
     const double turned = std::abs(found.angles_rad[rest.back()] - found.angles_rad[rest.front()]);
     if (turned > longest) longest = turned, out = std::move(rest);
   }

@@ -16,11 +16,11 @@ constexpr double kWorthShare = 0.02;   // of the surface, unseen, below which no
 constexpr double kUsefulShare = 0.2;   // of the unseen surface, that a pose is to show
 constexpr double kOverlapShare = 0.2;  // of the smaller surface, more than joining needs
 constexpr double kSteepSine = 0.5;     // of 30 degrees
-constexpr double kLeastTip_rad = 10.0 * kRadiansPerDegree;
+constexpr double kMinTip_rad = 10.0 * kRadiansPerDegree;
 constexpr double kLikeness = 0.97;  // of what shows: the one that stands better comes first
 constexpr std::size_t kSamples = 10000, kOverlapStride = 8;
 constexpr std::uint32_t kEnoughViews = 2;
-constexpr std::size_t kMostPoses = 3;
+constexpr std::size_t kMaxPoses = 3;
 
 bool is_unseen(Evidence evidence) {
   return evidence == Evidence::kInvented || evidence == Evidence::kBase;
@@ -117,7 +117,7 @@ class PoseSearch {
     for (const RestingPose& rest : resting_poses(mesh_)) {
       NextPose pose = pose_with(turn_table_mesh_ * rest.down, directions_);
       pose.lift_m = rest.lift_m;
-      if (pose.tip_rad >= kLeastTip_rad) out.push_back(pose);
+      if (pose.tip_rad >= kMinTip_rad) out.push_back(pose);
     }
     return out;
   }
@@ -181,7 +181,7 @@ class PoseSearch {
     std::stable_sort(out.begin(), alike, [](const NextPose& one, const NextPose& other) {
       return one.lift_m > other.lift_m;
     });
-    if (out.size() > kMostPoses) out.resize(kMostPoses);
+    if (out.size() > kMaxPoses) out.resize(kMaxPoses);
     return out;
   }
 
@@ -207,7 +207,7 @@ Result<PassViews> pass_views(const FrameSequence& sequence, std::optional<std::u
   TURNSCAN_ASSIGN(const FramePoses poses, frame_poses(header, frames, speed_rad_s));
   PassViews out;
   out.first_time_s = frames[those.front()].time_s;
-  const std::size_t most = std::min(those.size(), PassViews::kMostViews);
+  const std::size_t most = std::min(those.size(), PassViews::kMaxViews);
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t i = those[k * those.size() / most];
     const SensorInfo& sensor = header.sensors.at(frames[i].sensor);

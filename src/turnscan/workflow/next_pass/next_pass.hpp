@@ -12,10 +12,10 @@ namespace turnscan {
 
 /// From where a pass was seen.
 struct PassViews {
-  static constexpr std::size_t kMostViews = 24;
+  static constexpr std::size_t kMaxViews = 24;
 
   std::string name;  ///< of the pass, for people; empty: there is but one
-  /// Up to kMostViews of its frames, evenly spread; in its table's frame, with the turn taken back.
+  /// Up to kMaxViews of its frames, evenly spread; in its table's frame, with the turn taken back.
   /// The first is that of its first frame.
   std::vector<CoverageView> views;
   double first_time_s = 0.0;             ///< of its first frame; NaN: unknown

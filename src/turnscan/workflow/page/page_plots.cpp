@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHistogramBins = 40;
 constexpr std::size_t kHeightBins = 24;
 constexpr std::size_t kAngleBins = 36;
-constexpr std::size_t kMostSpeeds = 240;
+constexpr std::size_t kMaxSpeeds = 240;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A vertex of any object: where it is, how much surface it stands for, a value.
@@ -134,7 +134,7 @@ Plot over_direction(const std::vector<Sample>& samples, const Field& field) {
   return plot;
 }
 
-/// Speed between frames so far apart that there are at most kMostSpeeds.
+/// Speed between frames so far apart that there are at most kMaxSpeeds.
 Plot speed_plot(const std::vector<TurnPoint>& turn) {
   Plot plot;
   plot.title = "Speed over the turn";
@@ -142,7 +142,7 @@ Plot speed_plot(const std::vector<TurnPoint>& turn) {
   plot.x_label = "Turned in degrees";
   plot.y_label = "Speed in deg/s";
   Series speed;
-  const std::size_t step = std::max<std::size_t>(1, turn.size() / kMostSpeeds);
+  const std::size_t step = std::max<std::size_t>(1, turn.size() / kMaxSpeeds);
   for (std::size_t i = step; i < turn.size(); i += step) {
     const TurnPoint &a = turn[i - step], &b = turn[i];
     if (!(b.time_s > a.time_s)) continue;

@@ -142,8 +142,8 @@ std::string key(const Plot& plot) {
 
 std::string table(const Plot& plot) {
   // A table that is read, not one that is searched: at most so many rows.
-  constexpr std::size_t kMostRows = 60;
-  const std::size_t step = (plot.x.size() + kMostRows - 1) / kMostRows;
+  constexpr std::size_t kMaxRows = 60;
+  const std::size_t step = (plot.x.size() + kMaxRows - 1) / kMaxRows;
   std::string html = fmt::format(
       "<details><summary>The figures as a table</summary><table><thead><tr><th "
       "scope=\"col\">{}</th>",

@@ -60,7 +60,7 @@ Result<Reconstruction> fuse_all(const std::vector<PassOfMany>& passes,
 
 /// A pass of which nothing was joined, or what is left of it.
 Result<PassApart> reconstruct_apart(const PassOfMany& pass, const std::string& reason,
-                                    const std::optional<TableShare>& left,
+                                    const std::optional<ObjectPartition>& left,
                                     const ReconstructOptions& options, const RunContext& context) {
   PassApart out{pass.number, pass.name, reason, {}};
   TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass.frames}));

@@ -39,7 +39,7 @@ Reconstruction list_objects(std::vector<Reconstruction> made) {
   for (std::size_t k = 0; k < made.size(); ++k) {
     Reconstruction& one = made[k];
     out.objects.push_back(std::move(one.objects[0]));
-    for (Choice& choice : one.choices) {
+    for (ResolvedParameter& choice : one.choices) {
       choice.object = int(k);
       out.choices.push_back(std::move(choice));
     }

@@ -12,14 +12,14 @@ namespace turnscan {
 namespace {
 
 /// Each point is then seen about a dozen times.
-constexpr std::size_t kMostFrames = 36;
+constexpr std::size_t kMaxFrames = 36;
 constexpr double kAround_m = 0.01;  // the space around the objects that is looked at
 
 std::vector<std::size_t> spread_frames(const FrameSequence& frames) {
   std::vector<std::size_t> good;
   for (std::size_t i = 0; i < frames.frames().size(); ++i)
     if (frames.frames()[i].status == FrameStatus::kOk) good.push_back(i);
-  return evenly_spread(good, kMostFrames);
+  return evenly_spread(good, kMaxFrames);
 }
 
 Box box_around(const std::vector<passes::PassSurface>& objects) {

@@ -19,7 +19,7 @@ namespace {
 using passes::ObjectPart;
 using passes::PassSurface;
 
-constexpr std::size_t kFewestPoints = 200;  // that join_passes() takes
+constexpr std::size_t kMinPoints = 200;  // that join_passes() takes
 /// What is smaller than this share of the largest object is a crumb beside it.
 constexpr double kCrumbShare = 0.1;
 
@@ -47,8 +47,8 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
 
 /// A pass as it was measured: its objects, and whose is which part of the table.
 struct MeasuredTable {
-  std::vector<PassSurface> objects;  ///< largest first
-  std::optional<TableShare> share;   ///< of several
+  std::vector<PassSurface> objects;      ///< largest first
+  std::optional<ObjectPartition> share;  ///< of several
 };
 
 std::vector<std::size_t> images_for_placing(const FrameSequence& frames) {
@@ -91,13 +91,13 @@ Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOpt
   for (const ObjectResult& object : r.objects) {
     if (surface_area(object.mesh) < kCrumbShare * surface_area(r.objects[0].mesh)) continue;
     PassSurface surface = passes::measured_surface(object, r.seen);
-    if (surface.points.size() < kFewestPoints) continue;
+    if (surface.points.size() < kMinPoints) continue;
     out.objects.push_back(std::move(surface));
     meshes.push_back(&object.mesh);
   }
   // A few views from anywhere show an object in pieces; several of them stand on tables only.
   if (!pass.frames.frames->header().turntable) out = {{united(out.objects)}, {}};
-  if (out.objects.empty() || out.objects[0].points.size() < kFewestPoints)
+  if (out.objects.empty() || out.objects[0].points.size() < kMinPoints)
     return fail(ErrorCode::kTooFewPoints, "hardly anything of it was measured");
   if (out.objects.size() > 1) out.share.emplace(meshes);
   return out;

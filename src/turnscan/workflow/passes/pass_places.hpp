@@ -39,7 +39,7 @@ struct PassPlaces {
   /// Per pass: why it, or which of several objects in it and why, was joined with no other pass.
   std::vector<std::string> reasons;
   /// Per pass with a reason: the part of its table that was not joined; nullopt: all of it.
-  std::vector<std::optional<TableShare>> left;
+  std::vector<std::optional<ObjectPartition>> left;
   std::vector<std::string> notes;  ///< for people
 };
 

@@ -11,7 +11,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 65536;  // of a file with 16 numbers
+constexpr std::size_t kMaxBytes = 65536;  // of a file with 16 numbers
 
 std::vector<std::string> split_at(const std::string& text, const char* separators) {
   std::vector<std::string> words;
@@ -39,7 +39,7 @@ Result<Pose> pose_of_numbers(const std::vector<std::string>& words) {
 }
 
 Result<Pose> read_matrix(const std::string& path) {
-  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMostBytes));
+  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));
   const std::vector<std::string> words = split_at(text, " \t\r\n,;[]");
   if (words.size() != 16)
     return fail_at(path, ErrorCode::kFormat, "a matrix has 16 numbers, here are {}", words.size());

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using namespace workflow;
 
 constexpr double kFirstMove = 0.25;  // of a candidates' step, by which trials vary the best plan
-constexpr std::size_t kFewestMoves = 2;
+constexpr std::size_t kMinMoves = 2;
 
 Plan plan_of(const PlanRequest& request, const PlanField& field, const ChosenRig& chosen) {
   Plan plan;
@@ -138,7 +138,7 @@ class PlanRun {
   /// and lower.
   Result<> vary_best() {
     const std::size_t n = std::min<std::size_t>(left(), 4 * rigs_.front().rig.places.size());
-    if (n < kFewestMoves || !trials_.front()) return {};
+    if (n < kMinMoves || !trials_.front()) return {};
     std::vector<ChosenRig> moved;
     for (std::size_t i = 0; i < n; ++i) {
       ChosenRig& rig = moved.emplace_back(rigs_.front());

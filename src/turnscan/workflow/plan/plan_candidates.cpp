@@ -12,11 +12,11 @@ namespace turnscan::workflow {
 
 namespace {
 
-constexpr std::size_t kMostFurtherPoses = 6;
+constexpr std::size_t kMaxFurtherPoses = 6;
 constexpr double kSamePose_rad = 0.1745;  // 10 deg
 constexpr double kMargin_m = 0.02;
 constexpr double kFarther_m = 0.5;
-constexpr std::size_t kMostDirections = 48;
+constexpr std::size_t kMaxDirections = 48;
 
 /// Tip and lean after which a direction of the mesh points down: the placement leans about Z, then
 /// tips about X.
@@ -34,7 +34,7 @@ std::vector<Vec3d> further_downs(const TriangleMesh& first, const Eigen::Matrix3
   const auto add = [&](const Vec3d& down) {
     for (const Vec3d& other : downs)
       if (std::acos(std::clamp(down.dot(other), -1.0, 1.0)) < kSamePose_rad) return;
-    if (downs.size() <= kMostFurtherPoses) downs.push_back(down);
+    if (downs.size() <= kMaxFurtherPoses) downs.push_back(down);
   };
   for (const RestingPose& rest : resting_poses(first)) add(rest.down);
   if (downs.size() < 3)
@@ -207,7 +207,7 @@ std::vector<planning::SpotSight> sights_from(const PlanField& field, const PlanO
   const Pose T_world_sensor =
       scanner_pose(place.placement, 0.5 * object.height_m, 0.5, Vec3d::UnitY());
   const auto directions = planning::turn_directions(field.angles_rad, field.T_world_table,
-                                                    T_world_sensor, kMostDirections);
+                                                    T_world_sensor, kMaxDirections);
   planning::TurnView view;
   view.model = &scanner.model;
   view.sigma = &scanner.sigma;

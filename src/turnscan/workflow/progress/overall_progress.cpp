@@ -7,8 +7,7 @@ namespace {
 
 constexpr double kBeforeTheEnd = 0.995;   // most that is said of a run that goes on
 constexpr double kUnplannedShare = 0.02;  // of the plan's weight, of a phase that is not in it
-constexpr double kLeastKnown =
-    0.05;  // of a phase or the whole, before a time is told from its pace
+constexpr double kMinKnown = 0.05;  // of a phase or the whole, before a time is told from its pace
 constexpr double kLongestGuess = 0.9;  // of a phase that cannot say how far it is
 constexpr double kCatchUp_s = 3.0;     // in which the time left follows a shorter estimate
 constexpr double kFarOff = 1.5, kFarOff_s = 5.0;
@@ -65,8 +64,8 @@ void OverallProgress::begin_phase(const Progress& progress, double now_s) {
 }
 
 std::optional<double> OverallProgress::phase_seconds_left(double fraction, double elapsed_s) const {
-  if (fraction >= kLeastKnown) return elapsed_s * (1.0 - fraction) / fraction;
-  if (done_weight_ < kLeastKnown * (done_weight_ + weight_ + later_weight())) return std::nullopt;
+  if (fraction >= kMinKnown) return elapsed_s * (1.0 - fraction) / fraction;
+  if (done_weight_ < kMinKnown * (done_weight_ + weight_ + later_weight())) return std::nullopt;
   return std::max(0.0, weight_ * done_seconds_ / done_weight_ - elapsed_s);
 }
 
@@ -81,7 +80,7 @@ void OverallProgress::update(const Progress& progress, double now_s) {
   const double whole = slot_begin_ + (slot_end_ - slot_begin_) * part;
   fraction_ = std::min(std::max(fraction_, whole), kBeforeTheEnd);
   const double work = done_weight_ + weight_ * part, later = later_weight();
-  if (left && work >= kLeastKnown * (done_weight_ + weight_ + later))
+  if (left && work >= kMinKnown * (done_weight_ + weight_ + later))
     count_down(*left + later * (done_seconds_ + elapsed + *left) / (done_weight_ + weight_), now_s);
 }
 

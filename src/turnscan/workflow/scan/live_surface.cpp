@@ -14,10 +14,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kAtOnce = 4;
 /// A place that was found from a small part of a turn, by which a surface would be smeared.
-constexpr double kMostCenterSigma_m = 0.004, kMostAxisSigma_rad = 0.02;
+constexpr double kMaxCenterSigma_m = 0.004, kMaxAxisSigma_rad = 0.02;
 
 bool known_well(const Calibration& shown) {
-  return shown.center_sigma_m < kMostCenterSigma_m && shown.axis_sigma_rad < kMostAxisSigma_rad;
+  return shown.center_sigma_m < kMaxCenterSigma_m && shown.axis_sigma_rad < kMaxAxisSigma_rad;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void LiveSurface::add(const Frame& frame) {
   Frame copy = frame;
   copy.color = ColorImage();  // a preview has the colours of what was seen
   kept_.push_back({number, std::make_shared<const Frame>(std::move(copy))});
-  if (kept_.size() > kMostFrames) {
+  if (kept_.size() > kMaxFrames) {
     every_ *= 2;
     std::erase_if(kept_, [this](const Kept& kept) { return kept.number % every_ != 0; });
   }
@@ -112,7 +112,7 @@ bool LiveSurface::wait_for_work(std::vector<Kept>& batch, std::optional<LiveMoti
   const auto ready = [&] { return closing_ || (motion_ && (anew_ || first() != kept_.end())); };
   if (pending_) {
     // The last frames are to be seen, too, when none comes after them.
-    wake_.wait_for(lock, std::chrono::duration<double>(kLeastPause_s), ready);
+    wake_.wait_for(lock, std::chrono::duration<double>(kMinPause_s), ready);
   } else {
     wake_.wait(lock, ready);
   }
@@ -160,7 +160,7 @@ void LiveSurface::run() {
     // What cannot be placed or summed shows in the reconstruction; here there is no mesh then.
     if (!failed) failed = !work(batch, anew).has_value();
     pending_ = !failed;
-    if (failed || Clock::now() - last < std::chrono::duration<double>(kLeastPause_s)) continue;
+    if (failed || Clock::now() - last < std::chrono::duration<double>(kMinPause_s)) continue;
     last = Clock::now();
     auto mesh = stream_->preview(context_);
     pending_ = false;

@@ -39,8 +39,8 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
 /// comes with the next mesh.
 class LiveSurface {
  public:
-  static constexpr std::size_t kMostFrames = 128;  ///< in memory
-  static constexpr double kLeastPause_s = 0.4;     ///< from one mesh to the next
+  static constexpr std::size_t kMaxFrames = 128;  ///< in memory
+  static constexpr double kMinPause_s = 0.4;      ///< from one mesh to the next
 
   /// header: of the frames, whose sensor 0 is used.
   explicit LiveSurface(SequenceHeader header);

@@ -77,7 +77,7 @@ class ScanRun {
     TURNSCAN_ASSIGN(std::optional<Motor> motor, setup().open_motor(context_));
     TURNSCAN_TRY(scan_first(*source, motor ? &*motor : nullptr));
     for (;;) {
-      TURNSCAN_ASSIGN(const bool more, lay_another_way(*source));
+      TURNSCAN_ASSIGN(const bool more, prompt_next_pass(*source));
       if (!more) return std::move(out_);
       TURNSCAN_TRY(scan_next(*source, motor ? &*motor : nullptr));
     }
@@ -274,7 +274,7 @@ class ScanRun {
   // --- further passes
 
   /// Whether there is a further pass; then the object lies as it should.
-  Result<bool> lay_another_way(FrameSource& source) {
+  Result<bool> prompt_next_pass(FrameSource& source) {
     const auto pass = std::uint32_t(out_.captured.size());
     const bool asks = !request_.passes, by_itself = source.info().lays_object;
     const bool advised = out_.next_pass && !out_.next_pass->poses.empty();

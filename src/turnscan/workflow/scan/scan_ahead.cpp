@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kBatch = 64;
 /// The views one turn apart disagree by their noise, too: a tenth of that of one depth value.
 constexpr double kClosureShare = 0.25;
-constexpr double kLeastLimit_m = 2e-4;
+constexpr double kMinLimit_m = 2e-4;
 
 SequenceView first_frames(const FrameSequence& sequence, std::size_t count) {
   std::vector<std::size_t> positions(count);
@@ -99,7 +99,7 @@ struct ScanAhead::Parts {
     if (!closure)
       return fail(ErrorCode::kMissingData, "no view of the object comes back after one turn");
     out.closure_m = closure->shift_m;
-    out.closure_limit_m = std::max(kLeastLimit_m, kClosureShare * all.noise_m);
+    out.closure_limit_m = std::max(kMinLimit_m, kClosureShare * all.noise_m);
     if (!(out.closure_m <= out.closure_limit_m))
       return fail(ErrorCode::kMissingData,
                   "one turn later the object would lie {:.2f} mm off, more than {:.2f} mm",

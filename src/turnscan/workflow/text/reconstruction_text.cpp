@@ -43,7 +43,7 @@ std::string passes_text(const Reconstruction& r) {
 std::string choices_text(const Reconstruction& r) {
   workflow::TextTable table({0, 1, 2});
   table.add({"option", "value", "why"});
-  for (const Choice& choice : r.choices) {
+  for (const ResolvedParameter& choice : r.choices) {
     const std::string of = choice.object < 0 || r.objects.size() < 2
                                ? ""
                                : fmt::format(" (object {})", choice.object + 1);

@@ -7,7 +7,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kMost_m = 1.0;
+constexpr double kMax_m = 1.0;
 
 /// That an error is less than so many times the expected one (Abramowitz and Stegun 26.7.3, five
 /// degrees of freedom).
@@ -33,7 +33,7 @@ double ErrorShares::within(double distance_m) const {
 }
 
 std::optional<double> ErrorShares::error_of(double share) const {
-  double low = 0.0, high = kMost_m;
+  double low = 0.0, high = kMax_m;
   if (within(high) < share) return std::nullopt;
   for (int i = 0; i < 24; ++i) {
     const double middle = 0.5 * (low + high);

@@ -8,7 +8,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kApart_m = 0.001, kApartRatio = 4.0, kMost = 0.95;
+constexpr double kApart_m = 0.001, kApartRatio = 4.0, kMax = 0.95;
 constexpr std::size_t kNamed = 3;
 
 using Motion = Eigen::Vector4d;
@@ -112,7 +112,7 @@ FrameAgreement frame_agreement(const std::vector<FrameResidual>& residuals) {
     spread.push_back(r.spread_m);
   }
   std::sort(off.begin(), off.end());
-  out.most_m = off[std::size_t(kMost * double(off.size() - 1))];
+  out.most_m = off[std::size_t(kMax * double(off.size() - 1))];
   out.usual_m = median(off);
   out.spread_m = median(spread);
   const auto next = next_of_each(residuals);

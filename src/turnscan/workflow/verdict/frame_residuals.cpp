@@ -17,7 +17,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMostFrames = 128, kMostPoints = 800, kFewestPoints = 50;
+constexpr std::size_t kMaxFrames = 128, kMaxPoints = 800, kMinPoints = 50;
 constexpr double kFarthest_m = 0.010, kFarthestNoises = 10.0;
 /// Above the table, where the platter's own points end.
 constexpr double kAbove_m = 0.004, kAboveNoises = 3.0;
@@ -122,7 +122,7 @@ Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& so
       if (infos[i].status == FrameStatus::kOk && (!source.pass || infos[i].pass == *source.pass))
         all.push_back({&source, i, poses.T_table_sensor[i]});
   }
-  return evenly_spread(all, kMostFrames);
+  return evenly_spread(all, kMaxFrames);
 }
 
 std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points,
@@ -134,7 +134,7 @@ std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points
     if (p_table.y() > above_m && surface.is_near(at)) near.push_back(at);
   }
   std::vector<Sample> out;
-  const std::size_t stride = std::max<std::size_t>(1, near.size() / kMostPoints);
+  const std::size_t stride = std::max<std::size_t>(1, near.size() / kMaxPoints);
   for (std::size_t i = stride / 2; i < near.size(); i += stride)
     if (const auto sample = surface.sample_at(near[i])) out.push_back(*sample);
   return out;
@@ -143,7 +143,7 @@ std::vector<Sample> samples_of(const Surface& surface, const FramePoints& points
 std::optional<FrameResidual> residual_of(const Surface& surface, const FramePoints& points,
                                          const ChosenFrame& chosen, double above_m) {
   const std::vector<Sample> samples = samples_of(surface, points, chosen, above_m);
-  if (samples.size() < kFewestPoints) return std::nullopt;
+  if (samples.size() < kMinPoints) return std::nullopt;
   const FrameInfo& info = chosen.source->frames->frames()[chosen.position];
   FrameResidual out;
   out.frame = info.index, out.sensor = info.sensor, out.time_s = info.time_s;

@@ -15,7 +15,7 @@ constexpr double kAgreed_m = 0.001;
 /// see the same surface.
 constexpr double kOutvoted = 0.1;
 
-void say_found(const Calibration& found, Sentences& out) {
+void add_found(const Calibration& found, Findings& out) {
   const bool open = !found.undetermined.empty();
   out.push_back(
       {"calibration", open ? Level::kFair : Level::kGood,
@@ -34,7 +34,7 @@ std::string platter_text(const RigCheck& check) {
 }
 
 /// The calibration that was there before.
-void say_recorded(const ScanKnowledge& known, Sentences& out) {
+void add_recorded(const ScanKnowledge& known, Findings& out) {
   const auto& offset = known.choice->checks.axis_offset;
   std::vector<std::string> parts;
   if (offset)
@@ -48,7 +48,9 @@ void say_recorded(const ScanKnowledge& known, Sentences& out) {
   parts.push_back("the calibration: " + age_text(known.dates));
   // The motion of the object is the better witness where there is one.
   const bool moved = !offset && known.platter && known.platter->moved;
-  const Level level = offset && offset->bad() ? Level::kBad : moved ? Level::kFair : Level::kGood;
+  const Level level = offset && offset->significant() ? Level::kBad
+                      : moved                         ? Level::kFair
+                                                      : Level::kGood;
   out.push_back({"calibration", level, fmt::format("{}", fmt::join(parts, "; ")),
                  offset ? offset->shift_m * 1e3 : std::nan(""), offset ? "mm" : ""});
 }
@@ -73,7 +75,7 @@ Level level_of(double value, double good, double fair) {
   return value >= good ? Level::kGood : value >= fair ? Level::kFair : Level::kBad;
 }
 
-void say_turn(const ScanKnowledge& known, Sentences& out) {
+void add_turn(const ScanKnowledge& known, Findings& out) {
   if (!known.turn) return;
   const TurnSeen& turn = *known.turn;
   const bool whole = turn.share >= kWholeTurn;
@@ -95,21 +97,21 @@ void say_turn(const ScanKnowledge& known, Sentences& out) {
   out.push_back({"turn", level, text, seen_deg, "deg"});
 }
 
-void say_calibration(const ScanKnowledge& known, Sentences& out) {
+void add_calibration(const ScanKnowledge& known, Findings& out) {
   if (known.choice == nullptr) return;
   const CalibrationChoice& choice = *known.choice;
   if (choice.calibration)
-    say_found(*choice.calibration, out);
+    add_found(*choice.calibration, out);
   else if (known.table_recorded || choice.checks.axis_offset)
-    say_recorded(known, out);
+    add_recorded(known, out);
   if (const auto& closure = choice.checks.closure; closure && !choice.calibration)
-    out.push_back({"closure", closure->bad() ? Level::kBad : Level::kGood,
+    out.push_back({"closure", closure->significant() ? Level::kBad : Level::kGood,
                    fmt::format("one turn later the object lies {:.2f} mm from where it was; {}",
                                closure->shift_m * 1e3, closure->noise_text()),
                    closure->shift_m * 1e3, "mm"});
 }
 
-void say_disturbances(const ScanKnowledge& known, Sentences& out) {
+void add_disturbances(const ScanKnowledge& known, Findings& out) {
   if (known.choice == nullptr) return;
   const CalibrationChoice& choice = *known.choice;
   const bool moved = !choice.poses.empty() || !choice.left_out.empty();
@@ -124,7 +126,7 @@ void say_disturbances(const ScanKnowledge& known, Sentences& out) {
   }
 }
 
-void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) {
+void add_agreement(const std::vector<FrameResidual>& residuals, Findings& out) {
   if (residuals.empty()) return;
   const FrameAgreement a = frame_agreement(residuals);
   const bool agree = a.most_m < std::max(kAgreed_m, a.spread_m);
@@ -147,7 +149,7 @@ void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out) 
                  double(count), "frames"});
 }
 
-void say_dropped(const Reconstruction& run, Sentences& out) {
+void add_dropped(const Reconstruction& run, Findings& out) {
   const std::size_t all = run.frames + run.dropped_frames;
   if (run.dropped_frames == 0 || all == 0) return;
   const double share = double(run.dropped_frames) / double(all);

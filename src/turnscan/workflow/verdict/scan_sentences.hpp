@@ -10,7 +10,7 @@
 
 namespace turnscan::workflow {
 
-using Sentences = std::vector<VerdictSentence>;
+using Findings = std::vector<VerdictSentence>;
 
 /// Of a turn, as TurnSeen::share: with more, no side is missing.
 inline constexpr double kWholeTurn = 0.90;
@@ -24,19 +24,19 @@ bool looked_from_all_sides(const TurnSeen& turn);
 /// good: at least `good`; fair: at least `fair`.
 Level level_of(double value, double good, double fair);
 
-void say_turn(const ScanKnowledge& known, Sentences& out);
+void add_turn(const ScanKnowledge& known, Findings& out);
 
 /// Where the table is, how old that knowledge is, whether the platter in this recording agrees, and
 /// whether the object lies a turn later where it lay.
-void say_calibration(const ScanKnowledge& known, Sentences& out);
+void add_calibration(const ScanKnowledge& known, Findings& out);
 
 /// What was found to have disturbed the recording.
-void say_disturbances(const ScanKnowledge& known, Sentences& out);
+void add_disturbances(const ScanKnowledge& known, Findings& out);
 
 /// How far frames lie off the mesh, next to each other, a turn apart, by sensor and pass; and which
 /// lie elsewhere than the rest. Empty: it is not known.
-void say_agreement(const std::vector<FrameResidual>& residuals, Sentences& out);
+void add_agreement(const std::vector<FrameResidual>& residuals, Findings& out);
 
-void say_dropped(const Reconstruction& run, Sentences& out);
+void add_dropped(const Reconstruction& run, Findings& out);
 
 }  // namespace turnscan::workflow

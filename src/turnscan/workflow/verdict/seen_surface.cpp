@@ -10,7 +10,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMostVertices = 20000, kMostViews = 256;
+constexpr std::size_t kMaxVertices = 20000, kMaxViews = 256;
 
 Result<std::vector<CoverageView>> views_of_sources(const std::vector<MeshFrames>& sources) {
   std::vector<CoverageView> out;
@@ -39,14 +39,14 @@ Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<M
   SeenVertices out;
   if (mesh.triangles.empty()) return out;
   TURNSCAN_ASSIGN(const std::vector<CoverageView> all, views_of_sources(sources));
-  const std::vector<CoverageView> views = evenly_spread(all, kMostViews);
+  const std::vector<CoverageView> views = evenly_spread(all, kMaxViews);
   const double share = double(views.size()) / double(std::max<std::size_t>(1, all.size()));
   CoverageOptions options;
   options.enough =
       std::uint32_t(std::max(1L, std::lround(share * double(views_needed(all.size())))));
   const auto all_normals = vertex_normals(mesh);
   std::vector<Vec3f> points, normals;
-  const std::size_t stride = std::max<std::size_t>(1, mesh.vertices.size() / kMostVertices);
+  const std::size_t stride = std::max<std::size_t>(1, mesh.vertices.size() / kMaxVertices);
   for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
     out.vertices.push_back(std::uint32_t(v));
     points.push_back(mesh.vertices[v]);

@@ -81,17 +81,17 @@ class Judge {
 
   Verdict run() {
     add_pose_errors();
-    workflow::say_turn(known_, out_.sentences);
-    say_seen();
-    say_error();
-    say_invented();
-    workflow::say_calibration(known_, out_.sentences);
-    if (residuals_ != nullptr) workflow::say_agreement(*residuals_, out_.sentences);
-    workflow::say_disturbances(known_, out_.sentences);
-    workflow::say_dropped(run_, out_.sentences);
-    say_thin();
-    say_mesh();
-    say_help();
+    workflow::add_turn(known_, out_.sentences);
+    add_seen();
+    add_error();
+    add_invented();
+    workflow::add_calibration(known_, out_.sentences);
+    if (residuals_ != nullptr) workflow::add_agreement(*residuals_, out_.sentences);
+    workflow::add_disturbances(known_, out_.sentences);
+    workflow::add_dropped(run_, out_.sentences);
+    add_thin();
+    add_mesh();
+    add_help();
     return std::move(out_);
   }
 
@@ -115,7 +115,7 @@ class Judge {
     }
   }
 
-  void say_seen() {
+  void add_seen() {
     if (object_.quality.empty()) return;
     std::vector<std::pair<int, double>> frames, directions;
     for (std::size_t v = 0; v < areas_.size(); ++v) {
@@ -131,7 +131,7 @@ class Judge {
         usual, "frames");
   }
 
-  void say_error() {
+  void add_error() {
     if (object_.quality.empty()) {
       say("error", Level::kFair,
           "how far it lies from the truth is only estimated with --method volumetric");
@@ -201,7 +201,7 @@ class Judge {
     return fmt::format("{:.1f} cm2 {}, {:.0f} mm high", hole.area_m2 * 1e4, side, middle.y() * 1e3);
   }
 
-  void say_invented() {
+  void add_invented() {
     if (object_.evidence.empty()) return;
     double base_m2 = 0.0;
     std::vector<Evidence> hidden = object_.evidence;
@@ -246,7 +246,7 @@ class Judge {
     return all > 0.0 ? thin / all : 0.0;
   }
 
-  void say_thin() {
+  void add_thin() {
     if (!object_.check.closed) return;
     const quality::ThinWalls walls(object_.mesh, normals_);
     const double nozzle = share_thinner_than(kNozzle_m, walls), pixels = 2.0 * run_.frame_spacing_m;
@@ -265,7 +265,7 @@ class Judge {
           100.0 * fine, "%");
   }
 
-  void say_mesh() {
+  void add_mesh() {
     const bool watertight = object_.check.watertight();
     if (object_.left_open && !watertight) {
       say("mesh", Level::kGood, "it was left open, as asked for");
@@ -298,7 +298,7 @@ class Judge {
     return std::max<std::size_t>(1, std::size_t(made));
   }
 
-  void say_help() {
+  void add_help() {
     const char* further = passes() == 1 ? "a second pass" : "another pass";
     const std::string how = fmt::format("(turnscan scan --passes {})", passes() + 1);
     if (known_.turn && known_.turn->share < workflow::kWholeTurn)
@@ -312,10 +312,10 @@ class Judge {
       say("help", Level::kGood,
           fmt::format("{}, the object laid another way, would show what none saw {}", further,
                       how));
-    say_what_helps_accuracy();
+    add_what_helps_accuracy();
   }
 
-  void say_what_helps_accuracy() {
+  void add_what_helps_accuracy() {
     const auto topic = [&](const char* name) {
       return std::find_if(out_.sentences.begin(), out_.sentences.end(),
                           [&](const VerdictSentence& s) { return s.topic == name; });

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/geometry/search/knn.hpp>
+#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/volume_samples.hpp>
+
+namespace turnscan::tsdf {
+
+namespace {
+
+constexpr double kLowest_m = 0.003;  ///< above the floor
+constexpr float kAverageOver_m = 0.006f;
+constexpr float kRoundSlope = 0.25f;  ///< inwards per length downwards
+constexpr float kReach_m = 0.03f;     ///< from where it was seen
+constexpr float kMaxSlope = 4.0f;
+
+/// Places on the lowest surface that was seen, projected to y = 0, and by how much it goes inwards
+/// there per length downwards.
+struct LowestSurface {
+  std::vector<Vec3f> points;
+  std::vector<float> slopes;
+};
+
+class LowestSurfaceSearch {
+ public:
+  LowestSurfaceSearch(const Volume& volume, int floor)
+      : volume_(volume), samples_(volume), floor_(floor) {}
+
+  LowestSurface run() {
+    const auto& size = samples_.size();
+    const int layers = std::max(2, int(std::lround(kLowest_m / volume_.cell_m)));
+    for (int k = 1; k + 2 < size[2]; ++k) {
+      for (int j = floor_ + 1; j <= floor_ + layers && j + 1 < size[1]; ++j) {
+        for (int i = 1; i + 2 < size[0]; ++i) {
+          add_crossing({i, j, k}, {i + 1, j, k});
+          add_crossing({i, j, k}, {i, j, k + 1});
+        }
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  bool known(int i, int j, int k) const {
+    const std::ptrdiff_t s = samples_.at(i, j, k);
+    return s >= 0 && volume_.weight[std::size_t(s)] > 0.0f;
+  }
+
+  /// By the gradient of the field between two samples of which one is inside.
+  void add_crossing(const GridCoords& a, const GridCoords& b) {
+    const float from = samples_.value(a[0], a[1], a[2]), to = samples_.value(b[0], b[1], b[2]);
+    if ((from < 0.0f) == (to < 0.0f)) return;
+    float down = 0.0f, across = 0.0f;
+    for (const GridCoords& s : {a, b}) {
+      const int i = s[0], j = s[1], k = s[2];
+      if (!known(i, j - 1, k) || !known(i, j + 1, k) || !known(i, j, k)) return;
+      const auto slope = [&](int di, int dj, int dk) {
+        return samples_.value(i + di, j + dj, k + dk) - samples_.value(i - di, j - dj, k - dk);
+      };
+      down -= slope(0, 1, 0);
+      across += std::hypot(slope(1, 0, 0), slope(0, 0, 1));
+    }
+    const Vec3d p = 0.5 * (volume_.position(a[0], a[1], a[2]) + volume_.position(b[0], b[1], b[2]));
+    out_.points.emplace_back(float(p.x()), 0.0f, float(p.z()));
+    out_.slopes.push_back(std::clamp(down / std::max(across, 1e-9f), -kMaxSlope, kMaxSlope));
+  }
+
+  const Volume& volume_;
+  VolumeSamples samples_;
+  int floor_;
+  LowestSurface out_;
+};
+
+}  // namespace
+
+TaperedFoot::TaperedFoot(const Volume& volume, int floor)
+    : origin_m_(volume.origin_m), cell_m_(volume.cell_m) {
+  const VolumeSamples samples(volume);
+  width_ = samples.size()[0];
+  depth_ = samples.size()[2];
+  const LowestSurface lowest = LowestSurfaceSearch(volume, floor).run();
+  const KdTree tree(lowest.points);
+  std::vector<std::uint8_t> round(lowest.points.size());
+  std::vector<std::pair<std::uint32_t, float>> near;
+  for (std::size_t n = 0; n < round.size(); ++n) {
+    tree.radius(lowest.points[n], kAverageOver_m, near);
+    float sum = 0.0f;
+    for (const auto& [other, squared] : near) sum += lowest.slopes[other];
+    round[n] = sum > kRoundSlope * float(near.size()) ? 1 : 0;
+  }
+  if (std::find(round.begin(), round.end(), 1) == round.end()) return;
+  columns_.assign(std::size_t(width_) * std::size_t(depth_), 0);
+  for (int k = 0; k < depth_; ++k) {
+    for (int i = 0; i < width_; ++i) {
+      Vec3f p = volume.position(i, 0, k).cast<float>();
+      p.y() = 0.0f;
+      std::uint32_t nearest = 0;
+      float squared = 0.0f;
+      if (tree.knn(p, 1, &nearest, &squared, kReach_m) == 1)
+        columns_[std::size_t(i) + std::size_t(width_) * std::size_t(k)] = round[nearest];
+    }
+  }
+}
+
+bool TaperedFoot::contains(const Vec3f& p) const {
+  const Vec3d at = (p.cast<double>() - origin_m_) / cell_m_;
+  const int i = int(std::lround(at.x())), k = int(std::lround(at.z()));
+  return i >= 0 && k >= 0 && i < width_ && k < depth_ && column(i, k);
+}
+
+}  // namespace turnscan::tsdf
