@@ -188,6 +188,23 @@ class Scan(harness.TestCase):
         self.assertTrue(info[0]["closed"], info)
         return info[0]
 
+    def assert_as_reconstructed(self, name="doll"):
+        """One run, two commands: the recording of a scan gives its mesh, its notes and its verdict."""
+        self.ok("reconstruct", f"{name}.recording", "-o", "again.3mf", "--voxel-size", "3mm",
+                "--report", "again.json", "--quiet")
+        self.assertEqual((self.dir / f"{name}.3mf").read_bytes(),
+                         (self.dir / "again.3mf").read_bytes())
+        scan = json.loads((self.dir / "r.json").read_text())
+        again = json.loads((self.dir / "again.json").read_text())
+        self.assertEqual(scan["next_pass"], again["next_pass"])
+        made = scan["reconstruction"]
+        self.assertEqual(made["notes"], again["notes"])
+        for ours, theirs in zip(made["objects"], again["objects"], strict=True):
+            self.assertIsNotNone(ours["verdict"])
+            for key in ("verdict", "frame_residuals", "notes"):
+                self.assertEqual(ours.get(key), theirs.get(key), key)
+        return again
+
     def ok(self, *args, **more):
         # Calibrations are kept in a home of the test's own.
         return super().ok(*args, env={"XDG_STATE_HOME": str(self.dir / "state")}, **more)
@@ -227,10 +244,7 @@ class Scan(harness.TestCase):
         self.assertIn("was not kept", " ".join(report["notes"]))
         self.assert_closed()
         # Then the whole recording was worked on, as it would be now.
-        self.ok("reconstruct", "doll.recording", "-o", "again.3mf", "--voxel-size", "3mm",
-                "--quiet")
-        self.assertEqual((self.dir / "doll.3mf").read_bytes(),
-                         (self.dir / "again.3mf").read_bytes())
+        self.assert_as_reconstructed()
 
     def test_all_is_known_and_the_object_comes_later(self):
         self.ok("scan", "--device", self.DEVICE + "&calibration=true&appears=4s", "-o", "doll.3mf",
@@ -239,13 +253,16 @@ class Scan(harness.TestCase):
         frames = frames_of(self.dir / "doll.recording")
         self.assertGreater(float(frames[0][1]), 4.0)
         # The stream's mesh is the one that the recording gives.
-        self.ok("reconstruct", "doll.recording", "-o", "again.3mf", "--calibration", "recorded",
-                "--method", "volumetric", "--voxel-size", "3mm", "--quiet")
-        self.assertEqual((self.dir / "doll.3mf").read_bytes(),
-                         (self.dir / "again.3mf").read_bytes())
+        self.assert_as_reconstructed()
         # The next scan keeps the first recording.
         self.refused(FAILED, "scan", "--device", self.DEVICE + "&fault=lost@8s", "-o", "doll.3mf",
                      "--min-free", "0", says=("doll-2.recording holds", "is complete"))
+
+    def test_a_slip_on_a_known_table_is_put_right_after_the_turn(self):
+        self.ok("scan", "--device", self.DEVICE + "&calibration=true&slip-at=15s&slip=20deg",
+                "-o", "doll.3mf", "--report", "r.json", *self.FAST)
+        again = self.assert_as_reconstructed()
+        self.assertIn("moved", " ".join(again["notes"]))
 
     def test_seconds_bound_the_wait_for_an_object(self):
         self.refused(FAILED, "scan", "--device", self.DEVICE + "&calibration=true&appears=60s",

@@ -140,8 +140,8 @@ Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions&
   TURNSCAN_ASSIGN(ReconstructRun made,
                   run_reconstruction(*model.data->recording, request, context));
   const bool any = !made.reconstruction.objects.empty();
-  const auto page =
-      std::make_shared<const PageInput>(page_input(made, options, model.name.toStdString()));
+  const auto page = std::make_shared<const PageInput>(
+      page_input(made, run_report(made, options), model.name.toStdString()));
   std::size_t on_page = made.reconstruction.objects.size();
   std::optional<std::uint32_t> only;
   if (options.merge.pass) only = std::uint32_t(*options.merge.pass);

@@ -94,10 +94,17 @@ class ReconstructCommand : public Command {
     for (const auto& [stage, file] : files_.stages) request_.stages.insert(stage);
     session.plan(joined(
         {reconstruct_phases(named, request_), files_.page.empty() ? PhasePlan() : page_phases()}));
+    std::vector<std::string> files;
+    const auto write_meshes = [&](const ReconstructRun& run) -> Result<> {
+      TURNSCAN_ASSIGN(files, write_run_meshes(files_, run));
+      return {};
+    };
     TURNSCAN_ASSIGN(const ReconstructRun made,
-                    run_reconstruction(named, request_, session.context()));
-    TURNSCAN_ASSIGN(const auto files,
-                    write_outputs(files_, made, request_.options, session.context()));
+                    run_reconstruction(named, request_, session.context(), write_meshes));
+    TURNSCAN_ASSIGN(
+        const auto beside,
+        write_beside(files_, made, run_report(made, request_.options), session.context()));
+    files.insert(files.end(), beside.begin(), beside.end());
     session.print("{}", text_of(made));
     if (made.next_pass) session.print("Next pass: {}\n", next_pass_text(*made.next_pass));
     for (const Input& input : inputs) {

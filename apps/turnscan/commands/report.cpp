@@ -85,7 +85,7 @@ class ReportCommand : public Command {
                                 ? fs::absolute(path_).parent_path()
                                 : fs::absolute(path_).lexically_normal();
     const fs::path name = folder.has_filename() ? folder : folder.parent_path();
-    return page_input(run, request.options, name.stem().string());
+    return page_input(run, run_report(run, request.options), name.stem().string());
   }
 
   Result<PageInput> of_mesh(const RunContext& context) const {

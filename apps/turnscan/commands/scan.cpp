@@ -83,7 +83,7 @@ class ScanCommand : public Command {
       };
     TURNSCAN_ASSIGN(const ScanOutcome outcome, run_scan(request_, hooks, session.context()));
     session.print("{}", scan_text(outcome));
-    return check_joined(outcome.apart);
+    return check_joined(outcome.run.apart);
   }
 
  private:

@@ -8,50 +8,38 @@
 #include <turnscan/io/image/image_io.hpp>
 
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
-#include <turnscan/workflow/calibration/turntable_file.hpp>
-#include <turnscan/workflow/device_notes.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/next_pass/next_pass_json.hpp>
 #include <turnscan/workflow/next_pass/next_pass_picture.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
+#include <turnscan/workflow/run_steps.hpp>
 #include <turnscan/workflow/verdict/residuals_json.hpp>
-#include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 namespace turnscan {
 
-Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const std::string& mode,
-                                          bool table_given, const ReconstructOptions& options,
-                                          const RunContext& context) {
+Result<CalibratedFrames> calibrated_by(const FrameSequence& sequence, CalibrationChoice choice,
+                                       const ReconstructOptions& options) {
   CalibratedFrames out;
-  TURNSCAN_ASSIGN(
-      out.choice,
-      choose_calibration(sequence, {mode, options.merge.speed_rad_s, table_given}, context));
+  out.choice = std::move(choice);
   TURNSCAN_ASSIGN(out.frames, with_choice(sequence, out.choice));
   out.options = options;
   if (out.choice.calibration) out.options.merge.speed_rad_s.reset();  // it is in the angles
   return out;
 }
 
+Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const std::string& mode,
+                                          bool table_given, const ReconstructOptions& options,
+                                          const RunContext& context) {
+  TURNSCAN_ASSIGN(
+      CalibrationChoice choice,
+      choose_calibration(sequence, {mode, options.merge.speed_rad_s, table_given}, context));
+  return calibrated_by(sequence, std::move(choice), options);
+}
+
 namespace {
 
-/// A recording, placed on its table.
-struct PlacedRecording {
-  std::unique_ptr<FrameSequence> on_table;
-  CalibratedFrames calibrated;  // refer to it
-};
-
-Result<PlacedRecording> place_recording(const FrameSequence& sequence,
-                                        const ReconstructRequest& request,
-                                        const RunContext& context) {
-  PlacedRecording out;
-  TURNSCAN_ASSIGN(out.on_table, with_turntable(sequence, request.turntable));
-  TURNSCAN_ASSIGN(out.calibrated,
-                  calibrate_frames(*out.on_table, request.calibration, !request.turntable.empty(),
-                                   request.options, context));
-  out.calibrated.options.keep_points = request.stages.count("merged") > 0;
-  return out;
-}
+using workflow::PlacedRecording;
 
 /// Whether the recordings hold several passes that are to become one mesh. Poses of their own bring
 /// frames together as they are.
@@ -72,15 +60,14 @@ Result<> check_join(const std::vector<PassOfMany>& passes, const ReconstructRequ
   return {};
 }
 
-Result<> reconstruct_joined(const std::vector<NamedSequence>& recordings,
-                            const std::vector<PlacedRecording>& placed,
+Result<> reconstruct_joined(const std::vector<PlacedRecording>& placed,
                             const ReconstructRequest& request, const StageSink& sink,
                             const RunContext& context, std::vector<PassOfMany>& passes,
                             ReconstructRun& run) {
   std::vector<RecordingFrames> frames;
-  for (std::size_t i = 0; i < recordings.size(); ++i)
-    frames.push_back({recordings[i].name, placed[i].calibrated.frames.get(),
-                      placed[i].calibrated.options.merge.speed_rad_s});
+  for (const PlacedRecording& one : placed)
+    frames.push_back(
+        {one.name, one.calibrated.frames.get(), one.calibrated.options.merge.speed_rad_s});
   TURNSCAN_ASSIGN(passes, list_passes(frames, request.pass_poses));
   TURNSCAN_TRY(check_join(passes, request));
   TURNSCAN_ASSIGN(JoinedRun joined,
@@ -103,89 +90,6 @@ Result<> reconstruct_joined(const std::vector<NamedSequence>& recordings,
   return {};
 }
 
-/// What the calibrations have to say comes first.
-void note_calibrations(const std::vector<NamedSequence>& recordings,
-                       const std::vector<PlacedRecording>& placed,
-                       std::vector<std::string>& notes) {
-  std::vector<std::string> first;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const std::string& note = placed[i].calibrated.choice.note;
-    if (!note.empty())
-      first.push_back(placed.size() == 1 ? note : fmt::format("{}: {}", recordings[i].name, note));
-  }
-  notes.insert(notes.begin(), first.begin(), first.end());
-}
-
-/// What the devices did to depth.
-Result<> note_filters(const std::vector<NamedSequence>& recordings, const RunContext& context,
-                      std::vector<std::string>& notes) {
-  for (const NamedSequence& recording : recordings) {
-    TURNSCAN_ASSIGN(const auto said, device_notes(*recording.frames, context));
-    for (const std::string& note : said)
-      notes.push_back(recordings.size() == 1 ? note : fmt::format("{}: {}", recording.name, note));
-  }
-  return {};
-}
-
-/// The frames that went into an object, of the passes that were joined, or of all of a recording.
-std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRecording>& placed,
-                                  const std::vector<PassOfMany>& passes,
-                                  const Reconstruction& made) {
-  std::vector<MeshFrames> out;
-  for (const FusedPass& fused : made.passes) {
-    const auto pass = std::find_if(passes.begin(), passes.end(),
-                                   [&](const PassOfMany& p) { return p.name == fused.name; });
-    if (pass == passes.end() || (fused.object >= 0 && std::size_t(fused.object) != object))
-      continue;
-    out.push_back({pass->frames.frames, pass->frames.pass, pass->frames.speed_rad_s,
-                   fused.T_object_table, pass->number});
-  }
-  if (!made.passes.empty()) return out;
-  const CalibratedFrames& calibrated = placed[0].calibrated;
-  const MergeOptions& merge = calibrated.options.merge;
-  std::optional<std::uint32_t> pass;
-  if (merge.pass) pass = std::uint32_t(*merge.pass);
-  return {{calibrated.frames.get(), pass, merge.speed_rad_s, Pose::Identity(), pass.value_or(0)}};
-}
-
-/// What the frames of each object could see of it, and how they fit it.
-Result<> compare_frames(const std::vector<PlacedRecording>& placed,
-                        const std::vector<PassOfMany>& passes, const RunContext& context,
-                        ReconstructRun& run, ScanKnowledge& known) {
-  const Reconstruction& made = run.reconstruction;
-  for (std::size_t i = 0; i < made.objects.size(); ++i) {
-    const auto frames = frames_of(i, placed, passes, made);
-    TURNSCAN_TRY(compare_object(made.objects[i], frames, made.sensor_noise_m, context, known));
-  }
-  run.frame_residuals = known.residuals;
-  return {};
-}
-
-/// By the recording that shows most sides of its object.
-Result<> judge(const std::vector<NamedSequence>& recordings,
-               const std::vector<PlacedRecording>& placed, const std::vector<PassOfMany>& passes,
-               const ReconstructRequest& request, const RunContext& context, ReconstructRun& run) {
-  ScanKnowledge known;
-  known.choice = &run.choice;
-  for (const PlacedRecording& recording : placed) {
-    const CalibratedFrames& calibrated = recording.calibrated;
-    const auto turn = turn_seen(*calibrated.frames, calibrated.options.merge.speed_rad_s);
-    if (turn && (!known.turn || turn->share > known.turn->share)) known.turn = turn;
-  }
-  known.dates = workflow::dates_of(*recordings[0].frames, request.turntable);
-  known.table_recorded = placed[0].on_table->header().turntable && !run.choice.calibration &&
-                         !workflow::has_poses(*placed[0].on_table);
-  if (known.table_recorded) {
-    TURNSCAN_ASSIGN(known.platter,
-                    workflow::platter_against_calibration(*placed[0].on_table, context));
-  }
-  for (PassApart& pass : run.apart) judge_objects(pass.reconstruction, known);
-  TURNSCAN_TRY(compare_frames(placed, passes, context, run, known));
-  known.next_pass = run.next_pass;
-  judge_objects(run.reconstruction, known);
-  return {};
-}
-
 Result<> check_meshes(const ReconstructRun& run) {
   TURNSCAN_TRY(check_watertight(run.reconstruction));
   for (const PassApart& pass : run.apart) TURNSCAN_TRY(check_watertight(pass.reconstruction));
@@ -196,16 +100,17 @@ Result<> check_meshes(const ReconstructRun& run) {
 
 Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
                                           const ReconstructRequest& request,
-                                          const RunContext& context) {
-  return run_reconstruction(std::vector<NamedSequence>{{"", &sequence}}, request, context);
+                                          const RunContext& context, const MeshSink& write_meshes) {
+  return run_reconstruction(std::vector<NamedSequence>{{"", &sequence}}, request, context,
+                            write_meshes);
 }
 
 Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& recordings,
                                           const ReconstructRequest& request,
-                                          const RunContext& context) {
+                                          const RunContext& context, const MeshSink& write_meshes) {
   std::vector<PlacedRecording> placed;
   for (const NamedSequence& recording : recordings) {
-    TURNSCAN_ASSIGN(PlacedRecording one, place_recording(*recording.frames, request, context));
+    TURNSCAN_ASSIGN(PlacedRecording one, workflow::place_recording(recording, request, context));
     placed.push_back(std::move(one));
   }
   ReconstructRun run;
@@ -215,28 +120,15 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
   };
   std::vector<PassOfMany> passes;
   if (joins_passes(recordings, request)) {
-    TURNSCAN_TRY(reconstruct_joined(recordings, placed, request, sink, context, passes, run));
+    TURNSCAN_TRY(reconstruct_joined(placed, request, sink, context, passes, run));
   } else {
     const CalibratedFrames& calibrated = placed[0].calibrated;
     TURNSCAN_ASSIGN(run.reconstruction,
                     reconstruct(*calibrated.frames, calibrated.options, sink, context));
-    const MergeOptions& merge = calibrated.options.merge;
-    std::optional<std::uint32_t> pass;
-    if (merge.pass) pass = std::uint32_t(*merge.pass);
-    if (auto views = pass_views(*calibrated.frames, pass, merge.speed_rad_s))
-      run.seen_from = std::move(*views);
   }
-  if (!run.reconstruction.objects.empty()) {
-    TURNSCAN_ASSIGN(run.next_pass,
-                    advise_next_pass(run.reconstruction.objects[0], run.seen_from, context));
-  }
-  note_calibrations(recordings, placed, run.reconstruction.notes);
-  TURNSCAN_TRY(note_filters(recordings, context, run.reconstruction.notes));
-  run.turn = turn_of(*placed[0].calibrated.frames);
-  run.choice = std::move(placed[0].calibrated.choice);
-  if (request.judge) TURNSCAN_TRY(judge(recordings, placed, passes, request, context, run));
   if (!request.allow_open) TURNSCAN_TRY(check_meshes(run));
-  TURNSCAN_TRY(context.check());
+  if (write_meshes) TURNSCAN_TRY(write_meshes(run));
+  TURNSCAN_TRY(workflow::conclude_run(placed, passes, request, context, run));
   return run;
 }
 
@@ -262,10 +154,8 @@ std::string mesh_of_pass(const std::string& mesh, std::uint32_t pass) {
   return with_suffix(mesh, fmt::format("-pass{}", pass));
 }
 
-Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
-                                               const ReconstructRun& run,
-                                               const ReconstructOptions& options,
-                                               const RunContext& context) {
+Result<std::vector<std::string>> write_run_meshes(const ReconstructFiles& files,
+                                                  const ReconstructRun& run) {
   std::vector<std::string> written;
   if (run.apart.empty() || !run.reconstruction.objects.empty()) {
     TURNSCAN_ASSIGN(written, write_objects(files.mesh, run.reconstruction, files.mesh_options));
@@ -276,6 +166,13 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                   pass.reconstruction, files.mesh_options));
     written.insert(written.end(), own.begin(), own.end());
   }
+  return written;
+}
+
+Result<std::vector<std::string>> write_beside(const ReconstructFiles& files,
+                                              const ReconstructRun& run, const std::string& report,
+                                              const RunContext& context) {
+  std::vector<std::string> written;
   for (const auto& [stage, file] : files.stages) {
     const auto cloud = run.stages.find(stage);
     if (file.empty() || cloud == run.stages.end()) continue;
@@ -290,13 +187,23 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
     written.push_back(files.advice_picture);
   }
   if (!files.report.empty()) {
-    TURNSCAN_TRY(write_file_atomically(files.report, run_report(run, options)));
+    TURNSCAN_TRY(write_file_atomically(files.report, report));
     written.push_back(files.report);
   }
   if (!files.page.empty()) {
-    TURNSCAN_TRY(write_page(files.page, page_input(run, options, page_title(files.mesh)), context));
+    TURNSCAN_TRY(write_page(files.page, page_input(run, report, page_title(files.mesh)), context));
     written.push_back(files.page);
   }
+  return written;
+}
+
+Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
+                                               const ReconstructRun& run,
+                                               const ReconstructOptions& options,
+                                               const RunContext& context) {
+  TURNSCAN_ASSIGN(auto written, write_run_meshes(files, run));
+  TURNSCAN_ASSIGN(const auto beside, write_beside(files, run, run_report(run, options), context));
+  written.insert(written.end(), beside.begin(), beside.end());
   return written;
 }
 
@@ -307,7 +214,7 @@ std::string run_report(const ReconstructRun& run, const ReconstructOptions& opti
   return report.dump(2) + "\n";
 }
 
-PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,
+PageInput page_input(const ReconstructRun& run, const std::string& report,
                      const std::string& title) {
   PageInput input;
   input.title = title;
@@ -316,7 +223,7 @@ PageInput page_input(const ReconstructRun& run, const ReconstructOptions& option
     for (PageObject& object : page_objects(pass.reconstruction))
       input.objects.push_back(std::move(object));
   }
-  input.report = run_report(run, options);
+  input.report = report;
   input.turn = run.turn;
   return input;
 }

@@ -7,6 +7,7 @@
 //   TURNSCAN_ASSIGN(const ReconstructRun run, run_reconstruction(*input.frames, request, context));
 //   TURNSCAN_ASSIGN(const auto written, write_outputs(files, run, request.options));
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -65,19 +66,30 @@ Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const s
                                           bool table_given, const ReconstructOptions& options,
                                           const RunContext& context);
 
-/// Calibrates and reconstructs; writes nothing. Where there are several passes, and neither one is
-/// chosen nor frames have poses of their own, they become one mesh (workflow/passes/join_run.hpp).
-/// Fails as with_turntable(), choose_calibration(), reconstruct(), join_and_reconstruct() and,
-/// unless allow_open is set, check_watertight(); with kCancelled.
+/// The same for a choice that was made before. Fails as with_choice().
+Result<CalibratedFrames> calibrated_by(const FrameSequence& sequence, CalibrationChoice choice,
+                                       const ReconstructOptions& options);
+
+/// Takes a run whose meshes are final, but of which nothing else is known yet.
+using MeshSink = std::function<Result<>(const ReconstructRun&)>;
+
+/// Calibrates, reconstructs, hands the meshes to write_meshes if it is given, and then says what is
+/// known of them: advice, notes, verdicts. What fails of the latter becomes a note, so that nothing
+/// after the meshes costs them. Where there are several passes, and neither one is chosen nor
+/// frames have poses of their own, they become one mesh (workflow/passes/join_run.hpp).
+/// Fails as with_turntable(), choose_calibration(), reconstruct(), join_and_reconstruct(),
+/// write_meshes() and, unless allow_open is set, check_watertight(); with kCancelled.
 Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
                                           const ReconstructRequest& request,
-                                          const RunContext& context);
+                                          const RunContext& context,
+                                          const MeshSink& write_meshes = {});
 
 /// The same for all recordings of an object, each with its own sensors and calibration, at least
 /// one; the choice is that of the first. Fails with kInvalidOption, too, when one pass is chosen.
 Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& recordings,
                                           const ReconstructRequest& request,
-                                          const RunContext& context);
+                                          const RunContext& context,
+                                          const MeshSink& write_meshes = {});
 
 /// Fails with kMissingData, naming each and why, when passes were not joined.
 Result<> check_joined(const std::vector<PassApart>& apart);
@@ -99,11 +111,20 @@ Result<> check_outputs(const ReconstructFiles& files);
 /// Where the mesh of a pass apart is written: MESH-passN.
 std::string mesh_of_pass(const std::string& mesh, std::uint32_t pass);
 
-/// Writes the meshes, those of passes apart as MESH-passN, the stages' clouds, the picture of the
-/// advice, the report and the page; returns the names of the files in that order. options: as they
-/// were asked for. Fails as write_objects(), write_cloud(), next_pass_picture(),
-/// write_file_atomically() and make_page(); a stage that the run did not keep and a picture of an
-/// advice that there is not are left out.
+/// Writes the meshes, those of passes apart as MESH-passN; returns the names of the files. Fails as
+/// write_objects().
+Result<std::vector<std::string>> write_run_meshes(const ReconstructFiles& files,
+                                                  const ReconstructRun& run);
+
+/// Writes what belongs to the meshes: the stages' clouds, the picture of the advice, the report and
+/// the page; returns the names of the files in that order. report: see run_report(). A stage that
+/// the run did not keep and a picture of an advice that there is not are left out. Fails as
+/// write_cloud(), next_pass_picture(), write_file_atomically() and make_page().
+Result<std::vector<std::string>> write_beside(const ReconstructFiles& files,
+                                              const ReconstructRun& run, const std::string& report,
+                                              const RunContext& context = {});
+
+/// Both, with run_report(). options: as they were asked for.
 Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructRun& run,
                                                const ReconstructOptions& options,
@@ -113,8 +134,9 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
 /// and how the frames fit.
 std::string run_report(const ReconstructRun& run, const ReconstructOptions& options);
 
-/// What make_page() shows of a run: all meshes, those of passes apart last.
-PageInput page_input(const ReconstructRun& run, const ReconstructOptions& options,
+/// What make_page() shows of a run: all meshes, those of passes apart last. report: see
+/// run_report().
+PageInput page_input(const ReconstructRun& run, const std::string& report,
                      const std::string& title);
 
 }  // namespace turnscan

@@ -23,12 +23,8 @@ namespace {
 constexpr int kFramesOfATurn = 920;
 constexpr double kReadFrame = 0.015, kRecordTurn = 30.0, kTexture = 8.0;
 
-/// Where the turntable is found in the recording, or what is recorded of it is checked.
-PhasePlan calibration_phases(const FrameSequence& frames, const ReconstructRequest& request) {
-  if (request.calibration == "motion" ||
-      (request.calibration == "auto" &&
-       !frame_poses(frames.header(), frames.frames(), request.options.merge.speed_rad_s)))
-    return motion_phases();
+/// What is recorded of the turntable is checked.
+PhasePlan check_phases() {
   return joined({platter_phases(),
                  {{"sample frames", 0.6},
                   {"compare frames", 1.7},
@@ -36,6 +32,15 @@ PhasePlan calibration_phases(const FrameSequence& frames, const ReconstructReque
                   {"sample frames", 0.2},
                   {"average frames", 0.1},
                   {"sample frames", 0.6}}});
+}
+
+/// Where the turntable is found in the recording, or what is recorded of it is checked.
+PhasePlan calibration_phases(const FrameSequence& frames, const ReconstructRequest& request) {
+  if (request.calibration == "motion" ||
+      (request.calibration == "auto" &&
+       !frame_poses(frames.header(), frames.frames(), request.options.merge.speed_rad_s)))
+    return motion_phases();
+  return check_phases();
 }
 
 /// Advice for the next pass, and what the verdict asks.
@@ -111,7 +116,9 @@ PhasePlan scan_phases(const ScanRequest& request) {
   const auto frames = std::size_t(kFramesOfATurn);
   plan = joined({plan, wait, {{"record", kRecordTurn}}});
   if (!speed_known) plan = joined({plan, motion_phases()});
-  plan = joined({plan, surface_phases(request.reconstruct, frames), judge_phases()});
+  plan = joined({plan, surface_phases(request.reconstruct, frames)});
+  if (speed_known) plan = joined({plan, check_phases()});
+  plan = joined({plan, judge_phases()});
   for (int pass = 1; pass < request.passes.value_or(1); ++pass)
     plan = joined({plan,
                    wait,

@@ -9,23 +9,19 @@
 #include <turnscan/capture/session/table_watch.hpp>
 #include <turnscan/capture/source/source_uri.hpp>
 #include <turnscan/core/stopwatch.hpp>
-#include <turnscan/io/file/atomic_file.hpp>
-#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
 #include <turnscan/recording/recording.hpp>
 
 #include <turnscan/workflow/mesh_output.hpp>
-#include <turnscan/workflow/next_pass/next_pass_picture.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
-#include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/run_steps.hpp>
 #include <turnscan/workflow/scan/capture_outcome.hpp>
 #include <turnscan/workflow/scan/live_reconstruction.hpp>
 #include <turnscan/workflow/scan/scan_ahead.hpp>
 #include <turnscan/workflow/scan/scan_report.hpp>
 #include <turnscan/workflow/scan/table_finder.hpp>
-#include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 namespace turnscan {
 
@@ -117,15 +113,65 @@ class ScanRun {
     const AfterClock after;
     source.stop();
     TURNSCAN_TRY(capture_outcome(out_.captured.back(), out_.recording));
-    TURNSCAN_ASSIGN(out_.reconstruction, with_hint(reconstruct_all()));
-    if (!request_.allow_open) TURNSCAN_TRY(with_hint(check_watertight(out_.reconstruction)));
+    TURNSCAN_TRY(with_hint(reconstruct_first(source.info(), after)));
+    return write_beside_meshes(source.info());
+  }
+
+  /// Mesh first, then what is known of it.
+  Result<> reconstruct_first(const SourceInfo& info, const AfterClock& after) {
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
+    std::optional<workflow::PlacedRecording> placed;
+    if (live_) {
+      TURNSCAN_ASSIGN(out_.run.reconstruction, live_->finish(context_));
+      TURNSCAN_TRY(add_textures(recording, out_.run.reconstruction));
+      TURNSCAN_TRY(write_meshes(after));
+    } else {
+      TURNSCAN_ASSIGN(placed, finish_ahead(recording));
+      if (placed) TURNSCAN_TRY(write_meshes(after));
+    }
+    if (!placed) {
+      TURNSCAN_ASSIGN(placed, workflow::place_recording({"", &recording}, request(), context_));
+      if (!live_ || moves_frames(placed->calibrated.choice)) {
+        const CalibratedFrames& calibrated = placed->calibrated;
+        TURNSCAN_ASSIGN(out_.run.reconstruction,
+                        reconstruct(*calibrated.frames, calibrated.options, {}, context_));
+        TURNSCAN_TRY(write_meshes(after));
+      }
+    }
+    keep_found(info, placed->calibrated.choice);
+    std::vector<workflow::PlacedRecording> all;
+    all.push_back(std::move(*placed));
+    return workflow::conclude_run(all, {}, request(), context_, out_.run);
+  }
+
+  /// Whether frames lie elsewhere than the recording alone says.
+  static bool moves_frames(const CalibrationChoice& choice) {
+    return choice.calibration || !choice.poses.empty() || !choice.left_out.empty();
+  }
+
+  ReconstructRequest request() const {
+    ReconstructRequest out;
+    out.options = request_.reconstruct;
+    out.allow_open = request_.allow_open;
+    return out;
+  }
+
+  ReconstructFiles files() const {
+    ReconstructFiles out;
+    out.mesh = request_.mesh;
+    out.mesh_options = request_.mesh_options;
+    out.report = request_.report;
+    out.page = request_.page;
+    out.advice_picture = request_.advice_picture;
+    return out;
+  }
+
+  Result<> write_meshes(const AfterClock& after) {
+    if (!request_.allow_open) TURNSCAN_TRY(check_watertight(out_.run.reconstruction));
     TURNSCAN_TRY(context_.check());
-    keep_found(source.info());
-    TURNSCAN_ASSIGN(out_.files,
-                    write_objects(request_.mesh, out_.reconstruction, request_.mesh_options));
+    TURNSCAN_ASSIGN(out_.files, write_run_meshes(files(), out_.run));
     after.tell(out_);
-    TURNSCAN_TRY(judge_first());
-    return write_beside(source.info());
+    return {};
   }
 
   Result<> wait(FrameSource& source) {
@@ -176,98 +222,47 @@ class ScanRun {
     return {};
   }
 
-  Result<Reconstruction> reconstruct_all() {
-    if (live_) {
-      TURNSCAN_ASSIGN(Reconstruction made, live_->finish(context_));
-      TURNSCAN_TRY(add_textures(std::nullopt, made));
-      return made;
-    }
-    if (ahead_) {
-      TURNSCAN_ASSIGN(ScanAhead::Outcome ahead, ahead_->finish(context_));
-      if (!ahead.note.empty()) out_.notes.push_back(ahead.note);
-      out_.ahead = {ahead.frames_ahead, ahead.kept, ahead.closure_m, ahead.closure_limit_m};
-      if (ahead.kept) {
-        TURNSCAN_TRY(add_textures(ahead.calibration, ahead.reconstruction));
-        choice_.calibration = std::move(ahead.calibration);
-        return std::move(ahead.reconstruction);
-      }
-    }
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
-    TURNSCAN_ASSIGN(const CalibratedFrames calibrated,
-                    calibrate_frames(recording, "auto", false, request_.reconstruct, context_));
-    choice_ = calibrated.choice;
-    if (!choice_.note.empty()) out_.notes.push_back(choice_.note);
-    return reconstruct(*calibrated.frames, calibrated.options, {}, context_);
+  /// What ScanAhead made, where it is kept.
+  Result<std::optional<workflow::PlacedRecording>> finish_ahead(const Recording& recording) {
+    if (!ahead_) return std::nullopt;
+    TURNSCAN_ASSIGN(ScanAhead::Outcome ahead, ahead_->finish(context_));
+    if (!ahead.note.empty()) out_.notes.push_back(ahead.note);
+    out_.ahead = {ahead.frames_ahead, ahead.kept, ahead.closure_m, ahead.closure_limit_m};
+    if (!ahead.kept) return std::nullopt;
+    CalibrationChoice choice;
+    choice.calibration = std::move(ahead.calibration);
+    TURNSCAN_ASSIGN(auto placed,
+                    workflow::place_recording({"", &recording}, request(), std::move(choice)));
+    out_.run.reconstruction = std::move(ahead.reconstruction);
+    TURNSCAN_TRY(add_textures(*placed.calibrated.frames, out_.run.reconstruction));
+    return placed;
   }
 
-  /// From the recording, to meshes that were made while it was written.
-  Result<> add_textures(const std::optional<Calibration>& found, Reconstruction& made) const {
-    if (!request_.reconstruct.texture.texture) return {};
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
-    TURNSCAN_TRY(texture::check_colors(recording));
+  /// From the recorded images, to meshes that were made while they were written.
+  Result<> add_textures(const FrameSequence& placed, Reconstruction& made) const {
     ReconstructOptions options = request_.reconstruct;
-    if (!found) return texture::texture_objects(recording, options, {}, made, context_);
-    options.merge.speed_rad_s.reset();  // it is in the angles
-    TURNSCAN_ASSIGN(const auto placed, with_calibration(recording, *found));
-    return texture::texture_objects(*placed, options, {}, made, context_);
+    if (!options.texture.texture) return {};
+    if (!live_) options.merge.speed_rad_s.reset();  // it is in the angles
+    TURNSCAN_TRY(texture::check_colors(placed));
+    return texture::texture_objects(placed, options, {}, made, context_);
   }
 
   /// For the next scan with this device. That it cannot be kept is no reason to fail.
-  void keep_found(const SourceInfo& info) {
-    if (!choice_.calibration || info.identities.empty()) return;
-    Calibration found = *choice_.calibration;
+  void keep_found(const SourceInfo& info, const CalibrationChoice& choice) {
+    if (!choice.calibration || info.identities.empty()) return;
+    Calibration found = *choice.calibration;
     found.others.clear();  // they were there this time
     found.made_at = date_of_calibration(info);
     if (auto kept = keep_calibration(info.identities.front(), found); !kept)
       out_.notes.push_back("the calibration could not be kept: " + kept.error().text());
   }
 
-  /// Verdicts, and the advice for the next pass; what is not known is no reason to fail.
-  Result<> judge_first() {
-    if (out_.reconstruction.objects.empty()) return {};
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
-    TURNSCAN_ASSIGN(const auto placed, with_choice(recording, choice_));
-    const auto speed = choice_.calibration ? std::nullopt : request_.reconstruct.merge.speed_rad_s;
-    if (auto views = pass_views(*placed, std::nullopt, speed)) {
-      seen_from_ = std::move(*views);
-      TURNSCAN_ASSIGN(out_.next_pass,
-                      advise_next_pass(out_.reconstruction.objects[0], seen_from_, context_));
-    }
-    ScanKnowledge known;
-    known.turn = turn_seen(*placed, speed);
-    known.choice = &choice_;
-    known.dates = workflow::dates_of(recording);
-    known.table_recorded = recording.header().turntable && !choice_.calibration;
-    if (known.table_recorded) {
-      TURNSCAN_ASSIGN(known.platter, workflow::platter_against_calibration(recording, context_));
-    }
-    for (const ObjectResult& object : out_.reconstruction.objects)
-      TURNSCAN_TRY(compare_object(object, {{placed.get(), std::nullopt, speed}},
-                                  out_.reconstruction.sensor_noise_m, context_, known));
-    out_.frame_residuals = known.residuals;
-    known.next_pass = out_.next_pass;
-    judge_objects(out_.reconstruction, known);
-    return {};
-  }
-
   /// Picture, report and page, of all passes so far.
-  Result<> write_beside(const SourceInfo& info) {
-    if (!request_.advice_picture.empty() && out_.next_pass) {
-      TURNSCAN_ASSIGN(
-          const ColorImage picture,
-          next_pass_picture(out_.reconstruction.objects[0], seen_from_, *out_.next_pass, context_));
-      TURNSCAN_TRY(write_color_png(request_.advice_picture, picture));
-      out_.files.push_back(request_.advice_picture);
-    }
-    const std::string report = workflow::scan_report(request_, out_, info);
-    if (!request_.report.empty()) {
-      TURNSCAN_TRY(write_file_atomically(request_.report, report));
-      out_.files.push_back(request_.report);
-    }
-    if (request_.page.empty()) return {};
-    TURNSCAN_TRY(with_hint(
-        workflow::write_scan_page(request_, out_, report, choice_.calibration, context_)));
-    out_.files.push_back(request_.page);
+  Result<> write_beside_meshes(const SourceInfo& info) {
+    TURNSCAN_ASSIGN(const auto written,
+                    with_hint(write_beside(files(), out_.run,
+                                           workflow::scan_report(request_, out_, info), context_)));
+    out_.files.insert(out_.files.end(), written.begin(), written.end());
     return {};
   }
 
@@ -277,15 +272,15 @@ class ScanRun {
   Result<bool> prompt_next_pass(FrameSource& source) {
     const auto pass = std::uint32_t(out_.captured.size());
     const bool asks = !request_.passes, by_itself = source.info().lays_object;
-    const bool advised = out_.next_pass && !out_.next_pass->poses.empty();
+    const bool advised = out_.run.next_pass && !out_.run.next_pass->poses.empty();
     if (request_.passes && int(pass) >= *request_.passes) return false;
     if (asks && (!hooks_.another_side || !laid_ || !advised)) return false;
     if (asks || !by_itself) {
       if (!hooks_.another_side)
         return fail(ErrorCode::kInvalidOption,
                     "passes: there is nobody who could lay the object another way; leave it out");
-      const std::string advice =
-          out_.next_pass ? next_pass_text(*out_.next_pass) : "Nearly all of its surface was seen.";
+      const std::string advice = out_.run.next_pass ? next_pass_text(*out_.run.next_pass)
+                                                    : "Nearly all of its surface was seen.";
       TURNSCAN_ASSIGN(const bool laid, with_hint(hooks_.another_side(advice, pass)));
       if (!laid) return false;
     }
@@ -295,9 +290,11 @@ class ScanRun {
           fmt::format("there was no pass {}: no other way to lay it shows much more", pass));
       return false;
     }
-    const NextPose& pose = out_.next_pass->poses.front();
-    out_.notes.push_back(fmt::format("before pass {}: {}", pass, next_pass_text(*out_.next_pass)));
-    TURNSCAN_TRY(source.lay_object(turn_seen_by_sensor(pose, seen_from_), seen_from_.first_time_s));
+    const NextPose& pose = out_.run.next_pass->poses.front();
+    out_.notes.push_back(
+        fmt::format("before pass {}: {}", pass, next_pass_text(*out_.run.next_pass)));
+    TURNSCAN_TRY(source.lay_object(turn_seen_by_sensor(pose, out_.run.seen_from),
+                                   out_.run.seen_from.first_time_s));
     return true;
   }
 
@@ -312,14 +309,16 @@ class ScanRun {
     source.stop();
     TURNSCAN_TRY(capture_outcome(out_.captured.back(), out_.recording));
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
-    ReconstructRequest request;
-    request.options = request_.reconstruct;
-    request.allow_open = request_.allow_open;
+    const std::vector<std::string> before = std::move(out_.files);
+    const auto write_joined = [&](const ReconstructRun& run) -> Result<> {
+      TURNSCAN_TRY(write_passes(run, before));
+      after.tell(out_);
+      return {};
+    };
     TURNSCAN_ASSIGN(ReconstructRun run,
-                    with_hint(run_reconstruction(recording, request, context_)));
-    TURNSCAN_TRY(write_joined(run));
-    after.tell(out_);
-    return write_beside(source.info());
+                    with_hint(run_reconstruction(recording, request(), context_, write_joined)));
+    take_joined(std::move(run));
+    return write_beside_meshes(source.info());
   }
 
   /// Frames of how the object lay before.
@@ -331,29 +330,20 @@ class ScanRun {
   }
 
   /// Where no pass was joined the mesh stays what it was.
-  Result<> write_joined(ReconstructRun& run) {
-    const std::vector<std::string> before = std::move(out_.files);
+  Result<> write_passes(const ReconstructRun& run, const std::vector<std::string>& before) {
     out_.files.clear();
     if (!run.reconstruction.objects.empty()) {
-      out_.reconstruction = std::move(run.reconstruction);
-      out_.frame_residuals = std::move(run.frame_residuals);
-      out_.next_pass = std::move(run.next_pass);
-      seen_from_ = std::move(run.seen_from);
       TURNSCAN_ASSIGN(out_.files,
-                      write_objects(request_.mesh, out_.reconstruction, request_.mesh_options));
+                      write_objects(request_.mesh, run.reconstruction, request_.mesh_options));
     } else {
       for (const std::string& file : before)
         if (!is_beside(file)) out_.files.push_back(file);
     }
-    out_.apart.clear();
-    for (PassApart& pass : run.apart) {
-      if (pass.reason.empty()) continue;
-      if (!pass.reconstruction.objects.empty()) {
-        TURNSCAN_ASSIGN(const auto own, write_objects(mesh_of_pass(request_.mesh, pass.number),
-                                                      pass.reconstruction, request_.mesh_options));
-        out_.files.insert(out_.files.end(), own.begin(), own.end());
-      }
-      out_.apart.push_back(std::move(pass));
+    for (const PassApart& pass : run.apart) {
+      if (pass.reason.empty() || pass.reconstruction.objects.empty()) continue;
+      TURNSCAN_ASSIGN(const auto own, write_objects(mesh_of_pass(request_.mesh, pass.number),
+                                                    pass.reconstruction, request_.mesh_options));
+      out_.files.insert(out_.files.end(), own.begin(), own.end());
     }
     // A pass that did not fit until now has no mesh of its own any more.
     for (const std::string& file : before) {
@@ -363,6 +353,14 @@ class ScanRun {
         fs::remove(file, ignored);
     }
     return {};
+  }
+
+  void take_joined(ReconstructRun run) {
+    std::erase_if(run.apart, [](const PassApart& pass) { return pass.reason.empty(); });
+    if (run.reconstruction.objects.empty())
+      out_.run.apart = std::move(run.apart);
+    else
+      out_.run = std::move(run);
   }
 
   bool is_beside(const std::string& file) const {
@@ -385,9 +383,7 @@ class ScanRun {
   ScanOutcome out_;
   std::unique_ptr<LiveReconstruction> live_;
   std::unique_ptr<ScanAhead> ahead_;
-  CalibrationChoice choice_;  ///< of the first pass
-  PassViews seen_from_;       ///< of the last pass in the mesh
-  bool laid_ = false;         ///< the object can be laid another way
+  bool laid_ = false;  ///< the object can be laid another way
 };
 
 }  // namespace

@@ -8,11 +8,8 @@
 #include <string>
 #include <turnscan/core/option_table.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
-#include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/workflow/next_pass/next_pass.hpp>
-#include <turnscan/workflow/passes/join_run.hpp>
+#include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/scan/capture_setup.hpp>
-#include <turnscan/workflow/verdict/frame_residuals.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -58,11 +55,8 @@ struct ScanHooks {
 
 struct ScanOutcome {
   std::string recording;
-  std::vector<CaptureResult> captured;  ///< of each pass
-  Reconstruction reconstruction;
-  std::vector<std::vector<FrameResidual>> frame_residuals;  ///< as ReconstructRun has it
-  std::vector<PassApart> apart;                 ///< passes that do not fit, each with a mesh beside
-  std::optional<NextPassAdvice> next_pass;      ///< what is still missing
+  std::vector<CaptureResult> captured;          ///< of each pass
+  ReconstructRun run;                           ///< of all passes so far
   std::vector<std::string> notes;               ///< sentences for people
   double after_s = 0.0, processor_after_s = 0;  ///< from the last frame to the mesh
   std::vector<std::string> files;               ///< that were written, but the recording
@@ -76,9 +70,11 @@ struct ScanOutcome {
 };
 
 /// Phases of the context: "record" has 1000 steps, which are the caller's to advance. Where the
-/// table's place and speed are known before, frames are reconstructed as they come; where nothing
-/// is known, ScanAhead does what it can; else all is done after the last frame. A calibration found
-/// from motion is kept for the device.
+/// table's place and speed are known before, frames are reconstructed as they come, and again from
+/// the recording where the choice of calibration (choose_calibration(), "auto") then places them
+/// elsewhere; where nothing is known, ScanAhead does what it can; else all is done after the last
+/// frame. So, but for what ScanAhead kept, run_reconstruction() of the recording makes the same
+/// meshes, notes and verdicts. A calibration found from motion is kept for the device.
 /// After each pass the files are written. A further pass is laid by the source itself where it can
 /// (FrameSource::lay_object(), as is advised); it is added to the recording, from which all passes
 /// are then reconstructed as by run_reconstruction(). A pass that does not fit is no failure here;

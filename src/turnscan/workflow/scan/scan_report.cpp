@@ -3,11 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/reconstruction/report.hpp>
-#include <turnscan/recording/recording.hpp>
 
 #include <turnscan/workflow/next_pass/next_pass_json.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
-#include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/scan/capture_json.hpp>
 #include <turnscan/workflow/text/capture_text.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
@@ -46,44 +44,26 @@ std::string workflow::scan_report(const ScanRequest& request, const ScanOutcome&
     further.push_back(capture_json(outcome.captured[k], source));
   out["further_passes"] = std::move(further);
   auto apart = nlohmann::ordered_json::array();
-  for (const PassApart& pass : outcome.apart)
+  for (const PassApart& pass : outcome.run.apart)
     apart.push_back({{"name", pass.name}, {"reason", pass.reason}});
   out["passes_apart"] = std::move(apart);
   out["reconstruction"] = nlohmann::ordered_json::parse(
-      report_json(outcome.reconstruction, request.reconstruct), nullptr, false);
-  put_frame_residuals(outcome.frame_residuals, out["reconstruction"]);
-  out["next_pass"] = outcome.next_pass ? next_pass_json(*outcome.next_pass) : nullptr;
+      report_json(outcome.run.reconstruction, request.reconstruct), nullptr, false);
+  put_frame_residuals(outcome.run.frame_residuals, out["reconstruction"]);
+  out["next_pass"] = outcome.run.next_pass ? next_pass_json(*outcome.run.next_pass) : nullptr;
   return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-Result<> workflow::write_scan_page(const ScanRequest& request, const ScanOutcome& outcome,
-                                   const std::string& report,
-                                   const std::optional<Calibration>& found,
-                                   const RunContext& context) {
-  PageInput input;
-  input.title = page_title(request.mesh);
-  input.objects = page_objects(outcome.reconstruction);
-  input.report = report;
-  TURNSCAN_ASSIGN(const Recording recording, Recording::open(outcome.recording));
-  if (found && found->angles_rad.size() == recording.frames().size()) {
-    TURNSCAN_ASSIGN(const auto placed, with_calibration(recording, *found));
-    input.turn = turn_of(*placed);
-  } else {
-    input.turn = turn_of(recording);
-  }
-  TURNSCAN_TRY(write_page(request.page, input, context));
-  return {};
 }
 
 std::string scan_text(const ScanOutcome& outcome) {
   std::string text;
   for (const CaptureResult& captured : outcome.captured)
     text += capture_text(captured, outcome.recording);
-  text += reconstruction_text(outcome.reconstruction);
-  for (const PassApart& pass : outcome.apart)
+  text += reconstruction_text(outcome.run.reconstruction);
+  for (const PassApart& pass : outcome.run.apart)
     text += fmt::format("\n{} by itself: {}", pass.name, reconstruction_text(pass.reconstruction));
   for (const std::string& note : outcome.notes) text += fmt::format("Note: {}\n", note);
-  if (outcome.next_pass) text += fmt::format("Next pass: {}\n", next_pass_text(*outcome.next_pass));
+  if (outcome.run.next_pass)
+    text += fmt::format("Next pass: {}\n", next_pass_text(*outcome.run.next_pass));
   text += fmt::format(
       "The mesh was there {:.1f} s after the last frame, with {:.1f} s of processor time\n",
       outcome.after_s, outcome.processor_after_s);
