@@ -9,8 +9,8 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/noise/kinect_v2.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 #include <turnscan/simulator/scene/rig.hpp>
 
 namespace {

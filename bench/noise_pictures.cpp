@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 #include <turnscan/simulator/scene/rig.hpp>
 
 namespace {

@@ -15,8 +15,8 @@
 #include <string>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/rays/embree.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scene/embree.hpp>
 #include <vector>
 
 namespace {

@@ -30,9 +30,9 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/reconstruction/texture/color_view.hpp>
 #include <turnscan/reconstruction/texture/texture_objects.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/object_placement.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 #include <turnscan/turntable/rotation.hpp>
 

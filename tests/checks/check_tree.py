@@ -19,7 +19,7 @@ from tree import Tree  # noqa: E402
 LIBRARIES = [
     ("PCL (a peer to compare with)", r"pcl/", ("bench/",), False),
     ("Qhull", r"libqhull", ("apps/turnscan-concave-hull/",), False),
-    ("Embree", r"embree\d?/", ("src/turnscan/simulator/", "bench/"), False),
+    ("Embree", r"embree\d?/", ("src/turnscan/geometry/rays/", "src/turnscan/simulator/", "bench/"), False),
     ("Qt", r"Q[A-Z]\w+$|Qt\w+/|QVTK", ("apps/turnscan-studio/", "tests/studio/"), False),
     ("VTK", r"vtk\w+\.h", ("apps/turnscan-studio/",), False),
     ("nanoflann", r"nanoflann", ("src/turnscan/geometry/", "tests/", "bench/"), False),
@@ -30,7 +30,8 @@ LIBRARIES = [
     ("spdlog (libraries do not log, and programs need no more than a line)", r"spdlog/", (), False),
     ("CLI11", r"CLI/", ("apps/turnscan/",), False),
     ("toml++", r"toml\+\+/|toml\.hpp",
-     ("apps/", "src/turnscan/simulator/", "src/turnscan/workflow/"), False),
+     ("apps/", "src/turnscan/io/", "src/turnscan/sensors/", "src/turnscan/simulator/",
+      "src/turnscan/workflow/"), False),
     ("nlohmann-json in a public header", r"nlohmann/", ("src/", "apps/", "tests/", "bench/"), False),
     ("a driver's library (devices are plug-ins)",
      r"OpenNI\.h|libfreenect|librealsense|k4a/",

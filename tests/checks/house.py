@@ -13,8 +13,9 @@ FLOORS = {
     "recording": {"core", "io"},
     "turntable": {"core", "geometry"},
     "reconstruction": {"core", "geometry", "turntable"},
-    "simulator": {"core"},
-    "capture": {"core", "io", "recording", "turntable", "simulator"},
+    "sensors": {"core", "io"},
+    "simulator": {"core", "geometry", "io", "sensors"},
+    "capture": {"core", "io", "recording", "turntable", "sensors", "simulator"},
     "evaluation": {"core", "geometry"},
     "planning": {"core", "geometry", "simulator", "evaluation"},
 }

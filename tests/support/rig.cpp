@@ -3,7 +3,7 @@
 #include <mutex>
 #include <numbers>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 
 #include "tests/support/rig.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Scanners and turntable as lines and small bodies (thesis figures 4.2, 4.3 and 5.3).
 
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/scene/rig.hpp>
 
 #include "view/drawable.hpp"

@@ -2,7 +2,7 @@
 // For the sources of the Simulator.
 
 #include <memory>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/scene_file.hpp>
 
 #include "simulator/simulator.hpp"

@@ -12,7 +12,7 @@
 #include <QPlainTextEdit>
 #include <QTextBrowser>
 #include <QVBoxLayout>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <version/named_version.hpp>
 
 #include "widgets/message_log.hpp"

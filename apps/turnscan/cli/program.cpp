@@ -11,7 +11,7 @@
 #include <system_error>
 #include <turnscan/core/near_name.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/shown_text.hpp>
 #include <version/named_version.hpp>

@@ -8,9 +8,9 @@
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/reconstruction/report.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/rendering/picture.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/capture/source/plugins.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/text_table.hpp>

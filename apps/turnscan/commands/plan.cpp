@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 #include <turnscan/workflow/plan/plan.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"

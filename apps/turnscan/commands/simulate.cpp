@@ -1,6 +1,6 @@
 #include <filesystem>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
 
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/coverage_file.hpp>

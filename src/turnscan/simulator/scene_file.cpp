@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/io/text/toml_options.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/scene_file.hpp>
-#include <turnscan/simulator/toml_options.hpp>
 
 namespace turnscan {
 

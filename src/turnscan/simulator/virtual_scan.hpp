@@ -8,9 +8,9 @@
 #include <span>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 #include <turnscan/simulator/virtual_scan_options.hpp>
 #include <vector>
 

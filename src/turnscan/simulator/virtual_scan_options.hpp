@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/color/color_camera.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
 #include <turnscan/simulator/scene/hand.hpp>
 #include <turnscan/simulator/scene/object_move.hpp>
 #include <turnscan/simulator/scene/rig.hpp>

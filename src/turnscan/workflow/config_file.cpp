@@ -2,7 +2,7 @@
 
 #include <toml++/toml.h>
 
-#include <turnscan/simulator/toml_options.hpp>
+#include <turnscan/io/text/toml_options.hpp>
 
 namespace turnscan {
 

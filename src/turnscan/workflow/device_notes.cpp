@@ -1,7 +1,7 @@
 #include <cmath>
 #include <turnscan/recording/filled_depth.hpp>
 #include <turnscan/recording/temporal_filter.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/workflow/device_notes.hpp>
 
 namespace turnscan {

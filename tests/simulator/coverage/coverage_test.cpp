@@ -1,5 +1,5 @@
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/coverage/coverage.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <functional>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 #include <vector>
 
 namespace turnscan::test {

@@ -9,7 +9,7 @@
 #include <tests/simulator/noise/noise_scenes.hpp>
 #include <tuple>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 
 namespace turnscan {
 namespace {

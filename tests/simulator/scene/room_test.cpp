@@ -1,5 +1,5 @@
+#include <turnscan/geometry/rays/scene.hpp>
 #include <turnscan/simulator/scene/room.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 
 #include "tests/simulator/shapes.hpp"
 

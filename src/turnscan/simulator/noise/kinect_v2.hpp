@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <turnscan/sensors/noise_model.hpp>
 #include <turnscan/simulator/noise/noise_kernel.hpp>
-#include <turnscan/simulator/scanner/noise_model.hpp>
 #include <vector>
 
 namespace turnscan::kinect_v2 {

@@ -9,8 +9,8 @@
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
 #include <vector>
 
 namespace turnscan {

@@ -1,6 +1,6 @@
 #include <cmath>
+#include <turnscan/sensors/laser_line.hpp>
 #include <turnscan/simulator/noise/noise_apply.hpp>
-#include <turnscan/simulator/scanner/laser_line.hpp>
 
 namespace turnscan::noise {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <turnscan/simulator/coverage/coverage_patches.hpp>
 #include <turnscan/simulator/planning/plan_surface.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 #include <unordered_map>
 
 namespace turnscan::planning {

@@ -2,10 +2,10 @@
 // What one turn in front of a sensor shows of the spots of a surface, and how well.
 
 #include <span>
+#include <turnscan/geometry/rays/scene.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/noise/noise.hpp>
 #include <turnscan/simulator/planning/plan_surface.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 #include <vector>
 
 namespace turnscan::planning {

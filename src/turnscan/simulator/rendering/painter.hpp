@@ -2,10 +2,10 @@
 // Meshes in their light, row by row of a picture.
 
 #include <span>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <turnscan/simulator/rendering/picture.hpp>
 #include <turnscan/simulator/rendering/picture_camera.hpp>
 #include <turnscan/simulator/rendering/picture_surface.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
 #include <vector>
 
 namespace turnscan::rendering {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <turnscan/core/triangle_mesh.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <vector>
 
 namespace turnscan::rendering {

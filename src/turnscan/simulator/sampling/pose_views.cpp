@@ -2,8 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/geometry/rays/scene_impl.hpp>
 #include <turnscan/simulator/sampling/pose_views.hpp>
-#include <turnscan/simulator/scene/scene_impl.hpp>
 
 namespace turnscan::sampling {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <turnscan/core/simd/kernel_choice.hpp>
-#include <turnscan/simulator/scene/embree.hpp>
-#include <turnscan/simulator/scene/triangle_clusters.hpp>
+#include <turnscan/geometry/rays/embree.hpp>
+#include <turnscan/geometry/rays/triangle_clusters.hpp>
 
 namespace turnscan::sampling {
 

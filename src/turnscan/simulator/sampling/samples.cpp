@@ -4,10 +4,10 @@
 #include <limits>
 #include <mutex>
 #include <stdexcept>
+#include <turnscan/geometry/rays/scene_impl.hpp>
 #include <turnscan/simulator/sampling/pose_views.hpp>
 #include <turnscan/simulator/sampling/sample_kernel.hpp>
 #include <turnscan/simulator/sampling/samples.hpp>
-#include <turnscan/simulator/scene/scene_impl.hpp>
 
 namespace turnscan {
 

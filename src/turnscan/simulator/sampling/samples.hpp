@@ -7,8 +7,8 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <vector>
 
 namespace turnscan {

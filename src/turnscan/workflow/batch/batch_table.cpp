@@ -6,7 +6,7 @@
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/text/text_fields.hpp>
-#include <turnscan/simulator/toml_options.hpp>
+#include <turnscan/io/text/toml_options.hpp>
 
 namespace turnscan::batch {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 #include <turnscan/reconstruction/result.hpp>
-#include <turnscan/simulator/coverage/coverage.hpp>
 #include <vector>
 
 namespace turnscan {

@@ -9,7 +9,7 @@
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/geometry/search/pseudo_normals.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/workflow/page/encoding.hpp>
 #include <turnscan/workflow/page/page_model.hpp>
 #include <turnscan/workflow/page/page_sections.hpp>

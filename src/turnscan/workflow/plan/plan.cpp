@@ -6,7 +6,7 @@
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/workflow/plan/plan_files.hpp>
 #include <turnscan/workflow/plan/plan_trial.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>

@@ -3,7 +3,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/geometry/hull/resting_poses.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/scene/room.hpp>
 #include <turnscan/workflow/plan/plan_candidates.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>

@@ -2,9 +2,9 @@
 #include <limits>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
-#include <turnscan/simulator/coverage/coverage.hpp>
 #include <turnscan/workflow/plan/plan_trial.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>

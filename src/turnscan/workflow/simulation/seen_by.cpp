@@ -1,6 +1,6 @@
 #include <turnscan/workflow/simulation/seen_by.hpp>
 
-#include <turnscan/simulator/coverage/coverage.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 
 namespace turnscan {
 

@@ -3,7 +3,7 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 
 namespace turnscan {
 

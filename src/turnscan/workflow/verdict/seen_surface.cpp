@@ -2,7 +2,7 @@
 #include <cmath>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/simulator/coverage/coverage.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/verdict/seen_surface.hpp>
 

@@ -2,7 +2,7 @@
 // The triangles of a scene in groups of neighbours, as they are drawn.
 
 #include <array>
-#include <turnscan/simulator/scene/triangle_clusters.hpp>
+#include <turnscan/geometry/rays/triangle_clusters.hpp>
 #include <vector>
 
 namespace turnscan::sampling {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <turnscan/simulator/toml_options.hpp>
+#include <turnscan/io/text/toml_options.hpp>
 
 namespace turnscan::scene {
 

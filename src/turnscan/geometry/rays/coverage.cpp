@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <turnscan/core/morton.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/coverage/coverage.hpp>
+#include <turnscan/geometry/rays/coverage.hpp>
 
 namespace turnscan {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/scanner/laser_line.hpp>
+#include <turnscan/sensors/laser_line.hpp>
 
 namespace turnscan {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <turnscan/simulator/scanner/noise_model.hpp>
+#include <turnscan/sensors/noise_model.hpp>
 
 namespace turnscan {
 namespace {

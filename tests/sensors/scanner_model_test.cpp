@@ -1,5 +1,5 @@
 #include <turnscan/core/angles.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 
 #include "tests/simulator/shapes.hpp"
 

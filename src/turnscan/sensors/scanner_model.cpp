@@ -1,6 +1,6 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 
 namespace turnscan {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/simulator/scene/scene_impl.hpp>
+#include <turnscan/geometry/rays/scene_impl.hpp>
 
 namespace turnscan {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/scanner/laser_line.hpp>
-#include <turnscan/simulator/scanner/noise_model.hpp>
+#include <turnscan/sensors/laser_line.hpp>
+#include <turnscan/sensors/noise_model.hpp>
 
 namespace turnscan {
 namespace {

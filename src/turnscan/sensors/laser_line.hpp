@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 #include <turnscan/core/pose.hpp>
-#include <turnscan/simulator/scanner/noise_model.hpp>
+#include <turnscan/sensors/noise_model.hpp>
 #include <vector>
 
 namespace turnscan {

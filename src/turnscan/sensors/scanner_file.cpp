@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
-#include <turnscan/simulator/toml_options.hpp>
+#include <turnscan/io/text/toml_options.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 
 namespace turnscan {
 

@@ -5,10 +5,10 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <turnscan/simulator/scene/embree.hpp>
-#include <turnscan/simulator/scene/raster_mesh.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
-#include <turnscan/simulator/scene/triangle_clusters.hpp>
+#include <turnscan/geometry/rays/embree.hpp>
+#include <turnscan/geometry/rays/raster_mesh.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
+#include <turnscan/geometry/rays/triangle_clusters.hpp>
 #include <type_traits>
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include <turnscan/simulator/scene/raster_mesh.hpp>
+#include <turnscan/geometry/rays/raster_mesh.hpp>
 
 #include <algorithm>
 #include <array>

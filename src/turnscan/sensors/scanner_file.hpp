@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <vector>
 
 namespace turnscan {

@@ -1,6 +1,6 @@
 #include <cstdlib>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/simulator/scanner/scanner_file.hpp>
+#include <turnscan/sensors/scanner_file.hpp>
 
 #include "tests/simulator/shapes.hpp"
 #include "tests/support/temp_folder.hpp"

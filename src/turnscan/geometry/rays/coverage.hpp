@@ -6,7 +6,7 @@
 #include <span>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 #include <vector>
 
 namespace turnscan {

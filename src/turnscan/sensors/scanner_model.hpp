@@ -6,7 +6,7 @@
 #include <string>
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/option_table.hpp>
-#include <turnscan/simulator/scanner/noise_model.hpp>
+#include <turnscan/sensors/noise_model.hpp>
 
 namespace turnscan {
 

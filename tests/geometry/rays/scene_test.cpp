@@ -1,6 +1,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
-#include <turnscan/simulator/scene/scene.hpp>
+#include <turnscan/geometry/rays/scene.hpp>
 
 #include "tests/simulator/shapes.hpp"
 
