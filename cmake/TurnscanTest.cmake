@@ -1,8 +1,10 @@
 # The function that declares one test program.
 include(GoogleTest)
 
-# Builds every unit test, and nothing that they do not need.
+# Builds every unit test, and nothing that they do not need; and those of what parses bytes or has
+# threads, which run under sanitizers on every change.
 add_custom_target(unit_tests)
+add_custom_target(sanitized_tests)
 
 # Headers of every test, parsed once. A program, not a library, because it shares its flags with
 # programs.
@@ -22,11 +24,12 @@ function(turnscan_use_test_precompiled target)
                          "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
 endfunction()
 
-# turnscan_test(NAME SOURCES a.cpp ... [USES targets]): a GoogleTest program; each of its tests is
-# one CTest test named FLOOR.Suite.Sentence, with the label unit. With a sanitizer, CTest knows parts
-# of programs only.
+# turnscan_test(NAME [SANITIZED] SOURCES a.cpp ... [USES targets]): a GoogleTest program; each of its
+# tests is one CTest test named FLOOR.Suite.Sentence, with the label unit. With a sanitizer, CTest knows
+# parts of programs only. SANITIZED: of what parses bytes or has threads (with a sanitizer, the label
+# sanitized, too).
 function(turnscan_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(TEST "SANITIZED" "" "SOURCES;USES" ${ARGN})
   set(target test_${name})
   add_executable(${target} ${TEST_SOURCES})
   target_link_libraries(${target} PRIVATE ${TEST_USES} turnscan_test_main turnscan_test_data
@@ -34,12 +37,21 @@ function(turnscan_test name)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   turnscan_use_test_precompiled(${target})
   turnscan_unity(${target})
+  if(TEST_SANITIZED AND NOT TURNSCAN_BUILD_SANITIZED_TESTS)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
+  endif()
   add_dependencies(unit_tests ${target})
+  set(labels unit)
+  if(TEST_SANITIZED)
+    add_dependencies(sanitized_tests ${target})
+    list(APPEND labels sanitized)
+  endif()
   if(TURNSCAN_SANITIZE)
     # The start of a program takes longer than most of its tests: eight runs of it share them.
     foreach(shard RANGE 7)
       add_test(NAME ${name}.part_${shard} COMMAND ${target})
-      set_tests_properties(${name}.part_${shard} PROPERTIES TIMEOUT 1200 LABELS unit
+      set_tests_properties(${name}.part_${shard} PROPERTIES TIMEOUT 1200 LABELS "${labels}"
         ENVIRONMENT "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${shard}")
     endforeach()
     return()

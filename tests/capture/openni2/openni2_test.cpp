@@ -5,50 +5,25 @@
 
 #ifdef TURNSCAN_OPENNI2
 
-#include <OpenNI.h>
-#include <dlfcn.h>
-
-#include <fmt/format.h>
 #include <sys/stat.h>
-#include <chrono>
 #include <cmath>
-#include <numbers>
-#include <thread>
 #include <turnscan/capture/source/plugins.hpp>
-#include <turnscan/capture/source/source_uri.hpp>
 
-#include "tests/capture/doll_mesh.hpp"
-#include "tests/capture/openni2/film.hpp"
+#include "tests/capture/openni2/recorded_film.hpp"
 #include "tests/capture/taking.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace turnscan {
 namespace {
 
+using testing::allow_frames;
 using testing::Film;
+using testing::film_uri;
 using testing::opened;
+using testing::record_oni;
 using testing::Taken;
 using testing::TempFolder;
-
-std::string uri_of(const std::string& address,
-                   const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
-  return format_source_uri({"openni2", address, parameters});
-}
-
-std::string film_uri(const std::filesystem::path& file,
-                     const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
-  return uri_of("test:film:" + file.string(), parameters);
-}
-
-/// Of the driver of the tests, once OpenNI has loaded it.
-void allow_frames(int count) {
-  void* const driver = dlopen(TURNSCAN_OPENNI2_DRIVER, RTLD_NOW | RTLD_NOLOAD);
-  ASSERT_NE(driver, nullptr) << dlerror();
-  const auto allow = reinterpret_cast<testing::AllowFrames>(dlsym(driver, testing::kAllowFrames));
-  dlclose(driver);
-  ASSERT_NE(allow, nullptr);
-  allow(count);
-}
+using testing::uri_of;
 
 /// The frames of a film, none of which comes before the one before it was taken.
 Taken watch(FrameSource& source, int count) {
@@ -61,15 +36,6 @@ Taken watch(FrameSource& source, int count) {
     all.error = one.error;
   }
   return all;
-}
-
-Film film_of(const std::vector<Frame>& frames, int fps) {
-  Film film;
-  film.header.width = frames.at(0).depth.width;
-  film.header.height = frames[0].depth.height;
-  film.header.fps = fps;
-  for (const Frame& frame : frames) film.depth.push_back(frame.depth.pixels);
-  return film;
 }
 
 /// A small film of no meaning: every pixel tells its place and frame.
@@ -85,41 +51,6 @@ Film counting_film(int count) {
     film.color.emplace_back(576, static_cast<std::uint8_t>(10 * i + 1));
   }
   return film;
-}
-
-/// Plays the film and has OpenNI record it. The recorder begins at some time of its own after it
-/// was told to, so that it may miss frames: then it is given more time.
-void record_oni(const std::filesystem::path& film, int count, const std::filesystem::path& oni) {
-  ASSERT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK);
-  const std::string address = "test:film:" + film.string();
-  for (int pause_ms = 20; pause_ms < 10000; pause_ms *= 3) {
-    openni::Device device;
-    openni::VideoStream stream;
-    ASSERT_EQ(device.open(address.c_str()), openni::STATUS_OK);
-    ASSERT_EQ(stream.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
-    openni::VideoMode mode = stream.getVideoMode();
-    mode.setPixelFormat(openni::PIXEL_FORMAT_DEPTH_100_UM);
-    ASSERT_EQ(stream.setVideoMode(mode), openni::STATUS_OK);
-    openni::Recorder recorder;
-    ASSERT_EQ(recorder.create(oni.c_str()), openni::STATUS_OK);
-    ASSERT_EQ(recorder.attach(stream), openni::STATUS_OK);
-    ASSERT_EQ(recorder.start(), openni::STATUS_OK);
-    ASSERT_EQ(stream.start(), openni::STATUS_OK);
-    std::this_thread::sleep_for(std::chrono::milliseconds(pause_ms));
-    for (int i = 0; i < count; ++i) {
-      allow_frames(1);
-      openni::VideoFrameRef frame;
-      ASSERT_EQ(stream.readFrame(&frame), openni::STATUS_OK);
-    }
-    recorder.stop();
-    recorder.destroy();
-    stream.stop();
-    stream.destroy();
-    device.close();
-    const auto played = open_source(uri_of(oni.string()), {});
-    if (played && (*played)->info().frame_count == std::uint64_t(count)) return;
-  }
-  FAIL() << "OpenNI's recorder never began in time";
 }
 
 /// The dummy's first line is two metres away; below it moves a ball of a known slope.
@@ -279,55 +210,6 @@ TEST(OpenNi2, AnOniFileGivesTheFramesOfTheSensorThatItRecorded) {
     }
     EXPECT_EQ(shown, info.live ? shown : 6u);
   }
-}
-
-/// The camera that OpenNI tells of a sensor with these angles of view, as a file of the simulator.
-std::filesystem::path scanner_file(const std::filesystem::path& folder, Film& film) {
-  constexpr int kWidth = 192, kHeight = 144;
-  film.header.hfov_rad = 0.6F;
-  film.header.vfov_rad = 0.46F;
-  const auto focal = [](int size, float angle) {
-    return 0.5 * size / std::tan(0.5 * static_cast<double>(angle));
-  };
-  std::filesystem::path file = folder / "small.toml";
-  std::ofstream(file) << fmt::format(
-      "columns = {}\nrows = {}\nfx = {}\nfy = {}\ncx = {:.1f}\ncy = {:.1f}\nnear = \"0.3m\"\n"
-      "far = \"4m\"\n",
-      kWidth, kHeight, focal(kWidth, film.header.hfov_rad), focal(kHeight, film.header.vfov_rad),
-      0.5 * (kWidth - 1), 0.5 * (kHeight - 1));
-  return file;
-}
-
-TEST(OpenNi2, TheDollFromAnOniFileIsTheMeshOfTheSameFramesTakenDirectly) {
-  constexpr double kSpeed_rad_s = 2.0 * std::numbers::pi / 1.2;  // 30 frames a turn
-  const TempFolder folder;
-  Film film;
-  const auto sensor = opened(
-      "virtual:doll?frames=30&turns=1&fps=25&distance=0.7m&calibration=true"
-      "&sensor=" +
-      scanner_file(folder.path(), film).string());
-  ASSERT_TRUE(sensor);
-  const Taken direct = testing::run(*sensor);
-  ASSERT_EQ(direct.frames.size(), 30u);
-  const testing::FilmHeader angles = film.header;
-  film = film_of(direct.frames, 25);
-  film.header.hfov_rad = angles.hfov_rad;
-  film.header.vfov_rad = angles.vfov_rad;
-  film.write(folder / "film");
-  record_oni(folder / "film", 30, folder / "doll.oni");
-  const auto source = opened(uri_of((folder / "doll.oni").string()));
-  ASSERT_TRUE(source);
-  const Taken played = testing::run(*source);
-  ASSERT_EQ(played.frames.size(), 30u);
-  const SequenceHeader& rig = sensor->info().header;
-  const TriangleMesh mesh = testing::mesh_of(direct.frames, rig.sensors[0], rig, kSpeed_rad_s);
-  const TriangleMesh same =
-      testing::mesh_of(played.frames, source->info().header.sensors[0], rig, kSpeed_rad_s);
-  EXPECT_GT(mesh.triangles.size(), 1000u);
-  EXPECT_EQ(same.triangles, mesh.triangles);
-  ASSERT_EQ(same.vertices.size(), mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    EXPECT_LT((same.vertices[i] - mesh.vertices[i]).norm(), 1e-6f);
 }
 
 }  // namespace
