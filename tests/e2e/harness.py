@@ -4,8 +4,6 @@ The program is the one that TURNSCAN_BIN names (CTest sets it to the built one; 
 test an installed one), or `turnscan` on the PATH. Python's standard library only.
 """
 
-import atexit
-import functools
 import os
 import pathlib
 import shutil
@@ -24,6 +22,7 @@ BIN = os.environ.get("TURNSCAN_BIN", "turnscan")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = pathlib.Path(os.environ.get("TURNSCAN_TEST_DATA", ROOT.parent / "shared" / "data"))
 HANG_S = 300  # a run that takes longer hangs
+PART = os.environ.get("TURNSCAN_TEST_PART", "0/1")  # "0/3": the first of three processes that share the tests
 
 FAILED, USAGE, CANCELLED = 1, 2, 130
 FAST = ("--voxel-size", "6mm", "--poisson-depth", "5")  # where the mesh itself does not matter
@@ -31,7 +30,7 @@ COARSE = ("--voxel-size", "2.5mm")  # where the mesh matters, but not its finest
 SMALL_PICTURE = ("--picture-size", "96")  # a large one takes longer than all else that a demo does
 
 
-def _default_signals():
+def default_signals():
     # A test that was started in the background must not pass on that SIGINT is ignored.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -41,7 +40,7 @@ def start(*args, cwd=None, env=None, **more):
     """The program, running."""
     return subprocess.Popen(
         [BIN, *map(str, args)], cwd=cwd, env={**os.environ, **(env or {})},
-        stdin=subprocess.DEVNULL, text=True, preexec_fn=_default_signals,
+        stdin=subprocess.DEVNULL, text=True, preexec_fn=default_signals,
         **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more})
 
 
@@ -103,22 +102,6 @@ def remove(folder):
     shutil.rmtree(folder, ignore_errors=True)
 
 
-@functools.lru_cache(maxsize=None)
-def shared_demo(name, frames):
-    """Folder of a demo with a built-in object, made once per process. Not to be changed."""
-    parent = pathlib.Path(tempfile.mkdtemp(prefix="turnscan-e2e-demo-"))
-    atexit.register(remove, parent)
-    result = run("demo", "--object", name, "--frames", frames, *SMALL_PICTURE, "--quiet", "--out",
-                 parent / "demo")
-    if result.returncode != 0:
-        raise AssertionError(f"demo of {name}: {result.stderr}")
-    return parent / "demo" / name
-
-
-def shared_recording(name="cylinder", frames=60):
-    return shared_demo(name, frames) / "recording"
-
-
 def png16(width, height, value, behind=0):
     """A grey 16-bit PNG of one value, with so many zeros behind its rows."""
     def chunk(kind, body):
@@ -161,5 +144,21 @@ def ply_cube(size, hole=False):
     return "\n".join(lines) + "\n"
 
 
+def _tests_of(suite):
+    for one in suite:
+        if isinstance(one, unittest.TestSuite):
+            yield from _tests_of(one)
+        else:
+            yield one
+
+
+def part_of(tests):
+    """Every n-th: those of one of the n processes that share the tests of a file."""
+    part, parts = map(int, PART.split("/"))
+    return list(tests)[part::parts]
+
+
 def main():
+    sys.modules["__main__"].load_tests = (
+        lambda loader, suite, pattern: unittest.TestSuite(part_of(_tests_of(suite))))
     unittest.main(module="__main__", verbosity=2, argv=[sys.argv[0], *sys.argv[1:]])

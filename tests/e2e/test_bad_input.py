@@ -2,11 +2,12 @@
 standard error, exit code 1, nothing left behind."""
 
 import os
-import shutil
 import unittest
 
 import harness
-from harness import FAILED, FAST, foreign_scan, ply_cube, png16, shared_recording
+import recordings
+from harness import FAILED, FAST, foreign_scan, ply_cube, png16
+from recordings import shared_recording
 
 
 class MissingOrDamaged(harness.TestCase):
@@ -124,7 +125,7 @@ class DamagedRecordings(harness.TestCase):
     def setUp(self):
         super().setUp()
         self.rec = self.dir / "rec"
-        shutil.copytree(shared_recording(), self.rec)
+        recordings.copy(shared_recording(), self.rec)
         self.csv = self.rec / "frames.csv"
 
     def reconstruct_fails(self, says):

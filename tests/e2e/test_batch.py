@@ -14,6 +14,7 @@ import unittest
 import harness
 import slurm_cluster
 from harness import CANCELLED, FAILED, USAGE, start
+from recordings import shared_recording
 
 TASKS = int(os.environ.get("TURNSCAN_BATCH_TASKS", "10"))
 FAILING = "t-fails"
@@ -114,7 +115,7 @@ class Everywhere:
 
 class Local(Everywhere, Batch):
     def test_a_mesh_of_a_batch_has_the_bytes_of_the_command(self):
-        recording = harness.shared_recording()
+        recording = shared_recording()
         self.batch("run", recording, "--out", "out", "--set", "voxel-size=6mm", "--set",
                    "method=volumetric")
         self.ok("reconstruct", recording, "--voxel-size", "6mm", "--method", "volumetric", "--out",

@@ -1,11 +1,12 @@
 """turnscan calibrate, and what reconstruct does with and without a calibration."""
 
 import json
-import shutil
 import unittest
 
 import harness
-from harness import DATA, FAILED, USAGE, shared_recording
+import recordings
+from harness import DATA, FAILED, USAGE
+from recordings import shared_demo
 
 CENTER_M, AXIS = (0.0, 0.0861, 0.9262), (0.0, -0.9563, -0.2924)  # of the demo's virtual camera
 
@@ -17,7 +18,7 @@ def distance(a, b):
 class Calibrate(harness.TestCase):
     def setUp(self):
         super().setUp()
-        self.rec = shared_recording("letter-a", 60)
+        self.rec = shared_demo("letter-a") / "recording"
 
     def calibrate(self, *args):
         self.ok("calibrate", *args, "--json", "c.json")
@@ -29,7 +30,7 @@ class Calibrate(harness.TestCase):
 
     def bare(self):
         """The recording without turntable and angles."""
-        shutil.copytree(self.rec, self.dir / "bare")
+        recordings.copy(self.rec, self.dir / "bare")
         path = self.dir / "bare" / "recording.json"
         recording = json.loads(path.read_text())
         del recording["turntable"]

@@ -8,7 +8,8 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, COARSE, FAST, HANG_S, ROOT, SMALL_PICTURE, ply_cube, shared_recording, start
+from harness import CANCELLED, COARSE, FAST, HANG_S, ROOT, SMALL_PICTURE, ply_cube, start
+from recordings import shared_recording
 
 PERCENTAGE = re.compile(r"^ *\d+ % ")
 STOP_S = 5.0  # a second is promised; the rest is for machines that are busy with other things

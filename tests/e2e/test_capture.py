@@ -12,6 +12,7 @@ import subprocess
 import time
 
 import harness
+import recordings
 from harness import CANCELLED, FAILED, USAGE, run, start
 from table import Table
 
@@ -205,6 +206,9 @@ class Scan(harness.TestCase):
                 self.assertEqual(ours.get(key), theirs.get(key), key)
         return again
 
+    def truth(self):
+        return recordings.folder_of("doll") / "truth/object.ply"
+
     def ok(self, *args, **more):
         # Calibrations are kept in a home of the test's own.
         return super().ok(*args, env={"XDG_STATE_HOME": str(self.dir / "state")}, **more)
@@ -280,8 +284,7 @@ class Scan(harness.TestCase):
         self.assertTrue(all(one["closed"] for one in objects), objects)
         sensors = [line[2] for line in frames_of(self.dir / "doll.recording")]
         self.assertLessEqual(abs(sensors.count("0") - sensors.count("1")), 1)
-        self.ok("simulate", "builtin:doll", "--frames", "1", "-o", "one")
-        self.ok("evaluate", "doll.3mf", "--reference", "one/truth/object.ply", "--samples", "20000",
+        self.ok("evaluate", "doll.3mf", "--reference", self.truth(), "--samples", "20000",
                 "--json", "e.json")
         found = json.loads((self.dir / "e.json").read_text())
         self.assertLess(found["accuracy"]["median_m"], 0.0005)
@@ -292,8 +295,7 @@ class Scan(harness.TestCase):
         device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&elevation="
         low, high = device + "15deg", device + "45deg&azimuth=120deg&seed=2&serial=1&clock=3s"
         self.ok("scan", "--device", low, "--device", high, "-o", "doll.ply", *self.FAST)
-        self.ok("simulate", "builtin:doll", "--frames", "1", "-o", "one")
-        self.ok("evaluate", "doll.ply", "--reference", "one/truth/object.ply", "--samples", "20000",
+        self.ok("evaluate", "doll.ply", "--reference", self.truth(), "--samples", "20000",
                 "--align", "icp", "--json", "e.json")
         found = json.loads((self.dir / "e.json").read_text())
         self.assertLess(found["accuracy"]["median_m"], 0.0005)

@@ -4,7 +4,8 @@ import json
 import shutil
 
 import harness
-from harness import FAILED, FAST, USAGE, foreign_scan, shared_recording
+from harness import FAILED, FAST, USAGE, foreign_scan
+from recordings import shared_recording
 
 
 def as_json_png(folder):

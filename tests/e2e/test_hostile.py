@@ -12,13 +12,15 @@ import time
 import zipfile
 
 import harness
-from harness import FAILED, USAGE, png16, ply_cube, run, shared_recording, start
+import recordings
+from harness import FAILED, USAGE, png16, ply_cube, run, start
+from recordings import shared_recording
 
 
 class OutputOverInput(harness.TestCase):
     def setUp(self):
         super().setUp()
-        shutil.copytree(shared_recording(), self.dir / "rec")
+        recordings.copy(shared_recording(), self.dir / "rec")
         (self.dir / "s.ply").write_text(ply_cube(0.1))
 
     def unchanged(self, name, *args):
@@ -67,17 +69,18 @@ class Surroundings(harness.TestCase):
     CAMERA = "virtual:cylinder?sensor=kinect-v1&fps=3&speed=36deg/s&calibration=true"
     SCAN = ("scan", "--device", CAMERA, "-o", "m.ply", "--no-wait", *harness.FAST)
 
+    def three_frames(self, name):
+        return recordings.copy(recordings.folder_of("three-frames"), self.dir / name)
+
     def unfinished(self, name="r"):
-        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", name, "--quiet")
-        path = self.dir / name / "recording.json"
+        path = self.three_frames(name) / "recording.json"
         described = json.loads(path.read_text())
         described["complete"] = False
         del described["frame_count"]  # which says that it was complete once
         path.write_text(json.dumps(described))
 
     def test_a_recording_that_was_complete_once_is_not_removed(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
-        path = self.dir / "r/recording.json"
+        path = self.three_frames("r") / "recording.json"
         path.write_text(path.read_text().replace('"complete": true', '"complete": false'))
         before = self.files()
         self.refused(FAILED, "simulate", "builtin:cylinder", "--frames", "3", "-o", "r",
@@ -116,8 +119,7 @@ class Surroundings(harness.TestCase):
         self.assertEqual(self.files(), before)
 
     def test_control_characters_are_shown(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "3", "-o", "r", "--quiet")
-        path = self.dir / "r/recording.json"
+        path = self.three_frames("r") / "recording.json"
         path.write_text(path.read_text().replace('"model": "', '"model": "\\u001b[31m\\nframes: 99'))
         shown = self.ok("info", "r").stdout
         self.assertIn("\\u001b[31m\\u000aframes: 99", shown)
@@ -144,7 +146,7 @@ class Unreadable(harness.TestCase):
             self.skipTest("the program lies where only the superuser may start it")
         (self.dir / "closed").mkdir()
         (self.dir / "m.ply").write_text(ply_cube(0.1))
-        shutil.copytree(shared_recording(), self.dir / "rec")
+        recordings.copy(shared_recording(), self.dir / "rec")
 
     def not_missing(self, *args, says="ermission"):
         result = run(*args, "--quiet", cwd=self.dir, **self.more)

@@ -13,6 +13,8 @@ import unittest
 
 import browser
 import harness
+import recordings
+from recordings import shared_demo, shared_recording
 
 SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
 SKIPPED = 77
@@ -82,8 +84,7 @@ class Page(harness.TestCase):
         return page.evaluate(PIXELS)
 
     def test_the_page_of_a_scan_works_at_both_widths(self):
-        self.ok("simulate", "builtin:letter-a", "--frames", "60", "--turns", "1", "--out", "rec")
-        self.ok("reconstruct", "rec", "--out", "a.ply", "--report", "scan.html", "--report",
+        self.ok("reconstruct", shared_demo("letter-a") / "recording", "--out", "a.ply", "--report", "scan.html", "--report",
                 "a.json")
         page = self.open("scan.html")
         drawn = page.evaluate(PIXELS)
@@ -179,8 +180,7 @@ class Page(harness.TestCase):
         self.assertIn("Content Security Policy", " ".join(page.complaints()))
 
     def test_a_large_mesh_stays_below_5_MB(self):
-        self.ok("simulate", "builtin:doll", "--frames", "2", "--out", "rec")
-        truth = self.dir / "rec" / "truth" / "object.ply"
+        truth = recordings.folder_of("doll") / "truth" / "object.ply"
         result = self.ok("report", str(truth), "--reference", str(truth), "--out", "doll.html")
         info = json.loads(self.ok("info", "--json", str(truth)).stdout)
         triangles = sum(mesh["triangles"] for mesh in info["objects"])
@@ -229,7 +229,7 @@ class WithoutBrowser(harness.TestCase):
         self.assertEqual(page.count("<img "), 6)
 
     def test_the_page_of_a_recording_is_that_of_its_mesh(self):
-        self.ok("report", harness.shared_recording(), "--out", "page.html")
+        self.ok("report", shared_recording(), "--out", "page.html")
         page = (self.dir / "page.html").read_text()
         self.assertIn("<h1>recording</h1>", page)
         self.assertIn("Speed over the turn", page)

@@ -9,6 +9,7 @@ import re
 import signal
 
 import harness
+import recordings
 from harness import CANCELLED, COARSE, FAILED, USAGE
 
 
@@ -23,11 +24,12 @@ def inverse(m):
 
 
 class Passes(harness.TestCase):
-    def simulate(self, *passes, frames=24):
-        """Records the skull in the folder rec, and writes each pass's true pose to poseN.txt."""
-        self.ok("simulate", "builtin:skull", "--frames", frames, "--seed", 3, "--noise",
-                "gaussian:1mm", *(x for p in passes for x in ("--next-pass", p)),
-                "--out", "rec", "--quiet")
+    def skull(self, name):
+        """A recording of the skull as the folder rec, and each pass's true pose in poseN.txt."""
+        recordings.link(name, self.dir / "rec")
+        self.write_poses()
+
+    def write_poses(self):
         truth = json.loads((self.dir / "rec/truth/truth.json").read_text())
         for k, pose in enumerate(truth.get("next_passes", []), 1):
             matrix = product(truth["object"]["T_table_object"], inverse(pose["T_table_object"]))
@@ -41,7 +43,7 @@ class Passes(harness.TestCase):
         return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
 
     def test_passes_of_known_poses_become_one_mesh_of_the_whole_object(self):
-        self.simulate("tip=90deg,yaw=40deg")
+        self.skull("skull-twice")
         self.ok("reconstruct", "rec", "--pass", "0", "-o", "one.ply", "--report", "one.json")
         out = self.ok("reconstruct", "rec", "--pass-pose", "1=pose1.txt", "-o", "two.ply",
                       "--report", "two.json").stdout
@@ -56,7 +58,7 @@ class Passes(harness.TestCase):
         self.assertGreater(self.f_score("two.ply"), max(0.99, self.f_score("one.ply") + 0.01))
 
     def test_a_pose_that_the_surfaces_contradict_is_doubted(self):
-        self.simulate("tip=90deg,yaw=40deg")
+        self.skull("skull-twice")
         rows = [row.split() for row in (self.dir / "pose1.txt").read_text().splitlines()]
         rows[0][3] = str(float(rows[0][3]) + 0.003)
         (self.dir / "beside.txt").write_text("\n".join(" ".join(row) for row in rows))
@@ -65,7 +67,7 @@ class Passes(harness.TestCase):
         self.assertIn("pass 1 lies 3.0 mm from where its surface fits", wrong)
 
     def test_a_pose_that_is_about_right_is_refined_by_the_surfaces(self):
-        self.simulate("tip=90deg,yaw=40deg")
+        self.skull("skull-twice")
         rows = [[float(x) for x in row.split()]
                 for row in (self.dir / "pose1.txt").read_text().splitlines()]
         turn = math.radians(3)
@@ -87,7 +89,7 @@ class Passes(harness.TestCase):
                      says="--pass-pose")
 
     def test_the_points_methods_fuse_passes_too(self):
-        self.simulate("tip=90deg,yaw=40deg")
+        self.skull("skull-twice")
         self.ok("reconstruct", "rec", "--pass", "0", "--method", "poisson", "--keep", "largest",
                 "-o", "one.ply")
         self.ok("reconstruct", "rec", "--method", "poisson", "--keep", "largest", "--pass-pose",
@@ -95,7 +97,7 @@ class Passes(harness.TestCase):
         self.assertGreater(self.f_score("two.ply"), self.f_score("one.ply"))
 
     def test_passes_are_joined_by_their_surfaces(self):
-        self.simulate("tip=90deg,yaw=40deg")
+        self.skull("skull-twice")
         out = self.ok("reconstruct", "rec", "-o", "found.ply", "--report", "found.json").stdout
         self.assertIn("2 passes in one mesh", out)
         self.assertIn("pass 1 was joined by its surface", out)
@@ -112,9 +114,9 @@ class Passes(harness.TestCase):
         self.assertGreater(self.f_score("found.ply"), 0.98)
 
     def test_recordings_of_one_object_are_joined(self):
-        for name, tip, frames in (("rec", "0deg", 24), ("second", "90deg", 20)):
-            self.ok("simulate", "builtin:skull", "--frames", frames, "--seed", 3, "--noise",
-                    "gaussian:1mm", "--tip", tip, "--out", name, "--quiet")
+        self.skull("skull")
+        self.ok("simulate", "builtin:skull", "--frames", 20, "--seed", 3, "--noise", "gaussian:1mm",
+                "--tip", "90deg", "--out", "second", "--quiet")
         out = self.ok("reconstruct", "rec", "second", "-o", "both.ply", *COARSE).stdout
         self.assertIn("pass 0 (rec) (24 frames), pass 1 (second) (20 frames)", out)
         self.ok("reconstruct", "rec", "-o", "one.ply", *COARSE)
@@ -179,7 +181,9 @@ class Passes(harness.TestCase):
                      says="its shape does not tell")
 
     def test_poses_are_of_passes_of_this_recording(self):
-        self.simulate("tip=90deg", "tip=180deg", frames=4)
+        self.ok("simulate", "builtin:skull", "--frames", 4, "--next-pass", "tip=90deg",
+                "--next-pass", "tip=180deg", "--out", "rec", "--quiet")
+        self.write_poses()
         for poses, says in ((["1=pose1.txt", "2=pose2.txt", "3=pose1.txt"], "no such pass"),
                             (["1=pose1.txt", "1=pose1.txt"], "twice"),
                             (["pose1.txt"], "PASS=FILE"),
@@ -190,7 +194,7 @@ class Passes(harness.TestCase):
                      "--pass-pose", "2=pose2.txt", "-o", "m.ply", says="--pass")
 
     def test_reconstruct_says_what_is_missing_and_how_to_lay_the_object(self):
-        self.simulate()
+        self.skull("skull")
         out = self.ok("reconstruct", "rec", "-o", "one.ply", "--report", "one.json",
                       "--advice-picture", "lay.png").stdout
         line = next(l for l in out.splitlines() if l.startswith("Next pass: "))
@@ -231,10 +235,8 @@ class ScanPasses(harness.TestCase):
         return {p: passes.count(p) for p in passes}
 
     def f_score(self, mesh):
-        if not (self.dir / "one").exists():
-            self.ok("simulate", "builtin:skull", "--frames", "1", "-o", "one", "--quiet")
-        self.ok("evaluate", mesh, "--reference", "one/truth/object.ply", "--align", "icp",
-                "--json", "e.json")
+        truth = recordings.folder_of("skull") / "truth/object.ply"
+        self.ok("evaluate", mesh, "--reference", truth, "--align", "icp", "--json", "e.json")
         judged = json.loads((self.dir / "e.json").read_text())
         return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
 
@@ -289,6 +291,7 @@ class ScanPasses(harness.TestCase):
             try:
                 os.chdir(self.dir)
                 os.environ.update(self.environment())
+                harness.default_signals()
                 os.execvp(harness.BIN, [harness.BIN, *self.args("skull")])
             finally:
                 os._exit(127)  # it could not be started
@@ -337,7 +340,7 @@ class ScanPasses(harness.TestCase):
                 "--quiet")
 
     def test_what_cannot_be_laid_another_way_has_one_pass(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "8", "-o", "rec", "--quiet")
+        recordings.link("three-frames", self.dir / "rec")
         self.refused(USAGE, "scan", "--device", "replay:rec", "-o", "whole.ply", "--passes", "2",
                      says="cannot be laid another way")
         two = [x for i in (1, 2)

@@ -5,7 +5,8 @@ import pty
 import re
 
 import harness
-from harness import COARSE, FAST, HANG_S, SMALL_PICTURE, run, shared_recording, start
+from harness import COARSE, FAST, HANG_S, SMALL_PICTURE, run, start
+from recordings import shared_recording
 
 LINE = re.compile(r"^ *(\d+) % (.+)", re.S)
 
@@ -54,7 +55,7 @@ class Lines(harness.TestCase):
                       "-o", "d")
 
     def test_evaluate(self):
-        mesh = shared_recording().parent / "cylinder.ply"
+        mesh = shared_recording() / "truth/object.ply"
         self.progress("evaluate", mesh, "--reference", mesh, "--align", "icp",
                       "--error-map", "e.ply")
 

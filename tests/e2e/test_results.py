@@ -7,7 +7,8 @@ import zipfile
 from xml.etree import ElementTree
 
 import harness
-from harness import COARSE, FAILED, SMALL_PICTURE, USAGE, ply_cube, shared_demo, shared_recording
+from harness import COARSE, FAILED, SMALL_PICTURE, USAGE, ply_cube
+from recordings import shared_demo, shared_recording
 
 
 def stl_box_mm(path):
@@ -138,7 +139,7 @@ class Reconstruct(harness.TestCase):
         self.assertEqual(self.files(), ["a.stl", "b.stl", "o.toml"])
 
     def test_a_mesh_of_every_format_has_the_same_distance_from_the_truth(self):
-        truth = shared_demo("cylinder", 60) / "cylinder-reference.ply"
+        truth = shared_recording() / "truth/object.ply"
         figures = {}
         for ending, *up in (("ply",), ("ply", "--up", "z"), ("obj",), ("obj", "--up", "z"),
                             ("stl",), ("stl", "--up", "y"), ("3mf",), ("3mf", "--up", "y"),
@@ -216,7 +217,8 @@ class Reconstruct(harness.TestCase):
                          (self.dir / "volumetric.ply").read_bytes())
 
     def test_triangles_that_the_surface_is_not_worth_are_left_out_unless_all_are_asked_for(self):
-        truth = f"{self.rec}/../cylinder-reference.ply"
+        self.rec = str(shared_demo() / "recording")
+        truth = shared_demo() / "cylinder-reference.ply"
         found = {}
         for triangles in ("all", "auto"):
             self.ok("reconstruct", self.rec, "-o", "m.ply", "--triangles", triangles, "--report",
@@ -312,7 +314,7 @@ class Reconstruct(harness.TestCase):
 class SeveralObjects(harness.TestCase):
     def setUp(self):
         super().setUp()
-        self.rec = str(shared_demo("pair", 48) / "recording")
+        self.rec = str(shared_demo("pair") / "recording")
 
     def test_several_objects_become_numbered_files(self):
         out = self.ok("reconstruct", self.rec, *COARSE, "-o", "m.stl").stdout
@@ -332,7 +334,7 @@ class SeveralObjects(harness.TestCase):
 
 class Demo(harness.TestCase):
     def test_the_folder_holds_what_was_promised(self):
-        folder = shared_demo("cylinder", 60)
+        folder = shared_demo()
         names = {p.name for p in folder.iterdir()}
         for name in ("recording", "cylinder.ply", "cylinder.stl", "cylinder-reference.ply",
                      "cylinder-errors.ply", "cylinder.png", "report.json"):
@@ -383,7 +385,7 @@ class Evaluate(harness.TestCase):
                      says="unit")
 
     def test_seen_from_a_recording(self):
-        demo = shared_demo("cylinder", 60)
+        demo = shared_demo()
         args = ("evaluate", demo / "cylinder.ply", "--reference", demo / "cylinder-reference.ply")
         self.ok(*args, "--json", "all.json")
         self.ok(*args, "--seen-from", demo / "recording", "--json", "seen.json")

@@ -11,11 +11,11 @@ import zlib
 
 import browser
 import harness
+import recordings
 from harness import FAILED, ROOT, USAGE
 
 SCAN = ("simulate", "builtin:doll", "--height", "100mm", "--frames", "10", "--distance", "0.6m",
         "--noise", "none", "--platter-radius", "80mm", "--scan-colour")
-CAMERA = ("--colour-width", "320", "--colour-fov", "20deg", "--colour-drift", "0.2")
 COARSE = ("--voxel-size", "3mm")
 LOADERS = ROOT / "web" / "node_modules" / "three" / "examples" / "jsm" / "loaders"
 VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
@@ -53,7 +53,7 @@ def gltf_of(path):
 
 class Textures(harness.TestCase):
     def test_a_texture_comes_out_of_every_format_that_has_one(self):
-        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        recordings.link("colour-doll", self.dir / "rec")
         text = self.ok("reconstruct", "rec", *COARSE, "--texture", "-o", "m.glb",
                        "--report", "r.json").stdout
         self.assertIn("Texture: ", text)
@@ -97,7 +97,7 @@ class Textures(harness.TestCase):
     @unittest.skipUnless(shutil.which("node") and VALIDATOR.is_dir(),
                          "Khronos' validator is not installed (scripts/setup page)")
     def test_khronos_validator_finds_nothing_in_glb_files(self):
-        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        recordings.link("colour-doll", self.dir / "rec")
         self.ok("reconstruct", "rec", *COARSE, "-o", "plain.glb")
         self.ok("reconstruct", "rec", *COARSE, "--colour", "-o", "colours.glb")
         self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "texture.glb")
@@ -114,7 +114,7 @@ class Textures(harness.TestCase):
     @unittest.skipUnless(shutil.which("node") and LOADERS.is_dir() and browser.find(),
                          "three.js or a browser is not installed (scripts/setup page test)")
     def test_three_js_loads_what_is_written(self):
-        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        recordings.link("colour-doll", self.dir / "rec")
         self.ok("reconstruct", "rec", *COARSE, "--colour", "-o", "colours.glb")
         for name in ("texture.glb", "texture.3mf"):
             self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", name)
@@ -139,7 +139,7 @@ class Textures(harness.TestCase):
 
     @unittest.skipUnless(has_vtk(), "VTK for Python is not installed")
     def test_vtk_reads_a_textured_glb_without_a_word(self):
-        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        recordings.link("colour-doll", self.dir / "rec")
         self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.glb")
         read = subprocess.run(["/usr/bin/python3", "-c", VTK_READS, "m.glb"], cwd=self.dir, text=True,
                               capture_output=True, timeout=60)
@@ -148,7 +148,7 @@ class Textures(harness.TestCase):
 
     @unittest.skipUnless(shutil.which("prusa-slicer"), "prusa-slicer is not installed")
     def test_a_slicer_takes_a_textured_3mf(self):
-        self.ok(*SCAN, *CAMERA, "--out", "rec")
+        recordings.link("colour-doll", self.dir / "rec")
         self.ok("reconstruct", "rec", *COARSE, "--texture", "--texture-size", "256", "-o", "m.3mf")
         said = subprocess.run(["prusa-slicer", "--info", "m.3mf"], cwd=self.dir, text=True, capture_output=True,
                               timeout=120)
