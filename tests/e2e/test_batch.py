@@ -120,12 +120,12 @@ class Local(Everywhere, Batch):
                    "method=volumetric")
         self.ok("reconstruct", recording, "--voxel-size", "6mm", "--method", "volumetric", "--out",
                 "alone.ply")
-        result = self.dir / "out" / "tasks" / "recording" / "result"
+        result = self.dir / "out" / "tasks" / "cylinder" / "result"
         self.assertEqual((result / "mesh.ply").read_bytes(),
                          (self.dir / "alone.ply").read_bytes())
         self.assertTrue((result / "thumbnail.png").exists())
         page = (self.dir / "out" / "summary.html").read_text()
-        self.assertIn("tasks/recording/result/thumbnail.png", page)
+        self.assertIn("tasks/cylinder/result/thumbnail.png", page)
         row = json.loads((self.dir / "out" / "summary.json").read_text())["results"][0]
         self.assertTrue(row["watertight"])
         self.assertIn(row["verdict"], ("green", "amber", "red"))

@@ -231,7 +231,7 @@ class WithoutBrowser(harness.TestCase):
     def test_the_page_of_a_recording_is_that_of_its_mesh(self):
         self.ok("report", shared_recording(), "--out", "page.html")
         page = (self.dir / "page.html").read_text()
-        self.assertIn("<h1>recording</h1>", page)
+        self.assertIn("<h1>cylinder</h1>", page)
         self.assertIn("Speed over the turn", page)
         self.assertIn("voxel-size", page)
         self.assertEqual(self.files(), ["page.html"])
