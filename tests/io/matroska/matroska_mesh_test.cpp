@@ -7,7 +7,7 @@
 #include <cmath>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/reconstruction/pipeline.hpp>
-#include <turnscan/simulator/scanner/scanner_model.hpp>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 
 #include "tests/io/matroska/k4a_take.hpp"
