@@ -1,5 +1,6 @@
-// The statistical outlier filter and PCL's on the same frames in one run: nanoseconds a point and
-// their ratio. Real frames are used when the data sets are there (TURNSCAN_TEST_DATA).
+// The statistical outlier filter and PCL's on the same frames in one run: the same kept set,
+// nanoseconds a point and their ratio. Real frames are used when the data sets are there
+// (TURNSCAN_TEST_DATA).
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
@@ -15,8 +16,6 @@ namespace {
 using turnscan::FramePoints;
 using turnscan::OutlierOptions;
 using turnscan::testing::NamedFrame;
-
-constexpr std::size_t kFramesAtOnce = 16;
 
 std::vector<NamedFrame> frames() {
   std::vector<NamedFrame> list = {{"object (synthetic Kinect v2, cropped)",
@@ -39,34 +38,22 @@ void pcl(benchmark::State& state, const FramePoints& frame) {
   turnscan::testing::PclOutlierFilter filter(frame.cloud.points, 10, 1.0);
   for (auto _ : state) benchmark::DoNotOptimize(filter.run());
   if (filter.mask() !=
-      turnscan::outliers::statistical_outlier_mask(frame, OutlierOptions()).value())
+      turnscan::outliers::statistical_outlier_mask(frame.cloud.points, OutlierOptions()).value())
     state.SkipWithError("kept sets differ");
   per_point(state, frame.cloud.size());
 }
 
-void one_frame(benchmark::State& state, const FramePoints& frame) {
-  for (auto _ : state)
-    benchmark::DoNotOptimize(turnscan::outliers::statistical_outlier_mask(frame, OutlierOptions()));
-  per_point(state, frame.cloud.size());
-}
-
-void many_frames(benchmark::State& state, const FramePoints& frame) {
-  const std::vector<FramePoints> copies(kFramesAtOnce, frame);
-  for (auto _ : state) {
-    turnscan::parallel_for(copies.size(), 1, [&](std::size_t i) {
-      benchmark::DoNotOptimize(
-          turnscan::outliers::statistical_outlier_mask(copies[i], OutlierOptions()));
-    });
-  }
-  per_point(state, frame.cloud.size() * copies.size());
-}
-
-void unordered(benchmark::State& state, const FramePoints& frame) {
+void ours(benchmark::State& state, const FramePoints& frame, int threads) {
+  turnscan::set_thread_count(threads);
   for (auto _ : state)
     benchmark::DoNotOptimize(
         turnscan::outliers::statistical_outlier_mask(frame.cloud.points, OutlierOptions()));
+  turnscan::set_thread_count(0);
   per_point(state, frame.cloud.size());
 }
+
+void one_thread(benchmark::State& state, const FramePoints& frame) { ours(state, frame, 1); }
+void all_cores(benchmark::State& state, const FramePoints& frame) { ours(state, frame, 0); }
 
 /// Prints as usual, and remembers ns/point of "way | frame".
 class Ratios : public benchmark::ConsoleReporter {
@@ -78,15 +65,14 @@ class Ratios : public benchmark::ConsoleReporter {
         found_[run.run_name.function_name] = run.counters.at("ns/point").value;
   }
   void print(const std::vector<NamedFrame>& frames) const {
-    fmt::print("\n{:<40} {:>8} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "ns/point (ratio to PCL)",
-               "points", "PCL", "grid", "grid,", "tree,", "ratio", "ratio,");
-    fmt::print("{:<40} {:>8} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7}\n", "", "", "1 thread", "1 thread",
-               "cores", "cores", "1 thr.", "cores");
+    fmt::print("\n{:<40} {:>8} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "ns/point (ratio to PCL)",
+               "points", "PCL,", "1 thread", "all cores", "ratio,", "ratio,");
+    fmt::print("{:<40} {:>8} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "", "", "1 thread", "", "", "1 thr.",
+               "cores");
     for (const NamedFrame& f : frames) {
-      const double pcl_ns = at("pcl", f), one = at("grid one", f), many = at("grid many", f);
-      fmt::print("{:<40} {:>8} {:>9.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>7.1f} {:>7.1f}\n", f.name,
-                 f.points.cloud.size(), pcl_ns, one, many, at("tree", f), pcl_ns / one,
-                 pcl_ns / many);
+      const double pcl_ns = at("pcl", f), one = at("one thread", f), all = at("all cores", f);
+      fmt::print("{:<40} {:>8} {:>9.1f} {:>9.1f} {:>9.1f} {:>7.1f} {:>7.1f}\n", f.name,
+                 f.points.cloud.size(), pcl_ns, one, all, pcl_ns / one, pcl_ns / all);
     }
   }
 
@@ -116,9 +102,8 @@ int main(int argc, char** argv) {
   const std::vector<NamedFrame> list = frames();
   for (const NamedFrame& frame : list) {
     add("pcl", frame, pcl);
-    add("grid one", frame, one_frame);
-    add("grid many", frame, many_frames);
-    add("tree", frame, unordered);
+    add("one thread", frame, one_thread);
+    add("all cores", frame, all_cores);
   }
   Ratios ratios;
   benchmark::RunSpecifiedBenchmarks(&ratios);

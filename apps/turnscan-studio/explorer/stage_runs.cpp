@@ -298,8 +298,8 @@ Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& opti
                 model.name.toStdString());
   const PointCloud& from = model.data->cloud;
   context.begin_phase("filter", 0);
-  TURNSCAN_ASSIGN(const auto inlier, outliers::statistical_outlier_mask(
-                                         std::span<const Vec3f>(from.points), options, context));
+  TURNSCAN_ASSIGN(const auto inlier,
+                  outliers::statistical_outlier_mask(from.points, options, context));
   PointCloud inliers = points_where(from, [&](std::size_t i) { return inlier[i] != 0; });
   context.begin_phase("prepare the view", 0);
   const QString report = QObject::tr("%1 of %2 points were dropped")

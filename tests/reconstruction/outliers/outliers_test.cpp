@@ -1,4 +1,4 @@
-// The filter's contract: the kept set of the plain filter, options, errors, the same result
+// The filter's contract: the kept set of its definition, options, errors, the same result
 // everywhere.
 
 #include <gmock/gmock.h>
@@ -23,22 +23,32 @@ using testing::NamedFrame;
 
 OutlierOptions options(int k = 10, double lambda = 1.0) { return {true, k, lambda}; }
 
+std::vector<std::uint8_t> mask(std::span<const Vec3f> points, const OutlierOptions& o = options()) {
+  return statistical_outlier_mask(points, o).value();
+}
+
 std::vector<std::uint8_t> mask(const FramePoints& frame, const OutlierOptions& o = options()) {
-  return statistical_outlier_mask(frame, o).value();
+  return mask(frame.cloud.points, o);
 }
 
 std::size_t dropped(const std::vector<std::uint8_t>& mask) {
   return std::size_t(std::count(mask.begin(), mask.end(), 0));
 }
 
-/// Both ways of searching keep what the plain filter keeps.
+void expect_plain(std::span<const Vec3f> points, int k = 10, double lambda = 1.0) {
+  EXPECT_EQ(mask(points, options(k, lambda)), testing::plain_outlier_mask(points, k, lambda))
+      << "k " << k << ", lambda " << lambda;
+}
+
 void expect_plain(const FramePoints& frame, int k = 10, double lambda = 1.0) {
-  const std::vector<std::uint8_t> expected =
-      testing::plain_outlier_mask(frame.cloud.points, k, lambda);
-  const OutlierOptions o = options(k, lambda);
-  EXPECT_EQ(mask(frame, o), expected) << "grid, k " << k << ", lambda " << lambda;
-  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, o).value(), expected)
-      << "tree, k " << k << ", lambda " << lambda;
+  expect_plain(frame.cloud.points, k, lambda);
+}
+
+/// As many points from the middle of a frame as the definition can be asked for.
+std::span<const Vec3f> middle(const FramePoints& frame) {
+  const std::span<const Vec3f> points(frame.cloud.points);
+  constexpr std::size_t kPoints = 10000;
+  return points.size() <= kPoints ? points : points.subspan((points.size() - kPoints) / 2, kPoints);
 }
 
 CameraIntrinsics small_camera(int width, int height, double f = 100.0) {
@@ -63,18 +73,13 @@ TEST(OutliersLikeThePlainFilter, ObjectWithNoiseHolesAndFlyingPixels) {
 }
 
 TEST(OutliersLikeThePlainFilter, FullFrameOfARoom) {
-  expect_plain(testing::room_frame(testing::kinect_v2()));
-}
-
-TEST(OutliersLikeThePlainFilter, FullFrameThroughADistortingLens) {
-  expect_plain(testing::room_frame(testing::distorted_kinect_v2()));
+  expect_plain(testing::room_frame(small_camera(128, 106, 91.0)));
 }
 
 TEST(OutliersLikeThePlainFilter, AnyNumberOfNeighbours) {
   const FramePoints frame = testing::object_frame(small_camera(200, 160, 180.0));
   ASSERT_GT(frame.cloud.size(), 1001u);
-  for (const int k : {1, 2, 3, 4, 9, 11, 20, 50, 128, 129, 249, 250, 251, 1000})
-    expect_plain(frame, k);
+  for (const int k : {1, 2, 4, 9, 11, 50, 250, 1000}) expect_plain(frame, k);
 }
 
 TEST(OutliersLikeThePlainFilter, AnyLambda) {
@@ -150,38 +155,16 @@ TEST(OutliersLikeThePlainFilter, AllPointsInOnePlace) {
   expect_plain(frame);
 }
 
+TEST(Outliers, ManyPointsInOnePlaceAreNotSearchedOneByOne) {
+  FramePoints frame = testing::object_frame(testing::kinect_v2());
+  frame.cloud.points.resize(frame.cloud.size() + 200000, Vec3f::Zero());
+  const std::vector<std::uint8_t> kept = mask(frame);
+  EXPECT_EQ(std::count(kept.end() - 200000, kept.end(), 1), 200000);
+  EXPECT_GT(dropped(kept), 50u);
+}
+
 TEST(OutliersLikeThePlainFilter, PointsInAnyOrder) {
   expect_plain(testing::shuffled(testing::object_frame(testing::kinect_v2()), 3));
-}
-
-TEST(OutliersLikeThePlainFilter, SeveralPointsInACell) {
-  FramePoints frame = testing::object_frame(testing::kinect_v2());
-  for (std::size_t i = 1; i < frame.cell.size(); i += 2) frame.cell[i] = frame.cell[i - 1];
-  expect_plain(frame);
-}
-
-TEST(OutliersLikeThePlainFilter, FrameMovedAwayFromItsSensor) {
-  FramePoints frame = testing::room_frame(small_camera(160, 120, 150.0));
-  const Pose T = Eigen::Translation3d(1.0, -2.0, 0.3) *
-                 Eigen::AngleAxisd(2.1, Vec3d(1.0, 2.0, -1.0).normalized());
-  for (Vec3f& p : frame.cloud.points) p = (T * p.cast<double>()).cast<float>();
-  const FramePoints without_viewpoint = frame;
-  frame.viewpoint = frame.viewpoint.transformed(T);
-  expect_plain(frame);
-  expect_plain(without_viewpoint);
-}
-
-TEST(OutliersLikeThePlainFilter, ParallelRays) {
-  FramePoints frame;
-  frame.width = 80, frame.height = 60;
-  frame.viewpoint = {Vec3d::UnitZ(), true};
-  for (int cell = 0; cell < 80 * 60; ++cell) {
-    const double noise = standard_normal(hash_key(5, std::uint64_t(cell)));
-    const double x = 0.0005 * (cell % 80), y = -0.0005 * (cell / 80);
-    frame.cell.push_back(cell);
-    frame.cloud.points.emplace_back(float(x), float(y), float(2.0 * x + 0.0003 * noise));
-  }
-  expect_plain(frame);
 }
 
 TEST(OutliersLikeThePlainFilter, RealDepthImages) {
@@ -191,7 +174,7 @@ TEST(OutliersLikeThePlainFilter, RealDepthImages) {
   for (const NamedFrame& frame : frames) {
     SCOPED_TRACE(frame.name);
     ASSERT_GT(frame.points.cloud.size(), 1000u);
-    EXPECT_EQ(mask(frame.points), testing::plain_outlier_mask(frame.points.cloud.points, 10, 1.0));
+    expect_plain(middle(frame.points));
   }
 }
 
@@ -202,7 +185,7 @@ TEST(OutliersLikeThePlainFilter, RealRangeScans) {
   for (const NamedFrame& scan : scans) {
     SCOPED_TRACE(scan.name);
     ASSERT_GT(scan.points.cloud.size(), 1000u);
-    expect_plain(scan.points);
+    expect_plain(middle(scan.points));
   }
 }
 
@@ -217,51 +200,28 @@ TEST(Outliers, DropsThePointFarFromAllOthers) {
   EXPECT_EQ(kept[15 * 40 + 20], 0);
 }
 
-TEST(Outliers, StatisticsAreThoseOfTheMeanDistances) {
-  // Four points on a line at 0, 1, 3, 6; nearest neighbours at 1, 1, 2, 3.
+TEST(Outliers, TheThresholdIsThatOfTheMeanDistances) {
+  // Four points on a line at 0, 1, 3, 6; nearest neighbours at 1, 1, 2, 3: mean 1.75, sd 0.957.
   const std::vector<Vec3f> line = {{0, 0, 1}, {1, 0, 1}, {3, 0, 1}, {6, 0, 1}};
-  OutlierStatistics s;
-  const auto kept = statistical_outlier_mask(line, options(1, 1.0), {}, &s).value();
-  EXPECT_DOUBLE_EQ(s.mean_m, 1.75);
-  EXPECT_DOUBLE_EQ(s.sd_m, std::sqrt(2.75 / 3.0));
-  EXPECT_DOUBLE_EQ(s.threshold_m, s.mean_m + s.sd_m);
-  EXPECT_EQ(kept, (std::vector<std::uint8_t>{1, 1, 1, 0}));
-}
-
-TEST(Outliers, GridAndTreeGiveTheSameStatistics) {
-  const FramePoints frame = testing::room_frame(testing::kinect_v2());
-  OutlierStatistics grid, tree;
-  ASSERT_TRUE(statistical_outlier_mask(frame, options(), &grid));
-  ASSERT_TRUE(statistical_outlier_mask(frame.cloud.points, options(), {}, &tree));
-  EXPECT_EQ(grid.mean_m, tree.mean_m);
-  EXPECT_EQ(grid.sd_m, tree.sd_m);
-  EXPECT_EQ(grid.threshold_m, tree.threshold_m);
+  EXPECT_EQ(mask(line, options(1, 1.305)), (std::vector<std::uint8_t>{1, 1, 1, 0}));
+  EXPECT_EQ(mask(line, options(1, 1.307)), (std::vector<std::uint8_t>{1, 1, 1, 1}));
 }
 
 TEST(Outliers, SwitchedOffKeepsEverything) {
   const FramePoints frame = testing::object_frame(testing::kinect_v2());
-  OutlierStatistics s;
-  EXPECT_EQ(statistical_outlier_mask(frame, {false, 10, 1.0}, &s).value(),
-            std::vector<std::uint8_t>(frame.cloud.size(), 1));
-  EXPECT_TRUE(std::isnan(s.threshold_m));
+  EXPECT_EQ(dropped(mask(frame, {false, 10, 1.0})), 0u);
 }
 
-TEST(Outliers, NoPointsGiveAnEmptyMask) {
-  FramePoints frame;
-  frame.width = 4, frame.height = 3;
-  EXPECT_TRUE(mask(frame).empty());
-}
+TEST(Outliers, NoPointsGiveAnEmptyMask) { EXPECT_TRUE(mask(FramePoints()).empty()); }
 
 TEST(Outliers, TheSameMaskForAnyNumberOfThreads) {
   const FramePoints frame = testing::room_frame(testing::kinect_v2());
   set_thread_count(1);
-  const auto grid = mask(frame);
-  const auto tree = statistical_outlier_mask(frame.cloud.points, options()).value();
+  const auto serial = mask(frame);
   set_thread_count(2);
-  EXPECT_EQ(mask(frame), grid);
-  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, options()).value(), tree);
+  EXPECT_EQ(mask(frame), serial);
   set_thread_count(0);
-  EXPECT_EQ(statistical_outlier_mask(frame.cloud.points, options()).value(), tree);
+  EXPECT_EQ(mask(frame), serial);
 }
 
 TEST(Outliers, ManyFramesAtOnceAreEachFilteredAsAlone) {
@@ -295,14 +255,10 @@ TEST(Outliers, CancelledRunSaysSo) {
 
 void expect_refused(const OutlierOptions& o, const std::string& field) {
   const std::vector<Vec3f> points(20, Vec3f(0, 0, 1));
-  FramePoints frame =
-      testing::render(small_camera(20, 1), [](int, int, double, double) { return 1.0; });
-  for (const auto& result :
-       {statistical_outlier_mask(points, o), statistical_outlier_mask(frame, o)}) {
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, ErrorCode::kInvalidOption);
-    EXPECT_THAT(result.error().message, HasSubstr(field));
-  }
+  const auto result = statistical_outlier_mask(points, o);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kInvalidOption);
+  EXPECT_THAT(result.error().message, HasSubstr(field));
 }
 
 TEST(OutlierOptions, NeighboursAreFrom1To1000) {
@@ -336,35 +292,12 @@ TEST(Outliers, CoordinatesThatAreNotFiniteAreRefused) {
     for (int axis = 0; axis < 3; ++axis) {
       FramePoints frame = testing::object_frame(testing::kinect_v2());
       frame.cloud.points[17][axis] = bad;
-      const auto result = statistical_outlier_mask(frame, options());
+      const auto result = statistical_outlier_mask(frame.cloud.points, options());
       ASSERT_FALSE(result);
       EXPECT_EQ(result.error().code, ErrorCode::kFormat);
       EXPECT_THAT(result.error().message, HasSubstr("point 17"));
     }
   }
-}
-
-TEST(Outliers, CellsThatDoNotFitAreABrokenPrecondition) {
-  const FramePoints good = testing::object_frame(testing::kinect_v2());
-  FramePoints outside = good, missing = good, no_grid = good;
-  outside.cell[5] = outside.width * outside.height;
-  missing.cell.pop_back();
-  no_grid.width = 0;
-  EXPECT_THROW((void)mask(outside), std::invalid_argument);
-  outside.cell[5] = -1;
-  EXPECT_THROW((void)mask(outside), std::invalid_argument);
-  EXPECT_THROW((void)mask(missing), std::invalid_argument);
-  EXPECT_THROW((void)mask(no_grid), std::invalid_argument);
-}
-
-TEST(Outliers, AHugeGridWithFewPointsTakesNoMemory) {
-  FramePoints frame;
-  frame.width = 46000, frame.height = 46000;
-  for (int i = 0; i < 20; ++i) {
-    frame.cell.push_back(i * 105000000);
-    frame.cloud.points.emplace_back(0.1f * float(i), 0.0f, 1.0f);
-  }
-  expect_plain(frame);
 }
 
 }  // namespace

@@ -1,24 +1,28 @@
 #include "tests/reconstruction/outliers/plain_outliers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/geometry/search/knn.hpp>
 
 namespace turnscan::testing {
 
 namespace {
 
-/// Missing neighbours count as distance 0. The nearest point is the point itself or one at its
-/// place.
+/// By definition: all squared distances sorted, the first, that of the point to itself, left out.
+/// Missing neighbours count as distance 0.
 std::vector<float> mean_distances(std::span<const Vec3f> points, int k) {
-  const KdTree tree(points);
+  const std::size_t wanted = std::min(points.size(), std::size_t(k) + 1);
   std::vector<float> mean(points.size());
-  parallel_for(points.size(), 256, [&](std::size_t i) {
-    std::vector<std::uint32_t> index(std::size_t(k) + 1);
-    std::vector<float> squared(index.size());
-    const std::size_t found = tree.knn(points[i], index.size(), index.data(), squared.data());
+  parallel_for(points.size(), 64, [&](std::size_t i) {
+    std::vector<float> squared;
+    for (const Vec3f& p : points) {
+      const Vec3f d = points[i] - p;
+      squared.push_back(d.x() * d.x() + d.y() * d.y() + d.z() * d.z());
+    }
+    std::nth_element(squared.begin(), squared.begin() + std::ptrdiff_t(wanted) - 1, squared.end());
+    std::sort(squared.begin(), squared.begin() + std::ptrdiff_t(wanted));
     double sum = 0.0;
-    for (std::size_t j = 1; j < found; ++j) sum += std::sqrt(double(squared[j]));
+    for (std::size_t j = 1; j < wanted; ++j) sum += std::sqrt(double(squared[j]));
     mean[i] = float(sum / k);
   });
   return mean;

@@ -98,19 +98,3 @@ inline unsigned bits(const I& mask) {
 #endif
   return out;
 }
-
-/// Bits of a < b and of a <= b.
-template <class V>
-inline unsigned less(const V& a, const V& b) {
-#if TURNSCAN_NATIVE_LANES == 16
-  if constexpr (kIsNative) return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
-#endif
-  return bits(a < b);
-}
-template <class V>
-inline unsigned less_equal(const V& a, const V& b) {
-#if TURNSCAN_NATIVE_LANES == 16
-  if constexpr (kIsNative) return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
-#endif
-  return bits(a <= b);
-}

@@ -1,13 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
+#include <numeric>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
-#include <turnscan/reconstruction/outliers/outliers_grid.hpp>
-#include <turnscan/reconstruction/outliers/outliers_kernel.hpp>
-#include <turnscan/reconstruction/outliers/outliers_tree.hpp>
 
 namespace turnscan::outliers {
 
@@ -28,123 +24,73 @@ Result<> check(std::span<const Vec3f> points, const OutlierOptions& options) {
   return {};
 }
 
-/// Mean of k distances from squared ones, ascending: the sum in double, rounded once, as PCL does.
-float mean_distance(const float* squared, std::size_t n, int k) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) sum += std::sqrt(double(squared[i]));
-  return static_cast<float>(sum / k);
-}
-
-/// With n <= k: all others are neighbours, and the missing ones count as distance 0.
-void mean_distances_of_few(std::span<const Vec3f> points, int k, std::span<float> mean) {
-  std::vector<float> squared(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const Vec3f d = points[i] - points[j];
-      squared[j] = d.x() * d.x() + d.y() * d.y() + d.z() * d.z();
-    }
-    std::sort(squared.begin(), squared.end());
-    mean[i] = mean_distance(squared.data() + 1, squared.size() - 1, k);
+/// 1 for points with k others at the same place: their distances are 0, but a search would look at
+/// all of them, thousands where a file has zeros for what was not measured.
+std::vector<std::uint8_t> find_heaped(std::span<const Vec3f> points, int k) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(points[a].begin(), points[a].end(), points[b].begin(),
+                                        points[b].end());
+  });
+  std::vector<std::uint8_t> heaped(points.size(), 0);
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && points[order[end]] == points[order[begin]]) ++end;
+    if (end - begin <= std::size_t(k)) continue;
+    for (std::size_t i = begin; i < end; ++i) heaped[order[i]] = 1;
   }
+  return heaped;
 }
 
-/// For more neighbours than the kernels keep.
-Result<> many_mean_distances(std::span<const Vec3f> points, int k, const RunContext& context,
-                             std::span<float> mean) {
+/// Per point the sum of the roots in double and ascending, rounded once, as PCL does. The nearest
+/// point, which is the point itself or one at the same place, does not count.
+Result<std::vector<float>> mean_distances(std::span<const Vec3f> points, int k,
+                                          const RunContext& context) {
   constexpr std::size_t kChunk = 512;
   const KdTree tree(points);
-  parallel_for((points.size() + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-    if (context.cancelled()) return;
-    const std::size_t count = std::size_t(k) + 1;
-    std::vector<std::uint32_t> index(count);
-    std::vector<float> squared(count);
+  const std::vector<std::uint8_t> heaped = find_heaped(points, k);
+  std::vector<float> mean(points.size());
+  const auto chunk_means = [&](std::size_t chunk) {
+    std::vector<std::uint32_t> index(std::size_t(k) + 1);
+    std::vector<float> squared(index.size());
     const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      tree.knn(points[i], count, index.data(), squared.data());
-      mean[i] = mean_distance(squared.data() + 1, count - 1, k);
+      if (heaped[i] != 0) continue;
+      const std::size_t found = tree.knn(points[i], index.size(), index.data(), squared.data());
+      double sum = 0.0;
+      for (std::size_t j = 1; j < found; ++j) sum += std::sqrt(double(squared[j]));
+      mean[i] = static_cast<float>(sum / k);
     }
-  });
-  return context.check();
+  };
+  TURNSCAN_TRY(parallel_for((points.size() + kChunk - 1) / kChunk, 1, context, chunk_means));
+  return mean;
 }
 
 /// In PCL's order and precision: squares are rounded to float, sums are in double.
-OutlierStatistics statistics_of(std::span<const float> mean, double lambda) {
+double threshold(std::span<const float> mean, double lambda) {
   double sum = 0.0, squares = 0.0;
   for (const float d : mean) {
     sum += d;
     squares += d * d;
   }
   const auto n = static_cast<double>(mean.size());
-  OutlierStatistics s;
-  s.mean_m = sum / n;
-  s.sd_m = std::sqrt((squares - sum * sum / n) / (n - 1.0));
-  s.threshold_m = s.mean_m + lambda * s.sd_m;
-  return s;
-}
-
-std::vector<std::uint8_t> mask_of(std::span<const float> mean, double lambda,
-                                  OutlierStatistics* statistics) {
-  const OutlierStatistics s = statistics_of(mean, lambda);
-  if (statistics) *statistics = s;
-  std::vector<std::uint8_t> mask(mean.size());
-  // A threshold that is NaN keeps everything.
-  for (std::size_t i = 0; i < mean.size(); ++i) mask[i] = !(mean[i] > s.threshold_m);
-  return mask;
-}
-
-std::vector<std::uint8_t> keep_all(std::size_t n, OutlierStatistics* statistics) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  if (statistics) *statistics = {kNan, kNan, kNan};
-  return std::vector<std::uint8_t>(n, 1);
-}
-
-void check_cells(const FramePoints& frame) {
-  if (frame.cell.empty()) return;
-  if (frame.cell.size() != frame.cloud.size())
-    throw std::invalid_argument("statistical_outlier_mask: cells and points differ in number");
-  if (frame.width < 1 || frame.height < 1)
-    throw std::invalid_argument("statistical_outlier_mask: cells without a grid");
-}
-
-/// Distances of one frame; the buffer is the thread's, so that frames cost no allocation.
-std::span<float> thread_buffer(std::size_t n) {
-  static thread_local std::vector<float> buffer;
-  if (buffer.size() < n) buffer.resize(n);
-  return {buffer.data(), n};
+  return sum / n + lambda * std::sqrt((squares - sum * sum / n) / (n - 1.0));
 }
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> statistical_outlier_mask(const FramePoints& frame,
-                                                           const OutlierOptions& options,
-                                                           OutlierStatistics* statistics) {
-  check_cells(frame);
-  const std::vector<Vec3f>& points = frame.cloud.points;
-  if (!frame.cell.empty() && options.enabled &&
-      points.size() > std::size_t(std::max(options.neighbours, 0))) {
-    TURNSCAN_TRY(check(points, options));
-    const std::span<float> mean = thread_buffer(points.size());
-    if (grid_mean_distances(frame, options.neighbours, mean))
-      return mask_of(mean, options.lambda, statistics);
-  }
-  return statistical_outlier_mask(points, options, RunContext(), statistics);
-}
-
 Result<std::vector<std::uint8_t>> statistical_outlier_mask(std::span<const Vec3f> points,
                                                            const OutlierOptions& options,
-                                                           const RunContext& context,
-                                                           OutlierStatistics* statistics) {
+                                                           const RunContext& context) {
   TURNSCAN_TRY(check(points, options));
-  TURNSCAN_TRY(context.check());
-  if (!options.enabled || points.empty()) return keep_all(points.size(), statistics);
-  std::vector<float> mean(points.size());
-  if (points.size() <= std::size_t(options.neighbours))
-    mean_distances_of_few(points, options.neighbours, mean);
-  else if (options.neighbours <= kMaxK)
-    TURNSCAN_TRY(tree_mean_distances(points, options.neighbours, context, mean));
-  else
-    TURNSCAN_TRY(many_mean_distances(points, options.neighbours, context, mean));
-  return mask_of(mean, options.lambda, statistics);
+  std::vector<std::uint8_t> mask(points.size(), 1);
+  if (!options.enabled || points.empty()) return mask;
+  TURNSCAN_ASSIGN(const std::vector<float> mean,
+                  mean_distances(points, options.neighbours, context));
+  const double farthest = threshold(mean, options.lambda);
+  // A threshold that is NaN keeps everything.
+  for (std::size_t i = 0; i < mean.size(); ++i) mask[i] = !(mean[i] > farthest);
+  return mask;
 }
 
 }  // namespace turnscan::outliers

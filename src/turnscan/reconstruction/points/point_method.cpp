@@ -199,8 +199,7 @@ Result<> PointMethod::filter_cloud(const RunContext& context) {
   PointCloud& cloud = cloud_.cloud;
   if (cloud.empty()) return {};
   TURNSCAN_ASSIGN(const auto keep,
-                  outliers::statistical_outlier_mask(std::span<const Vec3f>(cloud.points),
-                                                     options_.outliers, context));
+                  outliers::statistical_outlier_mask(cloud.points, options_.outliers, context));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) continue;

@@ -1,4 +1,3 @@
-#include <turnscan/reconstruction/frame_batch.hpp>
 #include <turnscan/reconstruction/voxels/merge.hpp>
 
 namespace turnscan::voxels {
@@ -11,13 +10,6 @@ Vec3f MergedCloud::towards_sensor(std::size_t i) const {
   const Vec3f d = value - cloud.points[i];
   const float squared = d.squaredNorm();
   return squared > 0.0f ? Vec3f(d * (1.0f / std::sqrt(squared))) : Vec3f::Zero();
-}
-
-FrameRecipe FrameRecipe::make(const SequenceHeader& header) {
-  FrameRecipe recipe;
-  recipe.header = &header;
-  recipe.rays = ray_tables(header);
-  return recipe;
 }
 
 Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
@@ -35,7 +27,7 @@ Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
   part.inside_crop = points.cloud.size();
   std::vector<std::uint8_t> keep(points.cloud.size(), 1);
   if (recipe.outliers.enabled && !keep.empty()) {
-    TURNSCAN_ASSIGN(keep, outliers::statistical_outlier_mask(points, recipe.outliers));
+    TURNSCAN_ASSIGN(keep, outliers::statistical_outlier_mask(points.cloud.points, recipe.outliers));
   }
   const Pose T = recipe.T_object_table ? *recipe.T_object_table * T_table_sensor : T_table_sensor;
   const Eigen::Matrix3f rotation = T.linear().cast<float>();

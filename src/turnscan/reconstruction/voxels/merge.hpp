@@ -29,8 +29,6 @@ struct FrameRecipe {
   OutlierOptions outliers;
   std::optional<Pose> T_object_table;      ///< then points are in the object's frame
   const ObjectPartition* share = nullptr;  ///< of its table; nullptr: all of it
-
-  static FrameRecipe make(const SequenceHeader& header);
 };
 struct FramePart {
   PointCloud cloud;  ///< table or object's frame
