@@ -9,7 +9,7 @@
 #include <turnscan/capture/source/frame_source.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/turntable/crop/live_crop.hpp>
+#include <turnscan/turntable/crop/crop.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
 #include <turnscan/turntable/table_frame.hpp>
@@ -55,14 +55,15 @@ Merged merged() {
     EXPECT_TRUE(platter) << (platter ? "" : platter.error().text());
     const TurntableInfo table = calibration_of(*platter, *scan).table;
     const Pose T_table_sensor = table_from_sensor(table).value();
-    const auto crop = LiveCrop::create((*frames)->header().sensors[k], T_table_sensor,
-                                       live_cylinder(table, {}).value());
+    const SensorInfo& sensor = (*frames)->header().sensors[k];
+    const RayTable rays(sensor.intrinsics);
+    const SensorCrop cylinder({0.006, 0.6, *table.radius_m - 0.005}, T_table_sensor);
     for (std::size_t i = 0; i < (*frames)->frames().size(); ++i) {
       const FrameInfo& info = (*frames)->frames()[i];
       if (info.sensor != k) continue;
       const Pose T = rotation_about_y(-*info.angle_rad) * T_table_sensor;
-      const auto kept = crop->points((*frames)->read(i)->depth);
-      for (const Vec3f& p : kept->cloud.points)
+      const Frame frame = (*frames)->read(i).value();
+      for (const Vec3f& p : crop(points_of(frame, sensor, rays).value(), cylinder).cloud.points)
         out.points[k].push_back((T * p.cast<double>()).cast<float>());
     }
   }

@@ -5,7 +5,6 @@
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/capture/session/taken_frames.hpp>
 #include <turnscan/capture/source/clock_offset.hpp>
-#include <turnscan/turntable/crop/live_crop.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 #include "tests/capture/taking.hpp"

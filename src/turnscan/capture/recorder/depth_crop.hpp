@@ -1,6 +1,7 @@
 #pragma once
-// The crop of what is recorded. As LiveCrop::image(), but it tells returns before the cylinder from
-// those behind it: only these say that the space up to there is empty.
+// The crop at the rate of the frames (thesis algorithm 2). The raw depths of a pixel that lie in
+// the cylinder are found once; then a frame costs two comparisons a pixel. It tells returns before
+// the cylinder from those behind it: only these say that the space up to there is empty.
 
 #include <cstdint>
 #include <turnscan/core/frame.hpp>
@@ -11,13 +12,15 @@ namespace turnscan {
 
 class DepthCrop {
  public:
-  /// T_table_sensor: with the platter at any angle. Fails as LiveCrop::create().
+  /// T_table_sensor: with the platter at any angle. Takes about 20 ms for 512 x 424 pixels, on all
+  /// cores. Fails with kUnsupported when the sensor gives points, kFormat when its intrinsics are
+  /// not usable.
   static Result<DepthCrop> create(const Cylinder& cylinder, const Pose& T_table_sensor,
                                   const SensorInfo& sensor);
 
-  /// Returns behind the cylinder's far side, or on rays that miss it, become kOutsideCrop. Returns
-  /// before its near side become kNoReturn. Throws std::invalid_argument when the image has not the
-  /// sensor's size.
+  /// Keeps the same pixels as crop() of points_of(). Returns behind the cylinder's far side, or on
+  /// rays that miss it, become kOutsideCrop. Returns before its near side become kNoReturn. Throws
+  /// std::invalid_argument when the image has not the sensor's size.
   void apply(DepthImage& image) const;
 
  private:

@@ -14,7 +14,6 @@
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>
 #include <turnscan/reconstruction/views/view_store.hpp>
-#include <turnscan/turntable/crop/live_crop.hpp>
 
 namespace turnscan::tsdf {
 
@@ -58,10 +57,12 @@ struct CurrentPass {
   const ObjectPartition* share;  ///< nullptr: all of the table
 };
 
-/// The height above the margin in the frame of a sensor, whose recorder may have cropped higher
-/// than the margin that is found now.
+/// A recorder may have cropped so high, whatever margin is found now.
+constexpr double kRecordedMargin_m = 0.006;
+
+/// The height above the margin in the frame of a sensor.
 Eigen::Vector4f above_crop(const Cylinder& cylinder, const Pose& T_table_sensor) {
-  const double margin_m = std::max(cylinder.margin_m, LiveCropOptions().margin_m);
+  const double margin_m = std::max(cylinder.margin_m, kRecordedMargin_m);
   const Eigen::Vector4d row = T_table_sensor.matrix().row(1);
   return (row - Eigen::Vector4d(0.0, 0.0, 0.0, margin_m)).cast<float>();
 }
