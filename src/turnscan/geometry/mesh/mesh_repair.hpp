@@ -86,9 +86,10 @@ OptionTable describe(RelaxOptions& options);
 /// uniform (every edge counts the same): unlike cotangents they cannot become negative or huge on
 /// slivers and folds, which is what the balloons that this is used on are full of. Each connected
 /// movable region is solved on its own, sparse Cholesky; regions without a fixed neighbour do not
-/// move. Normals of moved vertices are recomputed. 100,000 movable vertices take some 3 s.
+/// move. Normals of moved vertices are recomputed. A region of 10,000 vertices takes 0.1 s,
+/// one of 100,000 some 9 s, in which it cannot be cancelled.
 /// Fails with kInvalidOption when movable does not fit, kLibrary when a system cannot be solved,
-/// kResourceLimit for regions of over a million vertices or so, kCancelled.
+/// kResourceLimit for regions of over two million vertices, kCancelled.
 Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint8_t>& movable,
                            const RelaxOptions& options, const RunContext& context);
 

@@ -1,3 +1,4 @@
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
@@ -5,17 +6,19 @@
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/mesh/vertex_neighbours.hpp>
-#include <turnscan/geometry/sparse/sparse_cholesky.hpp>
 
 namespace turnscan {
 namespace {
 
+using SparseMatrix = Eigen::SparseMatrix<double>;
 using Triplet = Eigen::Triplet<double>;
+using Columns3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// The plate's term of a vertex couples all its neighbours with each other: hubs of large fans
 /// would fill the matrix, so they get the membrane's.
 constexpr std::size_t kLargestPlateDegree = 64;
-constexpr std::size_t kMaxFactorBytes = std::size_t(6) << 30;
+/// Of a region. The factor then takes some 5 GB.
+constexpr std::size_t kMaxUnknowns = 2000000;
 
 /// Movable vertices that are connected, or that touch the same fixed vertex: the plate's term of
 /// that vertex couples them. Regions that touch no fixed vertex at all are left out.
@@ -53,20 +56,21 @@ class PlateSystem {
               const RelaxOptions& options)
       : mesh_(mesh), adjacency_(adjacency), region_(region), place_(place) {
     origin_ = mesh.vertices[region[0]].cast<double>();
-    right_ = sparse::Columns3::Zero(Eigen::Index(region.size()), 3);
+    right_ = Columns3::Zero(Eigen::Index(region.size()), 3);
     assemble(options.tension);
     if (!options.hold.empty()) hold(options.hold);
   }
 
-  Result<> solve(const RunContext& context, std::vector<Vec3f>& vertices) {
-    sparse::SparseMatrix matrix(right_.rows(), right_.rows());
+  Result<> solve(std::vector<Vec3f>& vertices) {
+    SparseMatrix matrix(right_.rows(), right_.rows());
     matrix.setFromTriplets(triplets_.begin(), triplets_.end());
     triplets_ = {};
-    TURNSCAN_ASSIGN(const sparse::Columns3 moved,
-                    sparse::solve(matrix, right_, kMaxFactorBytes, context));
-    if (!moved.allFinite()) {
+    const Eigen::SimplicialLLT<SparseMatrix> factors(matrix);  // of the lower triangle
+    if (factors.info() != Eigen::Success)
+      return fail(ErrorCode::kLibrary, "sparse system: not positive definite; check the mesh");
+    const Columns3 moved = factors.solve(right_);
+    if (!moved.allFinite())
       return fail(ErrorCode::kLibrary, "sparse system: the solution is not finite; check the mesh");
-    }
     for (std::size_t i = 0; i < region_.size(); ++i) {
       const Vec3d p = moved.row(Eigen::Index(i)).transpose() + origin_;
       vertices[region_[i]] = p.cast<float>();
@@ -138,7 +142,7 @@ class PlateSystem {
   const std::vector<std::uint32_t>& region_;
   const std::vector<std::uint32_t>& place_;  // vertex -> row, kNone for fixed ones
   Vec3d origin_;
-  sparse::Columns3 right_;
+  Columns3 right_;
   std::vector<Triplet> triplets_;
   std::vector<std::pair<std::uint32_t, double>> row_;
 };
@@ -169,6 +173,11 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
   }
   const mesh::VertexNeighbours adjacency(mesh);
   const auto regions = find_regions(adjacency, movable);
+  for (const auto& region : regions)
+    if (region.size() > kMaxUnknowns)
+      return fail(ErrorCode::kResourceLimit,
+                  "relax: a region has {} vertices, more than {}; relax fewer at a time",
+                  region.size(), kMaxUnknowns);
   std::vector<std::uint32_t> place(mesh.vertices.size(), mesh::kNone);
   for (const auto& region : regions) {
     for (std::size_t i = 0; i < region.size(); ++i) place[region[i]] = std::uint32_t(i);
@@ -178,7 +187,7 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
   parallel_for(regions.size(), 1, [&](std::size_t r) {
     if (context.cancelled()) return;
     PlateSystem system(mesh, adjacency, regions[r], place, options);
-    solved[r] = system.solve(context, relaxed.vertices);
+    solved[r] = system.solve(relaxed.vertices);
   });
   TURNSCAN_TRY(context.check());
   for (const Result<>& result : solved) TURNSCAN_TRY(result);
