@@ -14,8 +14,8 @@ namespace {
 
 using namespace turnscan::test;
 
-TriangleMesh wrapped(const TriangleMesh& mesh, const WrapOptions& options) {
-  const auto result = wrap(mesh, options, RunContext());
+TriangleMesh wrapped(const TriangleMesh& mesh, double cell_m) {
+  const auto result = grid::wrap(mesh, cell_m, RunContext());
   if (!result) {
     ADD_FAILURE() << result.error().text();
     return {};
@@ -36,7 +36,7 @@ double farthest(const TriangleMesh& from, const TriangleMesh& to) {
 
 TEST(Wrap, LiesOnTheSurfaceItWraps) {
   const TriangleMesh mesh = sphere(1.0, 5);
-  const TriangleMesh result = wrapped(mesh, {.cell_m = 0.05});
+  const TriangleMesh result = wrapped(mesh, 0.05);
   EXPECT_LT(farthest(result, mesh), 0.03 * 0.05);
   EXPECT_LT(farthest(mesh, result), 0.1 * 0.05);
   EXPECT_NEAR(check_mesh(result).volume_m3, check_mesh(mesh).volume_m3, 0.02);
@@ -44,7 +44,7 @@ TEST(Wrap, LiesOnTheSurfaceItWraps) {
 }
 
 TEST(Wrap, KeepsEdgesAndCornersOfABox) {
-  const TriangleMesh result = wrapped(cube(), {.cell_m = 0.04});
+  const TriangleMesh result = wrapped(cube(), 0.04);
   EXPECT_NEAR(check_mesh(result).volume_m3, 1.0, 0.01);
   EXPECT_NEAR(check_mesh(result).area_m2, 6.0, 0.05);
   const Box box = bounds(result.vertices);
@@ -54,7 +54,7 @@ TEST(Wrap, KeepsEdgesAndCornersOfABox) {
 
 TEST(Wrap, GoesIntoTheHoleOfATorus) {
   const TriangleMesh mesh = torus(1.0, 0.3, 60, 30);
-  const TriangleMesh result = wrapped(mesh, {});
+  const TriangleMesh result = wrapped(mesh, 0.013);
   EXPECT_EQ(check_mesh(result).euler, 0);
   EXPECT_NEAR(check_mesh(result).volume_m3, check_mesh(mesh).volume_m3, 0.02);
 }
@@ -72,7 +72,7 @@ TEST(Wrap, DoesNotMindFlippedDoubledAndLooseTriangles) {
   for (std::size_t t = 0; t < n; t += 7) {
     mesh.triangles.push_back({mesh.triangles[t][0], mesh.triangles[t][1], center});
   }
-  const TriangleMesh result = wrapped(as_soup(mesh), {.cell_m = 0.05});
+  const TriangleMesh result = wrapped(as_soup(mesh), 0.05);
   EXPECT_EQ(check_mesh(result).components, 1);
   EXPECT_NEAR(check_mesh(result).volume_m3, 1.0, 0.02);
 }
@@ -94,14 +94,14 @@ TriangleMesh box_with_slit(float width) {
 }
 
 TEST(Wrap, ClosesSmallGapsAndNotLargeOnes) {
-  const TriangleMesh closed = wrapped(box_with_slit(0.04f), {.cell_m = 0.04});
+  const TriangleMesh closed = wrapped(box_with_slit(0.04f), 0.04);
   EXPECT_NEAR(check_mesh(closed).volume_m3, 1.0, 0.02) << "filled behind a gap of one cell";
-  const TriangleMesh hollow = wrapped(box_with_slit(0.2f), {.cell_m = 0.04});
+  const TriangleMesh hollow = wrapped(box_with_slit(0.2f), 0.04);
   EXPECT_LT(check_mesh(hollow).volume_m3, 0.2) << "a shell where the gap is five cells wide";
 }
 
 TEST(Wrap, AnOpenSheetBecomesAThinPlate) {
-  const TriangleMesh result = wrapped(plane(4), {.cell_m = 0.05});
+  const TriangleMesh result = wrapped(plane(4), 0.05);
   EXPECT_LT(check_mesh(result).volume_m3, 0.01);
   EXPECT_GT(check_mesh(result).volume_m3, 0.0);
   EXPECT_NEAR(check_mesh(result).area_m2, 2.0, 0.05);
@@ -110,37 +110,23 @@ TEST(Wrap, AnOpenSheetBecomesAThinPlate) {
 TEST(Wrap, PiecesFarApartStayApart) {
   TriangleMesh mesh = sphere(1.0, 3);
   append(mesh, sphere(0.5, 3, Vec3d(3, 0, 0)));
-  EXPECT_EQ(check_mesh(wrapped(mesh, {.cell_m = 0.1})).components, 2);
+  EXPECT_EQ(check_mesh(wrapped(mesh, 0.1)).components, 2);
 }
 
 TEST(Wrap, IsWatertightAroundAnySoup) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const TriangleMesh soup = random_soup(3 + seed, 1 + 2 * seed, seed);
     if (check_mesh(soup).area_m2 == 0.0) continue;
-    wrapped(soup, {.cell_m = 0.07 + 0.01 * double(seed % 7)});
-  }
-}
-
-TEST(Wrap, KeepsColours) {
-  TriangleMesh mesh = sphere(1.0, 3);
-  for (const Vec3f& v : mesh.vertices) {
-    mesh.colors.push_back(v.z() > 0.0f ? Rgb{200, 0, 0} : Rgb{0, 0, 200});
-  }
-  const TriangleMesh result = wrapped(mesh, {.cell_m = 0.1});
-  ASSERT_EQ(result.colors.size(), result.vertices.size());
-  for (std::size_t v = 0; v < result.vertices.size(); ++v) {
-    if (result.vertices[v].z() > 0.2f) {
-      ASSERT_EQ(result.colors[v], (Rgb{200, 0, 0}));
-    }
+    wrapped(soup, 0.07 + 0.01 * double(seed % 7));
   }
 }
 
 TEST(Wrap, IsTheSameForOneAndTwoThreads) {
   TriangleMesh mesh = random_soup(40, 80, 5);
   set_thread_count(1);
-  const auto one = wrap(mesh, {.cell_m = 0.05}, RunContext());
+  const auto one = grid::wrap(mesh, 0.05, RunContext());
   set_thread_count(2);
-  const auto two = wrap(mesh, {.cell_m = 0.05}, RunContext());
+  const auto two = grid::wrap(mesh, 0.05, RunContext());
   set_thread_count(0);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->vertices, two->vertices);
@@ -149,19 +135,17 @@ TEST(Wrap, IsTheSameForOneAndTwoThreads) {
 
 TEST(Wrap, FailsByName) {
   const RunContext context;
-  EXPECT_EQ(wrap(TriangleMesh(), {}, context).error().code, ErrorCode::kTooFewPoints);
-  EXPECT_EQ(wrap(cube(), {.cell_m = -1.0}, context).error().code, ErrorCode::kInvalidOption);
-  EXPECT_EQ(wrap(cube(), {.cell_m = 0.1, .offset_cells = 0.1}, context).error().code,
-            ErrorCode::kInvalidOption);
-  EXPECT_EQ(wrap(cube(), {.cell_m = 1e-5}, context).error().code, ErrorCode::kResourceLimit);
+  EXPECT_EQ(grid::wrap(TriangleMesh(), 0.1, context).error().code, ErrorCode::kTooFewPoints);
+  EXPECT_EQ(grid::wrap(cube(), -1.0, context).error().code, ErrorCode::kInvalidOption);
+  EXPECT_EQ(grid::wrap(cube(), 1e-5, context).error().code, ErrorCode::kResourceLimit);
   TriangleMesh mesh = cube();
   mesh.vertices[0].x() = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(wrap(mesh, {}, context).error().code, ErrorCode::kFormat);
+  EXPECT_EQ(grid::wrap(mesh, 0.1, context).error().code, ErrorCode::kFormat);
   mesh = cube();
   mesh.triangles[0][1] = 99;
-  EXPECT_EQ(wrap(mesh, {}, context).error().code, ErrorCode::kFormat);
+  EXPECT_EQ(grid::wrap(mesh, 0.1, context).error().code, ErrorCode::kFormat);
   context.cancel();
-  EXPECT_EQ(wrap(cube(), {}, context).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(grid::wrap(cube(), 0.1, context).error().code, ErrorCode::kCancelled);
 }
 
 TEST(Wrap, StopsWhenCancelledFromWithin) {
@@ -169,7 +153,7 @@ TEST(Wrap, StopsWhenCancelledFromWithin) {
   context.set_listener([&](const Progress& progress) {
     if (progress.phase == "wrap") context.cancel();
   });
-  EXPECT_EQ(wrap(cube(), {}, context).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(grid::wrap(cube(), 0.1, context).error().code, ErrorCode::kCancelled);
 }
 
 }  // namespace

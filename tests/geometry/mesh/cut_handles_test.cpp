@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <turnscan/geometry/grid/isosurface.hpp>
 #include <turnscan/geometry/mesh/cut_handles.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+
+#include "tests/geometry/dense_grid.hpp"
 
 namespace turnscan {
 namespace {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/geometry/mesh/mesh_edit.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 
 #include "tests/geometry/shapes.hpp"
@@ -16,7 +17,8 @@ TriangleMesh without(TriangleMesh mesh, const std::function<bool(const Vec3f&)>&
   std::erase_if(mesh.triangles, [&](const auto& t) {
     return where((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0f);
   });
-  return *drop_unreferenced(mesh);
+  mesh::compact_vertices(mesh);
+  return mesh;
 }
 
 TriangleMesh expect_closed(const TriangleMesh& mesh, const FillHolesOptions& options = {}) {

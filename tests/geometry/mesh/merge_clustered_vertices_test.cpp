@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <turnscan/core/random.hpp>
-#include <turnscan/geometry/grid/isosurface.hpp>
 #include <turnscan/geometry/mesh/merge_clustered_vertices.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+
+#include "tests/geometry/dense_grid.hpp"
 
 namespace turnscan {
 namespace {

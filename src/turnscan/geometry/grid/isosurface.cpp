@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t kBlock =
     kBrickSide + 1;  // samples along a brick and its upper neighbours' first ones
 constexpr std::size_t kMaxTriangles = std::size_t(1) << 30;
+/// A vertex keeps at least this fraction of its grid edge's length from the edge's ends, so that
+/// triangles do not shrink to nothing. Below 0.5; the topology does not depend on it.
+constexpr double kSnap = 0.02;
 constexpr float kBeyond = std::numeric_limits<float>::infinity();  // stands for "outside the grid"
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -66,8 +69,8 @@ struct MarchedBrick {
 
 class SurfaceMarcher {
  public:
-  SurfaceMarcher(const BrickGrid& grid, const IsosurfaceOptions& options, const RunContext& context)
-      : grid_(grid), options_(options), context_(context) {}
+  SurfaceMarcher(const BrickGrid& grid, MarchingCells cells, const RunContext& context)
+      : grid_(grid), cells_(cells), context_(context) {}
 
   Result<TriangleMesh> run() {
     find_pieces();
@@ -101,7 +104,7 @@ class SurfaceMarcher {
 
  private:
   std::span<const int> directions() const {
-    if (options_.cells == MarchingCells::kCubes) return kAlongAxes;
+    if (cells_ == MarchingCells::kCubes) return kAlongAxes;
     return kAllDirections;
   }
 
@@ -191,8 +194,7 @@ class SurfaceMarcher {
                        float to) const {
     double t = 0.5;
     if (from != kBeyond && to != kBeyond) {
-      t = std::clamp(double(from) / (double(from) - double(to)), options_.snap,
-                     1.0 - options_.snap);
+      t = std::clamp(double(from) / (double(from) - double(to)), kSnap, 1.0 - kSnap);
     }
     const Vec3d step(direction & 1, direction >> 1 & 1, direction >> 2);
     const Vec3d base =
@@ -230,7 +232,7 @@ class SurfaceMarcher {
             negative |= unsigned(block.values[base + SampleBlock::corner(code)] < 0.0f) << code;
           }
           if (negative == 0 || negative == 255) continue;
-          if (options_.cells == MarchingCells::kCubes) {
+          if (cells_ == MarchingCells::kCubes) {
             emit_cube(piece, {i, j, k}, negative);
           } else {
             for (const Tetrahedron& t : kTetrahedra) emit(piece, {i, j, k}, t, negative);
@@ -292,7 +294,7 @@ class SurfaceMarcher {
   }
 
   const BrickGrid& grid_;
-  IsosurfaceOptions options_;
+  MarchingCells cells_;
   const RunContext& context_;
   GridIndex piece_grid_;             // bricks from -1 on
   std::vector<std::int32_t> table_;  // of these: number of the piece, or -1
@@ -302,47 +304,9 @@ class SurfaceMarcher {
 
 }  // namespace
 
-OptionTable describe(IsosurfaceOptions& options) {
-  OptionTable table;
-  table
-      .number("iso-snap", options.snap, Quantity::kNone, {0.0, 0.49},
-              "Fraction of a grid edge that a vertex stays away from its ends.")
-      .choice("iso-cells", options.cells, {"tetrahedra", "cubes"},
-              "What a cube of the grid is marched as.");
-  return table;
-}
-
-Result<TriangleMesh> isosurface(const BrickGrid& grid, const IsosurfaceOptions& options,
+Result<TriangleMesh> isosurface(const BrickGrid& grid, MarchingCells cells,
                                 const RunContext& context) {
-  IsosurfaceOptions checked = options;
-  TURNSCAN_TRY(describe(checked).check());
-  return SurfaceMarcher(grid, checked, context).run();
-}
-
-Result<TriangleMesh> isosurface(const DenseGrid& dense, const IsosurfaceOptions& options,
-                                const RunContext& context) {
-  const auto& n = dense.size;
-  if (double(dense.values.size()) != double(n[0]) * double(n[1]) * double(n[2])) {
-    return fail(ErrorCode::kFormat,
-                "isosurface: {} values for {} x {} x {} samples; check the grid",
-                dense.values.size(), n[0], n[1], n[2]);
-  }
-  TURNSCAN_ASSIGN(BrickGrid grid, BrickGrid::create(dense.origin_m, dense.cell_m, n, 0.0f,
-                                                    std::numeric_limits<std::size_t>::max()));
-  std::vector<std::size_t> all(grid.brick_count());
-  for (std::size_t b = 0; b < all.size(); ++b) all[b] = b;
-  TURNSCAN_TRY(grid.allocate(all));
-  std::size_t from = 0;
-  for (int k = 0; k < n[2]; ++k) {
-    for (int j = 0; j < n[1]; ++j) {
-      for (int i = 0; i < n[0]; ++i, ++from) {
-        float* brick =
-            grid.samples(grid.brick_index(i / kBrickSide, j / kBrickSide, k / kBrickSide));
-        brick[BrickGrid::within(i, j, k)] = dense.values[from];
-      }
-    }
-  }
-  return isosurface(grid, options, context);
+  return SurfaceMarcher(grid, cells, context).run();
 }
 
 }  // namespace turnscan

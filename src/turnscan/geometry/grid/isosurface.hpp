@@ -70,15 +70,6 @@ enum class MarchingCells {
                 ///< the grid only
 };
 
-struct IsosurfaceOptions {
-  /// A vertex keeps at least this fraction of its grid edge's length from the edge's ends, so that
-  /// triangles do not shrink to nothing. 0 <= snap < 0.5; the topology does not depend on it.
-  double snap = 0.02;
-  MarchingCells cells = MarchingCells::kTetrahedra;
-};
-
-OptionTable describe(IsosurfaceOptions& options);
-
 /// The surface where the values go from negative (inside) to positive (outside; zero counts as
 /// positive, and so does everything beyond the grid: there the surface ends half a cell outside).
 /// The result is closed, 2-manifold and outward by construction. Tetrahedra: six a cube around one
@@ -86,20 +77,9 @@ OptionTable describe(IsosurfaceOptions& options);
 /// sign; a linear function on a simplicial complex that is zero at none of its vertices has a
 /// 2-manifold zero set. Cubes: neighbours agree on the face that they share, and no triangle's edge
 /// is used by two of them (cube_table.hpp). Vertices lie where the values say, linearly. Fails with
-/// kFormat for values that are not finite, kResourceLimit above 2^30 triangles, kInvalidOption,
-/// kCancelled. An empty mesh if nothing is negative. The same bytes for any number of threads.
-Result<TriangleMesh> isosurface(const BrickGrid& grid, const IsosurfaceOptions& options,
-                                const RunContext& context);
-
-/// Values of all samples, i fastest, then j, then k. As above; kFormat when values does not fit
-/// size.
-struct DenseGrid {
-  Vec3d origin_m = Vec3d::Zero();
-  double cell_m = 1.0;
-  GridCoords size{};
-  std::vector<float> values;
-};
-Result<TriangleMesh> isosurface(const DenseGrid& grid, const IsosurfaceOptions& options,
+/// kFormat for values that are not finite, kResourceLimit above 2^30 triangles, kCancelled. An
+/// empty mesh if nothing is negative. The same bytes for any number of threads.
+Result<TriangleMesh> isosurface(const BrickGrid& grid, MarchingCells cells,
                                 const RunContext& context);
 
 }  // namespace turnscan

@@ -8,15 +8,26 @@ namespace {
 
 constexpr int kBrickSide = BrickGrid::kBrick;
 constexpr std::size_t kChunk = 256;  // bricks between two looks at the context
+/// Distances beyond this many cells past the offset are all the same to the wrap.
+constexpr double kBandCells = 2.0;
+constexpr std::size_t kMaxBytes = std::size_t(4) << 30;  // of grid memory
+
+Box bounds_of_triangles(const TriangleMesh& mesh) {
+  Box box;
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) box.add(mesh.vertices[v].cast<double>());
+  }
+  return box;
+}
 
 class DistanceField {
  public:
-  DistanceField(const MeshDistance& soup, const WrapMeasures& measures, const RunContext& context)
-      : soup_(soup), m_(measures), context_(context) {}
+  DistanceField(const MeshDistance& soup, double cell_m, const RunContext& context)
+      : soup_(soup), cell_m_(cell_m), band_m_((1.0 + kBandCells) * cell_m), context_(context) {}
 
   /// Distance - offset near the soup; where flood from outside does not reach, negative.
-  Result<BrickGrid> run(const Box& box, std::size_t max_bytes) {
-    TURNSCAN_TRY(create_grid(box, max_bytes));
+  Result<BrickGrid> run(const Box& box) {
+    TURNSCAN_TRY(create_grid(box));
     TURNSCAN_TRY(touch_near_bricks());
     TURNSCAN_TRY(measure());
     TURNSCAN_TRY(flood());
@@ -25,16 +36,16 @@ class DistanceField {
   }
 
  private:
-  Result<> create_grid(const Box& box, std::size_t max_bytes) {
+  Result<> create_grid(const Box& box) {
     // Faces of a box must not lie just at the offset from samples, where rounding decides.
-    const double margin = m_.offset_m + (kWrapBandCells + 1.37) * m_.cell_m;
+    const double margin = cell_m_ + (kBandCells + 1.37) * cell_m_;
     std::array<int, 3> size{};
     for (int axis = 0; axis < 3; ++axis) {
-      const double samples = std::ceil((box.size()[axis] + 2.0 * margin) / m_.cell_m) + 1.0;
+      const double samples = std::ceil((box.size()[axis] + 2.0 * margin) / cell_m_) + 1.0;
       size[std::size_t(axis)] = int(std::min(samples, 2e9));
     }
-    TURNSCAN_ASSIGN(grid_, BrickGrid::create(box.min - Vec3d::Constant(margin), m_.cell_m, size,
-                                             float(m_.band_m), max_bytes));
+    TURNSCAN_ASSIGN(grid_, BrickGrid::create(box.min - Vec3d::Constant(margin), cell_m_, size,
+                                             float(band_m_), kMaxBytes));
     return {};
   }
 
@@ -44,14 +55,14 @@ class DistanceField {
   }
 
   bool is_near(const Vec3d& center, double half) const {
-    const double reach = m_.band_m + std::sqrt(3.0) * half;
+    const double reach = band_m_ + std::sqrt(3.0) * half;
     return soup_.closest(center, reach).triangle != MeshDistance::kNone;
   }
 
   Result<> touch_near_bricks() {
     const std::size_t count = grid_.brick_count();
     std::vector<std::uint8_t> near(count, 0);
-    const double half = 0.5 * (kBrickSide - 1) * m_.cell_m;
+    const double half = 0.5 * (kBrickSide - 1) * cell_m_;
     context_.begin_phase("measure distances", 0);
     parallel_for((count + kChunk - 1) / kChunk, 1, [&](std::size_t c) {
       if (context_.cancelled()) return;
@@ -80,7 +91,7 @@ class DistanceField {
   void measure_brick(std::size_t brick) {
     float* samples = grid_.samples(brick);
     const auto b = grid_.brick_at(brick);
-    const double half = 1.5 * m_.cell_m;
+    const double half = 1.5 * cell_m_;
     for (int block = 0; block < 8; ++block) {
       const int i0 = b[0] * kBrickSide + 4 * (block & 1),
                 j0 = b[1] * kBrickSide + 4 * (block >> 1 & 1),
@@ -88,14 +99,14 @@ class DistanceField {
       if (!is_near(grid_.position(i0, j0, k0) + Vec3d::Constant(half), half)) continue;
       for (int s = 0; s < 64; ++s) {
         const int i = i0 + (s & 3), j = j0 + (s >> 2 & 3), k = k0 + (s >> 4);
-        const auto hit = soup_.closest(grid_.position(i, j, k), m_.band_m);
+        const auto hit = soup_.closest(grid_.position(i, j, k), band_m_);
         if (hit.triangle == MeshDistance::kNone) continue;
         samples[BrickGrid::within(i, j, k)] = float(hit.distance);
       }
     }
   }
 
-  bool passable(float distance) const { return double(distance) > m_.offset_m; }
+  bool passable(float distance) const { return double(distance) > cell_m_; }
 
   /// Marks the samples that can be reached from the grid's corner along axes without coming nearer
   /// to the soup than the offset. A brick far from the soup is passed as one.
@@ -162,13 +173,13 @@ class DistanceField {
   }
 
   void sign_values() {
-    const auto least = float(1e-3 * m_.cell_m);  // never zero, which would count as outside
+    const auto least = float(1e-3 * cell_m_);  // never zero, which would count as outside
     for (std::size_t brick = 0; brick < grid_.brick_count(); ++brick) {
       if (slot_[brick] < 0) {
-        grid_.uniform(brick) = far_reached_[brick] != 0 ? float(m_.cell_m) : -float(m_.cell_m);
+        grid_.uniform(brick) = far_reached_[brick] != 0 ? float(cell_m_) : -float(cell_m_);
       }
     }
-    const auto offset = float(m_.offset_m);
+    const auto offset = float(cell_m_);
     parallel_for(near_.size(), 64, [&](std::size_t n) {
       float* samples = grid_.samples(near_[n]);
       for (std::size_t s = 0; s < BrickGrid::kBrickSamples; ++s) {
@@ -179,7 +190,7 @@ class DistanceField {
   }
 
   const MeshDistance& soup_;
-  WrapMeasures m_;
+  double cell_m_, band_m_;
   const RunContext& context_;
   BrickGrid grid_;
   std::vector<std::size_t> near_;   // bricks with samples of their own, ascending
@@ -191,9 +202,9 @@ class DistanceField {
 
 }  // namespace
 
-Result<BrickGrid> wrap_field(const MeshDistance& soup, const Box& box, const WrapMeasures& measures,
-                             std::size_t max_bytes, const RunContext& context) {
-  return DistanceField(soup, measures, context).run(box, max_bytes);
+Result<BrickGrid> wrap_field(const MeshDistance& soup, const TriangleMesh& mesh, double cell_m,
+                             const RunContext& context) {
+  return DistanceField(soup, cell_m, context).run(bounds_of_triangles(mesh));
 }
 
 }  // namespace turnscan::grid

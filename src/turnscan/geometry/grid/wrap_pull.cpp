@@ -6,15 +6,17 @@
 namespace turnscan::grid {
 namespace {
 
+/// How near to the soup a wrap's vertices may come, so that the two sides of a sheet stay apart.
+constexpr double kStandOffCells = 0.02;
 constexpr int kMaxPullRounds = 12;
 constexpr int kMaxEaseRounds = 10;
 
 class Puller {
  public:
-  Puller(TriangleMesh& mesh, const MeshDistance& soup, const WrapMeasures& measures)
+  Puller(TriangleMesh& mesh, const MeshDistance& soup, double cell_m)
       : mesh_(mesh),
         soup_(soup),
-        stand_off_(kWrapStandOffCells * measures.cell_m),
+        stand_off_(kStandOffCells * cell_m),
         from_(mesh.vertices),
         fraction_(mesh.vertices.size(), 1.0f) {
     target_.resize(from_.size());
@@ -147,9 +149,9 @@ class Puller {
 
 }  // namespace
 
-Result<> pull_onto(const MeshDistance& soup, const WrapMeasures& measures, TriangleMesh& mesh,
+Result<> pull_onto(const MeshDistance& soup, double cell_m, TriangleMesh& mesh,
                    const RunContext& context) {
-  return Puller(mesh, soup, measures).run(context);
+  return Puller(mesh, soup, cell_m).run(context);
 }
 
 }  // namespace turnscan::grid

@@ -98,13 +98,6 @@ Result<TriangleMesh> merge_vertices(const TriangleMesh& mesh, double tolerance_m
   return merged;
 }
 
-Result<TriangleMesh> drop_unreferenced(const TriangleMesh& mesh) {
-  TURNSCAN_TRY(validate_mesh(mesh));
-  TriangleMesh rest = mesh;
-  mesh::compact_vertices(rest);
-  return rest;
-}
-
 Result<TriangleMesh> remove_degenerate(const TriangleMesh& mesh) {
   TURNSCAN_TRY(validate_mesh(mesh));
   TriangleMesh rest = mesh;

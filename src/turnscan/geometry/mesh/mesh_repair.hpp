@@ -18,9 +18,6 @@ namespace turnscan {
 /// attributes stay. Triangles that so lose a corner are dropped.
 Result<TriangleMesh> merge_vertices(const TriangleMesh& mesh, double tolerance_m = 0.0);
 
-/// Drops vertices that no triangle names. The order of the rest stays.
-Result<TriangleMesh> drop_unreferenced(const TriangleMesh& mesh);
-
 /// Drops triangles that repeat a vertex, that have no area at all, or that are exact copies of an
 /// earlier one (same three vertices, either way round); then unreferenced vertices.
 Result<TriangleMesh> remove_degenerate(const TriangleMesh& mesh);

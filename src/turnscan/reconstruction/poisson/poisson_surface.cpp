@@ -220,9 +220,7 @@ class IsoProjector {
 Result<TriangleMesh> indicator_surface(const OctreeLevels& levels, const Cube& cube, int depth,
                                        double iso, const RunContext& context) {
   TURNSCAN_ASSIGN(const BrickGrid grid, grid_of(levels, cube, depth, iso, context));
-  IsosurfaceOptions options;
-  options.cells = MarchingCells::kCubes;
-  TURNSCAN_ASSIGN(TriangleMesh mesh, isosurface(grid, options, context));
+  TURNSCAN_ASSIGN(TriangleMesh mesh, isosurface(grid, MarchingCells::kCubes, context));
   const IsoProjector pull(levels, cube, iso);
   parallel_for(mesh.vertices.size(), 256, [&](std::size_t v) {
     mesh.vertices[v] = pull(mesh.vertices[v], 0.25 * grid.cell_m());

@@ -203,9 +203,7 @@ Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointClo
       fmt::format("concave hull: {} edges of three or more triangles, {} open edges; wrapped on "
                   "cells of {}",
                   before.non_manifold_edges, before.boundary_edges, length_text(cell_m))};
-  WrapOptions options;
-  options.cell_m = cell_m;
-  TURNSCAN_ASSIGN(const TriangleMesh mesh, wrap(raw, options, context));
+  TURNSCAN_ASSIGN(const TriangleMesh mesh, grid::wrap(raw, cell_m, context));
   TURNSCAN_ASSIGN(MarkedPiece piece, main_piece(mesh, tree, reach_m, parts, notes));
   RepairedMesh out = checked(std::move(piece), std::move(notes));
   if (!out.check.watertight())

@@ -64,7 +64,7 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   TURNSCAN_TRY(context.check());
   const auto march = [&]() -> Result<TriangleMesh> {
     TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(2) << 30));
-    return isosurface(grid, IsosurfaceOptions(), context);
+    return isosurface(grid, MarchingCells::kTetrahedra, context);
   };
   TURNSCAN_ASSIGN(out.mesh, timed(times, "extraction", march));
   return out;

@@ -332,7 +332,7 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   scale.truncation_m = volume.truncation_m;
   TURNSCAN_TRY(close_holes(volume, scale, TaperedFoot(), context));
   TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(1) << 30));
-  return isosurface(grid, IsosurfaceOptions(), context);
+  return isosurface(grid, MarchingCells::kTetrahedra, context);
 }
 
 std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space(bool filtered) const {
