@@ -36,7 +36,8 @@ class Reader {
  public:
   Reader(const ColorImage& picture, const CameraIntrinsics& camera, const Pose& T_camera_label)
       : picture_(picture), camera_(camera), T_(T_camera_label) {
-    for (const char c : label_alphabet()) templates_.emplace_back(c, template_of(c));
+    for (char c = '!'; c <= 'Z'; ++c)
+      if (glyph_of(c) != decltype(glyph_of(c)){}) templates_.emplace_back(c, template_of(c));
   }
 
   bool faces(double angle, double y) const {

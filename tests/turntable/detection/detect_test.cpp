@@ -102,16 +102,16 @@ TEST(DetectPlatter, RefusesWrongOptionsAndCancelling) {
   EXPECT_EQ(detect_platter(scan, {}, context).error().code, ErrorCode::kCancelled);
 }
 
-TEST(EstimateDepthBias, FindsWhatWasTakenOffTheDepth) {
+TEST(GaugeDepth, FindsWhatWasTakenOffTheDepth) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
   for (const double bias_m : {0.02, -0.03}) {
     testing::RigOptions options = testing::random_rig(5);
     options.frames = 4;
     const AveragedScan scan = shifted(scan_of(options), -bias_m);
-    const auto found = estimate_depth_bias(scan, options.radius_m, 0.001, {}, {});
+    const auto found = gauge_depth(scan, options.radius_m, 0.001, {}, {});
     ASSERT_TRUE(found) << found.error().text();
-    EXPECT_NEAR(found->bias_m, 0.001 + bias_m, std::max(0.004, 2.5 * found->bias_sigma_m));
-    EXPECT_LT(found->bias_sigma_m, 0.006);
+    EXPECT_NEAR(found->offset_m, 0.001 + bias_m, std::max(0.004, 2.5 * found->sigma_m));
+    EXPECT_LT(found->sigma_m, 0.006);
   }
 }
 
@@ -150,13 +150,12 @@ TEST(FitDepth, IsALineAndNeedsTwoDistances) {
       ErrorCode::kTooFewPoints);
 }
 
-TEST(EstimateDepthBias, RefusesARadiusThatCannotBe) {
+TEST(GaugeDepth, RefusesARadiusThatCannotBe) {
   testing::RigOptions options = testing::random_rig(5);
   options.frames = 1;
   const AveragedScan scan = scan_of(options);
-  EXPECT_FALSE(estimate_depth_bias(scan, 2.0 * options.radius_m, 0.0, {}, {}));
-  EXPECT_EQ(estimate_depth_bias(scan, std::nan(""), 0.0, {}, {}).error().code,
-            ErrorCode::kInvalidOption);
+  EXPECT_FALSE(gauge_depth(scan, 2.0 * options.radius_m, 0.0, {}, {}));
+  EXPECT_EQ(gauge_depth(scan, std::nan(""), 0.0, {}, {}).error().code, ErrorCode::kInvalidOption);
 }
 
 }  // namespace

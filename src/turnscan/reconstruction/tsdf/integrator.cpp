@@ -26,10 +26,6 @@ std::array<float, 3> Integrator::first_sample(const GridCoords& brick) const {
   return {float(p.x()), float(p.y()), float(p.z())};
 }
 
-std::size_t Integrator::group_at(const GridCoords& group) const {
-  return grid_.at(minus(group, low_));
-}
-
 GridCoords Integrator::first_brick(std::size_t group) const {
   const GridCoords at = grid_.coords(group);
   return {kGroupSide * (low_[0] + at[0]), kGroupSide * (low_[1] + at[1]),

@@ -84,7 +84,6 @@ class Integrator {
   Vec3d sample_position(const GridCoords& brick) const;
   std::array<float, 3> first_sample(const GridCoords& brick) const;
   GridCoords first_brick(std::size_t group) const;
-  std::size_t group_at(const GridCoords& group) const;
 
   Result<> cover(std::span<const views::DepthView> batch, const EarlierViews& before);
   Box volume_box(std::span<const views::DepthView> batch) const;

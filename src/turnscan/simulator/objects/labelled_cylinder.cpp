@@ -89,15 +89,6 @@ Glyph glyph_of(char character) {
   return at == kGlyphs.end() ? Glyph{} : at->second;
 }
 
-std::string_view label_alphabet() {
-  static const std::string all = [] {
-    std::string letters;
-    for (const auto& glyph : kGlyphs) letters.push_back(glyph.first);
-    return letters;
-  }();
-  return all;
-}
-
 std::array<LabelLine, 7> label_lines() {
   constexpr double k3mm = 0.003;
   return {{{"TURNSCAN  3-D  SCANNER", 0.010, 0.120, 0.0},

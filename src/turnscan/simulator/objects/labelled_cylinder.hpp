@@ -24,9 +24,6 @@ inline constexpr int kGlyphAdvance = 6;
 /// Columns of a character from the left, bit 0 the upper row; nothing for one that there is not.
 std::array<std::uint8_t, kGlyphColumns> glyph_of(char character);
 
-/// All characters that have a glyph, the blank left out.
-std::string_view label_alphabet();
-
 /// From the top to the bottom.
 std::array<LabelLine, 7> label_lines();
 

@@ -44,19 +44,6 @@ Result<DepthGauge> gauge_depth(const AveragedScan& scan, double radius_m, double
   return out;
 }
 
-Result<DepthCorrection> estimate_depth_bias(const AveragedScan& scan, double radius_m,
-                                            double recorded_m, const DetectOptions& options,
-                                            const RunContext& context) {
-  TURNSCAN_ASSIGN(const DepthGauge gauge,
-                  gauge_depth(scan, radius_m, recorded_m, options, context));
-  DepthCorrection out;
-  out.bias_m = gauge.offset_m;
-  out.bias_sigma_m = gauge.sigma_m;
-  out.found = fmt::format("the platter's rim, whose radius is {}",
-                          format_quantity(radius_m, Quantity::kLength));
-  return out;
-}
-
 Result<DepthCorrection> fit_depth(std::span<const DepthGauge> gauges) {
   double least = 1e9, most = -1e9, weights = 0.0, z = 0.0, y = 0.0;
   for (const DepthGauge& g : gauges) {

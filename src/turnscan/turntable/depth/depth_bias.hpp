@@ -7,16 +7,6 @@
 
 namespace turnscan {
 
-/// Depth that is b too small makes everything look smaller by b / depth: 2 % at 20 mm. The offset
-/// is the one with which the detected rim has the radius that it has (secant method over
-/// detect_platter). bias_m replaces the recording's own offset, `recorded_m`. The scale stays 1: a
-/// platter at one distance cannot tell it from an offset. options.radius_m is not used.
-/// Fails as detect_platter does, with kInvalidOption for a radius out of range, and with
-/// kMissingData when the radius that is seen is over a fifth off.
-Result<DepthCorrection> estimate_depth_bias(const AveragedScan& scan, double radius_m,
-                                            double recorded_m, const DetectOptions& options,
-                                            const RunContext& context);
-
 /// How far depth is off at one distance.
 struct DepthGauge {
   double depth_m = 0.0;   ///< of the platter's centre, as recorded without any offset
@@ -24,7 +14,12 @@ struct DepthGauge {
   double sigma_m = 0.0;   ///< standard deviation of the offset
 };
 
-/// What estimate_depth_bias finds, with the distance at which it holds. Fails as that does.
+/// Depth that is b too small makes everything look smaller by b / depth: 2 % at 20 mm. The offset
+/// is the one with which the detected rim has the radius that it has (secant method over
+/// detect_platter); it replaces the recording's own, `recorded_m`. A platter at one distance cannot
+/// tell an offset from a scale. options.radius_m is not used. Fails as detect_platter does, with
+/// kInvalidOption for a radius out of range, and with kMissingData when the radius that is seen is
+/// over a fifth off.
 Result<DepthGauge> gauge_depth(const AveragedScan& scan, double radius_m, double recorded_m,
                                const DetectOptions& options, const RunContext& context);
 
