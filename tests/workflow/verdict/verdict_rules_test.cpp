@@ -5,7 +5,7 @@
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
-#include <turnscan/workflow/text/verdict_text.hpp>
+#include <turnscan/workflow/text/reconstruction_text.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
 
 #include "tests/support/memory_sequence.hpp"

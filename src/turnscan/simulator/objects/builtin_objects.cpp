@@ -3,11 +3,8 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
-#include <turnscan/simulator/objects/doll.hpp>
-#include <turnscan/simulator/objects/gauges.hpp>
 #include <turnscan/simulator/objects/labelled_cylinder.hpp>
-#include <turnscan/simulator/objects/scorpion.hpp>
-#include <turnscan/simulator/objects/skull.hpp>
+#include <turnscan/simulator/objects/object_makers.hpp>
 
 namespace turnscan {
 

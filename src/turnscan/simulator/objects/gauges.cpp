@@ -1,4 +1,4 @@
-#include <turnscan/simulator/objects/gauges.hpp>
+#include <turnscan/simulator/objects/object_makers.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <array>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/implicit_parts.hpp>
-#include <turnscan/simulator/objects/scorpion.hpp>
+#include <turnscan/simulator/objects/object_makers.hpp>
 
 // Lengths in this file are millimetres, up is +y, the head is at +z.
 

@@ -1,6 +1,6 @@
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/simulator/objects/implicit_parts.hpp>
-#include <turnscan/simulator/objects/skull.hpp>
+#include <turnscan/simulator/objects/object_makers.hpp>
 
 // Lengths in this file are millimetres, up is +y, the face looks along +z.
 

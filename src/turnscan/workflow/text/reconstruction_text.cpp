@@ -1,12 +1,12 @@
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/workflow/text/mesh_text.hpp>
 #include <turnscan/workflow/text/text_table.hpp>
-#include <turnscan/workflow/text/verdict_text.hpp>
 
 namespace turnscan {
 
@@ -109,6 +109,16 @@ std::string times_text(const Reconstruction& r) {
 }
 
 }  // namespace
+
+std::string verdict_text(const Verdict& verdict) {
+  std::string colour(verdict.colour());
+  std::transform(colour.begin(), colour.end(), colour.begin(),
+                 [](unsigned char c) { return char(std::toupper(c)); });
+  workflow::TextTable table({0, 1, 2});
+  for (const VerdictSentence& s : verdict.sentences)
+    table.add({s.topic, std::string(name_of(s.level)), s.text});
+  return fmt::format("Verdict: {}\n{}", colour, table.text(2));
+}
 
 std::string reconstruction_text(const Reconstruction& r) {
   std::string text = fmt::format("{} frames, {} returns, {} inside the crop, {} after the filter\n",

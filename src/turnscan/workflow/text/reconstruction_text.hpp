@@ -2,11 +2,15 @@
 
 #include <string>
 #include <turnscan/reconstruction/pipeline.hpp>
+#include <turnscan/reconstruction/verdict.hpp>
 
 namespace turnscan {
 
 /// What was made, which parameters were used and why, and how long it took: a few tables for
 /// people, lines of ASCII.
 std::string reconstruction_text(const Reconstruction& reconstruction);
+
+/// "Verdict: GREEN" and a line for each sentence.
+std::string verdict_text(const Verdict& verdict);
 
 }  // namespace turnscan
