@@ -1,5 +1,5 @@
 #pragma once
-// Whether the turntable is where a recording says.
+// Whether the turntable is where a recording states it to be.
 
 #include <optional>
 #include <turnscan/core/frame.hpp>
@@ -8,23 +8,24 @@
 
 namespace turnscan {
 
-/// How far the axis about which the frames fit each other lies from the recorded one. Unlike the
-/// closure after a turn, which is right about any axis, it shows a table or a sensor that was moved
-/// after it was calibrated.
+/// Offset between the axis about which the frames fit each other and the recorded axis. Unlike the
+/// closure error after a turn, which is small about any axis, it shows that the table or the sensor
+/// was moved after calibration.
 struct AxisOffset {
-  double tilt_rad = 0.0;        ///< between the two axes
-  double shift_m = 0.0;         ///< between them beside the object
+  double tilt_rad = 0.0;        ///< angle between the two axes
+  double shift_m = 0.0;         ///< distance between them, at the object
   double tilt_sigma_rad = 0.0;  ///< standard deviations
   double shift_sigma_m = 0.0;
-  std::size_t frames = 0;    ///< that were compared
+  std::size_t frames = 0;    ///< number of frames compared
   bool significant() const;  ///< over 1.5 mm or half a degree, and over four standard deviations
 };
 
-/// Compares up to 36 frames of the first sensor at the angles that the recording states. nullopt
-/// where that is no depth camera (profiles of a line scanner do not overlap), where it shows less
-/// than an eighth of a turn, too little of an object, or one whose shape leaves the axis open, as a
-/// ball's does: another axis fits no better than the recorded one. Fails with kMissingData when the
-/// recording has no turntable or no angles, kCancelled, and what reading fails with.
+/// Compares up to 36 frames of the first sensor at the angles that the recording states. nullopt if
+/// that sensor is not a depth camera (profiles of a line scanner do not overlap), if it covers less
+/// than an eighth of a turn, if too little of an object is visible, or if the object's shape leaves
+/// the axis undetermined, as a ball's does: another axis then fits no better than the recorded one.
+/// Fails with kMissingData if the recording has no turntable or no angles, with kCancelled, and
+/// with the errors of reading.
 Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
                                                       const RunContext& context,
                                                       PlatterMemory* memory = nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// Is the calibration of a recording right, and if not, what is wrong?
+// Checks the calibration of a recording and reports what is wrong with it.
 
 #include <string>
 #include <turnscan/turntable/checks/closure.hpp>
@@ -15,7 +15,7 @@ struct Finding {
   std::string text;  ///< one sentence
 };
 
-/// Of a check that could be made.
+/// Rating of a check that could be made.
 constexpr Rating rating_of(bool good) { return good ? Rating::kGood : Rating::kWrong; }
 
 struct CheckOptions {
@@ -23,9 +23,9 @@ struct CheckOptions {
   DetectOptions detect;
 };
 
-/// Checks closure, direction, speed, recorded angles, slips and stops, and drift of what stands
-/// still. What cannot be checked is said, too. Fails with kCancelled and what reading
-/// fails with.
+/// Checks closure, direction, speed, recorded angles, slips and stops, and drift of the static
+/// scene. Checks that could not be made are reported, too. Fails with kCancelled and with the
+/// errors of reading.
 Result<std::vector<Finding>> check_recording(const FrameSequence& sequence,
                                              const CheckOptions& options,
                                              const RunContext& context);

@@ -1,13 +1,13 @@
 #pragma once
-// Slips and stops of a recording's table, in sentences.
+// Reports slips and stops of a recording's table as findings.
 
 #include <turnscan/turntable/checks/check.hpp>
 
 namespace turnscan::checks {
 
-/// found: the calibration from the recording's motion, which must show the object's turn. Nothing
-/// where the frames have no times. Recorded angles, where every frame has one, may have followed
-/// the events. Fails with kCancelled and what reading fails with.
+/// found: the calibration from the recording's motion; the object's shape must determine its
+/// rotation. Empty if the frames have no times. If every frame has a recorded angle, those angles
+/// may already follow the events. Fails with kCancelled and with the errors of reading.
 Result<std::vector<Finding>> check_motor(const FrameSequence& sequence, const CheckOptions& options,
                                          const Calibration& found, const RunContext& context);
 

@@ -6,8 +6,8 @@
 
 namespace turnscan::checks {
 
-/// Per frame its own angle, or that of the recorded speed, radians; NaN where there is neither, for
-/// frames that are not whole and for sensors other than the first.
+/// Angle of each frame in radians: its own, or else from the recorded speed. NaN if neither is
+/// known, for frames whose status is not kOk, and for sensors other than the first.
 std::vector<double> recorded_angles(const FrameSequence& sequence);
 
 }  // namespace turnscan::checks

@@ -1,5 +1,5 @@
 #pragma once
-// Keep what stands on the platter: the cylinder above it (thesis eq. 3.5 to 3.7, algorithm 2).
+// Crops to the cylinder above the platter (thesis eq. 3.5 to 3.7, algorithm 2).
 
 #include <cmath>
 #include <optional>
@@ -10,9 +10,10 @@ namespace turnscan {
 
 struct CropOptions {
   bool enabled = true;
-  /// Lowest height above the platter that is kept; nullopt: found from the platter's own returns.
+  /// Lowest height above the platter that is kept; nullopt: determined from the platter's own
+  /// returns.
   std::optional<double> margin_m;
-  /// Radius of the cylinder; nullopt: the platter's, or more where the object reaches beyond it.
+  /// Radius of the cylinder; nullopt: the platter's, or larger if the object extends beyond it.
   std::optional<double> radius_m;
   double height_m = 2.0;  ///< height of the cylinder
 };
@@ -30,7 +31,7 @@ struct Cylinder {
   }
 };
 
-/// The same cylinder seen from a sensor: one multiply-add row per axis, no full transform.
+/// The same cylinder in a sensor's frame: one multiply-add row per axis, no full transform.
 class SensorCrop {
  public:
   SensorCrop(const Cylinder& cylinder, const Pose& T_table_sensor);
@@ -42,7 +43,7 @@ class SensorCrop {
   float margin_, height_, radius_squared_;
 };
 
-/// The points for which keeps() holds (in order); cells are kept with them.
+/// The points for which keeps() holds, in order, with their cells.
 template <class Keeps>
 FramePoints kept_points(const FramePoints& points, const Keeps& keeps) {
   FramePoints out;
@@ -59,35 +60,35 @@ FramePoints kept_points(const FramePoints& points, const Keeps& keeps) {
   return out;
 }
 
-/// Those inside.
+/// The points inside the cylinder.
 FramePoints crop(const FramePoints& points, const SensorCrop& crop);
 
-/// How far the platter's own returns lie from y = 0.
+/// Distribution of the heights of the platter's own returns about y = 0.
 struct PlatterReturns {
   std::size_t count = 0;     ///< returns within 15 mm of the plane, inside the radius
   double height_m = 0.0;     ///< their median height
   double sigma_m = 0.0;      ///< robust standard deviation of their height
-  double dense_share = 0.0;  ///< of the returns that lie in the 3 mm that hold most of them
+  double dense_share = 0.0;  ///< share of the returns within the most populated 3 mm
   static constexpr double kReach_m = 0.015, kMaxSigma_m = 0.0045;
 
-  /// Whether they lie at one height. Of what is spread evenly over 15 mm or more, 3 mm hold a fifth
-  /// at most.
+  /// Whether the returns are at one height. Of returns spread evenly over 15 mm or more, 3 mm
+  /// contain at most a fifth.
   bool lie_flat(double most_sigma_m) const { return dense_share > 0.25 && sigma_m < most_sigma_m; }
-  /// Whether they are a platter's. Without one, what is seen at its height are the object's own
-  /// feet and walls; where it widens upwards, most returns lie at the upper end.
+  /// Whether the returns come from a platter. Without a platter, the returns at its height are the
+  /// object's own feet and walls; where these widen upwards, most returns are near the upper end.
   bool plane(double most_sigma_m = kMaxSigma_m) const {
     return lie_flat(most_sigma_m) && std::abs(height_m) < 0.0115;
   }
 };
 
-/// Measures them on points in the table frame. The lower half of their distribution decides, so
-/// that the object's foot does not count as noise. count = 0 when fewer than 200 are there.
+/// Measures the returns on points in the table frame. Uses the lower half of their distribution, so
+/// that the object's foot does not count as noise. count = 0 if there are fewer than 200.
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m);
 
-/// Radius at which the platter's returns end: outwards from the ring (of 4 mm) in which they lie
-/// densest, the first ring with less than 0.3 times that density. p_table must hold whole frames
-/// (not cropped), spread over a turn. nullopt where they do not end within 0.6 m, e.g. on a plane
-/// that goes on beyond the platter, where there are too few, or where they lie in no plane.
+/// Radius at which the platter's returns end: going outwards from the densest 4 mm ring, the first
+/// ring with less than 0.3 times its density. p_table must contain whole frames (not cropped),
+/// spread over a turn. nullopt if the returns do not end within 0.6 m, e.g. on a plane that extends
+/// beyond the platter, if there are too few, or if they are not in a plane.
 std::optional<double> find_platter_radius(const std::vector<Vec3f>& p_table,
                                           const PlatterReturns& platter);
 

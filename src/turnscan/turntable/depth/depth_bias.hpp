@@ -1,6 +1,6 @@
 #pragma once
-// A constant offset of a sensor's depth, from a platter whose radius is known; with recordings of
-// it at two distances or more also the scale.
+// A constant offset of a sensor's depth, from a platter of known radius; from recordings at two
+// distances or more also its scale.
 
 #include <span>
 #include <turnscan/turntable/detection/detect.hpp>
@@ -9,8 +9,8 @@ namespace turnscan {
 
 /// How far depth is off at one distance.
 struct DepthGauge {
-  double depth_m = 0.0;   ///< of the platter's centre, as recorded without any offset
-  double offset_m = 0.0;  ///< what has to be added to it
+  double depth_m = 0.0;   ///< depth of the platter's centre, as recorded without any offset
+  double offset_m = 0.0;  ///< the correction to be added to it
   double sigma_m = 0.0;   ///< standard deviation of the offset
 };
 
@@ -23,12 +23,12 @@ struct DepthGauge {
 Result<DepthGauge> gauge_depth(const AveragedScan& scan, double radius_m, double recorded_m,
                                const DetectOptions& options, const RunContext& context);
 
-/// The least-squares line through gauges at several distances, weighted by their standard
-/// deviations: depth is scale times the recorded one, plus bias_m. Fails with kTooFewPoints for
-/// fewer than two gauges, and when their distances lie less than 5 cm apart.
+/// Least-squares line through gauges at several distances, weighted by their standard deviations:
+/// depth is scale times the recorded depth, plus bias_m. Fails with kTooFewPoints for fewer than
+/// two gauges, and if their distances are less than 5 cm apart.
 Result<DepthCorrection> fit_depth(std::span<const DepthGauge> gauges);
 
-/// The same scan with an offset added to its depth.
+/// The scan with an offset added to its depth.
 AveragedScan shifted(AveragedScan scan, double offset_m);
 
 }  // namespace turnscan

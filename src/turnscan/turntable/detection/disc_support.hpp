@@ -1,16 +1,16 @@
 #pragma once
-// How an image agrees with a disc.
+// Agreement of an image with a disc.
 
 #include <turnscan/turntable/detection/rim_fit.hpp>
 
 namespace turnscan::detection {
 
-/// How the image agrees with a disc.
+/// Agreement of the image with a disc. All members are shares, 0 to 1.
 struct DiscSupport {
-  double rim_share = 0.0;  ///< places of the rim where the plane is inside and not outside
-  double agreement = 0.0;  ///< of the places where the image decides, those that agree
-  double filled = 0.0;     ///< of the disc where the image decides, what is in the plane
-  double seen = 0.0;       ///< of the disc, where the image decides
+  double rim_share = 0.0;  ///< points of the rim where the plane is inside and not outside
+  double agreement = 0.0;  ///< of the points where the image is conclusive, those that agree
+  double filled = 0.0;     ///< of the disc where the image is conclusive, the part in the plane
+  double seen = 0.0;       ///< part of the disc where the image is conclusive
 };
 DiscSupport support_of(const PlaneView& view, const RimCircle& circle);
 

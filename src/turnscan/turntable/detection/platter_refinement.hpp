@@ -1,5 +1,5 @@
 #pragma once
-// From a rough platter to its best estimate with deviations that can be believed.
+// Refines an approximate platter to the best estimate with realistic standard deviations.
 
 #include <turnscan/turntable/detection/detect.hpp>
 #include <turnscan/turntable/detection/disc_support.hpp>
@@ -13,7 +13,7 @@ struct PlatterCandidate {
   double tolerance_m = 0.0;  ///< of its plane
 };
 
-/// All must outlive what is made of them.
+/// References that must outlive every object made from them.
 struct ScanImage {
   const ScanPixels& pixels;
   const CameraIntrinsics& camera;
@@ -24,9 +24,9 @@ struct ScanImage {
 PlaneView view_of(const ScanImage& image, const Plane& plane, double tolerance_m,
                   const Vec3d& origin);
 
-/// Plane from the pixels that no edge can have changed, rim by maximum likelihood. nullopt where
-/// there is too little of them, or once the context is cancelled. radius_m: the platter's, if
-/// known.
+/// Estimates the plane from the pixels that no edge can have affected, and the rim by maximum
+/// likelihood. nullopt if there are too few of them, or once the context is cancelled. radius_m:
+/// the platter's, if known.
 std::optional<PlatterCandidate> refine_platter(const ScanImage& image,
                                                const PlatterCandidate& rough,
                                                std::optional<double> radius_m,

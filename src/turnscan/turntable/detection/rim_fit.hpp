@@ -6,16 +6,16 @@
 
 namespace turnscan::detection {
 
-/// A place where the surface ends before something farther: between two pixels, in the plane.
+/// A point, between two pixels, where the surface ends before something farther away.
 struct RimPoint {
   Eigen::Vector2d at;         ///< coordinates in the plane
   Eigen::Matrix2d footprint;  ///< metres in the plane per pixel across and down
   /// Behind it the depth jumps, so that mixed pixels may hide the true end; false at an edge from
-  /// which a wall goes down.
+  /// which a wall descends.
   bool jump = true;
 };
 
-/// Coordinates in a plane, whose origin is where the z axis of the sensor's view of it starts.
+/// Coordinates in a plane. The origin is that given to the constructor.
 class PlaneFrame {
  public:
   PlaneFrame(const Plane& plane, const Vec3d& origin);
@@ -28,7 +28,7 @@ class PlaneFrame {
   Vec3d o_, u_, v_;
 };
 
-/// Image, plane and which pixels lie in it.
+/// Image, plane and mask of the pixels in the plane.
 struct PlaneView {
   const ScanPixels& scan;
   const CameraIntrinsics& camera;
@@ -39,34 +39,34 @@ struct PlaneView {
   std::vector<std::uint8_t> in;  ///< per pixel
 
   Vec3d ray(double column, double row) const { return camera.ray(column, row); }
-  /// +1 where the pixel lies above the plane (hides it), -1 behind it or empty, 0 in it.
+  /// +1 if the pixel is above the plane (occludes it), -1 if behind it or empty, 0 if in it.
   int side(int column, int row) const;
 };
 
-/// All ends of the plane except where something stands before them.
+/// All ends of the plane except where something occludes them.
 std::vector<RimPoint> rim_points(const PlaneView& view);
 
-/// The ends of the plane's largest connected part, whatever lies behind.
+/// The ends of the plane's largest connected part, whatever is behind them.
 std::vector<RimPoint> part_ends(const PlaneView& view);
 
-/// On the side of a disc that faces the sensor a thick platter shows its wall, of which the upper
-/// end passes for the plane. Where enough of the points there are walls, those that are not are
-/// dropped. to_sensor: direction in the plane.
+/// On the side of a disc that faces the sensor, a thick platter shows its wall, whose upper end
+/// passes for the plane. If enough of the points there are on walls, the others are dropped.
+/// to_sensor: direction in the plane.
 void drop_false_ends(const Eigen::Vector2d& center, const Eigen::Vector2d& to_sensor,
                      std::vector<RimPoint>& points);
 
 struct RimCircle {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
-  double edge_px = 0.0;  ///< how much farther out than half way between the pixels the rim lies
+  double edge_px = 0.0;  ///< distance of the rim outwards from half way between the pixels
   Eigen::Matrix2d center_covariance = Eigen::Matrix2d::Zero();
   double radius_sigma_m = 0.0;
   double rms_m = 0.0;
   std::size_t points = 0;
 };
 
-/// Those through most of the points, in that order; some may be nearly the same. Radius within
-/// [min, max]. Empty where no circle has enough points all round.
+/// The circles with the most points, in that order; some may be nearly identical. The radius is
+/// within [min, max]. Empty if no circle has enough points all round.
 std::vector<RimCircle> find_circles(const std::vector<RimPoint>& points, double min_radius_m,
                                     double max_radius_m, std::optional<double> radius_m,
                                     std::uint64_t seed);

@@ -1,5 +1,5 @@
 #pragma once
-// What the pixels about a platter's outline see.
+// Labels the pixels near a platter's outline by what they see.
 
 #include <turnscan/turntable/detection/residual_correlation.hpp>
 #include <turnscan/turntable/detection/rim_model.hpp>
@@ -8,9 +8,9 @@ namespace turnscan::detection {
 
 enum class RimLabel : std::uint8_t {
   kBackground,  ///< something well behind the platter
-  kMixed,       ///< it flickers or lies between platter and background
-  kPlatter,     ///< its surface or its wall
-  kEmpty        ///< no return: mixed and dropped, not lit, or nothing is there
+  kMixed,       ///< it flickers or is between platter and background
+  kPlatter,     ///< the platter's surface or wall
+  kEmpty        ///< no return: mixed and dropped, not lit, or nothing there
 };
 
 struct RimPixel {
@@ -20,11 +20,10 @@ struct RimPixel {
   bool bare = false;  ///< more pixels near it are empty than mixed
 };
 
-/// Of the pixels within `reach_px` of the model's outline, and those within it near the edge
-/// between surface and wall. Pixels that something before the platter hides, and those beside
-/// them, are left out, and so are empty ones where the platter would be nearer than anything that
-/// the sensor measures. slack_m: by how much the wall may lie elsewhere. None once the context is
-/// cancelled.
+/// Labels the pixels within `reach_px` of the model's outline and of the edge between surface and
+/// wall. Omits pixels that something before the platter occludes and those beside them, and empty
+/// ones where the platter would be nearer than anything that the sensor measures. slack_m:
+/// tolerance of the wall's position. Empty once the context is cancelled.
 std::vector<RimPixel> label_rim(const PlaneView& view, const RimView& rays, const RimModel& model,
                                 const NoiseCorrelation& noise, double reach_px, double slack_m,
                                 const RunContext& context);

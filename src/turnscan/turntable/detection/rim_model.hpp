@@ -1,5 +1,5 @@
 #pragma once
-// The platter as a cylinder in a depth image: where its outline lies, how far it is along a ray.
+// The platter as a cylinder in a depth image: its outline and its depth along a ray.
 
 #include <optional>
 #include <turnscan/turntable/detection/plane_fit.hpp>
@@ -7,30 +7,30 @@
 
 namespace turnscan::detection {
 
-/// A disc with a wall that goes down from its rim. Coordinates in a PlaneFrame of its surface.
+/// A disc with a wall that descends from its rim. Coordinates are in a PlaneFrame of its surface.
 struct RimModel {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
   double thickness_m = 0.0;
 };
 
-/// Of center x, center y, radius, thickness.
+/// Derivatives by center x, center y, radius, thickness.
 using RimGradient = Eigen::Vector4d;
 
-/// How far within the outline of disc and wall together a ray passes, in pixels along a row or a
+/// Distance of a ray inside the outline of disc and wall together, in pixels along a row or a
 /// column, whichever crosses the outline more squarely; negative outside.
 struct OutlineDistance {
   double px = 0.0;
   RimGradient gradient = RimGradient::Zero();
-  double bearing_rad = 0.0;  ///< of the nearest place of the rim, in the plane
+  double bearing_rad = 0.0;  ///< of the nearest point of the rim, in the plane
 };
 
 /// Depth along z of disc or wall.
 struct SurfaceDepth {
   double z_m = 0.0;
   RimGradient gradient = RimGradient::Zero();
-  double per_pixel_m = 0.0;  ///< by how much it changes from pixel to pixel
-  double slant_m = 0.0;      ///< the same of the plane
+  double per_pixel_m = 0.0;  ///< change from pixel to pixel
+  double slant_m = 0.0;      ///< the same for the plane
   double facing = 1.0;       ///< cosine between ray and normal
   bool wall = false;
 };
@@ -45,21 +45,22 @@ class RimView {
  public:
   RimView(const CameraIntrinsics& camera, const Plane& plane, const PlaneFrame& frame);
 
-  /// nullopt where the ray does not meet the plane before the sensor.
+  /// nullopt if the ray does not meet the plane in front of the sensor.
   std::optional<OutlineDistance> outline(const RimModel& model, double column, double row) const;
-  /// The same of the disc alone.
+  /// The same for the disc alone.
   std::optional<double> disc_px(const RimModel& model, double column, double row) const;
-  /// About the outline, `margin` pixels wider; the whole image where the sensor is too near.
+  /// Bounding box of the outline, enlarged by `margin` pixels; the whole image if the sensor is too
+  /// near.
   PixelBox box(const RimModel& model, int margin) const;
-  /// Outside the outline: at the nearest approach to the wall. nullopt as outline().
+  /// Outside the outline, evaluated at the nearest approach to the wall. nullopt as outline().
   std::optional<SurfaceDepth> surface(const RimModel& model, double column, double row) const;
 
  private:
-  /// A ray (x, y, 1): at depth z it is at z * along + start in the plane's coordinates.
+  /// A ray (x, y, 1): at depth z its position is z * along + start in the plane's coordinates.
   struct PlaneRay {
     Eigen::Vector2d along;
-    double slope;    ///< of the height over the plane, per metre of z
-    double z_plane;  ///< where it meets the plane
+    double slope;    ///< of the height above the plane, per metre of z
+    double z_plane;  ///< where it intersects the plane
   };
   std::optional<PlaneRay> ray(double column, double row) const;
   struct OutlineDepth {
@@ -67,8 +68,8 @@ class RimView {
     bool at_foot;
   };
   OutlineDepth depth_of_outline(const RimModel& model, const PlaneRay& ray) const;
-  /// Metres in the direction `out` at constant height from pixel to pixel, between the ray at depth
-  /// z and the place `to_rim_m` farther out.
+  /// Metres per pixel in the direction `out` at constant height, between the ray at depth z and the
+  /// point `to_rim_m` farther out.
   double metres_per_px(const PlaneRay& ray, double z, const Eigen::Vector2d& out,
                        double to_rim_m) const;
 

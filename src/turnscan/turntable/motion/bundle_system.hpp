@@ -1,5 +1,5 @@
 #pragma once
-// The normal equations of bundle adjustment: axis and knots' angles, the surfels' heights
+// Normal equations of the bundle adjustment for axis and knots' angles, with the surfels' heights
 // eliminated.
 
 #include <turnscan/geometry/estimation/normal_equations.hpp>
@@ -16,7 +16,7 @@ class AngleKnots {
 
   Eigen::Index size() const { return Eigen::Index(frames_.size()); }
   const std::vector<std::size_t>& frames() const { return frames_; }
-  /// The knot before a frame, and how far the frame is on the way to the next, 0 to 1.
+  /// The knot before a frame, and the frame's relative position between it and the next, 0 to 1.
   std::pair<Eigen::Index, double> between(std::size_t frame) const;
 
  private:
@@ -43,24 +43,24 @@ class BundleSystem {
   void accumulate(const BundleState& at, const std::vector<std::size_t>& frames,
                   const SurfelObservations& observations);
 
-  /// -2 times the logarithm of the evidence for a prior, up to a constant: what the data and the
-  /// prior lose by the best step, and how narrow the prior and the data make the angles.
+  /// -2 times the logarithm of the evidence for a prior, up to a constant: the misfit of data and
+  /// prior at the best step, and how strongly prior and data constrain the angles.
   double minus_2_log_evidence(const BundleState& at, const AnglePrior& prior) const;
 
-  /// The step with a prior; with hold_angles they stay as they are. Fails with kLibrary when the
-  /// system cannot be solved.
+  /// Solves for the step with a prior; with hold_angles the angles are kept fixed. Fails with
+  /// kLibrary if the system cannot be solved.
   Result<> solve(const BundleState& at, const AnglePrior& prior, bool hold_angles);
 
   /// After solve(): knots' angles, then two tilts and two shifts of the axis.
   const Eigen::VectorXd& step() const { return step_; }
-  /// After solve(): the step of a surfel along its normal, metres; nullopt where none was seen.
+  /// After solve(): the step of each surfel along its normal, metres; nullopt if it was not seen.
   std::vector<std::optional<double>> heights() const;
-  /// After solve().
+  /// After solve(): the inverse of the matrix.
   Eigen::MatrixXd inverse() const;
 
   std::size_t residuals() const { return residuals_; }
   double rms_m() const { return rms_m_; }
-  /// Of a residual, enlarged by what correlated errors add.
+  /// Of a residual, inflated for correlated errors.
   double variance_m2() const { return variance_; }
 
  private:
@@ -83,7 +83,7 @@ class BundleSystem {
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_, step_;
   Eigen::VectorXd total_, sums_;  ///< per surfel: of the weights, and of the weighted distances
-  Eigen::MatrixXf rows_;  ///< per surfel: what its height changes by with each unknown, weighted
+  Eigen::MatrixXf rows_;  ///< per surfel: weighted derivatives of its height by the unknowns
   estimation::DenseLdlt factors_;
 };
 

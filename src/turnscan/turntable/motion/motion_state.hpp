@@ -9,16 +9,15 @@
 
 namespace turnscan::motion {
 
-/// Residuals beyond this many robust standard deviations weigh less (Huber 1964).
+/// Residuals beyond this many robust standard deviations are downweighted (Huber 1964).
 inline constexpr double kHuber = 1.5;
 
 struct MotionState {
   Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
-  Vec3d center = Vec3d::Zero();  ///< a point of the axis
+  Vec3d center = Vec3d::Zero();  ///< a point on the axis
   std::vector<double> angle;     ///< per frame of MotionData, radians
-  /// Two views of one object from sides d apart (-pi to pi) seem to be apart by rotation_bias[0] d
-  /// + rotation_bias[1] d |d| more: silhouettes and hidden places pull that way, by some
-  /// thousandths.
+  /// Two views of an object at azimuths d apart (-pi to pi) appear to be apart by rotation_bias[0]
+  /// d + rotation_bias[1] d |d| more, some thousandths, which silhouettes and occluded parts cause.
   std::array<double, 2> rotation_bias{};
 };
 

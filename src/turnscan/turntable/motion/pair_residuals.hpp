@@ -1,5 +1,5 @@
 #pragma once
-// How well two frames fit each other when one is turned onto the other: point-to-plane distances.
+// Point-to-plane residuals between two frames when one is rotated onto the other.
 
 #include <Eigen/Core>
 #include <array>
@@ -10,18 +10,18 @@
 
 namespace turnscan::motion {
 
-/// What the turn between two views changes by with each term of MotionState::rotation_bias.
+/// Derivatives of the rotation between two views by the terms of MotionState::rotation_bias.
 std::array<double, 2> rotation_bias_terms(const MotionState& state, const FramePair& pair);
 
-/// The motion of points of `from` into the frame of `to`, as a rotation between two middles.
+/// The motion of points of `from` into the frame of `to`, as a rotation between two centres.
 struct PairMotion {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Vec3d center_from = Vec3d::Zero(), center_to = Vec3d::Zero();
 };
 
 struct PairWeighting {
-  double reach_m;      ///< correspondences farther away do not count
-  double huber_m;      ///< larger residuals weigh less, from four times that on nothing
+  double reach_m;      ///< maximum distance of correspondences
+  double huber_m;      ///< larger residuals are downweighted, and cut from four times this value on
   std::size_t stride;  ///< every stride-th sample is used
 };
 
@@ -29,23 +29,23 @@ struct PairWeighting {
 struct PairMatch {
   Vec3d p, n;       ///< frame of `from`
   Vec3d q, m;       ///< the same, moved into the frame of `to`
-  double gain;      ///< evens out the noise of places seen at different angles
+  double gain;      ///< equalises the noise of points seen at different incidence angles
   double residual;  ///< distance to the counterpart along m, times the gain
 };
 
-/// nullopt where the moved sample faces away from the sensor or finds nothing within reach_m.
+/// nullopt if the moved sample faces away from the sensor or has no counterpart within reach_m.
 std::optional<PairMatch> match_sample(const MotionData& data, const SurfaceSample& sample,
                                       const FrameSurface& surface, const PairMotion& motion,
                                       double reach_m);
 
-/// The robust sums over the residuals of a pair.
+/// Robust sums over the residuals of a pair.
 struct PairSums {
-  double cost = 0.0;         ///< by Huber's function, cut at four times its limit, m^2
+  double cost = 0.0;         ///< Huber's function, cut at four times its limit, m^2
   double squares = 0.0;      ///< weighted
-  std::size_t count = 0;     ///< residuals that weigh something
+  std::size_t count = 0;     ///< number of residuals with non-zero weight
   std::vector<float> sizes;  ///< of every eighth residual, metres
 
-  /// Adds a residual and returns its weight; 0 where it is cut.
+  /// Adds a residual and returns its weight; 0 if it is cut.
   double add_residual(double residual, double huber_m);
 };
 
@@ -56,23 +56,23 @@ struct PairEquations : estimation::NormalEquations<5>, PairSums {};
 PairEquations linearise_pair(const MotionData& data, const MotionState& state,
                              const FramePair& pair, const PairWeighting& weighting);
 
-/// Sum of the truncated squared distances of samples, as multiples of a gate squared.
+/// Sum of the truncated squared distances of samples, in units of a gate squared.
 struct TruncatedCost {
   double sum = 0.0, count = 0.0;
 
-  /// A sample counts from 0 to 1, without a counterpart within four gates 0.6, and not at all where
+  /// A sample adds from 0 to 1, or 0.6 without a counterpart within four gates, and is ignored if
   /// it faces away from the sensor.
   void add(const MotionData& data, const SurfaceSample& sample, const FrameSurface& surface,
            const PairMotion& motion, double gate_m);
 };
 
-/// Mean truncated squared distance over the samples of the pair, as a multiple of gate_m squared,
-/// with the frames' angles apart by `angle_rad`; samples without a correspondence count 0.6.
+/// Mean truncated squared distance over the samples of the pair, in units of gate_m squared, with
+/// the frames `angle_rad` apart; samples without a correspondence count 0.6.
 double pair_cost(const MotionData& data, const MotionState& state, const FramePair& pair,
                  double angle_rad, double gate_m, std::size_t max_samples);
 
-/// By how much mean_pair_cost grows, in the mean of both directions, when every pair is turned
-/// apart by 8 degrees: what the shape shows of its turn. Under a hundredth for a round object.
+/// Increase of mean_pair_cost, averaged over both directions, when every pair is rotated apart by 8
+/// degrees: how well the shape determines its rotation. Below 0.01 for a round object.
 double turn_contrast(const MotionData& data, const MotionState& state);
 
 /// Mean pair_cost of neighbouring frames with the axis and the angles of a state.

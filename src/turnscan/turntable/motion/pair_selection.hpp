@@ -1,5 +1,5 @@
 #pragma once
-// Which frames are compared with each other.
+// Selects the pairs of frames that are compared.
 
 #include <turnscan/turntable/motion/motion_state.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// Calibration from the motion that one sensor sees, with what several of them are compared by.
+// Calibration from the motion that one sensor observes, with the model for comparing sensors.
 
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
@@ -8,19 +8,19 @@ namespace turnscan::motion {
 
 struct SensorMotion {
   Calibration calibration;
-  /// Samples of what was seen, in the table frame of this sensor, at angle 0.
+  /// Samples of the observed surface, in the table frame of this sensor, at angle 0.
   std::vector<SurfaceSample> model;
   double noise_m = 0.0, spacing_m = 0.0;
-  bool platter = false;  ///< the height is the platter's
+  bool platter = false;  ///< the height is that of the platter
 };
 
-/// As calibrate_from_motion(), of the frames of sensor 0 alone. max_samples: of the model, spread
-/// over all frames; 0: none.
+/// As calibrate_from_motion(), for the frames of sensor 0 alone. max_samples: size of the model,
+/// spread over all frames; 0: none.
 Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
                                       const FromMotionOptions& options, const DetectOptions& detect,
                                       std::size_t max_samples, const RunContext& context);
 
-/// Of a sequence with several sensors; see calibrate_from_motion().
+/// For a sequence with several sensors; see calibrate_from_motion().
 Result<Calibration> calibrate_sensors(const FrameSequence& sequence,
                                       const FromMotionOptions& options, const DetectOptions& detect,
                                       const RunContext& context);

@@ -1,5 +1,5 @@
 #pragma once
-// Which pixels of a depth image show the turning object.
+// Selects the pixels of a depth image that show the turning object.
 
 #include <optional>
 #include <turnscan/turntable/detection/plane_fit.hpp>
@@ -16,16 +16,16 @@ struct Foreground {
   std::vector<float> nearer_than;                ///< without a plane: see Background
   int left = 0, top = 0, right = 0, bottom = 0;  ///< bounding box in the image
 
-  /// Whether a pixel (its position in the image) that sees p (sensor frame) belongs to the object.
+  /// Whether a pixel (its index in the image) that sees p (sensor frame) belongs to the object.
   bool contains(std::size_t pixel, const Vec3f& p) const;
-  /// With a plane: whether p lies radius_m from the axis, or farther.
+  /// With a plane: whether p is at least radius_m from the axis.
   bool beside(const Vec3f& p) const;
 };
 
 /// From the mean of up to 36 frames spread over the recording: the platter, else options.hint, else
-/// what moves. Also sets the platter and the noise in data, and adds a note where neither platter
-/// nor hint is used. Fails with kTooFewPoints when nothing moves, kCancelled, and what reading
-/// fails with.
+/// what moves. Also sets the platter and the noise in data, and adds a note if neither platter nor
+/// hint is used. Fails with kTooFewPoints if nothing moves, with kCancelled, and with the errors of
+/// reading.
 Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,
                                    MotionData& data, const RunContext& context);
 

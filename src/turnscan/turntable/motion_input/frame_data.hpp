@@ -1,6 +1,7 @@
 #pragma once
-// What calibration from motion keeps of each frame: a few hundred surface samples with normals, and
-// of key frames the surface of the object that other frames' samples are compared with.
+// Data that calibration from motion keeps of each frame: a few hundred surface samples with
+// normals, and for key frames the object's surface, with which samples of other frames are
+// compared.
 
 #include <memory>
 #include <optional>
@@ -21,15 +22,16 @@ struct SurfaceSample {
 /// Part of a depth image, or points with a tree.
 struct FrameSurface {
   int left = 0, top = 0, width = 0, height = 0;  ///< pixels
-  std::vector<float> z;                          ///< metres; 0 where there is no foreground
-  /// Pixels within outlines; of raw surfaces that have outlines.
+  std::vector<float> z;                          ///< metres; 0 if there is no foreground
+  /// Mask of the pixels within outlines; only for raw surfaces that have outlines.
   std::vector<std::uint8_t> inner;
-  /// Pixels that see something nearer than the axis outside the foreground's cylinder, as an end of
-  /// an object that is wider than its platter; of key frames whose foreground is a cylinder.
+  /// Mask of the pixels that see something nearer than the axis outside the foreground's cylinder,
+  /// such as an end of an object wider than its platter; for key frames whose foreground is a
+  /// cylinder.
   std::vector<std::uint8_t> covered;
   KdTree tree;
   std::vector<Vec3f> points;
-  /// Of a depth image of a frame that was levelled: from the frame in which all else is to the
+  /// For a depth image of a levelled frame: maps from the frame of the other members to the
   /// camera's.
   std::optional<Pose> T_camera_level;
 
@@ -44,8 +46,8 @@ struct MotionFrame {
   std::vector<SurfaceSample> samples;
   FrameSurface surface;      ///< smoothed; empty unless a key frame
   FrameSurface raw_surface;  ///< of depth images: not smoothed, without mixed pixels
-  double inner_share = 1.0;  ///< of the foreground's pixels, those that drop_outline() leaves
-  std::optional<PlatterObservation> platter;  ///< where it is seen; of depth images
+  double inner_share = 1.0;  ///< share of the foreground's pixels that drop_outline() keeps
+  std::optional<PlatterObservation> platter;  ///< if it is seen; for depth images
 };
 
 struct MotionData {
@@ -54,10 +56,10 @@ struct MotionData {
   std::vector<MotionFrame> frames;  ///< usable ones of sensor 0, in order
   std::vector<std::size_t> keys;    ///< positions in frames
   double noise_m = 0.0;             ///< standard deviation of one depth value
-  /// Neighbouring pixels share noise (SpatialNoise): surfaces have no outlines then, where such a
-  /// sensor mixes what it sees.
+  /// Neighbouring pixels share noise (SpatialNoise): surfaces then have no outlines, where such a
+  /// sensor mixes depths.
   bool correlated_noise = false;
-  /// Mean of the frames; 1 where surfaces keep their outlines.
+  /// Mean over the frames; 1 if surfaces keep their outlines.
   double inner_share = 1.0;
   double spacing_m = 0.0;  ///< between neighbouring pixels on the object
   std::optional<DetectedPlatter> platter;
@@ -68,16 +70,16 @@ struct MotionData {
   std::vector<std::string> notes;
 
   /// Distance within which a point belongs to another frame's surface while the alignment is still
-  /// rough: surfaces may be a step apart, but must not be taken for others.
+  /// rough: surfaces may be a step apart, but must not be confused.
   double inlier_gate_m() const { return std::max(3.0 * noise_m, 0.004); }
 
   /// The point of a surface that corresponds to p (sensor frame): on the ray through p in a depth
-  /// image (projective data association), the nearest one among points. False where there is none
-  /// within reach_m.
+  /// image (projective data association), the nearest point in a point cloud. False if there is
+  /// none within reach_m.
   bool find_correspondence(const FrameSurface& surface, const Vec3d& p, double reach_m,
                            Vec3d& found) const;
-  /// Whether all pixels that find_correspondence uses for p, which it finds, are inner ones.
-  /// Precondition: surface.inner is set.
+  /// Whether all pixels that find_correspondence uses for p are inner ones. Preconditions: it finds
+  /// p's correspondence, and surface.inner is set.
   bool within_outline(const FrameSurface& surface, const Vec3d& p) const;
 
  private:
@@ -88,20 +90,20 @@ struct MotionData {
 struct MotionDataOptions {
   DetectOptions detect;
   std::size_t max_keys = 160;
-  std::optional<TurntableInfo> hint;  ///< used where no platter is seen
-  bool use_platter = true;            ///< false: do not look for one
-  bool sights = false;                ///< tell how each frame shows the platter
-  bool level = false;                 ///< take the tilt of a platter that wobbles out of all frames
-  PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: look for it
+  std::optional<TurntableInfo> hint;  ///< used if no platter is seen
+  bool use_platter = true;            ///< false: do not detect one
+  bool sights = false;                ///< observe the platter in each frame
+  bool level = false;                 ///< compensate the tilt of a wobbling platter in all frames
+  PlatterMemory* memory = nullptr;    ///< kept by the caller; nullptr: detect the platter
 };
 
-/// Reads the frames. A round surface on which nothing is seen to stand is no platter, and forgotten
-/// in the memory. Fails with kTooFewPoints when fewer than 3 frames can be used or nothing
-/// turns in them, kCancelled, and what reading fails with.
+/// Reads the frames. A round surface on which nothing is seen to stand is not a platter, and is
+/// removed from the memory. Fails with kTooFewPoints if fewer than 3 frames are usable or nothing
+/// turns in them, with kCancelled, and with the errors of reading.
 Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,
                                const RunContext& context);
 
-/// At most `most` (2 or more) of a list, evenly spread, with the first and the last.
+/// Evenly spaced subset of at most `most` (2 or more) entries, with the first and the last.
 std::vector<std::size_t> spread_subset(std::vector<std::size_t> list, std::size_t most);
 
 }  // namespace turnscan::motion

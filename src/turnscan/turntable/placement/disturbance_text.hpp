@@ -1,16 +1,17 @@
 #pragma once
-// Disturbances in words.
+// Descriptions of disturbances.
 
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/placement/model_search.hpp>
 
 namespace turnscan::placement {
 
-/// What a model stands for. models: all of them, in order; which: the one to tell.
+/// The disturbance that a model represents. models: all of them, in order; which: the index of the
+/// one described.
 Disturbance tell(const FrameSequence& sequence, const ModelFrames& frames,
                  const std::vector<DisturbanceModel>& models, std::size_t which);
 
-/// Frames from `first` to `last` that something hides.
+/// A disturbance for the frames `first` to `last`, in which something occludes the object.
 Disturbance tell_hidden(const FrameSequence& sequence, std::size_t first, std::size_t last);
 
 }  // namespace turnscan::placement

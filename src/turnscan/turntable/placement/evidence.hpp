@@ -1,46 +1,48 @@
 #pragma once
-// How much better a disturbance explains where the keyframes lie.
+// How much better a disturbance explains the poses of the keyframes.
 
 #include <turnscan/turntable/placement/disturbance_model.hpp>
 #include <turnscan/turntable/placement/pose_graph.hpp>
 
 namespace turnscan::placement {
 
-/// What one pair of keyframes says of the twist of `from` minus that of `to`, as information: what
-/// errors that its points share make of it is in it.
+/// Information of one pair of keyframes about the twist of `from` minus that of `to`; it includes
+/// the effect of errors that the pair's points share.
 struct RelativeTwist {
   FramePair pair{0, 0};
   Matrix6d information = Matrix6d::Zero();
   Twist right = Twist::Zero();
-  double apart_rad = 0.0;  ///< between the views
-  double shown = 0.0;      ///< how many of the six unknowns it says something of
+  double apart_rad = 0.0;  ///< between the viewpoints
+  double shown = 0.0;      ///< number of the six unknowns that the pair determines
 };
 
-/// What a frame shows of the platter's tilt: the level parts (x, z) of its axis in the table frame.
+/// Observed tilt of the platter in a frame: the horizontal parts (x, z) of its axis in the table
+/// frame.
 struct PlatterTilt {
   std::size_t frame = 0;
-  Eigen::Matrix<double, 2, 3> to_level = Eigen::Matrix<double, 2, 3>::Zero();  ///< from the sensor
+  Eigen::Matrix<double, 2, 3> to_level = Eigen::Matrix<double, 2, 3>::Zero();  ///< maps from the
+                                                                               ///< sensor frame
   Eigen::Vector2d level = Eigen::Vector2d::Zero();
 };
 
 struct ModelFit {
   std::vector<DisturbanceModel> models;  ///< with values
-  double gain = 0.0;                     ///< of chi square by all of them together, of pairs
-  double tilt_gain = 0.0;                ///< and of the platter's tilts
-  double spread = 1.0;                   ///< of what a pair says beside them, over what is expected
-  std::vector<double> sizes_m;           ///< of each model: how far it moves the object's points
+  double gain = 0.0;       ///< reduction of chi square of the pairs by all models together
+  double tilt_gain = 0.0;  ///< and of the platter's tilts
+  double spread = 1.0;     ///< scatter of the pairs about the models, relative to the expected one
+  std::vector<double> sizes_m;  ///< of each model: by how far it moves the object's points
 };
 
 class Evidence {
  public:
-  /// What the free graph says of the frames' places relative to `believed`.
+  /// Relates the poses of the free graph to the `believed` poses.
   Evidence(const Keyframes& frames, const PoseGraph& graph, const std::vector<Pose>& believed,
            std::vector<ModelFrame> model_frames, const ModelScene& scene);
 
   /// Least squares for the unknowns of all models together.
   ModelFit fit(std::vector<DisturbanceModel> models) const;
 
-  /// By how much more each of the candidates, added to the models, lowers chi square.
+  /// Further reduction of chi square by each candidate when added to the models.
   std::vector<double> gains(const std::vector<DisturbanceModel>& models,
                             const std::vector<DisturbanceModel>& candidates) const;
 
@@ -60,9 +62,9 @@ class Evidence {
   ModelScene scene_;
   std::vector<RelativeTwist> twists_;
   std::vector<PlatterTilt> tilts_;
-  /// Directions in which the axis may seem to lean, sensor frame.
+  /// Directions in which the axis may appear to tilt, sensor frame.
   Eigen::Matrix<double, 3, 2> beside_axis_ = Eigen::Matrix<double, 3, 2>::Zero();
-  double tilt_sigma_ = 1.0;  ///< of one of them, rad
+  double tilt_sigma_ = 1.0;  ///< of one component, rad
   double excess_ = 1.0, scale_m_ = 0.0;
 };
 

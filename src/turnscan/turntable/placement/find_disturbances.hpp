@@ -1,5 +1,5 @@
 #pragma once
-// What went wrong while a recording was made, and where its frames were seen from all the same.
+// Detects what disturbed a recording, and corrects the poses of its frames.
 
 #include <optional>
 #include <string>
@@ -12,8 +12,9 @@
 namespace turnscan {
 
 enum class DisturbanceKind {
-  kCalibration,  ///< the sensor stands elsewhere than believed; only beside something else
-  kSpeed,        ///< the table turned faster or slower than believed
+  kCalibration,  ///< the sensor's pose differs from the assumed one; only together with another
+                 ///< kind
+  kSpeed,        ///< the table turned faster or slower than assumed
   kSlip,         ///< the table slipped
   kHalt,         ///< the table slowed down or stopped for a while
   kObject,       ///< the object moved on the table
@@ -24,29 +25,31 @@ enum class DisturbanceKind {
 
 struct Disturbance {
   DisturbanceKind kind = DisturbanceKind::kObject;
-  std::size_t first_frame = 0;  ///< position of the first frame that it changed
-  std::size_t last_frame = 0;   ///< and of the last: of a moved object the end of the recording
-  double size_m = 0.0;          ///< by which it moved the object's points in the sensor's view
+  std::size_t first_frame = 0;  ///< position of the first frame affected
+  std::size_t last_frame = 0;   ///< position of the last; the end of the recording if the object
+                                ///< moved
+  double size_m = 0.0;          ///< displacement of the object's points in the sensor's view
   std::string text;             ///< "the object moved by 6.0 mm at 15.3 s"
 };
 
 struct Placement {
-  std::vector<Disturbance> disturbances;  ///< none: T_table_sensor is as it was believed
+  std::vector<Disturbance> disturbances;  ///< none: T_table_sensor is the assumed one
   std::vector<Pose> T_table_sensor;       ///< of each frame, as corrected
-  std::vector<std::size_t> left_out;      ///< positions of frames that cannot be placed
+  std::vector<std::size_t> left_out;      ///< positions of frames without a usable pose
 };
 
-/// Compares up to 72 frames of the first sensor with each other where they are believed to be, and
-/// names what explains their differences clearly better than noise does. What the object's shape
-/// does not determine stays as it was believed. nullopt where there is not one depth camera alone,
-/// or several passes, fewer than 12 frames, or too little of an object to be seen. Fails with
-/// kInvalidOption when the poses do not fit the frames, kCancelled, and what reading fails with.
+/// Compares up to 72 frames of the first sensor with each other at their assumed poses, and names
+/// the disturbances that explain the differences clearly better than noise does. What the object's
+/// shape does not determine keeps its assumed value. nullopt if there is not exactly one depth
+/// camera, if there are several passes, fewer than 12 frames, or too little of an object is
+/// visible. Fails with kInvalidOption if the poses do not match the frames, with kCancelled, and
+/// with the errors of reading.
 Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence,
                                                    const std::vector<Pose>& T_table_sensor,
                                                    const RunContext& context,
                                                    PlatterMemory* memory = nullptr);
 
-/// What a slip that the angles of a calibration follow did to its recording.
+/// The effect on a recording of a slip that the angles of a calibration follow.
 Disturbance disturbance_of(const TableSlip& slip, const Calibration& calibration,
                            const FrameSequence& recording);
 

@@ -5,11 +5,11 @@
 
 namespace turnscan::placement {
 
-/// Which keyframes show, clearly more than the others do, points where their neighbours see through
-/// to the object or past it: a hand, an arm.
+/// Keyframes with clearly more points than the others in space that their neighbours see to be
+/// free, such as those on a hand or an arm.
 std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vector<Pose>& poses);
 
-/// Without those of the keyframes.
+/// Removes those keyframes.
 void leave_out(Keyframes& frames, const std::vector<std::size_t>& hidden);
 
 }  // namespace turnscan::placement

@@ -1,5 +1,5 @@
 #pragma once
-// Where the keyframes lie when nothing is assumed of their motion.
+// Poses of the keyframes without any assumption about their motion.
 
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/turntable/placement/pair_constraints.hpp>
@@ -12,10 +12,10 @@ struct PoseGraph {
   double scale_m = 0.0;                     ///< robust standard deviation of a residual
 };
 
-/// Least squares over pairs of keyframes, six unknowns each, from the believed poses on; a weak
-/// prior holds what the object's shape does not show. First frames that follow each other, then
-/// those, too, that close a turn. Fails with kTooFewPoints when the frames have too little in
-/// common, and kCancelled.
+/// Least squares over pairs of keyframes with six unknowns each, starting at the assumed poses; a
+/// weak prior fixes what the object's shape does not determine. Uses successive frames first, then
+/// also those that close a turn. Fails with kTooFewPoints if the frames have too little in common,
+/// and with kCancelled.
 Result<PoseGraph> solve_freely(const Keyframes& frames, const std::vector<Pose>& start,
                                const RunContext& context);
 
