@@ -1,5 +1,5 @@
 #pragma once
-// Frames that are worked on together, each on one core.
+// Processes batches of frames in parallel, one frame per core.
 
 #include <span>
 #include <turnscan/core/parallel.hpp>
@@ -10,19 +10,19 @@
 
 namespace turnscan {
 
-/// A frame that is to be worked on, and its place.
+/// A frame to be processed, and its pose.
 struct PosedFrame {
   std::size_t position = 0;  ///< for the FrameReader
   FrameInfo info;
   Pose T_table_sensor;
 };
 
-/// Of the depth cameras; empty tables for the other sensors.
+/// Ray tables of the depth cameras; empty tables for the other sensors.
 std::vector<RayTable> ray_tables(const SequenceHeader& header);
 
-/// What work(frame, posed frame) gives for each of the frames, in their order. work is called from
-/// several threads at once. Fails with the first frame's error that read or work returns, and with
-/// kCancelled.
+/// The results of work(frame, posed frame) for each of the frames, in their order. work is called
+/// from several threads at once. Fails with the error of the first frame for which read or work
+/// fails, and with kCancelled.
 template <class Part, class Work>
 Result<std::vector<Part>> process_frames(std::span<const PosedFrame> frames,
                                          const FrameReader& read, const RunContext& context,

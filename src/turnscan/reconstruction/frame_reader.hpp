@@ -7,7 +7,7 @@
 
 namespace turnscan {
 
-/// Gives the frame at a position of a list. Called from several threads at once.
+/// Returns the frame at a position of a list. Called from several threads at once.
 using FrameReader = std::function<Result<Frame>(std::size_t position)>;
 
 }  // namespace turnscan

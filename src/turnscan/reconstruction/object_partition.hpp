@@ -1,5 +1,5 @@
 #pragma once
-// Several objects on a table: which part of the space above it belongs to which.
+// Partitions the space above a table between several objects.
 
 #include <cstdint>
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace turnscan {
 
-/// Where one of the chosen objects is the nearest of all. Copies share one grid.
+/// The region in which one of the chosen objects is the nearest of all. Copies share one grid.
 class ObjectPartition {
  public:
-  /// Of objects as they were reconstructed, table frame; there must be some, with vertices, and at
-  /// most 65536. All are chosen.
+  /// From reconstructed objects in the table frame; there must be at least one and at most 65536,
+  /// with vertices. All are chosen.
   explicit ObjectPartition(std::span<const TriangleMesh* const> objects);
-  /// The same with other objects chosen, by their number.
+  /// The same partition with other objects chosen, by their index.
   ObjectPartition of(std::span<const std::size_t> chosen) const;
 
   bool contains(const Vec3f& p_table) const;

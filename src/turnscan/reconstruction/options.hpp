@@ -1,5 +1,5 @@
 #pragma once
-// Everything that a person may choose about a reconstruction.
+// All user options of a reconstruction.
 
 #include <string>
 #include <turnscan/core/option_table.hpp>
@@ -29,27 +29,27 @@ struct ReconstructOptions {
   FinishOptions finish;
   TextureOptions texture;
   bool color = false;
-  /// For the sink's stage merged: all points stay in memory, and the sink gets them. Otherwise the
-  /// methods from points keep sums only, and the sink gets the later stages.
+  /// Keeps all points in memory and passes them to the sink as the stage merged. Otherwise the
+  /// methods from points keep only sums, and the sink gets the later stages.
   bool keep_points = false;
-  /// Only what another pass is laid against: the result gets its SeenSpace, and neither a quality
-  /// nor a smooth surface where no frame measured one; volumetric method only.
+  /// Reconstruct only for aligning another pass: the result gets its SeenSpace, but no quality, and
+  /// no smooth surface where no frame measured one; volumetric method only.
   bool for_placing = false;
 };
 
-/// A group for each stage, e.g. "voxels": for the command line, a TOML file and the manual.
+/// One group per stage, e.g. "voxels": for the command line, a TOML file and the manual.
 std::vector<OptionGroup> describe_stages(ReconstructOptions& options);
 OptionTable describe(ReconstructOptions& options);
 
 /// Names of the options that the method does not use.
 std::vector<std::string> options_of_others(SurfaceMethod method);
-/// Those of them that are not at their defaults.
+/// The unused options that differ from their defaults.
 std::vector<std::string> unused_options(const ReconstructOptions& options);
 
-/// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented;
-/// fitted (volumetric only: vertices, weighted by their support).
+/// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented; fitted
+/// (volumetric only: vertices, weighted by their support).
 const std::vector<std::string>& saveable_stages();
-/// Those that a method has.
+/// The saveable stages of a method.
 std::vector<std::string> saveable_stages(SurfaceMethod method);
 
 }  // namespace turnscan

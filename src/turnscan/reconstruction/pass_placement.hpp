@@ -1,5 +1,5 @@
 #pragma once
-// Passes of one object, in each of which it lies another way, and how they belong together.
+// Passes of one object in different poses, and their relative motion.
 
 #include <optional>
 #include <turnscan/core/frame.hpp>
@@ -8,15 +8,15 @@
 
 namespace turnscan {
 
-/// A pass whose frames are fused with those of others. Its own table crops it: what touched the
-/// platter in this pass is measured in another.
+/// A pass whose frames are fused with those of others. It is cropped by its own table: what touched
+/// the platter in this pass is measured in another.
 struct PassPlacement {
   /// From the frame of the pass's table to the object's, in which the mesh is made.
   Pose T_object_table = Pose::Identity();
-  std::optional<TurntableInfo> turntable;  ///< that it was recorded on
-  std::string name;                        ///< for people, e.g. "pass 1"
-  std::optional<FoundMotion> found;        ///< nullopt: it was given, or is the first
-  std::optional<ObjectPartition> share;    ///< other objects on its table are left out
+  std::optional<TurntableInfo> turntable;  ///< the one that it was recorded on
+  std::string name;                        ///< display name, e.g. "pass 1"
+  std::optional<FoundMotion> found;  ///< nullopt if the motion was given, or this is the first pass
+  std::optional<ObjectPartition> share;  ///< other objects on its table are excluded
 };
 
 }  // namespace turnscan

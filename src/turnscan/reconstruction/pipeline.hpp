@@ -1,5 +1,5 @@
 #pragma once
-// The stages strung together: frames in, one closed mesh per object out.
+// The whole pipeline: frames in, one closed mesh per object out.
 
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -9,9 +9,9 @@
 
 namespace turnscan {
 
-/// Runs the stages. sink may be empty. Fails with kTooFewPoints when nothing survives (and says at
-/// which stage), kMissingData, kInvalidOption, kCancelled, and what the sequence fails with.
-/// With surface.repair every mesh is watertight, or the error says which is not and why not.
+/// Runs the stages. sink may be empty. Fails with kTooFewPoints if no points remain (the message
+/// names the stage), with kMissingData, kInvalidOption and kCancelled, and with the errors of the
+/// sequence. With surface.repair every mesh is watertight, or the error tells which is not and why.
 /// passes: see ReconstructionStream::create().
 Result<Reconstruction> reconstruct(const FrameSequence& sequence, const ReconstructOptions& options,
                                    const StageSink& sink, const RunContext& context,

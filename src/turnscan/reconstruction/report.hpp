@@ -6,7 +6,7 @@
 
 namespace turnscan {
 
-/// JSON of what was done: counts, choices, times, mesh checks, peak memory, version.
+/// JSON report of a reconstruction: counts, choices, times, mesh checks, peak memory, version.
 std::string report_json(const Reconstruction& reconstruction, const ReconstructOptions& options);
 
 }  // namespace turnscan

@@ -10,7 +10,7 @@
 
 namespace turnscan {
 
-/// Adds what passes between its construction and its end to the time of a stage.
+/// Adds its own lifetime to the time of a stage.
 class StageTimer {
  public:
   StageTimer(std::vector<StageTime>& times, std::string stage)
@@ -33,7 +33,7 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Runs a stage and adds the time that it took. What the stage returns.
+/// Runs a stage and adds its duration. Returns the stage's result.
 template <class Stage>
 auto timed(std::vector<StageTime>& times, const char* name, const Stage& stage) {
   const StageTimer timer(times, name);

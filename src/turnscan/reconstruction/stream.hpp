@@ -1,7 +1,7 @@
 #pragma once
-// Reconstruction of frames as they come: from a device, a recording or the simulator. What can be
-// done with a frame is done when it arrives; only the surface is left for the end. reconstruct()
-// is the same three calls: the result has the same bytes, however the frames were handed over.
+// Incremental reconstruction of frames from a device, a recording or the simulator. Each frame is
+// processed as far as possible when it arrives; only the surface is left for the end. reconstruct()
+// makes the same three calls: the result is byte-identical, however the frames are grouped.
 
 #include <memory>
 #include <turnscan/core/run_context.hpp>
@@ -12,12 +12,12 @@
 
 namespace turnscan {
 
-/// One thread adds and finishes; others may ask for previews meanwhile.
+/// One thread adds and finishes; others may request previews meanwhile.
 class ReconstructionStream {
  public:
-  /// Sensors and turntable must be known; the header is copied. passes: of several that are fused,
+  /// Sensors and turntable must be known; the header is copied. passes: those to be fused, indexed
   /// by FrameInfo::pass; empty: there is one. Their frames come pass after pass, and have poses of
-  /// their own (FrameInfo::T_table_sensor) where the table is not the header's. Fails with
+  /// their own (FrameInfo::T_table_sensor) if the table is not the header's. Fails with
   /// kInvalidOption as reconstruct() does.
   static Result<ReconstructionStream> create(const SequenceHeader& header,
                                              const ReconstructOptions& options,
@@ -26,23 +26,24 @@ class ReconstructionStream {
   ReconstructionStream& operator=(ReconstructionStream&&) noexcept;
   ~ReconstructionStream();
 
-  /// Adds frames in the order in which they were taken, working on all cores. Frames whose status
-  /// is kDropped only count. The scale (crop, noise, voxels) is found from the first frames, about
-  /// 32, which wait in memory until then. A frame that fails is not added, and those after it in
-  /// the call are not either: kMissingData when its place on the table is not known, kFormat when
-  /// it does not fit its sensor, kCancelled, and what `read` fails with.
+  /// Adds frames in the order in which they were taken, using all cores. Frames whose status is
+  /// kDropped are only counted. The scale (crop, noise, voxels) is estimated from the first frames,
+  /// about 32, which are held in memory until then. A frame that fails is not added, nor are those
+  /// after it in the call: kMissingData if its pose on the table is not known, kFormat if it does
+  /// not match its sensor, kCancelled, and the errors of `read`.
   Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
                const RunContext& context);
   Result<> add(const std::vector<Frame>& frames, const RunContext& context = RunContext());
 
-  /// A rough closed mesh of what was added so far, in the table's or the object's frame, in bounded
-  /// time (some 1,500 bricks of samples whatever the scan) and without waiting for more than the 16
-  /// frames that are being summed. From any thread, while another one adds; not while it finishes.
-  /// An empty mesh until the scale is known. Volumetric method only: kInvalidOption with others;
-  /// kCancelled.
+  /// A coarse closed mesh of what was added so far, in the table's or the object's frame, in
+  /// bounded time (some 1,500 bricks of samples for any scan) and without waiting for more than the
+  /// 16 frames that are being summed. May be called from any thread while another one adds; not
+  /// while it finishes. Returns an empty mesh until the scale is known. Volumetric method only:
+  /// kInvalidOption with others; kCancelled.
   Result<TriangleMesh> preview(const RunContext& context = RunContext()) const;
 
-  /// The meshes of what was added. Once; afterwards the stream is empty. Fails as reconstruct().
+  /// The meshes of what was added. May be called once; afterwards the stream is empty. Fails as
+  /// reconstruct() does.
   Result<Reconstruction> finish(const StageSink& sink, const RunContext& context);
 
  private:

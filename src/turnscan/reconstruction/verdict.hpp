@@ -1,5 +1,5 @@
 #pragma once
-// How good a scan is, as far as the scan itself tells.
+// Quality of a scan, as far as it can be judged from the scan itself.
 
 #include <algorithm>
 #include <limits>
@@ -13,16 +13,16 @@ enum class Level { kGood, kFair, kBad };
 /// "good", "fair", "bad".
 std::string_view name_of(Level level);
 
-/// What one property of a scan says.
+/// Assessment of one property of a scan.
 struct VerdictSentence {
   std::string topic;  ///< one word: turn, seen, error, invented, agreement, ...
   Level level = Level::kGood;
   std::string text;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no single figure
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no single number
   std::string unit;
 };
 
-/// The worst sentence decides.
+/// Its level is that of the worst sentence.
 struct Verdict {
   std::vector<VerdictSentence> sentences;
 

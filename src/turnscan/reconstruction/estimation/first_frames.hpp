@@ -1,5 +1,5 @@
 #pragma once
-// The first frames of a scan wait here until its scale can be estimated.
+// Buffers the first frames of a scan until its scale can be estimated.
 
 #include <turnscan/reconstruction/estimation/scan_estimate.hpp>
 #include <turnscan/reconstruction/frame_batch.hpp>
@@ -8,27 +8,27 @@ namespace turnscan::estimation {
 
 class FirstFrames {
  public:
-  /// rays: per sensor; these and the header must outlive it. colored: keep the colour images.
+  /// rays: per sensor; rays and header must outlive it. colored: keep the colour images.
   FirstFrames(const SequenceHeader& header, const std::vector<RayTable>& rays,
               const CropOptions& crop, bool colored);
 
-  /// Reads as many of the frames as are missing, and keeps them. Returns how many. Fails with what
-  /// read and points_of fail with, kCancelled; then none is kept.
+  /// Reads as many of the frames as are missing, and keeps them. Returns their number. Fails with
+  /// the errors of read and points_of, and with kCancelled; then none is kept.
   Result<std::size_t> keep(std::span<const PosedFrame> frames, const FrameReader& read,
                            const RunContext& context);
 
-  /// Whether as many are there as an estimate needs: of profiles of line scanners, more.
+  /// Whether there are enough frames for an estimate; profiles of line scanners need more.
   Result<bool> enough();
 
-  /// Nothing stands on the platter yet: an estimate needs more frames, and the oldest of many are
-  /// discarded.
+  /// To be called while nothing stands on the platter yet: requires more frames for an estimate,
+  /// and discards the oldest if there are many.
   void ask_for_more();
 
   /// Fails as estimate_scan() does.
   Result<ScanEstimate> estimate() const;
 
   const std::vector<Frame>& frames() const { return frames_; }
-  /// In the order of frames(), which is what their positions count.
+  /// In the order of frames(), which their positions refer to.
   std::vector<PosedFrame> posed_frames() const;
   std::size_t discarded() const { return discarded_; }
   void clear();

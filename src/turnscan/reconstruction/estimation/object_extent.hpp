@@ -1,5 +1,5 @@
 #pragma once
-// An object that is wider than its platter.
+// Extent of an object that is wider than its platter.
 
 #include <optional>
 #include <turnscan/turntable/crop/crop.hpp>
@@ -7,12 +7,12 @@
 
 namespace turnscan::estimation {
 
-/// How far from the axis the object reaches beyond the cylinder, of the points of whole frames in
-/// the table frame: as far as cells of points hang together with those inside, from one cell to the
-/// 26 around it. Cells with less than a fifth of the usual number of points do not count (pixels
-/// mixed with the background), nor points less than a cell above the margin (what surrounds the
-/// platter). What turns is apart from what stands still, else they would touch. Looks as far as
-/// three times the radius; nullopt where nothing reaches beyond it.
+/// Distance from the axis up to which the object extends beyond the cylinder, from the points of
+/// whole frames in the table frame: the extent of the cells of points that are connected
+/// (26-neighbourhood) with those inside. Ignores cells with less than a fifth of the usual number
+/// of points (pixels mixed with the background), and points less than a cell above the margin (what
+/// surrounds the platter). A rotating object has a gap to static surroundings, else they would
+/// collide. Searches up to three times the radius; nullopt if nothing extends beyond it.
 std::optional<double> reach_beyond(const std::vector<Vec3f>& p_table, const Cylinder& cylinder,
                                    double cell_m);
 

@@ -5,22 +5,21 @@
 
 namespace turnscan::estimation {
 
-/// In which directions from the axis a platter's rim is seen, of those in which depth images show
-/// what is there: where the object stands in front they tell nothing.
+/// Share of the directions from the axis in which a platter's rim is seen, among those that depth
+/// images observe: where the object occludes the rim they are not counted.
 class PlatterRim {
  public:
-  /// The part of a platter farther out than this share of its radius: only large objects stand
-  /// there.
+  /// The part of a platter outside this share of its radius, which only large objects cover.
   static constexpr double kInnerShare = 0.75;
 
   explicit PlatterRim(double radius_m) : radius_m_(radius_m) {}
 
-  /// A frame of a depth camera without kOutsideCrop; the table's frame has y = 0 on the platter.
-  /// What lies within PlatterReturns::kReach_m of it is taken for the platter; what lies lower, or
-  /// returns nothing, is seen past it.
+  /// Adds a frame of a depth camera without kOutsideCrop; the table frame has y = 0 on the platter.
+  /// Returns within PlatterReturns::kReach_m of it count as the platter; where returns are lower,
+  /// or missing, the view passes the platter.
   void add(const Frame& frame, const SensorInfo& sensor, const Pose& T_table_sensor);
 
-  /// Of the directions that tell, those in which it is seen; 0 where they cover less than 30
+  /// Share of the observed directions in which the rim is seen; 0 if these cover less than 30
   /// degrees.
   double share_seen() const;
 

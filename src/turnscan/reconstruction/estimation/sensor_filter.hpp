@@ -1,8 +1,7 @@
 #pragma once
-// How much a depth camera averages over neighbouring pixels, estimated from its noise: the share of
-// each neighbour along a row, 0 to 1/3. Of a pixel's depth 1 - 2 times this is its own. 0 where
-// neighbours are independent, or where too little tells. Views of depth images; noise_m: of a
-// depth.
+// Averaging of a depth camera over neighbouring pixels, estimated from its noise: the share of each
+// neighbour along a row, 0 to 1/3; the pixel's own share is 1 minus twice this. 0 if neighbours are
+// independent, or if there are too few data. Views of depth images; noise_m: of a depth value.
 
 #include <optional>
 #include <span>
@@ -11,17 +10,17 @@
 
 namespace turnscan::estimation {
 
-/// From differences between consecutive views from nearly the same place: their noise has the
-/// filter's correlation. nullopt where too few views are that near, as with few frames a turn,
-/// and where the differences are mostly rounding or show how the surface turned.
+/// From differences between consecutive views with nearly the same viewpoint: their noise has the
+/// filter's correlation. nullopt if too few views are that close, as with few frames per turn, and
+/// if the differences are mostly rounding or show the rotation of the surface.
 std::optional<double> share_of_neighbours(std::span<const views::DepthView> views, double noise_m);
 
-/// From differences between views and the mesh that they make.
+/// From differences between views and the mesh reconstructed from them.
 double share_of_neighbours(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                            double noise_m);
 
-/// Standard deviation of depths behind the filter, of independent ones of deviation 1 before it: 1,
-/// down to 1/3 where three by three pixels are averaged.
+/// Standard deviation after the filter of independent depth values with unit deviation before it:
+/// 1, down to 1/3 if three by three pixels are averaged.
 double noise_left_by_filter(double share);
 
 }  // namespace turnscan::estimation

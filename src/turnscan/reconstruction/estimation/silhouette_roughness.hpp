@@ -1,5 +1,5 @@
 #pragma once
-// Whether the pixels of a depth camera measure places beside those that they look at.
+// Detects lateral noise of a depth camera, whose pixels measure points beside their own rays.
 
 #include <span>
 #include <turnscan/core/triangle_mesh.hpp>
@@ -7,11 +7,12 @@
 
 namespace turnscan::estimation {
 
-/// Share of the pixels next to the outlines of a mesh, outside them, that show its surface
-/// nevertheless. Lateral noise does that, which tears edges (C. V. Nguyen, S. Izadi and D. Lovell,
+/// Share of the pixels just outside the outlines of a mesh that show its surface nevertheless. This
+/// is caused by lateral noise, which makes edges ragged (C. V. Nguyen, S. Izadi and D. Lovell,
 /// "Modeling Kinect sensor noise for improved 3D reconstruction and tracking", 2012, section 3);
-/// without it few do. 0 where there are too few outlines. Of depth images; mesh: what they made;
-/// noise_m: of a depth. The same for any number of threads.
+/// without it the share is small. 0 if there are too few outlines. Views of depth images; mesh:
+/// reconstructed from them; noise_m: of a depth value. The result does not depend on the number of
+/// threads.
 double ragged_share(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                     double noise_m);
 

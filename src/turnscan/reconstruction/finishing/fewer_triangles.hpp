@@ -1,6 +1,6 @@
 #pragma once
-// The last step but the picture: no more triangles than are asked for, or than the surface is
-// worth.
+// Mesh simplification, the last step before texturing: at most the requested number of triangles,
+// or as many as the accuracy of the surface warrants.
 
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/options.hpp>
@@ -8,13 +8,14 @@
 
 namespace turnscan::finishing {
 
-/// Simplifies the objects' meshes as options.finish says, checks them again, and says in the
-/// choices what was done and why. What is known of vertices and triangles stays with the surface:
-/// a vertex has the mean of the quality around it, weighted by area, and its own confidence.
-/// By default triangles are as few as an eighth of the median expected error of what was measured
-/// allows (the root mean square that quadrics estimate), a quarter of a voxel at most, and no
-/// vertex of the full mesh lies farther off than half a voxel; where colours are at the vertices
-/// all stay. Where a bound is on the distance, triangles at the borders of what was measured stay.
+/// Simplifies the objects' meshes as options.finish requests, checks them again, and records in the
+/// choices what was done and why. Attributes of vertices and triangles stay with the surface: a
+/// vertex gets the area-weighted mean of the quality around it, and keeps its confidence.
+/// By default, the triangles are as few as an eighth of the median expected error of the measured
+/// surface allows (root mean square as estimated by quadrics), but at most a quarter of a voxel,
+/// and no vertex of the full mesh is more than half a voxel from the result; with vertex colours
+/// all triangles are kept. With a bound on the distance, triangles at the borders of the measured
+/// surface are kept.
 /// Fails as simplify() does, and with kInvalidOption and kCancelled.
 Result<> reduce_triangles(const ReconstructOptions& options, Reconstruction& reconstruction,
                           const RunContext& context);

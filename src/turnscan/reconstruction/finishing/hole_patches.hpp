@@ -1,18 +1,18 @@
 #pragma once
-// Connected parts of a mesh that nothing measured.
+// Connected unmeasured parts of a mesh.
 
 #include <turnscan/reconstruction/result.hpp>
 
 namespace turnscan::finishing {
 
-/// One connected part of the triangles that are not measured, neighbours across an edge.
+/// One edge-connected component of the unmeasured triangles.
 struct HolePatch {
   std::vector<std::uint32_t> triangles;  ///< ascending
-  double size_m = 0.0;                   ///< longest side of its box
+  double size_m = 0.0;                   ///< longest side of its bounding box
   double area_m2 = 0.0;
 };
 
-/// In the order of their first triangles. evidence has one entry a triangle.
+/// In the order of their first triangles. evidence has one entry per triangle.
 std::vector<HolePatch> find_hole_patches(const TriangleMesh& mesh,
                                          const std::vector<Evidence>& evidence);
 

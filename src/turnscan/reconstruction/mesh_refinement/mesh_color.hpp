@@ -1,5 +1,5 @@
 #pragma once
-// Colour of a mesh's vertices from the views that saw them.
+// Vertex colours from the views that saw the vertices.
 
 #include <span>
 #include <turnscan/core/run_context.hpp>
@@ -9,19 +9,20 @@
 
 namespace turnscan::mesh_refinement {
 
-/// Gives each vertex the mean colour of the pixels in which views measured it, up to 256 of them
-/// evenly spread: within tolerance_m of the depth they measured, not beside an edge. A view counts
-/// by the fourth power of the cosine between its ray and the vertex's normal, so that what is seen
-/// from the front decides. Black pixels have no colour. Vertices that no view saw take the mean of
-/// their coloured neighbours, from the border inwards. Whether there is any colour; if not, the
-/// mesh gets none. Fails with kCancelled. The same bytes for any number of threads.
+/// Gives each vertex the mean colour of the pixels in which views measured it, of up to 256 evenly
+/// spread views: those within tolerance_m of the measured depth, and not beside an edge. A view is
+/// weighted by the fourth power of the cosine between its ray and the vertex's normal, so that
+/// frontal views dominate. Black pixels have no colour. Vertices that no view saw take the mean of
+/// their coloured neighbours, from the border inwards. Returns whether there is any colour; if not,
+/// the mesh gets none. Fails with kCancelled. The result is byte-identical for any number of
+/// threads.
 Result<bool> color_from_views(TriangleMesh& mesh, std::span<const views::DepthView> views,
                               double tolerance_m, const RunContext& context);
 
-/// What is marked as invented: between magenta and red, as nothing else is.
+/// Colour of invented surface: between magenta and red, which rarely occurs otherwise.
 inline constexpr Rgb kInventedColor{255, 0, 144};
 
-/// Paints the vertices of invented triangles; a mesh without colours becomes light grey first.
+/// Paints the vertices of invented triangles; a mesh without colours first becomes light grey.
 void paint_invented(TriangleMesh& mesh, const std::vector<Evidence>& evidence);
 
 }  // namespace turnscan::mesh_refinement

@@ -1,6 +1,6 @@
 #pragma once
-// Refinement of a mesh: vertices move along their normals to where all depth frames together say
-// the surface is.
+// Mesh refinement: moves vertices along their normals to the surface that all depth frames together
+// indicate.
 
 #include <span>
 #include <turnscan/core/run_context.hpp>
@@ -10,26 +10,26 @@
 namespace turnscan::mesh_refinement {
 
 struct MeshFitScale {
-  double noise_m = 0.001;  ///< of a depth along its ray
-  /// Noise of means over many pixels, over that of means of independent ones: more than 1 where a
-  /// filter gave neighbours errors in common (estimation/sensor_filter.hpp).
+  double noise_m = 0.001;  ///< of a depth value along its ray
+  /// Ratio between the noise of means over many pixels and that of means of independent ones: above
+  /// 1 if a filter gave neighbours common errors (estimation/sensor_filter.hpp).
   double correlation = 1.0;
   double spacing_m = 0.0024;  ///< of the points of one frame
   double edge_m = 0.001;      ///< usual length of the mesh's edges
-  double reach_m = 0.0013;    ///< measurements farther across the normal do not count
-  double floor_m = 0.0002;    ///< of errors that do not fall with the angle of incidence
-  /// Of the surface against bending otherwise than around, relative to the measurements; more where
-  /// few and noisy ones leave more noise.
+  double reach_m = 0.0013;    ///< reach across the normal; measurements beyond it are ignored
+  double floor_m = 0.0002;    ///< of errors that do not decrease with the incidence angle
+  /// Bending stiffness of the surface relative to the measurements; larger if few and noisy ones
+  /// leave more noise.
   double stiffness = 15.0;
-  /// Curvature, averaged with the neighbours', in deviations of the noise, at which the weight of
-  /// the bending term falls to a quarter: larger ones are creases.
+  /// Curvature, averaged with the neighbours', in standard deviations of the noise, at which the
+  /// weight of the bending term falls to a quarter: larger ones are creases.
   double crease_sigmas = 0.1;
-  /// Weight, in measurements, with which vertices on a crease move as their neighbours do.
+  /// Weight, in measurements, with which vertices on a crease follow their neighbours.
   double crease_coupling = 8.0;
-  double fair_m = 0.0;     ///< what was not measured is faired; vertices move at most so far
-  double limit_m = 0.002;  ///< a vertex moves at most so far in one iteration
+  double fair_m = 0.0;     ///< unmeasured surface is faired; maximum motion of its vertices
+  double limit_m = 0.002;  ///< maximum motion of a vertex in one iteration
   float edge_weight = 0.1f;
-  int iterations = 3;                    ///< 0: only measures the support
+  int iterations = 3;                    ///< 0: only computes the support
   std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others
 };
 
@@ -38,26 +38,26 @@ struct MeshFit {
   std::vector<float> support;  ///< per vertex: sum of the weights of its measurements
 };
 
-/// Median of the supports that there are.
+/// Median of the non-zero supports.
 float typical_support(const std::vector<float>& support);
-/// Share of the typical support below which a vertex counts as seen by no view.
+/// Share of the typical support below which a vertex counts as unseen.
 inline constexpr float kUnseenShare = 0.02f;
-/// The vertices that so count, one flag each.
+/// The unseen vertices, one flag per vertex.
 std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support);
 
-/// How many times MeshFitScale::stiffness the fit takes, 1 to 32: what noise leaves of the
-/// measurements falls with their number, and what a surface bends does not. Errors that neighbours
-/// have in common leave waves wider than the mesh's edges, which need more of it the larger they
-/// are. Longer edges are stiffer as they are.
+/// Factor on MeshFitScale::stiffness, 1 to 32, that the fit needs: the noise left in the
+/// measurements falls with their number, while the bending of the surface does not. Common errors
+/// of neighbours leave waves wider than the mesh's edges, which need more stiffness the larger they
+/// are. Longer edges are stiffer by themselves.
 double stiffening(double noise_m, double correlation, double spacing_m, double edge_m,
                   float typical_support);
 
-/// Minimises over offsets along the normals the robust (Tukey) squares of the distances between
-/// the measurements around each vertex and its tangent plane, of the views that face it, and a
-/// bending term, which averages noise away where the surface is smooth, fades at edges, and decides
-/// where few measurements are. Triangles stay as they are; no step towards the measurements turns
-/// one by more than 73 degrees (fairing what was not measured may). Fails with kCancelled. The same
-/// bytes for any number of threads.
+/// Minimises over offsets along the normals the robust (Tukey) squares of the distances between the
+/// measurements around each vertex and its tangent plane, in the views that face it, and a bending
+/// term, which averages noise where the surface is smooth, fades at edges, and dominates where
+/// there are few measurements. Triangles are unchanged; no step towards the measurements rotates
+/// one by more than 73 degrees (fairing of unmeasured surface may). Fails with kCancelled. The
+/// result is byte-identical for any number of threads.
 Result<MeshFit> fit_mesh(const TriangleMesh& mesh, std::span<const views::DepthView> views,
                          const MeshFitScale& scale, const RunContext& context);
 

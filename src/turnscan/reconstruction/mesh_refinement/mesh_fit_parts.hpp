@@ -1,19 +1,19 @@
 #pragma once
-// The parts of fit_mesh(): who neighbours whom, how far vertices go, how they get there, and what
-// becomes of those that nobody measured.
+// The parts of fit_mesh(): vertex adjacency, offsets of the vertices, steps, and fairing of
+// unmeasured vertices.
 
 #include <cstdint>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 
 namespace turnscan::mesh_refinement {
 
-/// Who is joined to whom by an edge, in a closed mesh.
+/// Vertices joined by an edge, in a closed mesh.
 struct MeshNeighbours {
   std::vector<std::uint32_t> begin, list;
 
   explicit MeshNeighbours(const TriangleMesh& mesh);
   float count(std::size_t v) const { return float(begin[v + 1] - begin[v]); }
-  /// The vertex's own value if it has no neighbour.
+  /// The mean over the neighbours; the vertex's own value if it has none.
   template <class T>
   T mean(const std::vector<T>& values, std::size_t v, const T& zero) const {
     T sum = zero;
@@ -24,39 +24,40 @@ struct MeshNeighbours {
   void each(std::size_t v, const Visit& visit) const {
     for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) visit(list[k]);
   }
-  /// The least and the largest value of each vertex and its neighbours, so many rings of them.
+  /// The smallest and the largest value over each vertex and the given number of rings around it.
   std::vector<float> least(std::vector<float> values, int rings) const;
   std::vector<float> largest(std::vector<float> values, int rings) const;
 };
 
-/// What was measured around each vertex.
+/// Sums of the measurements around each vertex.
 struct VertexMeasurements {
   std::vector<float> support;  ///< sum of the weights
   std::vector<float> offset;   ///< sum of weight times distance along the normal
 };
 
-/// Whether a vertex lies below the floor, where only the platter is measured.
+/// Whether a vertex is below the floor, where only the platter is measured.
 inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale) {
   return scale.floor_height_m && vertex.y() < float(*scale.floor_height_m);
 }
 
-/// How far each vertex goes along its normal.
+/// Offset of each vertex along its normal.
 std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
                                   const std::vector<Vec3f>& normals,
                                   const VertexMeasurements& measured, const MeshFitScale& scale);
 
-/// Least cosine between a triangle's normals before and after take_steps().
+/// Smallest cosine between a triangle's normals before and after take_steps().
 inline constexpr float kMinTurn = 0.3f;
-/// Adds the steps to the vertices: shorter ones, or none, where a triangle would turn by more.
+/// Adds the steps to the vertices, shortened or omitted where a triangle would rotate by more.
 void take_steps(TriangleMesh& mesh, std::vector<Vec3f> step);
 
-/// Where little or nothing was measured the volume ends in rags, pixel by pixel. Those vertices
-/// move towards the middle of their neighbours, held by what was measured around them.
+/// Where little or nothing was measured, the volume's surface is ragged, pixel by pixel. Moves
+/// those vertices towards the mean of their neighbours, constrained by what was measured around
+/// them.
 void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vector<float>& support,
           const MeshFitScale& scale);
 
-/// Below the floor nothing was measured: walls go on straight down from what was fitted above
-/// them, even along the base's outline, and the base's vertices go with it.
+/// Below the floor nothing was measured: walls continue straight down from what was fitted above
+/// them, smooth along the base's outline, and the base's vertices follow.
 void straighten_walls(TriangleMesh& mesh, const MeshNeighbours& neighbours,
                       const std::vector<float>& support, const MeshFitScale& scale);
 

@@ -5,9 +5,10 @@
 
 namespace turnscan::mesh_refinement {
 
-/// As few triangles as keep every vertex of the mesh within max_distance_m of the simplified
-/// surface, fold little, and as the goal allows, whose error is smaller or the same: the full mesh
-/// where no try does so. Fails as simplify() does, and with kCancelled.
+/// Simplifies to as few triangles as the goal allows, with its error bound or a smaller one, such
+/// that every vertex of the mesh stays within max_distance_m of the simplified surface and folds
+/// are rare; returns the full mesh if no attempt succeeds. Fails as simplify() does, and with
+/// kCancelled.
 Result<TriangleMesh> simplify_within(const TriangleMesh& full, const SimplifyGoal& goal,
                                      double max_distance_m, const RunContext& context);
 

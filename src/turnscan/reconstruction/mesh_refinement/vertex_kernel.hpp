@@ -1,5 +1,5 @@
 #pragma once
-// The inner loop of the mesh refinement: what one view measured around vertices of a mesh. A
+// The inner loop of the mesh refinement: sums one view's measurements around vertices of a mesh. A
 // kernel (core/simd/kernel_choice.hpp).
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace turnscan::mesh_refinement {
 
-/// A views::DepthView as the loops need it. Rows of rotation: x, y, z of the view.
+/// A views::DepthView in the layout of the loops. Rows of rotation: x, y, z of the view.
 struct VertexKernelView {
   const std::uint32_t* pixels;
   int width, height;
@@ -17,19 +17,19 @@ struct VertexKernelView {
   float fx, fy, cx, cy;
   BrownConrady<float> lens;
   float unit, bias;
-  int distorted;  ///< 1: by Brown's model, 2: by the rational one
+  int distorted;  ///< 1: Brown's model, 2: the rational model
   int parallel;
 };
 
-/// Vertices of a mesh, structure of arrays; all arrays, those of the sums included, are padded to a
-/// multiple of kVertexRow.
+/// Vertices of a mesh, structure of arrays; all arrays, including those of the sums, are padded to
+/// a multiple of kVertexRow.
 inline constexpr std::size_t kVertexRow = 64;
 struct VertexColumns {
   const float *x, *y, *z, *nx, *ny, *nz;
-  const float* spread;  ///< squared: measurements scatter so much more here than the noise says
+  const float* spread;  ///< squared ratio of the measurements' scatter here to the noise
 };
-/// Sums over views: of weights, of weight times distance along the vertex's normal, of the weights
-/// of measurements within kNear deviations of the noise.
+/// Sums over views: of weights, of weight times distance along the vertex's normal, and of the
+/// weights of measurements within kNear standard deviations of the noise.
 struct VertexSums {
   float* weight;
   float* offset;
@@ -41,12 +41,12 @@ struct VertexKernelScale {
   float noise;           ///< of a depth along its ray
   float noise_floor;     ///< of a distance along the normal, added in quadrature
   float cut;             ///< Tukey's biweight ends at this many standard deviations
-  float facing;          ///< least cosine between normal and ray
+  float facing;          ///< smallest cosine between normal and ray
   float edge_weight;
 };
 
 struct VertexKernel {
-  /// Adds the measurement nearest to each of the vertices [begin, end), multiples of kVertexRow:
+  /// Adds for each of the vertices [begin, end), multiples of kVertexRow, the nearest measurement:
   /// its distance from the tangent plane along the normal.
   void (*add_view)(const VertexKernelView& view, const VertexColumns& vertices, std::size_t begin,
                    std::size_t end, const VertexKernelScale& scale, VertexSums& sums);

@@ -4,7 +4,7 @@
 
 namespace turnscan {
 
-/// Of the statistical outlier filter.
+/// Options of the statistical outlier filter.
 struct OutlierOptions {
   bool enabled = true;
   int neighbours = 10;  ///< k in [1, 1000]

@@ -11,14 +11,15 @@ namespace turnscan {
 struct MergeOptions {
   std::optional<double> speed_rad_s;
   bool cloud_outliers = false;  ///< a second statistical filter, on the merged cloud
-  std::optional<int> pass;      ///< only the frames in which the object lies this way
+  std::optional<int> pass;      ///< only the frames of this pass
 };
 OptionTable describe(MergeOptions& options);
 
 struct VoxelOptions {
-  std::optional<double> size_m;   ///< edge of a voxel
-  std::optional<int> grid;        ///< or: voxels along the longest side that the first frames show
-  std::optional<int> min_points;  ///< M: voxels with fewer points go
+  std::optional<double> size_m;  ///< edge of a voxel
+  std::optional<int> grid;  ///< alternatively: voxels along the longest side of the extent in the
+                            ///< first frames
+  std::optional<int> min_points;  ///< M: voxels with fewer points are dropped
 };
 OptionTable describe(VoxelOptions& options);
 
@@ -34,12 +35,13 @@ OptionTable describe(CandidateOptions& options);
 
 struct ComponentOptions {
   std::string keep = "all";     ///< "all", "largest" or a number N: the N largest
-  double min_share = 0.02;      ///< smaller pieces, relative to the largest, are crumbs
+  double min_share = 0.02;      ///< smaller pieces, relative to the largest, are dropped as crumbs
   std::optional<double> gap_m;  ///< pieces closer than this belong together
 };
 OptionTable describe(ComponentOptions& options);
 
-/// Fails with kInvalidOption unless keep is all, largest or a positive number. 0 means all.
+/// Number of objects; 0 means all. Fails with kInvalidOption unless keep is all, largest or a
+/// positive number.
 Result<int> objects_to_keep(const ComponentOptions& options);
 
 struct NormalOptions {

@@ -12,7 +12,7 @@ struct SurfaceOptions {
   int poisson_depth = 8;
   double samples_per_node = 1.5;
   double poisson_scale = 1.1;
-  double point_weight = 10.0;     ///< refined candidates are worth more than the 4 of raw points
+  double point_weight = 10.0;     ///< refined candidates deserve more than the 4 of raw points
   std::optional<double> alpha_m;  ///< concave hull: largest radius that bridges a gap
   bool repair = true;             ///< make the mesh closed, 2-manifold and outward
 };

@@ -5,14 +5,14 @@
 
 namespace turnscan {
 
-/// A picture on the finished meshes, from the colour images of the frames.
+/// Texturing of the finished meshes from the colour images of the frames.
 struct TextureOptions {
   bool texture = false;
-  /// Pixels a side of the picture; nullopt: as many as show what the cameras resolved, at most
-  /// 4096.
+  /// Side of the texture image in pixels; nullopt: as many as the resolution of the cameras
+  /// warrants, at most 4096.
   std::optional<int> size_px;
-  bool refine_camera = true;  ///< find where the colour cameras really are
-  bool albedo = false;        ///< take out what a light that stands still does to a turning object
+  bool refine_camera = true;  ///< estimate the true poses of the colour cameras
+  bool albedo = false;        ///< remove the shading of a static light on a turning object
 };
 OptionTable describe(TextureOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a pass saw that there is nothing.
+// Free space observed by passes.
 
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
 
@@ -11,13 +11,13 @@ class FreeSpace {
 
   /// Nothing is known to be empty.
   FreeSpace() = default;
-  /// Asks up to kMaxViews of the surface's views, evenly spread. Nearer than margin_m to what a
-  /// ray met counts for nothing.
+  /// Uses up to kMaxViews of the surface's views, evenly spread. Space within margin_m of a
+  /// measured depth is not counted as free.
   FreeSpace(const PassSurface& surface, double margin_m);
-  /// Empty is, too, what another pass saw to be.
+  /// Adds the free space of another pass.
   void add(const FreeSpace& other, const Pose& T_other_here);
-  /// Whether several views of one pass saw past this place, or it lies in its platter. Of the views
-  /// only every stride-th is asked.
+  /// Whether several views of one pass saw past this point, or it is inside its platter. Only every
+  /// stride-th view is used.
   bool empty_at(const Vec3f& p, std::size_t stride = 1) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Passes that are joined, as one.
+// Merges joined passes into one.
 
 #include <span>
 #include <turnscan/reconstruction/passes/prepared_pass.hpp>
@@ -8,8 +8,8 @@ namespace turnscan::passes {
 
 class MergedPass {
  public:
-  /// The surface of all, each part of it once, and what any of them saw to be empty, in the frame
-  /// that T_here_pass leads to; one motion a pass.
+  /// Merges the surfaces, each part once, and the free space of all passes, in the target frame of
+  /// T_here_pass; one motion per pass.
   MergedPass(std::span<const PreparedPass* const> passes, std::span<const Pose> T_here_pass);
 
   const PreparedPass& prepared() const { return *prepared_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Which object of one pass is which of another.
+// Assigns the objects of one pass to those of another.
 
 #include <cstddef>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace turnscan::passes {
 
-/// Evidence that row r and column c are one object; 0 or less: they are not.
+/// Evidence that row r and column c are the same object; 0 or less: they are not.
 using EvidenceTable = std::vector<std::vector<double>>;
 
 struct Assignment {
@@ -15,8 +15,8 @@ struct Assignment {
   double evidence = 0.0;                              ///< sum over the pairs
 };
 
-/// The pairs, each row and each column in one at most, with the largest sum (the Hungarian method).
-/// The table is a rectangle.
+/// The pairs, with each row and each column in at most one, that have the largest sum (the
+/// Hungarian method). The table is rectangular.
 Assignment assign_objects(const EvidenceTable& evidence);
 
 }  // namespace turnscan::passes

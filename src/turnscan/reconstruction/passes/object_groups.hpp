@@ -1,5 +1,5 @@
 #pragma once
-// Objects of passes that were recognised as one, and where its parts lie.
+// Groups of objects of several passes that are the same object, with their relative poses.
 
 #include <span>
 #include <turnscan/core/pose.hpp>
@@ -13,22 +13,22 @@ struct TableObject {
   const PreparedPass* surface = nullptr;
 };
 
-/// Two of them, by number, and whether they are one.
+/// A pair of objects, by index, and the verdict whether they are the same.
 struct JudgedPair {
   std::size_t a = 0, b = 0;
   PairVerdict verdict;
 };
 
 struct ObjectGroup {
-  std::vector<std::size_t> members;  ///< numbers of objects, ascending
+  std::vector<std::size_t> members;  ///< indices of objects, ascending
   std::vector<Pose> T_here_member;
 };
 
-/// Unites what the verdicts are certain of, the surest first. An object is in one group, and a
-/// group has at most one of a pass. Groups that contradict each other where the verdict puts them
-/// stay apart, and the verdict gets that reason. Where single objects are left over, whole groups
-/// are searched for in each other: what overlaps with none of the passes enough may do so with all
-/// of them together. Fails with kCancelled.
+/// Merges pairs with certain verdicts, the most certain first. An object is in one group, and a
+/// group has at most one object of a pass. Groups that contradict each other in the pose of a
+/// verdict stay apart, and the verdict gets that as its reason. If single objects are left over,
+/// whole groups are matched with each other: an object that overlaps too little with each of the
+/// passes may overlap enough with all of them together. Fails with kCancelled.
 Result<std::vector<ObjectGroup>> group_objects(std::span<const TableObject> objects,
                                                std::vector<JudgedPair>& verdicts,
                                                const JoinOptions& options,

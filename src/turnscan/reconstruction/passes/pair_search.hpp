@@ -1,5 +1,5 @@
 #pragma once
-// The motions between two passes that the evidence allows, best first.
+// Searches for the motions between two passes that the evidence allows, best first.
 
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/passes/color_match.hpp>
@@ -9,10 +9,10 @@ namespace turnscan::passes {
 struct CandidateMotion {
   Pose T_a_b = Pose::Identity();
   Agreement agreement;
-  ColorAgreement colors;  ///< where colours matter
+  ColorAgreement colors;  ///< if colours are used
 
-  /// What it is ranked by. Where colours matter the shapes fit in many ways, and how much they
-  /// overlap says little.
+  /// Ranking criterion. If colours are used, the shapes fit in many ways, and their overlap is
+  /// hardly informative.
   double evidence_m2() const {
     constexpr double kOfShape = 0.1;
     return colors.area_m2 > 0.0 ? colors.evidence_m2() + kOfShape * agreement.score_m2
@@ -21,12 +21,12 @@ struct CandidateMotion {
 };
 
 /// Up to a dozen clearly different motions, refined on thinned surfaces; with colours twice as
-/// many. colors: its spread 0: of their shapes alone. Fails with kCancelled.
+/// many. colors: if its spread is 0, only shapes are used. Fails with kCancelled.
 Result<std::vector<CandidateMotion>> search_motions(const PreparedPass& a, const PreparedPass& b,
                                                     const ColorScale& colors,
                                                     const RunContext& context);
 
-/// Motions that move b's surface by less than this from each other are one.
+/// Motions that move b's surface by less than this relative to each other are the same.
 double same_motion_m(const PreparedPass& a, const PreparedPass& b);
 /// Distance up to which refined surfaces agree.
 double agreement_tolerance_m(const PreparedPass& a, const PreparedPass& b);

@@ -1,5 +1,5 @@
 #pragma once
-// A pass made ready to be compared with others.
+// A pass prepared for comparisons with others.
 
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/passes/free_space.hpp>
@@ -7,18 +7,18 @@
 
 namespace turnscan::passes {
 
-/// A surface at one density, and how to find its points.
+/// A surface at one density, with a search structure for its points.
 struct SurfaceLevel {
   SurfaceLevel(const PassSurface& surface, std::size_t count, int side, double reach_share);
 
   Samples samples;
-  double reach_m;  ///< up to which nearest() finds points
+  double reach_m;  ///< maximum distance of points found by nearest()
   NearestGrid nearest;
-  /// Of each channel (row) by the place, along the surface; empty without colours.
+  /// Of each channel (row) by position, along the surface; empty without colours.
   std::vector<Eigen::Matrix3f> color_gradients;
 };
 
-/// From the nearest neighbours of each point; 0 where too few have a colour.
+/// From the nearest neighbours of each point; 0 if too few of them have a colour.
 std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
                                              std::span<const Vec3f> normals,
                                              std::span<const Vec3f> colors);
@@ -30,13 +30,13 @@ struct PreparedPass {
   bool colored() const { return !surface->colors.empty(); }
 
   const PassSurface* surface;
-  double extent_m;  ///< diagonal of the box around it
+  double extent_m;  ///< diagonal of its bounding box
   double area_m2;
   SurfaceLevel votes, coarse, medium;
   FreeSpace free;
   KdTree tree;                                   ///< of all points
   std::vector<Eigen::Matrix3f> color_gradients;  ///< of all points, as SurfaceLevel's
-  float beside_m;  ///< a point of the surface has one of them this near
+  float beside_m;  ///< distance within which a point of the surface has another one
 };
 
 }  // namespace turnscan::passes

@@ -1,5 +1,5 @@
 #pragma once
-// A surface thinned to an even density, and the nearest of its points.
+// A surface thinned to an even density, with nearest-point search.
 
 #include <cstdint>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
@@ -16,15 +16,15 @@ struct Samples {
 };
 
 /// Means of the points in voxels of about the size that leaves `count` of them; the two sides of a
-/// thin wall are kept apart.
+/// thin wall are kept separate.
 Samples thinned(const PassSurface& surface, std::size_t count);
 
-/// For any place the sample nearest to the middle of its cell: exact but for the cell's size.
+/// For any point the sample nearest to the centre of its cell: exact up to the cell's size.
 class NearestGrid {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  /// About `side` cells along the longest side; samples within reach_m count.
+  /// About `side` cells along the longest side; finds samples within reach_m.
   NearestGrid(const Samples& samples, int side, double reach_m);
   std::uint32_t operator()(const Vec3f& p) const {
     const Vec3f at = (p - origin_) * per_cell_;

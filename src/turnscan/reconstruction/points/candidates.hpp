@@ -14,13 +14,14 @@ struct Candidates {
   std::vector<std::uint32_t> voxel;   ///< position in grid.voxels()
 };
 
-/// Of each voxel of `grid`, which is measurements.grid or what a filter left of it. Centroid: the
-/// mean of the voxel's points. Sub-voxel counting (figure 3.12): for each point, the line through
-/// sensor and point is walked across the point's voxel (exact traversal, Amanatides and Woo 1987)
-/// and counted in each sub-voxel it meets; the centres of the sub-voxels with the highest count are
-/// the candidates, all of them when they tie, each with its share of the weight. kChord walks the
-/// whole chord; kTowardsSensor only from the point towards the sensor, which moves a noisy plane
-/// outwards. PointSums does the counting; measurements have peaks or else give centroids.
+/// Candidates of each voxel of `grid`, which is measurements.grid or a filtered version of it.
+/// Centroid: the mean of the voxel's points. Sub-voxel counting (figure 3.12): for each point, the
+/// line through sensor and point is traversed across the point's voxel (exact traversal, Amanatides
+/// and Woo 1987) and counted in each sub-voxel that it crosses; the centres of the sub-voxels with
+/// the highest count are the candidates, all of them in case of a tie, each with its share of the
+/// weight. kChord traverses the whole chord; kTowardsSensor only from the point towards the sensor,
+/// which moves a noisy plane outwards. PointSums does the counting; measurements without peaks give
+/// centroids.
 Result<Candidates> find_candidates(const voxels::MeasuredCells& measurements,
                                    const voxels::VoxelGrid& grid, const RunContext& context);
 

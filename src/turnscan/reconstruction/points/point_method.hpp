@@ -1,5 +1,5 @@
 #pragma once
-// The methods from points: each frame's points are added up as they come, and only the sums are
+// The methods from points: each frame's points are summed as they arrive, and only the sums are
 // kept; candidate points, normals and the surface follow at the end (thesis 3.4).
 
 #include <turnscan/reconstruction/method.hpp>

@@ -9,9 +9,9 @@
 
 namespace turnscan::points {
 
-/// Threshold, objects, candidates, normals, refine, base, surface. spacing_m: 1 / sqrt(points per
-/// square metre). out holds what the frames told, with the thickness of the cloud, and gets the
-/// objects. Fails as reconstruct() does.
+/// Runs the stages threshold, objects, candidates, normals, refine, base, surface. spacing_m: 1 /
+/// sqrt(points per square metre). out contains the results of the frames, with the thickness of the
+/// cloud, and receives the objects. Fails as reconstruct() does.
 Result<> reconstruct_points(const voxels::MeasuredCells& measurements, double spacing_m,
                             const std::optional<Cylinder>& cylinder,
                             const ReconstructOptions& options, const StageSink& sink,

@@ -8,7 +8,7 @@
 namespace turnscan::refinement {
 
 /// Measurements, structure of arrays: positions in metres, vectors to their sensors (mean of unit
-/// vectors), and how often each counts.
+/// vectors), and their multiplicities.
 struct Measurements {
   const float* x;
   const float* y;
@@ -24,7 +24,7 @@ struct TangentFrame {
   float p[3], n[3], u[3], v[3];
   float inverse_reach;   ///< 1 / tangential reach
   float inverse_height;  ///< 1 / reach of the robust weight along the normal
-  float facing;          ///< least cosine between normal and view
+  float facing;          ///< smallest cosine between normal and view
 };
 
 /// Sums of w x^i y^j for i + j <= 4 and of w h x^i y^j for i + j <= 2, with x, y in units of the
@@ -39,8 +39,9 @@ struct alignas(64) MomentLanes {
 
 struct RefineKernel {
   /// Order of the sums: 1 x y xx xy yy xxx xxy xyy yyy x4 xxxy xxyy xyyy y4, then h hx hy hxx hxy
-  /// hyy. Adds measurements [begin, end). Lane k takes those at begin + k, begin + k + kLanes, ...:
-  /// the same bytes for every instruction set. kLanes - 1 measurements behind `end` can be read.
+  /// hyy. Adds measurements [begin, end). Lane k takes those at begin + k, begin + k + kLanes, ...,
+  /// so that the result is byte-identical for every instruction set. kLanes - 1 measurements behind
+  /// `end` must be readable.
   void (*add_moments)(const Measurements& m, std::size_t begin, std::size_t end,
                       const TangentFrame& frame, MomentLanes& sums);
 };

@@ -17,7 +17,7 @@ using Field = std::vector<float>;
 
 inline constexpr int kSide = kBrickSide;
 inline constexpr std::size_t kCells = kBrickSamples;
-/// A brick with two layers of cells around it: as far as B-splines overlap.
+/// A brick with two layers of cells around it, the support of the B-splines.
 inline constexpr int kHalo = 2, kWide = kSide + 2 * kHalo;
 using Block = std::array<float, std::size_t(kWide* kWide* kWide)>;
 constexpr std::size_t in_block(int i, int j, int k) {
@@ -28,13 +28,13 @@ constexpr std::size_t in_brick(int i, int j, int k) { return sample_in_brick(i, 
 /// The slots of a brick and its 26 neighbours, by (di + 1) + 3 (dj + 1) + 9 (dk + 1).
 using Neighbours = std::array<std::int32_t, 27>;
 
-/// Bricks of which no two with the same parities touch a common cell when each changes its own
+/// Colour of a brick. Bricks of one colour never touch a common cell when each changes its own
 /// cells and those beside them.
 inline std::size_t color_of(const Index& b) {
   return std::size_t((b[0] & 1) | (b[1] & 1) << 1 | (b[2] & 1) << 2);
 }
 
-/// Which bricks of a level exist.
+/// The set of existing bricks of a level.
 class SparseBricks {
  public:
   /// depth >= 3: 2^depth cells along each axis.
@@ -48,23 +48,23 @@ class SparseBricks {
   const Index& operator[](std::size_t slot) const { return bricks_[slot]; }
 
   bool contains(const Index& b) const { return grid_.contains(b); }
-  /// Its place in the order of adding, -1 for a brick that does not exist.
+  /// Index of a brick in the order of adding, -1 if it does not exist.
   std::int32_t slot(const Index& b) const { return contains(b) ? slot_[grid_.at(b)] : -1; }
-  /// Nothing for a brick beyond the cube or one that exists.
+  /// Does nothing for a brick beyond the cube or one that exists.
   void add(const Index& b);
   Neighbours neighbours(const Index& b) const;
-  /// Position of a cell in a field, -1 when its brick does not exist.
+  /// Position of a cell in a field, -1 if its brick does not exist.
   std::ptrdiff_t cell(int i, int j, int k) const {
     const std::int32_t s = slot({i >> 3, j >> 3, k >> 3});
     return s < 0 ? -1 : std::ptrdiff_t(std::size_t(s) * kCells + in_brick(i, j, k));
   }
   /// The coefficients of a brick and around it. 0 where the field, which may end before the last
-  /// bricks, has none; beyond the cube's faces the negative of what mirrors it, so that functions
-  /// are 0 on the faces.
+  /// bricks, has none; beyond the cube's faces the negative of the mirrored coefficient, so that
+  /// functions are 0 on the faces.
   void gather(const Field& field, std::size_t slot, Block& out) const;
 
   /// out[wide^3] = the coefficients of the cells from `first` on, x fastest. Where the field has
-  /// none, beyond the cube too: missing(i, j, k).
+  /// none, also beyond the cube: missing(i, j, k).
   template <class Missing>
   void window(const Field& field, const Index& first, int wide, const Missing& missing,
               float* out) const;

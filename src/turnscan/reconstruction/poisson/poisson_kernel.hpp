@@ -13,12 +13,12 @@ void stiffness(const float* block, float* out);
 /// out[512] = the integrals of V . grad B_i for the vector field of these coefficients.
 void divergence(const float* x, const float* y, const float* z, float* out);
 
-/// The block around a brick from the coefficients of the next coarser level's 8^3 cells around it,
-/// from two before its first on: the same function (Chaikin's rule along each axis).
+/// The block around a brick from the coefficients of 8^3 cells of the next coarser level around it,
+/// starting two cells before its first one: the same function (Chaikin's rule along each axis).
 void refine(const float* coarse, float* block);
 
-/// out[512] += half of what the transpose of refine() takes from the 18^3 cells of the next finer
-/// level around a brick, from one before its first on: loads are in units of the cell's side.
+/// out[512] += half of the transpose of refine() applied to the 18^3 cells of the next finer level
+/// around a brick, starting one cell before its first one: loads are in units of the cell's side.
 void coarsen(const float* fine, float* out);
 
 /// Sum of a[i] * b[i] in double precision, in an order that depends on n alone, a multiple of 8.

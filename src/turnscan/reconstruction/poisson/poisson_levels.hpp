@@ -6,8 +6,8 @@
 
 namespace turnscan::poisson {
 
-/// The indicator on the faces of the cube: half its step from inside to outside, which is 1.
-/// Fields hold the indicator minus this.
+/// The indicator on the faces of the cube: half its step from inside to outside, which is 1. Fields
+/// hold the indicator minus this.
 inline constexpr double kOutside = 0.5;
 
 struct VectorField {
@@ -22,21 +22,22 @@ struct OctreeLevel {
 
   SparseBricks bricks;
   /// The bricks that samples of this depth reach come first, and only they are solved; the others
-  /// are there because the surface of a coarser level passes through them.
+  /// exist because the surface of a coarser level passes through them.
   std::size_t solved = 0;
   VectorField own;      ///< this level's splats, in the bricks that are solved
-  Field load;           ///< of these and of all finer levels, likewise
-  VectorField normals;  ///< own with those of coarser levels, in all bricks; not of the finest
+  Field load;           ///< of these and of all finer levels, also in the solved bricks
+  VectorField normals;  ///< own plus those of coarser levels, in all bricks; not for the finest
+                        ///< level
   Field indicator;      ///< minus kOutside, in all bricks
 };
 
-/// By depth - kCoarsest.
+/// Indexed by depth - kCoarsest.
 using OctreeLevels = std::vector<OctreeLevel>;
 
-/// A coefficient of the indicator, from coarser levels where this one has none.
+/// A coefficient of the indicator, from coarser levels if this one has none.
 float indicator(const OctreeLevels& levels, std::size_t level, int i, int j, int k);
 
-/// The coefficient of the finest cell that holds this cell of the level: quick, and of the right
+/// The coefficient of the finest cell that contains this cell of the level: fast, and of the right
 /// sign away from the surface.
 float indicator_near(const OctreeLevels& levels, std::size_t level, int i, int j, int k);
 
@@ -44,8 +45,8 @@ float indicator_near(const OctreeLevels& levels, std::size_t level, int i, int j
 /// loads.
 Result<OctreeLevels> make_levels(const OrientedSamples& samples, const RunContext& context);
 
-/// Fills normals and indicator of a level from the coarser one; its splats and load go. Returns the
-/// residual of that indicator but for what the points add to the equation.
+/// Fills normals and indicator of a level from the coarser one, whose splats and load are released.
+/// Returns the residual of that indicator without the contribution of the points.
 Field prolong(OctreeLevels& levels, std::size_t level);
 
 /// Solves one level, its coarser ones being solved. Returns the median indicator at the samples.

@@ -1,6 +1,6 @@
 #pragma once
-// The samples of the Poisson solver: where they lie in its cube, what area each stands for, how
-// deep in the octree it belongs, and what it adds to a level.
+// The samples of the Poisson solver: their positions in its cube, areas, depths in the octree, and
+// contributions to a level.
 
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/reconstruction/poisson/poisson_bricks.hpp>
@@ -15,17 +15,18 @@ struct Cube {
   double side_m = 1.0;
 };
 
-/// A place in a brick: its cell, and what the B-splines of the cell before, this one and the next
-/// weigh there along each axis.
+/// A point in a brick: its cell, and the weights of the B-splines of the previous, this and the
+/// next cell there along each axis.
 struct SplineFootprint {
   std::array<std::int8_t, 3> cell;
   std::array<std::array<float, 3>, 3> weight;
 };
 
-/// Calls body(cell, weight) for the 27 cells whose B-splines reach a spot.
+/// Calls body(cell, weight) for the 27 cells whose B-splines reach a point.
 template <class Body>
 void for_each_cell(const SplineFootprint& spot, const Neighbours& bricks, const Body& body) {
-  std::size_t slot[3][3], cell[3][3];  // along each axis: share of the place among the neighbours
+  std::size_t slot[3][3], cell[3][3];  // along each axis: contribution to the index among the
+                                       // neighbours
   for (std::size_t a = 0; a < 3; ++a) {
     constexpr std::size_t kSlots[3] = {1, 3, 9}, kSteps[3] = {1, 8, 64};
     for (int n = 0; n < 3; ++n) {
@@ -53,12 +54,12 @@ struct SampleCluster {
   float area;  ///< in units of a cell's face
 };
 
-/// Consecutive things of one brick: [begin, end).
+/// Consecutive elements of one brick: [begin, end).
 struct BrickRun {
   std::uint32_t begin, end;
   Index brick;
 };
-/// By color_of(brick).
+/// Indexed by color_of(brick).
 using ColoredRuns = std::array<std::vector<BrickRun>, 8>;
 
 struct SampleClusters {
@@ -69,15 +70,14 @@ struct SampleClusters {
 class OrientedSamples {
  public:
   /// Points and normals, sorted along a Morton curve. wanted: samples per face of a cell that a
-  /// level needs to be as deep as it is. max_depth in [kCoarsest, 20].
+  /// level must have. max_depth in [kCoarsest, 20].
   OrientedSamples(const PointCloud& oriented, const Cube& cube, int max_depth, double wanted);
 
   std::size_t size() const { return position_.size(); }
-  /// The deepest level that a fair share of the samples is dense enough for.
+  /// The deepest level for which a fair share of the samples is dense enough.
   int deepest() const { return deepest_; }
 
-  /// Calls body(cell) once for each cell that holds samples which belong to level `depth` or
-  /// deeper.
+  /// Calls body(cell) once for each cell with samples that belong to level `depth` or deeper.
   template <class Body>
   void for_each_occupied(int depth, const Body& body) const {
     const int shift = 3 * (max_depth_ - depth);
@@ -90,19 +90,19 @@ class OrientedSamples {
     }
   }
 
-  /// Adds the normals, each times its area, that belong to this level to the coefficients around
+  /// Adds the normals that belong to this level, each times its area, to the coefficients around
   /// it: the vector field that the indicator's gradient is to follow, in units of 1 / cell.
   void splat(const SparseBricks& bricks, Field& x, Field& y, Field& z) const;
-  /// The samples of each cell of the bricks that exist as one: mean position, all areas.
+  /// The samples of each cell of the existing bricks as one: mean position, total area.
   SampleClusters clusters(const SparseBricks& bricks) const;
-  /// Of a function at the samples; bricks: those around all of them.
+  /// Median of a function at the samples; bricks: those around all of them.
   float median(const SparseBricks& bricks, const Field& function) const;
 
  private:
   Index cell(std::size_t sample, int depth) const;
   SplineFootprint spot(std::size_t sample, const Vec3d& position, int depth) const;
   ColoredRuns runs(int depth) const;
-  /// Calls body(sample, bricks around its brick), of one colour on all threads.
+  /// Calls body(sample, bricks around its brick), those of one colour on all threads.
   template <class Body>
   void for_each_sample(const SparseBricks& bricks, const Body& body) const;
   int density_depth() const;

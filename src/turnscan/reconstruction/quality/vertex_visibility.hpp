@@ -1,5 +1,5 @@
 #pragma once
-// Which frames saw each vertex of a mesh, and from how many sides.
+// Frames that saw each vertex of a mesh, and the number of their directions.
 
 #include <cstdint>
 #include <span>
@@ -14,22 +14,23 @@ inline constexpr int kSectors = 12, kBands = 3;
 
 /// Per vertex.
 struct VertexVisibility {
-  std::vector<std::uint16_t> frames;     ///< that measured its neighbourhood
-  std::vector<std::uint8_t> directions;  ///< sectors from which they did, in the table frame
+  std::vector<std::uint16_t> frames;     ///< number that measured its neighbourhood
+  std::vector<std::uint8_t> directions;  ///< number of sectors from which they did, in the table
+                                         ///< frame
 };
 
-/// A view saw a vertex when it faces the sensor by less than 84 degrees and the depth at its pixel
-/// is that of the vertex within tolerance_m along the normal. Of many views 128, evenly spread, are
-/// looked at and stand for the others. Fails with kCancelled. The same result for any number of
-/// threads.
+/// A view saw a vertex if its incidence angle is below 84 degrees and the depth at its pixel is
+/// that of the vertex within tolerance_m along the normal. Of many views 128, evenly spread, are
+/// examined and represent the others. Fails with kCancelled. The result does not depend on the
+/// number of threads.
 Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
                                            std::span<const views::DepthView> views,
                                            double tolerance_m, const RunContext& context);
 
-/// Which vertices sensors looked at in vain: of the views that they face by less than 66 degrees at
-/// least half, and three or more, had no return there, and nothing before them. Only those marked
-/// in `asked` are looked at, in as many views as above. Fails with kCancelled. The same for any
-/// number of threads.
+/// Vertices that sensors observed without a return: of the views with incidence angles below 66
+/// degrees at least half, and at least three, had no return there, and no occluder before them.
+/// Only the vertices marked in `asked` are examined, in as many views as above. Fails with
+/// kCancelled. The result does not depend on the number of threads.
 Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
                                                  std::span<const views::DepthView> views,
                                                  const std::vector<std::uint8_t>& asked,

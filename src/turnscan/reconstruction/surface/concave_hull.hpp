@@ -8,9 +8,9 @@ namespace turnscan::surface {
 
 inline constexpr const char* kConcaveHullProgram = "turnscan-concave-hull";
 
-/// Concave hull (alpha shape; geometry/hull/alpha_shape.hpp): not 2-manifold by nature. It runs in
-/// the helper program, so that it can be cancelled at any moment. Fails with kTooFewPoints (fewer
-/// than 10), kLibrary (it crashed or gave no triangle), kResourceLimit, kMissingData
+/// Concave hull (alpha shape; geometry/hull/alpha_shape.hpp), which in general is not 2-manifold.
+/// Runs in the helper program, so that it can be cancelled at any moment. Fails with kTooFewPoints
+/// (fewer than 10), kLibrary (it crashed or gave no triangle), kResourceLimit, kMissingData
 /// (find_helper_program), kIo (it cannot be started), kCancelled.
 Result<TriangleMesh> concave_hull(const PointCloud& points, double alpha_m,
                                   const RunContext& context);

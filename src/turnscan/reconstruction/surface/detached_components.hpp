@@ -1,6 +1,6 @@
 #pragma once
-// Nothing on a platter hangs in the air: components that do are parts of what stands beside them,
-// and no frame showed what holds them. The one rule for all methods.
+// Components that float above a platter are parts of the objects beside them whose connection no
+// frame showed. The common rule of all methods.
 
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
@@ -13,11 +13,11 @@ struct PlacedComponent {
   bool stands = false;
 };
 
-/// For each component the number of the one that it is attached to: its own where it stands. A
-/// detached one is attached to the nearest that stands, or to what that holds already: the shortest
-/// way from point to point first, so that a chain of components hangs together. Not across more
-/// than farthest_of_size times the longest side of its own box: then its own number. Without a
-/// component that stands: their own. Ties go to the earlier component.
+/// For each component the index of the one that it is attached to: its own if it stands. A detached
+/// one is attached to the nearest that stands, or that is already attached to one: the shortest
+/// distance between points first, so that chains of components are connected. Gaps of more than
+/// farthest_of_size times the longest side of its own bounding box are not bridged: then its own
+/// index. If no component stands: their own. Ties go to the earlier component.
 std::vector<std::size_t> attach_detached(const std::vector<PlacedComponent>& components,
                                          double farthest_of_size);
 

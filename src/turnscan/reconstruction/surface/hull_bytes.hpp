@@ -1,6 +1,6 @@
 #pragma once
-// What the program turnscan-concave-hull is given and gives back. Bytes in the machine's order:
-// both ends are built together.
+// Data exchanged with the program turnscan-concave-hull. Bytes in the machine's order, since both
+// ends are built together.
 
 #include <cstdint>
 #include <cstring>
@@ -19,7 +19,7 @@ inline std::string bytes_of_points(const std::vector<Vec3f>& points) {
   return bytes;
 }
 
-/// nullopt unless the bytes hold whole points.
+/// nullopt unless the bytes contain whole points.
 inline std::optional<std::vector<Vec3f>> points_from_bytes(std::string_view bytes) {
   if (bytes.size() % sizeof(Vec3f) != 0) return std::nullopt;
   std::vector<Vec3f> points(bytes.size() / sizeof(Vec3f));

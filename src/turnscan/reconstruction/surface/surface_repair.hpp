@@ -1,5 +1,5 @@
 #pragma once
-// From what a surface method gives to a mesh that can be printed.
+// Repairs the result of a surface method to a printable mesh.
 
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -15,17 +15,17 @@ struct RepairedMesh {
   std::vector<Evidence>
       evidence;  ///< per triangle: invented is what no candidate is within reach of
   double invented_area_m2 = 0.0;
-  std::vector<std::string> notes;  ///< what was done, for people
+  std::vector<std::string> notes;  ///< repairs, for display
 };
 
-/// Which pieces of a surface are kept: the one with the most vertices near candidates, or also
-/// others most of which are near candidates, as an object has them whose parts lie apart.
+/// Pieces of a surface that are kept: the one with the most vertices near candidates, or also
+/// others that are mostly near candidates, for objects with separate parts.
 enum class Parts { kMain, kAll };
 
-/// Makes a Poisson surface closed, 2-manifold and outward: other pieces go; and where no candidate
-/// is within reach_m, what Poisson invented (blobs, sheets) is replaced by a smooth and tight
-/// continuation of its surroundings if it swells beyond them. Fails with kLibrary, saying what is
-/// wrong, when the result would not be watertight.
+/// Makes a Poisson surface closed, 2-manifold and outward: drops other pieces, and where no
+/// candidate is within reach_m, replaces what Poisson invented (blobs, sheets) by a smooth and
+/// tight continuation of its surroundings if it swells beyond them. Fails with kLibrary, with the
+/// reason, if the result would not be watertight.
 Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& candidates,
                                     double reach_m, Parts parts, const RunContext& context);
 
@@ -34,8 +34,8 @@ Result<RepairedMesh> repair_concave_hull(const TriangleMesh& raw, const PointClo
                                          double cell_m, double reach_m, Parts parts,
                                          const RunContext& context);
 
-/// Triangles near candidates become the base where those nearest to their corners were added to
-/// close it: the candidates from position `added` on.
+/// Marks triangles near candidates as base if the candidates nearest to their corners were added to
+/// close it: those from position `added` on.
 void mark_base(RepairedMesh& repaired, const PointCloud& candidates, std::size_t added);
 
 /// Colour of each vertex: the weighted mean of the three nearest candidates.

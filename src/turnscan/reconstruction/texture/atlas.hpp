@@ -1,5 +1,5 @@
 #pragma once
-// Where each triangle of a mesh lies in a square picture.
+// Texture atlas: the layout of a mesh's triangles in a square image.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,10 +11,11 @@ namespace turnscan::texture {
 
 /// Charts are placed on squares of this many texels: no square is shared by two charts.
 inline constexpr int kBlock_px = 8;
-/// Texels between a chart and the border of its squares, at least; between two charts twice that.
+/// Minimum distance in texels of a chart from the border of its squares; between two charts twice
+/// that.
 inline constexpr int kPadding_px = 2;
 
-/// Corners are in texels from the upper left corner of the picture, y down; the centre of the first
+/// Corners are in texels from the upper left corner of the image, y down; the centre of the first
 /// texel is (0.5, 0.5). They are multiples of 1/256, and no two triangles cover the same texel's
 /// centre.
 struct Atlas {
@@ -22,23 +23,23 @@ struct Atlas {
   std::vector<std::array<Eigen::Vector2f, 3>> corners;  ///< per triangle
   std::vector<std::uint32_t> chart;                     ///< per triangle
   std::size_t charts = 0;
-  double texels_per_m = 0.0;  ///< along the surface, where it is seen straight on
-  double stretch = 1.0;       ///< greatest of a triangle: largest over smallest scale
+  double texels_per_m = 0.0;  ///< along the surface, where it faces the chart's direction
+  double stretch = 1.0;       ///< maximum over the triangles: largest over smallest scale
 };
 
-/// Charts are drawn along their mean normals, split where they would cover themselves, and packed
-/// as large as they fit (Levy et al. 2002, "Least squares conformal maps", section 4: by their
-/// outlines). texels_per_m: no larger than that. size_px: a multiple of kBlock_px. Fails with
-/// kResourceLimit when the mesh has more charts than fit, with kCancelled. The same for any number
-/// of threads.
+/// Charts are projected along their mean normals, split where they would overlap themselves, and
+/// packed at the largest scale at which they fit (Levy et al. 2002, "Least squares conformal maps",
+/// section 4: by their outlines). texels_per_m: maximum scale. size_px: a multiple of kBlock_px.
+/// Fails with kResourceLimit if the mesh has more charts than fit, with kCancelled. The result does
+/// not depend on the number of threads.
 Result<Atlas> make_atlas(const TriangleMesh& mesh, int size_px, double texels_per_m,
                          const RunContext& context);
 
-/// Side of a square picture that shows the mesh at that scale, as far as can be told beforehand.
+/// Estimated side of a square image that shows the mesh at that scale.
 double expected_side_px(const TriangleMesh& mesh, double texels_per_m);
 
-/// Calls texel(column, row) for each texel whose centre a triangle of the picture covers. Centres
-/// on an edge belong to one of the triangles beside it.
+/// Calls texel(column, row) for each texel whose centre is covered by a triangle with these
+/// corners. Centres on an edge belong to one of the adjacent triangles.
 template <class Texel>
 void for_each_texel(const std::array<Eigen::Vector2f, 3>& corners, const Texel& texel);
 

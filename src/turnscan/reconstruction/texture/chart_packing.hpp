@@ -1,5 +1,5 @@
 #pragma once
-// Outlines packed into a square.
+// Packs chart outlines into a square.
 
 #include <cstdint>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace turnscan::texture {
 
-/// A chart on a grid of squares: in each of its columns the rows [bottom, top) that it needs.
+/// A chart on a grid of squares: the rows [bottom, top) that it occupies in each of its columns.
 struct ChartOutline {
   int width = 0, height = 0;
   std::vector<std::int32_t> bottom, top;  ///< per column
@@ -17,8 +17,8 @@ struct ChartPlace {
   int column = 0, row = 0;
 };
 
-/// Places for all charts in a square of side x side; nothing where they do not fit. The tallest
-/// first, each where the ground that those before it leave is lowest.
+/// Positions of all charts in a square of side x side; nullopt if they do not fit. Places the
+/// tallest first, each where the skyline of the previous ones is lowest.
 std::optional<std::vector<ChartPlace>> pack_charts(const std::vector<ChartOutline>& charts,
                                                    int side);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A colour image's camera before the object, and what of the object it can see.
+// The camera of a colour image relative to the object, and the surface visible in it.
 
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/frame.hpp>
@@ -27,22 +27,22 @@ struct ColorView {
 
   void set_camera(const CameraIntrinsics& intrinsics);
   void set_pose(const Pose& T_color_sensor);
-  /// As if the object had turned further by that when the image was taken.
+  /// Moves the camera as if the object had turned further by this angle when the image was taken.
   void turn(double angle_rad);
   Vec3f eye() const { return -(rotation.transpose() * translation); }
   float focal_px() const { return float(0.5 * (camera.fx + camera.fy)); }
-  /// z <= 0: it lies behind the camera, u and v say nothing.
+  /// If z <= 0 the point is behind the camera, and u and v are meaningless.
   Projection project(const Vec3f& p_object) const;
 };
 
-/// How a view shows a place: near a rim colours of two surfaces may mix.
+/// Visibility of a point in a view: near a rim, colours of two surfaces may mix.
 enum class Shown : std::uint8_t { kNot, kNearRim, kWell };
 
-/// The mesh as a view sees it: depths of the pixels of a window of its image, and which of them lie
-/// well within a surface.
+/// The mesh rendered from a view: depths of the pixels in a window of its image, and which of them
+/// are well inside a surface.
 class DrawnMesh {
  public:
-  /// Pixels about a rim in which colours of two surfaces may mix.
+  /// Distance from a rim within which colours of two surfaces may mix.
   static constexpr int kRim_px = 2;
 
   DrawnMesh(const ColorView& view, const TriangleMesh& mesh);
@@ -52,14 +52,14 @@ class DrawnMesh {
   int top() const { return top_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  /// 0 where nothing is; column and row count in the window.
+  /// 0 for background; column and row are relative to the window.
   float depth(int column, int row) const { return depth_[index(column, row)]; }
   bool covered(int column, int row) const {
     return column >= 0 && row >= 0 && column < width_ && row < height_ && depth(column, row) > 0.0f;
   }
-  /// How the view shows a point of the mesh that is seen at p.
+  /// Visibility of a point of the mesh that projects to p.
   Shown shows(const Projection& p) const;
-  /// Whether p lies near a rim of what is drawn there, or beside the mesh.
+  /// Whether p is near a rim of the rendered mesh, or beside the mesh.
   bool near_rim(const Projection& p) const;
 
  private:
@@ -72,21 +72,21 @@ class DrawnMesh {
   void find_rims();
 
   int left_ = 0, top_ = 0, width_ = 0, height_ = 0;
-  float footprint_ = 0.0f;  // of a pixel, over depth
+  float footprint_ = 0.0f;  // of a pixel, relative to depth
   std::vector<float> depth_;
   std::vector<std::uint8_t> rim_;  // 0: none near, 1: near one, 2: on one
 };
 
-/// The views of a sequence's colour images: of depth cameras, with their own colour camera or that
-/// of the depth. T_table_sensor per frame; frames for which use() is false are left out.
+/// The views of a sequence's colour images from depth cameras, with their own colour camera or the
+/// depth camera's parameters; only those of `pass`, if given. T_table_sensor per frame.
 /// T_object_table per pass; empty: identity.
 std::vector<ColorView> color_views(const FrameSequence& sequence,
                                    const std::vector<Pose>& T_table_sensor,
                                    const std::vector<Pose>& T_object_table,
                                    std::optional<std::uint32_t> pass);
 
-/// Of these, as few as look at `center` from all the directions that there are, no nearer to each
-/// other than an angle of some degrees.
+/// A subset of the views whose viewing directions towards `center` cover all that exist, with a
+/// minimum angle of some degrees between them.
 std::vector<ColorView> spread_views(const std::vector<ColorView>& views, const Vec3f& center);
 
 }  // namespace turnscan::texture

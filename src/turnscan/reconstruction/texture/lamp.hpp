@@ -1,17 +1,20 @@
 #pragma once
-// A lamp that stands still while the object turns: found, and taken out of the colours.
+// Estimates a lamp that stands still while the object turns, and removes its shading from the
+// colours.
 
 #include <turnscan/reconstruction/texture/exposure.hpp>
 #include <turnscan/reconstruction/texture/lamp_view.hpp>
 
 namespace turnscan::texture {
 
-/// Light that does not turn with the object: from all sides alike, and from one lamp far away.
-/// Lambert: I = albedo * (ambient + lamp * max(0, n . direction)), the second where no shadow lies.
+/// Illumination that does not turn with the object: ambient light, and one distant lamp. Lambert: I
+/// = albedo * (ambient + lamp * max(0, n . direction)), the second term only where there is no
+/// shadow.
 struct FixedLight {
   Vec3f direction = Vec3f::UnitY();  ///< to the lamp, rig's frame
   float ambient = 1.0f, lamp = 0.0f;
-  /// facing: cosine between normal and direction; of what the lamp does not reach only the rest.
+  /// facing: cosine between normal and direction; surface that the lamp does not reach gets only
+  /// ambient light.
   float on(float facing, bool reached) const {
     return reached ? ambient + lamp * std::max(0.0f, facing) : ambient;
   }
@@ -20,30 +23,30 @@ struct FixedLight {
 /// Unit, rig's frame; radians, above the horizontal and about +Y from +Z.
 Vec3f rig_direction(double azimuth, double elevation);
 
-/// Light that is divided by is at least this.
+/// Lower limit of the light by which colours are divided.
 inline constexpr float kMinLight = 0.05f;
 
-/// What a lamp is looked for in. Refers to its parts.
+/// Input for estimating a lamp. Refers to its parts.
 struct LampScene {
   const TriangleMesh& mesh;
   const TriangleMesh&
-      coarse;  ///< by coarse_caster(): casts the shadows while the lamp is looked for
+      coarse;  ///< by coarse_caster(): casts the shadows while the lamp is estimated
   const TexelBlocks& blocks;
   const ChosenViews& chosen;
   const BlockMeans& means;
   std::vector<Eigen::Matrix3f> rotation;  ///< per view, from the object's frame to the rig's
 };
 
-/// Fails as simplify().
+/// A simplified mesh for casting shadows. Fails as simplify().
 Result<TriangleMesh> coarse_caster(const TriangleMesh& mesh);
 
-/// How the light falls on each block in each of its views, by its middle; negative where the edge
-/// of a shadow is near.
+/// Light on each block in each of its views, at its middle; negative if the edge of a shadow is
+/// near.
 using BlockLight = std::vector<std::array<float, kSlots>>;
 
-/// The light under which the views of each place agree best about its albedo, shadows that the mesh
-/// casts included. The mean over the surface that was seen is 1. gains: per view. near: it is about
-/// there; empty: anywhere. The same for any number of threads. Fails with kCancelled.
+/// The light for which the views of each point agree best on its albedo, including shadows cast by
+/// the mesh. Its mean over the observed surface is 1. gains: per view. near: approximate light;
+/// empty: unknown. The result does not depend on the number of threads. Fails with kCancelled.
 Result<FixedLight> solve_light(const LampScene& scene, const std::vector<Vec3f>& gains,
                                const std::optional<FixedLight>& near, const RunContext& context);
 
@@ -51,7 +54,7 @@ Result<FixedLight> solve_light(const LampScene& scene, const std::vector<Vec3f>&
 Result<BlockLight> block_light(const LampScene& scene, const FixedLight& light,
                                const RunContext& context);
 
-/// Notes of each sample whether the lamp reaches it. Fails with kCancelled.
+/// Marks in each sample whether the lamp reaches it. Fails with kCancelled.
 Result<> mark_shadows(const LampScene& scene, const FixedLight& light, TexelSamples& samples,
                       const RunContext& context);
 

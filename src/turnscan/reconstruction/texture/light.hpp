@@ -5,13 +5,13 @@
 
 namespace turnscan::texture {
 
-/// 0 to 255 to linear light in [0, 1], and beyond it.
+/// Converts 0 to 255 to linear light in [0, 1], and extrapolates beyond it.
 inline float linear_of(float srgb) {
   const float s = srgb / 255.0f;
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
-/// The inverse; what is below 0 is 0.
+/// The inverse; negative values become 0.
 inline float srgb_of(float linear) {
   if (!(linear > 0.0f)) return 0.0f;
   const float s =

@@ -1,5 +1,5 @@
 #pragma once
-// The two kinds of evidence about a colour camera's place, as normal equations of a small motion.
+// The two kinds of evidence for a colour camera's pose, as normal equations of a small motion.
 
 #include <turnscan/geometry/estimation/normal_equations.hpp>
 #include <turnscan/geometry/estimation/se3.hpp>
@@ -7,7 +7,7 @@
 
 namespace turnscan::texture {
 
-/// A motion of the camera's frame: turn about its axes (rad), then shift (m).
+/// A motion of the camera's frame: rotation about its axes (rad), then translation (m).
 using Motion = estimation::Twist;
 
 struct MotionEquations : estimation::NormalEquations<6> {
@@ -17,7 +17,7 @@ struct MotionEquations : estimation::NormalEquations<6> {
   void add(const MotionEquations& other);
 };
 
-/// How an image point moves with the camera: rows u and v. p: camera's frame.
+/// Derivative of an image point by the camera's motion: rows u and v. p: camera's frame.
 Eigen::Matrix<double, 2, 6> image_motion(const Vec3f& p, const CameraIntrinsics& camera);
 
 /// Luminance of a part of an image, blurred.
@@ -31,18 +31,19 @@ struct GreyWindow {
 /// Gaussian blur, sigma in pixels.
 GreyWindow blurred(const GreyWindow& window, double sigma);
 
-/// A point of the mesh on its outline as a view sees it.
+/// A point of the mesh on its outline in a view.
 struct OutlinePoint {
   Vec3f p_object;
   Eigen::Vector2f normal;  ///< in the image, away from the mesh
 };
 std::vector<OutlinePoint> outline_of(const ColorView& view, const DrawnMesh& drawn);
 
-/// How strongly the image changes across the outline when it is shifted, levels a pixel, summed.
+/// Strength of the image's gradient across the outline shifted by shift_px, levels per pixel,
+/// summed.
 double edge_strength(const ColorView& view, const std::vector<OutlinePoint>& outline,
                      const GreyWindow& grey, const Eigen::Vector2f& shift_px);
 
-/// Heights of an object along the turntable's axis, in equal bands.
+/// Divides an object along the turntable's axis into equal bands.
 struct HeightBands {
   static constexpr int kCount = 16;
   double lowest_m = 0.0, height_m = 0.0;
@@ -50,19 +51,19 @@ struct HeightBands {
 };
 
 struct OutlineEquations : MotionEquations {
-  /// What one pixel more of offset all along a band's outline adds to `right`.
+  /// Contribution to `right` of an additional offset of one pixel all along a band's outline.
   Eigen::Matrix<double, 6, HeightBands::kCount> per_band =
       Eigen::Matrix<double, 6, HeightBands::kCount>::Zero();
   using MotionEquations::add;
   void add(const OutlineEquations& other);
 };
 
-/// Of one view: the outline against edges of the image, up to reach_px away.
+/// For one view: matches the outline to edges of the image, up to reach_px away.
 OutlineEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
                                    const GreyWindow& grey, const HeightBands& bands,
                                    double reach_px);
 
-/// Of all views: points that several see. error: variance of the colours of a place, levels
+/// For all views: points that several see. error: variance of the colours of a point, levels
 /// squared.
 MotionEquations pattern_equations(const std::vector<ColorView>& views,
                                   const std::vector<DrawnMesh>& drawn,

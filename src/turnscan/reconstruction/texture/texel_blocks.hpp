@@ -1,6 +1,6 @@
 #pragma once
-// The texels of an atlas in squares, each of one chart: what views are chosen for, and what is
-// worked on together.
+// The texels of an atlas in square blocks of one chart each: the unit for choosing views and for
+// processing.
 
 #include <turnscan/reconstruction/texture/atlas.hpp>
 
@@ -15,27 +15,28 @@ class TexelBlocks {
 
   int size_px() const { return size_; }
   std::size_t count() const { return blocks_.size(); }
-  /// Its upper left texel.
+  /// The upper left texel of a block.
   int left(std::size_t block) const {
     return int(blocks_[block] % std::uint32_t(side_)) * kBlock_px;
   }
   int top(std::size_t block) const {
     return int(blocks_[block] / std::uint32_t(side_)) * kBlock_px;
   }
-  /// The block that holds a texel; -1 where no texel is covered.
+  /// The block that contains a texel; -1 if the texel is not covered.
   std::int32_t block_at(int column, int row) const;
-  /// The triangle of a texel of a block, row by row; kNoTriangle (charts.hpp) where there is none.
+  /// The triangle of a texel of a block, row by row; kNoTriangle (charts.hpp) if there is none.
   std::uint32_t triangle(std::size_t block, int texel) const {
     return owner_[block * kBlockTexels + std::size_t(texel)];
   }
-  /// A covered texel, in its middle where that is.
+  /// A covered texel; the one in the middle of the block if that is covered.
   int middle_texel(std::size_t block) const;
-  /// Place of a texel's centre on its triangle, and steps to the texel on its right and below it.
+  /// Position of a texel's centre on its triangle, and steps to the texel on its right and below
+  /// it.
   struct Surface {
     Vec3f position, right, down;
   };
   Surface surface(std::size_t block, int texel) const;
-  /// Of the vertices, interpolated; unit.
+  /// Interpolated from the vertices; unit.
   Vec3f normal(std::size_t block, int texel) const;
   std::uint32_t chart(std::size_t block) const { return chart_[block]; }
   std::size_t covered_texels() const { return covered_; }

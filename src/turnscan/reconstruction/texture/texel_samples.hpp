@@ -1,5 +1,5 @@
 #pragma once
-// Colours of the texels in those views that see them best.
+// Colours of the texels in the views that see them best.
 
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/texture/color_view.hpp>
@@ -7,38 +7,38 @@
 
 namespace turnscan::texture {
 
-/// Views of a block, best first: the best of all, and some that look from farther aside.
+/// Number of views per block, best first: the best of all, and some from more oblique directions.
 inline constexpr std::size_t kSlots = 8;
 inline constexpr std::uint16_t kNoView = 0xffff;
 
-/// Per block and slot.
+/// Views chosen per block and slot.
 struct ChosenViews {
-  std::vector<std::array<std::uint16_t, kSlots>> view;  ///< kNoView: no other one sees it
-  /// By resolution and incidence; falls to 0 for views that are hardly taken any more, so that the
-  /// weights of neighbouring blocks are alike.
+  std::vector<std::array<std::uint16_t, kSlots>> view;  ///< kNoView: no further one sees it
+  /// By resolution and incidence; falls to 0 for views that are barely chosen, so that the weights
+  /// of neighbouring blocks are similar.
   std::vector<std::array<float, kSlots>> weight;
   double pixels_per_m = 0.0;  ///< of the best views, median
 };
 
-/// Looks which of the views show each block, by the mesh's own depth, rims left out. The same for
-/// any number of threads. Fails with kCancelled.
+/// Determines which views show each block, by occlusion tests with the mesh, excluding rims. The
+/// result does not depend on the number of threads. Fails with kCancelled.
 Result<ChosenViews> choose_views(const TriangleMesh& mesh, const TexelBlocks& blocks,
                                  const std::vector<ColorView>& views, const RunContext& context);
 
-/// A slot of a block that shows a view.
+/// A slot of a block that uses a view.
 struct ViewSlot {
   std::uint32_t block;
   std::uint8_t slot;
 };
 
-/// Per view the slots that show it, in the order of the blocks.
+/// Per view the slots that use it, in the order of the blocks.
 std::vector<std::vector<ViewSlot>> slots_by_view(const ChosenViews& chosen, std::size_t views);
 
 struct Sample {
   static constexpr std::uint8_t kWell = 1, kNearRim = 2;
   std::uint8_t r = 0, g = 0, b = 0;
   std::uint8_t valid : 4 = 0;
-  std::uint8_t lit : 4 = 0;  ///< by a lamp that is taken out: Lit (lamp_view.hpp)
+  std::uint8_t lit : 4 = 0;  ///< by a lamp whose shading is removed: Lit (lamp_view.hpp)
 };
 
 struct TexelSamples {
@@ -52,13 +52,14 @@ struct TexelSamples {
   }
 };
 
-/// Reads the frame of each view once, on all cores: a few are in memory at a time. Fails as
-/// FrameSequence::read(), with kFormat when an image has not its camera's size, with kCancelled.
+/// Reads the frame of each view once, on all cores, with only a few in memory at a time. Fails as
+/// FrameSequence::read(), with kFormat if an image does not have its camera's size, with
+/// kCancelled.
 Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleMesh& mesh,
                                   const TexelBlocks& blocks, const std::vector<ColorView>& views,
                                   const ChosenViews& chosen, const RunContext& context);
 
-/// The image of a view's frame; empty where the frame has none. Fails as sample_views().
+/// The image of a view's frame; empty if the frame has none. Fails as sample_views().
 Result<ColorImage> image_of(const FrameSequence& sequence, const ColorView& view);
 
 /// Bilinear; 0 to 255. u, v at least one pixel inside.

@@ -1,6 +1,6 @@
 #pragma once
-// The inner loops of integration into the TSDF: about which bricks of samples a view says
-// something, and what. A kernel (core/simd/kernel_choice.hpp).
+// The inner loops of integration into the TSDF: which bricks of samples a view observes, and their
+// update. A kernel (core/simd/kernel_choice.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace turnscan::tsdf {
 /// A brick has 8^3 samples in 2^3 parts of 4^3; a group has 4^3 bricks. Within each the first
 /// coordinate runs fastest.
 inline constexpr std::size_t kParts = 8;
-inline constexpr std::size_t kPartLanes = 16;  ///< room for them in a vector
+inline constexpr std::size_t kPartLanes = 16;  ///< size of a vector for the parts
 inline constexpr std::size_t kPartSamples = 64;
 inline constexpr std::size_t kGroupBricks = 64;
 
@@ -28,21 +28,23 @@ struct BrickSums {
 
 enum class Projection : std::uint8_t { kPinhole, kDistorted, kRational, kParallel };
 
-/// Min/max-depth bounds of a view for the visibility of boxes of one size. Conservative: they hold
-/// all pixels onto which a box may project.
+/// Min/max-depth bounds of a view for the visibility of boxes of one size. Conservative: they
+/// contain all pixels onto which a box may project.
 struct BoundsLevel {
-  float half_z;                     ///< of a box along the view's z, rounding included
-  float least_z;                    ///< boxes whose centre lies nearer are unobserved
-  float nearest_z;                  ///< those nearer than this count as near a surface
-  float half_u, half_v;             ///< pixels from the image of its centre to those of a box
-  int window_width, window_height;  ///< pixels of a window that holds the image of a box
-  int shift, width;  ///< bounds are of every 2^shift-th pixel and row, `width` of them a row
-  /// Two words for the window of pixels that begins there: nearest and farthest measurement
-  /// (65535 and 0 where there is none), least and largest free depth, low half first.
+  float half_z;          ///< of a box along the view's z, including rounding
+  float least_z;         ///< boxes whose centre is nearer are unobserved
+  float nearest_z;       ///< boxes whose centre is nearer count as near a surface
+  float half_u, half_v;  ///< maximum distance in pixels from the image of its centre to the image
+                         ///< of a point of the box
+  int window_width, window_height;  ///< pixels of a window that contains the image of a box
+  int shift, width;  ///< bounds are for every 2^shift-th pixel and row, `width` of them per row
+  /// Two words for the window of pixels that begins there: nearest and farthest measurement (65535
+  /// and 0 if there is none), least and largest free depth, low half first.
   const std::uint32_t* bounds;
 };
 
-/// A view as the loops need it. Of a pinhole, x and y are in pixels at z = 1, otherwise metres.
+/// A view in the layout of the loops. For a pinhole, x and y are in pixels at z = 1, otherwise
+/// metres.
 struct BrickKernelView {
   const std::uint32_t* pixels;  ///< as DepthView::pixels
   int width, height;
@@ -51,11 +53,12 @@ struct BrickKernelView {
   float fx, fy, cx, cy;
   BrownConrady<float> lens;
   float unit, bias;
-  float focal_x, focal_y;       ///< by which x and y are to be divided for metres
+  float focal_x, focal_y;       ///< divisors of x and y for metres
   float truncation;             ///< along the ray
   float truncation_z_fraction;  ///< lower bound of the truncation's share along z
   float inverse_fade, edge_weight;
-  /// From a part's first sample to each; 8 times as much leads from a group's first brick to each.
+  /// From a part's first sample to each; 8 times these are the offsets from a group's first brick
+  /// to each.
   float x[kPartSamples], y[kPartSamples], z[kPartSamples];
   float part_x[kPartLanes], part_y[kPartLanes], part_z[kPartLanes];  ///< from a brick's first part
   float part_center[3], brick_center[3];                             ///< from the first sample
@@ -63,7 +66,7 @@ struct BrickKernelView {
 };
 
 /// One bit for each of the 64 bricks of a group. A brick has at most one of the bits; one without
-/// is unobserved.
+/// any is unobserved.
 struct VisibilityMasks {
   std::uint64_t free;          ///< the view saw past the whole brick
   std::uint64_t near_surface;  ///< it may have measured a surface within the truncation
@@ -80,10 +83,11 @@ struct BrickKernel {
   /// first: the brick's first sample.
   PartVisibilityMasks (*part_visibility)(const BrickKernelView& view, const float first[3]);
   /// Integrates a view into the samples of these parts of a brick. Returns whether it measured a
-  /// surface within the truncation of any.
+  /// surface within the truncation distance of any.
   bool (*integrate)(const BrickKernelView& view, const float first[3], unsigned parts,
                     BrickSums& sums);
-  /// Writes a level's bounds: windows end where the image ends. planes: room for 4 values a pixel.
+  /// Writes a level's bounds: windows end where the image ends. planes: room for 4 values per
+  /// pixel.
   void (*compute_bounds)(const BrickKernelView& view, const BoundsLevel& level,
                          std::uint16_t* planes, std::uint32_t* bounds);
 };

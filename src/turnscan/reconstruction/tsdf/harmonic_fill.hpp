@@ -5,25 +5,25 @@
 
 namespace turnscan::tsdf {
 
-/// The harmonic function that continues what is known of a volume, on cells of 4^3 samples (2^3 a
-/// brick): signs and first values for what no view saw. Solved by Gauss and Seidel's iteration from
-/// coarse to fine.
+/// The harmonic function that continues the known values of a volume, on cells of 4^3 samples (2^3
+/// per brick): signs and initial values for unobserved samples. Solved by Gauss-Seidel iteration
+/// from coarse to fine.
 class HarmonicFill {
  public:
-  /// Beyond the volume everything is outside, but under a platter. What is not known below one of
-  /// the platters of several passes continues the rest, and says nothing to it. Fails with
+  /// Beyond the volume everything is outside, except under a platter. Unknown cells below one of
+  /// the platters of several passes continue the rest, but do not influence it. Fails with
   /// kCancelled.
   static Result<HarmonicFill> solve(const Volume& volume, const VolumeScale& scale,
                                     const RunContext& context);
 
-  /// Of a cell; beyond the volume that of the nearest one.
+  /// Value of a cell; beyond the volume that of the nearest one.
   float cell(int i, int j, int k) const;
   /// Trilinear between cell centres, at a sample.
   float at_sample(int i, int j, int k) const;
 
  private:
   enum class CellState : std::uint8_t { kUnknown, kFixed, kBelowPlatter };
-  /// The cells, or the coarser ones of a level above them.
+  /// The cells of the finest or of a coarser level.
   struct FillLevel {
     GridIndex cells;
     std::vector<float> value;

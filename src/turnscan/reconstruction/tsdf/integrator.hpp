@@ -1,5 +1,5 @@
 #pragma once
-// Integration of views into a TSDF while they come (Curless and Levoy 1996), with free space.
+// Incremental integration of views into a TSDF (Curless and Levoy 1996), with free space.
 
 #include <memory>
 #include <span>
@@ -20,24 +20,23 @@ inline GridCoords minus(const GridCoords& a, const GridCoords& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Views of earlier batches, each of which stands for `weight` views.
+/// Views of earlier batches, each of which represents `weight` views.
 struct EarlierViews {
   std::span<const views::DepthView> views;
   float weight = 1.0f;
 };
 
-/// With less of the one, the other, or shares of both that add up to less than 1, a sample counts
-/// as not seen.
+/// A sample counts as observed if the ratios of its weights to these add up to at least 1.
 struct LeastWeights {
   float surface = 0.0f;  ///< of measured distances
-  float free = 0.0f;     ///< of views that saw past
+  float free = 0.0f;     ///< of views that saw past it
 };
 
-/// Sums over views in bricks of 8^3 samples at fixed places of the table frame; the platter, y = 0,
-/// lies halfway between the lowest layer of bricks 0 and the next. A brick has sums as soon as a
-/// view measured a surface within the truncation of one of its samples; of the others only how many
-/// views saw past all of it is known. What earlier views saw of a brick that gets sums late is
-/// looked up in those kept.
+/// Sums over views in bricks of 8^3 samples at fixed positions of the table frame; the platter, y =
+/// 0, is halfway between the lowest layer of bricks 0 and the next. A brick gets sums once a view
+/// measures a surface within the truncation distance of one of its samples; for other bricks only
+/// the number of views that saw past the whole brick is stored. For bricks that get sums late, the
+/// observations of earlier views are looked up in the views that were kept.
 class Integrator {
  public:
   Integrator() = default;
@@ -46,15 +45,15 @@ class Integrator {
   const VolumeScale& scale() const { return scale_; }
   std::size_t bytes() const { return bytes_; }
 
-  /// Adds views, in order, on all cores: the same sums for any number of threads, not for other
-  /// batches. Fails with kResourceLimit when the bricks or their table do not fit the scale's
-  /// max_bytes.
+  /// Adds views in order, on all cores: the sums do not depend on the number of threads, but do
+  /// depend on the batches. Fails with kResourceLimit if the bricks or their table exceed the
+  /// scale's max_bytes.
   Result<> integrate(std::span<const views::DepthView> batch, const EarlierViews& before,
                      const RunContext& context = {});
 
-  /// Where views saw a surface within the truncation, a sample gets their mean distance along the
-  /// rays; where they saw past it, it is free; conflicts go by the evidence. The rest has weight 0.
-  /// Bricks that lie in the box or touch it.
+  /// Where views saw a surface within the truncation distance, a sample gets their mean distance
+  /// along the rays; where they saw past it, it is free; conflicts are decided by the evidence.
+  /// Other samples have weight 0. Contains the bricks that intersect or touch the box.
   Result<Volume> extract_volume(const Box& box, const RunContext& context = {}) const;
 
   /// The same at a coarser level, whose samples are means of 2^3, 4^3 or 8^3: the finest that has
@@ -62,15 +61,15 @@ class Integrator {
   Volume extract_coarse_volume(std::size_t most_bricks) const;
 
  private:
-  /// Bricks whose visibility is found together.
+  /// Bricks whose visibility is computed together.
   struct BrickGroup {
     std::array<std::unique_ptr<BrickSums>, kGroupBricks> sums;
-    std::array<float, kGroupBricks> free{};  ///< views that saw past the whole brick
+    std::array<float, kGroupBricks> free{};  ///< number of views that saw past the whole brick
   };
   /// One bit for each brick of a group.
   using BrickMask = std::uint64_t;
 
-  /// What is known of one brick.
+  /// The stored observations of one brick.
   struct BrickEvidence {
     const BrickSums* sums = nullptr;
     float free = 0.0f;
@@ -105,7 +104,7 @@ class Integrator {
   std::vector<BrickGroup> groups_;
   std::vector<RangeBounds> batch_;  ///< the views that are being integrated
   std::size_t bytes_ = 0;
-  float views_ = 0.0f;  ///< that were integrated
+  float views_ = 0.0f;  ///< number integrated
 };
 
 }  // namespace turnscan::tsdf

@@ -1,5 +1,5 @@
 #pragma once
-// The points that views measured, and the box around them.
+// The points that views measured, and their bounding box.
 
 #include <limits>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace turnscan::tsdf {
 
-/// Calls take(p_table) for what a view measured in the cylinder, if there is one, of every step-th
-/// pixel; edges left out.
+/// Calls take(p_table) for every step-th point that a view measured, within the cylinder if there
+/// is one; edges are excluded.
 template <class Take>
 void for_each_point(const views::DepthView& view, const std::optional<Cylinder>& cylinder,
                     const Take& take, std::size_t step = 1) {
@@ -31,12 +31,12 @@ void for_each_point(const views::DepthView& view, const std::optional<Cylinder>&
   }
 }
 
-/// The box around the points of about most_views of the views, evenly spread, but for the outermost
-/// 2 in 10,000 of each side, which may be stray. Empty without a point.
+/// Bounding box of the points of about most_views of the views, evenly spread, without the
+/// outermost 2 in 10,000 on each side, which may be outliers. Empty if there are no points.
 Box measured_box(std::span<const views::DepthView> views, const std::optional<Cylinder>& cylinder,
                  std::size_t most_views = std::numeric_limits<std::size_t>::max());
 
-/// Distance between views of which about most_views, at least one, are looked at.
+/// Stride with which about most_views, at least one, of the views are used.
 inline std::size_t view_stride(std::size_t views, std::size_t most_views) {
   return std::max<std::size_t>(1, views / std::max<std::size_t>(1, most_views));
 }

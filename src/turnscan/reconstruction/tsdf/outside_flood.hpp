@@ -4,13 +4,13 @@
 
 namespace turnscan::tsdf {
 
-/// Which samples that are not inside can be reached, from one to the next along the axes, from
-/// beyond the volume. The volume must outlive it and stay as it is.
+/// Flood fill from beyond the volume, along the axes, through the samples that are not inside. The
+/// volume must outlive it and stay unchanged.
 class OutsideFlood {
  public:
   explicit OutsideFlood(const Volume& volume);
 
-  /// sample: its position in the brick.
+  /// sample: its index in the brick.
   bool reached(std::size_t brick, std::size_t sample) const {
     return contains(reached_.brick(brick), sample);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Min/max-depth bounds of a view: what it saw of a brick of samples, without looking at each.
+// Min/max-depth bounds of a view: its observation of a brick without visiting each sample.
 
 #include <turnscan/reconstruction/tsdf/brick_kernel.hpp>
 #include <turnscan/reconstruction/tsdf/volume.hpp>
@@ -7,28 +7,28 @@
 
 namespace turnscan::tsdf {
 
-/// What a view says about a brick, as VisibilityMasks.
+/// Observation of a brick by a view, as in VisibilityMasks.
 enum class Visibility : std::uint8_t { kUnobserved, kFree, kPartlyFree, kNearSurface };
 
-/// A view, prepared for samples of one scale, with bounds of the depths around each pixel. The view
+/// A view prepared for samples of one scale, with bounds of the depths around each pixel. The view
 /// must outlive it.
 class RangeBounds {
  public:
   RangeBounds() = default;
-  /// Uses the memory of what it held before. Bounds of the last view are gone.
+  /// Reuses the allocated memory. Invalidates the bounds of the previous view.
   void set_view(const views::DepthView& view, const VolumeScale& scale);
-  /// Needed for the visibility of groups and parts of bricks by the kernel.
+  /// Computes the bounds that the kernel needs for the visibility of groups and parts of bricks.
   void compute();
 
   /// For the kernel.
   const BrickKernelView& operator*() const { return view_; }
 
-  /// Of one brick of a group, as the kernel has it, from the pixels instead of bounds. first: the
-  /// position of the group's first sample, table frame.
+  /// Visibility of one brick of a group, as the kernel computes it, from the pixels instead of
+  /// bounds. first: the position of the group's first sample, table frame.
   Visibility visibility(const float first[3], std::size_t brick) const;
 
  private:
-  /// Of the pixels of a window, raw.
+  /// Range of the raw values of the pixels in a window.
   struct DepthRange {
     std::uint32_t nearest = 65535, farthest = 0;  ///< measured
     std::uint32_t least = 65535, most = 0;        ///< free depths

@@ -1,5 +1,5 @@
 #pragma once
-// A set of a volume's samples: a bit each, brick by brick.
+// A set of a volume's samples: one bit each, brick by brick.
 
 #include <array>
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace turnscan::tsdf {
 
-/// A layer in each word, i fastest.
+/// One layer per word, i fastest.
 using BrickBits = std::array<std::uint64_t, kBrickSide>;
 
-/// Of a brick the samples in the set and those beside them along the axes, in the same brick.
+/// The samples of a brick in the set and their neighbours along the axes, in the same brick.
 BrickBits spread_within(const BrickBits& brick);
-/// What samples of the brick beside this one, along an axis and on a side (-1 or 1), touch.
+/// The samples that those of the adjacent brick, along an axis and on a side (-1 or 1), touch.
 BrickBits spread_from(const BrickBits& neighbour, int axis, int side);
 
 inline bool contains(const BrickBits& brick, std::size_t sample) {
@@ -30,7 +30,7 @@ class SampleBits {
   BrickBits& brick(std::size_t b) { return bits_[b]; }
   const BrickBits& brick(std::size_t b) const { return bits_[b]; }
 
-  /// With the samples beside them along the axes, those of `within` only.
+  /// The set with its neighbours along the axes, restricted to `within`.
   SampleBits grown(const SampleBits& within) const;
   SampleBits minus(const SampleBits& other) const;
   SampleBits joined(const SampleBits& other) const;
@@ -40,7 +40,7 @@ class SampleBits {
   std::vector<BrickBits> bits_;
 };
 
-/// The samples that no view saw, with those of bricks without samples of which nothing is known.
+/// The samples that no view observed, including those of bricks without samples that are unknown.
 SampleBits unseen_samples(const Volume& volume);
 
 }  // namespace turnscan::tsdf

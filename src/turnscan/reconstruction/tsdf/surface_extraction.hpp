@@ -8,12 +8,12 @@
 
 namespace turnscan::tsdf {
 
-/// Where no view looked: neither surface nor free space, nor behind what was measured.
+/// Unobserved space: neither surface nor free space, nor behind a measured surface.
 class UnseenSpace {
  public:
-  /// Of a volume whose holes are not closed.
+  /// volume: its holes must not be closed yet.
   explicit UnseenSpace(const Volume& volume);
-  /// By most of the eight samples around; false beyond the volume.
+  /// Decided by the majority of the eight samples around p; false beyond the volume.
   bool contains(const Vec3f& p) const;
 
  private:
@@ -25,16 +25,15 @@ class UnseenSpace {
 
 struct ExtractedSurface {
   TriangleMesh mesh;  ///< closed, 2-manifold, outward; may be empty
-  ClusterScale grid;  ///< that it was marched on
+  ClusterScale grid;  ///< grid on which it was marched
   UnseenSpace unseen;
   TaperedFoot round;
 };
 
-/// The zero set of what was integrated in and around the box, but for forget_doubtful_surface(),
-/// smoothed, its holes closed: what the
-/// views looked at in vain is inside (no_return_hull()), the rest is close_holes()'s. Adds to
-/// the seconds of the stages "distances", "closing" and "extraction". Fails with kResourceLimit,
-/// kCancelled.
+/// The zero set of the integrated data in and around the box, after forget_doubtful_surface(),
+/// smoothed, with its holes closed: space that the views observed without a return is inside
+/// (no_return_hull()), the rest is left to close_holes(). Adds to the seconds of the stages
+/// "distances", "closing" and "extraction". Fails with kResourceLimit, kCancelled.
 Result<ExtractedSurface> extract_surface(const Integrator& integrator, const VolumeScale& scale,
                                          std::span<const views::DepthView> views, Box box,
                                          std::vector<StageTime>& times, const RunContext& context);

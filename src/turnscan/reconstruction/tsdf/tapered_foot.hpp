@@ -4,22 +4,22 @@
 
 namespace turnscan::tsdf {
 
-/// Where what stands on a platter narrows towards it: below the crop margin its walls do not go
-/// straight down there, and what no view saw is closed as it is elsewhere. Columns of samples along
-/// y, up to 30 mm from the lowest surface that was seen.
+/// The columns in which an object on a platter narrows towards it: below the crop margin its walls
+/// do not continue straight down there, and unobserved space is closed as it is elsewhere. Columns
+/// of samples along y, up to 30 mm from the lowest observed surface.
 class TaperedFoot {
  public:
-  /// Nowhere.
+  /// No columns.
   TaperedFoot() = default;
-  /// Of a volume whose holes are not closed: by the slope of the surface that was seen in the
-  /// lowest millimetres above layer `floor`, up to which it says nothing.
+  /// From a volume whose holes are not closed yet: uses the slope of the observed surface in the
+  /// lowest millimetres above layer `floor`, below which the volume has no data.
   TaperedFoot(const Volume& volume, int floor);
 
   bool none() const { return columns_.empty(); }
   bool column(int i, int k) const {
     return !none() && columns_[std::size_t(i) + std::size_t(width_) * std::size_t(k)] != 0;
   }
-  /// Whether the column nearest to a place, in the volume's frame, is one.
+  /// Whether the column nearest to a point, in the volume's frame, is one.
   bool contains(const Vec3f& p) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A truncated signed distance field (TSDF) around what the views saw, in bricks of samples.
+// A truncated signed distance field (TSDF) around the observed surface, in bricks of samples.
 
 #include <span>
 #include <turnscan/core/run_context.hpp>
@@ -16,24 +16,25 @@ class TaperedFoot;
 struct Platter {
   Vec3d up = Vec3d::UnitY();  ///< unit vector
   double offset_m = 0.0;
-  /// How far a point lies above it.
+  /// Height of a point above it.
   double above(const Vec3d& p) const { return up.dot(p) - offset_m; }
 };
 Platter platter_of(const Pose& T_object_table);
 
-/// How far a point lies below the platter under which it lies deepest; negative above all of them.
+/// Largest depth of a point below any of the platters; negative if it is above all of them.
 double below_platters(std::span<const Platter> platters, const Vec3d& p);
 
 struct VolumeScale {
   double cell_m = 0.001;  ///< the voxel size: distance between samples
-  /// Along its ray, a measurement counts for samples up to this far before and behind it.
+  /// Along its ray, a measurement affects samples up to this far before and behind it.
   double truncation_m = 0.005;
-  /// Up to this far behind it with full weight; from there to the truncation its weight falls to 0.
+  /// Up to this far behind it with full weight; from there to the truncation distance the weight
+  /// falls to 0.
   double full_weight_behind_m = 0.003;
   float edge_weight = 0.1f;          ///< of measurements beside an edge
-  std::optional<Cylinder> cylinder;  ///< what counts
-  std::optional<double> floor_m;     ///< on a platter: lowest height at which samples are looked up
-  /// Of several passes: nothing of the object lies below any of them. Then there is no cylinder.
+  std::optional<Cylinder> cylinder;  ///< the region that is reconstructed
+  std::optional<double> floor_m;     ///< on a platter: lowest height at which samples are used
+  /// With several passes: nothing of the object is below any of them. Then there is no cylinder.
   std::vector<Platter> platters;
   std::size_t max_bytes = std::size_t(600) << 20;
 };
@@ -46,12 +47,12 @@ class Volume {
   double cell_m = 0.0;
   double truncation_m = 0.0;
   GridIndex bricks;
-  std::vector<std::int32_t> slot;  ///< per brick: number of its samples, or -1
+  std::vector<std::int32_t> slot;  ///< per brick: index of its samples, or -1
   std::vector<float> uniform;      ///< per brick without samples: +1 free, -1 inside, 0 unknown
   std::vector<float> value;        ///< 512 per slot, metres
   std::vector<float> weight;       ///< 512 per slot; 0: unknown
 
-  /// So many bricks along each axis, none with samples, all unknown.
+  /// Sets the number of bricks along each axis; none has samples, all are unknown.
   void set_bricks(const GridCoords& size);
   std::size_t brick_count() const { return slot.size(); }
   Vec3d position(int i, int j, int k) const { return origin_m + cell_m * Vec3d(i, j, k); }
@@ -60,34 +61,34 @@ class Volume {
   std::size_t first_sample(std::size_t brick) const {
     return std::size_t(slot[brick]) * kBrickSamples;
   }
-  /// Gives a brick samples, at first `start` with weight 0.
+  /// Gives a brick samples, all equal to `start` with weight 0.
   void allocate(std::size_t brick, float start);
-  /// Those with samples, in ascending order.
+  /// The bricks with samples, in ascending order.
   std::vector<std::size_t> allocated_bricks() const;
 };
 
-/// The weight of a usual measurement's sample, of those of samples beside a surface: half of their
-/// sum is in weights of at least that. Mixed pixels of many frames give more and more samples a
-/// little weight, so that a median over the samples would not grow with the frames. Sorts them; 0
-/// where there are none.
+/// Typical weight of a measured sample, from the weights of samples beside a surface: half of their
+/// sum is in weights of at least that. Mixed pixels of many frames give ever more samples a small
+/// weight, so that a median over the samples would not grow with the frames. Sorts the weights; 0
+/// if there are none.
 float typical_weight(std::vector<float>& weights);
 
 /// Averages known samples with their known neighbours, by their weights. Fails with kCancelled, and
-/// then leaves the volume as it was after the last whole round.
+/// then leaves the volume as it was after the last complete round.
 Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 
-/// Decides what no view saw: the harmonic function that continues what is known, positive beyond
-/// the volume; below the floor of a platter the walls go on down and end flat at y = 0, but where
-/// the bottom is round. Of several passes, only what none of them saw ends on a platter, and flat.
-/// Enclosed free spaces that do not reach the outside are filled. Fails with kCancelled, and then
-/// leaves the volume half done.
+/// Decides unobserved samples by the harmonic function that continues the known ones, positive
+/// beyond the volume; below the floor of a platter the walls continue downwards and end flat at y =
+/// 0, except where the bottom is round. With several passes, only what none of them observed ends
+/// on a platter, and flat. Enclosed free spaces that do not reach the outside are filled. Fails
+/// with kCancelled, and then leaves the volume partly processed.
 Result<> close_holes(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
                      const RunContext& context);
 
-/// The first layer of samples that is looked up above a platter.
+/// The first layer of samples that is used above a platter.
 int floor_layer(const Volume& volume, double floor_m);
 
-/// For isosurface(). Fails as BrickGrid does.
+/// Converts to the input of isosurface(). Fails as BrickGrid does.
 Result<BrickGrid> to_grid(const Volume& volume, std::size_t max_bytes);
 
 }  // namespace turnscan::tsdf

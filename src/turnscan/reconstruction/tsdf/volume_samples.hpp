@@ -1,19 +1,20 @@
 #pragma once
-// Samples of a volume by their position, for what looks at neighbours across bricks.
+// Access to samples of a volume by their coordinates, for neighbours across bricks.
 
 #include <algorithm>
 #include <turnscan/reconstruction/tsdf/volume.hpp>
 
 namespace turnscan::tsdf {
 
-/// The boundary value that a known distance sets for the unknown beside it: its side more than its
-/// length. Inside, distances are known only as far as measurements reach, while free space has all
-/// of the truncation; by lengths, what is invented would sink into the object.
+/// The boundary value that a known distance sets for the unknown beside it: dominated by its sign
+/// rather than its magnitude. Inside, distances are known only as far as measurements reach, while
+/// free space has the full truncation distance; with magnitudes, invented surface would sink into
+/// the object.
 inline float boundary_value(float distance, float outside) {
   return std::clamp(3.0f * distance, -outside, outside);
 }
 
-/// Samples of a volume by their position, bricks without samples included.
+/// Samples of a volume by their coordinates, including bricks without samples.
 class VolumeSamples {
  public:
   explicit VolumeSamples(const Volume& volume) : v_(volume) {
@@ -21,7 +22,7 @@ class VolumeSamples {
   }
   const GridCoords& size() const { return size_; }
   std::size_t brick(int i, int j, int k) const { return v_.bricks.at({i >> 3, j >> 3, k >> 3}); }
-  /// Position in value and weight, or -1 where the brick has no samples.
+  /// Position in value and weight, or -1 if the brick has no samples.
   std::ptrdiff_t at(int i, int j, int k) const {
     const std::int32_t slot = v_.slot[brick(i, j, k)];
     return slot < 0 ? -1
@@ -51,7 +52,7 @@ struct BrickHalo {
     for (int k = b[2] * kBrickSide - 1; k <= b[2] * kBrickSide + kBrickSide; ++k) {
       for (int j = b[1] * kBrickSide - 1; j <= b[1] * kBrickSide + kBrickSide; ++j) {
         for (int i = b[0] * kBrickSide - 1; i <= b[0] * kBrickSide + kBrickSide; ++i, ++out) {
-          // Beyond the volume its last samples go on.
+          // Beyond the volume its last samples are repeated.
           const int x = std::clamp(i, 0, size[0] - 1), y = std::clamp(j, 0, size[1] - 1),
                     z = std::clamp(k, 0, size[2] - 1);
           const std::ptrdiff_t s = samples.at(x, y, z);

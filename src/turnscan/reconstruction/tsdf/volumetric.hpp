@@ -10,29 +10,30 @@
 
 namespace turnscan::tsdf {
 
-/// What the volumetric method is told about the data.
+/// Input of the volumetric method.
 struct VolumetricInput {
   std::vector<views::DepthView> views;  ///< all, or as many as are kept, evenly spread
-  double noise_m = 0.0;                 ///< of a depth along its ray
+  double noise_m = 0.0;                 ///< of a depth value along its ray
   double seen_past_m = 0.0;             ///< see estimation/free_space_violation.hpp
   double spacing_m = 0.0;               ///< of the points of one frame
-  /// Distance between samples over spacing_m. A camera's many frames fall between each other's
+  /// Distance between samples over spacing_m. A camera's many frames sample between each other's
   /// pixels; a few range scans do not.
   double cells_of_spacing = 0.42;
-  /// Of a pixel's neighbours in its depth, see sensor_filter.hpp; nullopt: from the first mesh.
+  /// Share of a pixel's neighbours in its depth, see sensor_filter.hpp; nullopt: from the first
+  /// mesh.
   std::optional<double> filter_share = 0.0;
-  bool profiles = false;             ///< of a line scanner: views are parts of one long scan
+  bool profiles = false;             ///< from a line scanner: views are parts of one long scan
   bool colored = false;              ///< the mesh gets the views' colours
   bool measured_only = false;        ///< see ReconstructOptions::for_placing
   std::optional<double> cell_m;      ///< distance between samples; nullopt: from the spacing
-  std::optional<int> grid;           ///< or: samples along the longest side
-  int keep = 0;                      ///< largest pieces that are kept; 0: all
+  std::optional<int> grid;           ///< alternatively: samples along the longest side
+  int keep = 0;                      ///< maximum number of pieces, the largest ones; 0: all
   double gap_m = 0.0;                ///< components closer than this are one piece
-  std::optional<Cylinder> cylinder;  ///< the object stands in it, on the platter at y = 0
-  std::vector<Platter> platters;     ///< instead, of several passes
+  std::optional<Cylinder> cylinder;  ///< the object is inside it, on the platter at y = 0
+  std::vector<Platter> platters;     ///< used instead with several passes
 };
 
-/// An object.
+/// A reconstructed object.
 struct VolumetricPiece {
   TriangleMesh mesh;
   std::vector<float> support;          ///< per vertex: sum of the weights of its measurements
@@ -41,25 +42,29 @@ struct VolumetricPiece {
   std::vector<Evidence> evidence;      ///< per triangle
   double invented_area_m2 = 0.0;   ///< where vertices have a fiftieth of the usual support or less
   double base_area_m2 = 0.0;       ///< closed flat on the platter
-  double no_return_area_m2 = 0.0;  ///< of what was invented: where sensors looked in vain
-  std::optional<quality::Neck> neck;  ///< where it may be two things that touch, on a platter
-  std::size_t points = 0;             ///< measured, in the box of the piece
-  std::size_t detached = 0;  ///< components that no frame shows to be connected to the rest
+  double no_return_area_m2 = 0.0;  ///< part of the invented area that sensors observed without a
+                                   ///< return
+  std::optional<quality::Neck> neck;  ///< on a platter: section at which it may be two touching
+                                      ///< objects
+  std::size_t points = 0;             ///< number measured in the bounding box of the piece
+  std::size_t detached = 0;  ///< number of components that no frame shows to be connected to the
+                             ///< rest
 };
 struct VolumetricResult {
   std::vector<VolumetricPiece> pieces;  ///< largest area first
-  std::size_t left_out = 0;             ///< pieces of which views measured next to nothing
-  double filter_share = 0.0;            ///< as was told, or was found
+  std::size_t left_out = 0;             ///< number of pieces with hardly any measurements
+  double filter_share = 0.0;            ///< as given or estimated
   std::vector<StageTime> stages;
 };
 
-/// Points inside the cylinder of up to about 64 views spread over the input, edges left out, with
+/// Points inside the cylinder of up to about 64 views spread over the input, without edges, with
 /// the views as frames.
 voxels::MergedCloud sample_points(const VolumetricInput& input);
-/// The box around them, but for the outermost, which may be stray. Empty without a point.
+/// Their bounding box without the outermost ones, which may be outliers. Empty if there are no
+/// points.
 Box measured_box(const VolumetricInput& input);
 
-/// Lengths that follow from the data, and why.
+/// Lengths that follow from the data, with their reasons.
 struct VolumetricScale {
   VolumeScale volume;
   double fit_reach_m = 0.0;
@@ -68,9 +73,9 @@ struct VolumetricScale {
 VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptions& options,
                              const Box& box);
 
-/// Closed, 2-manifold, outward pieces from all views, integrated. Components with less than
-/// min_share of the largest one's area are dropped. Fails with kTooFewPoints when no surface is
-/// found, kResourceLimit, kCancelled.
+/// Closed, 2-manifold, outward pieces from all integrated views. Components with less than
+/// min_share of the largest one's area are dropped. Fails with kTooFewPoints if no surface is
+/// found, with kResourceLimit, kCancelled.
 Result<VolumetricResult> reconstruct_volume(const VolumetricInput& input,
                                             const VolumetricScale& scale,
                                             const Integrator& integrator,

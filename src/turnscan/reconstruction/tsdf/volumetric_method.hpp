@@ -1,6 +1,6 @@
 #pragma once
-// The volumetric method: signed distances of all frames in one truncated field, with what each ray
-// passed through.
+// The volumetric method: signed distances of all frames in one truncated field, with the free space
+// along each ray.
 
 #include <turnscan/reconstruction/method.hpp>
 

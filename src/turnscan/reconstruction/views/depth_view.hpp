@@ -1,6 +1,7 @@
 #pragma once
-// One frame as the volumetric method uses it: the window of a depth image in which the object lies,
-// with the depth that each pixel measured and how far it is sure to have seen free space.
+// A frame in the form that the volumetric method uses: the window of a depth image that contains
+// the object, with the depth that each pixel measured and the free space that it certainly
+// observed.
 
 #include <cstdint>
 #include <functional>
@@ -13,10 +14,10 @@
 
 namespace turnscan::views {
 
-/// Depth of a window of an image, packed one word a pixel, with an empty border of one pixel.
-/// p_view = rotation * p_table + translation; z forward. The image point of p_view is
-/// (fx x/z + cx, fy y/z + cy) in window pixels, after the lens's distortion; for parallel rays the
-/// division is left out and fx, fy are pixels per metre.
+/// Depth of a window of an image, packed in one word per pixel, with an empty border of one pixel.
+/// p_view = rotation * p_table + translation; z forward. The image point of p_view is (fx x/z + cx,
+/// fy y/z + cy) in window pixels, after lens distortion; for parallel rays there is no division by
+/// z and fx, fy are pixels per metre.
 struct DepthView {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Vec3f translation = Vec3f::Zero();
@@ -26,12 +27,12 @@ struct DepthView {
   bool parallel = false;
   float unit_m = 1e-4f, bias_m = 0.0f;  ///< depth = raw * unit + bias
   int width = 0, height = 0;            ///< with the border
-  /// Bits 0 to 15: raw depth, 0 where nothing was measured. Bits 17 to 31: half the raw depth in
-  /// front of which the pixel and its neighbours saw nothing, 0 where that is not known. Bit 16: on
-  /// the edge of something, hence perhaps a mixture of both sides.
+  /// Bits 0 to 15: raw depth, 0 if nothing was measured. Bits 17 to 31: half the raw depth up to
+  /// which the pixel and its neighbours observed free space, 0 if that is not known. Bit 16: on a
+  /// depth edge, hence possibly a mixture of both sides.
   std::vector<std::uint32_t> pixels;
-  std::uint16_t nearest = 0;  ///< of the raw depths; 0 where it is not known
-  std::vector<Rgb> colors;    ///< per pixel, black where there is none; or empty
+  std::uint16_t nearest = 0;  ///< of the raw depths; 0 if it is not known
+  std::vector<Rgb> colors;    ///< per pixel, black if there is none; or empty
   std::uint32_t returns = 0;  ///< of the whole frame
   std::uint32_t kept = 0;     ///< of these, those inside the crop
 
@@ -40,14 +41,14 @@ struct DepthView {
     return raw | (edge ? kEdge : 0u) | (free >> 1 << 17);
   }
   bool empty() const { return pixels.empty(); }
-  /// Image point, in window pixels, of a point of the view's frame that lies before it.
+  /// Image point, in window pixels, of a point in front of the view, in its frame.
   Eigen::Vector2f project(const Vec3f& p_view) const {
     const float z = parallel ? 1.0f : p_view.z();
     float x = p_view.x() / z, y = p_view.y() / z;
     if (distorted) distort_any(lens, x, y);
     return {x * fx + cx, y * fy + cy};
   }
-  /// Position in `pixels` of what shows a point of the view's frame; -1 where nothing does.
+  /// Position in `pixels` of the pixel that sees a point of the view's frame; -1 if there is none.
   std::ptrdiff_t pixel_at(const Vec3f& p_view) const {
     if (!parallel && !(p_view.z() > 0.0f)) return -1;
     const Eigen::Vector2f image = project(p_view);
@@ -59,27 +60,27 @@ struct DepthView {
   Viewpoint viewpoint() const;
 };
 
-/// How many of the views, evenly spread, statistics look at: at most `most`, and so many that their
-/// windows have at most 4 million pixels, but four where there are so many.
+/// Number of evenly spread views to use for statistics: at most `most`, limited so that their
+/// windows have at most 4 million pixels in total, but at least four if there are as many.
 std::size_t views_for_statistics(std::span<const DepthView> views, std::size_t most);
 
-/// What makes a view out of a frame.
+/// Parameters of the conversion of a frame to a view.
 struct ViewScale {
-  double edge_step_m = 0.012;  ///< a neighbour farther than this makes an edge
+  double edge_step_m = 0.012;  ///< a neighbour farther away than this makes an edge
   double spacing_m = 0.001;    ///< of the points of one frame; the pixel of resampled scans
   bool colored = false;        ///< views carry colours where frames have any
-  /// What keep() does not accept is no measurement in depth images, either; it still bounds the
-  /// free space.
+  /// Points that keep() does not accept are no measurements in depth images, either; they still
+  /// limit the free space.
   bool only_kept = false;
-  /// Sensor frame: where x * p.x + y * p.y + z * p.z + w < 0, a pixel that is only known to be
-  /// empty as far as a crop reached saw nothing. Of depth images.
+  /// For depth images. Sensor frame: where x * p.x + y * p.y + z * p.z + w < 0, a pixel that is
+  /// only known to be empty within a crop has not observed anything.
   std::optional<Eigen::Vector4f> seen_above = std::nullopt;
 };
 
 /// The window around the pixels whose point keep() accepts (sensor frame). T_table_sensor is the
-/// frame's own. Range scans are resampled to an image as their viewpoint sees them: the triangles
-/// between neighbours in their grid, or the points alone where there is none.
-/// An empty view if nothing is accepted. rays must fit the sensor. Fails as points_of does.
+/// frame's own. Range scans are resampled to an image from their viewpoint: the triangles between
+/// neighbours in their grid, or only the points if there is no grid. An empty view if nothing is
+/// accepted. rays must match the sensor. Fails as points_of does.
 using KeepPoint = std::function<bool(const Vec3f& p_sensor)>;
 Result<DepthView> make_view(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
                             const Pose& T_table_sensor, const ViewScale& scale,

@@ -1,6 +1,6 @@
 #pragma once
-// Frames of a line scanner. One holds the points of one sheet of light: no surface, and nothing
-// that lies beside it. Consecutive ones together make a range scan.
+// Frames of a line scanner. Each contains the points of one light sheet: neither a surface nor
+// anything beside the sheet. Consecutive ones together make a range scan.
 
 #include <optional>
 #include <span>
@@ -9,33 +9,33 @@
 
 namespace turnscan::views {
 
-/// The plane, through the viewpoint, in which all points of a line scanner's frames lie. Sensor
+/// The plane, through the viewpoint, that contains all points of a line scanner's frames. Sensor
 /// frame: `along` and `across` span it, `across` along the line.
 struct LightSheet {
   Vec3d along = Vec3d::UnitZ(), across = Vec3d::UnitX();
 };
 
-/// The sheet, if the frame's points (at least 10) lie in one and are a line seen from the
-/// viewpoint, not a dot.
+/// The sheet, if the frame's points (at least 10) are in one plane and form a line rather than a
+/// dot as seen from the viewpoint.
 std::optional<LightSheet> find_sheet(const FramePoints& points);
 
-/// Points in the order in which they lie in the sheet, with cells that follow each other but where
-/// there is a gap of more than three usual steps. One row.
+/// Points in their order in the sheet, with consecutive cells except at gaps of more than three
+/// usual steps. One row.
 FramePoints in_sheet_order(const FramePoints& points, const LightSheet& sheet);
 
-/// One frame of a line scanner, as in_sheet_order gives it, and its place.
+/// One frame of a line scanner, in the form of in_sheet_order, and its pose.
 struct Profile {
   FramePoints points;
   Pose T_table_sensor;
 };
 
-/// Collects the profiles of one sensor into groups that are seen from nearly the same place.
+/// Collects the profiles of one sensor into groups with nearly the same viewpoint.
 class ProfileGroups {
  public:
-  /// Takes the next profile; gives the group that ends before it, if one does. A group's last
-  /// profile is the first of the next.
+  /// Adds a profile; returns the group that ends before it, if one does. A group's last profile is
+  /// the first of the next.
   std::vector<Profile> add(Profile profile);
-  /// The last group, perhaps without a point.
+  /// The last group, possibly without a point.
   std::vector<Profile> flush();
 
  private:
@@ -43,8 +43,8 @@ class ProfileGroups {
   std::vector<Profile> group_;
 };
 
-/// What a group saw, as an image from the middle one's place, with triangles between neighbouring
-/// profiles. Empty if there is no point.
+/// Renders a group as an image from the viewpoint of its middle profile, with triangles between
+/// neighbouring profiles. Empty if there is no point.
 DepthView view_of_profiles(std::span<const Profile> group, const LightSheet& sheet,
                            const ViewScale& scale);
 

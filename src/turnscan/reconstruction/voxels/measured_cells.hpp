@@ -1,5 +1,5 @@
 #pragma once
-// What was measured, added up in cells: what the stages after the merge work on.
+// Measurements summed in cells: the input of the stages after the merge.
 
 #include <array>
 #include <turnscan/core/image.hpp>
@@ -7,15 +7,15 @@
 
 namespace turnscan::voxels {
 
-/// The places of a voxel that most rays met, all with the same count (sub-voxel counting).
+/// The sub-voxels of a voxel that most rays crossed, all with the same count (sub-voxel counting).
 struct Peak {
   std::uint32_t begin = 0, end = 0;  ///< of MeasuredCells::peak_points
 };
 
-/// MeasuredCells of a scan by cells, table frame. The cells of a voxel lie behind each other, and
-/// voxels in the order of the grid.
+/// The measurements of a scan by cells, table frame. The cells of a voxel are consecutive, and
+/// voxels are in the order of the grid.
 struct MeasuredCells {
-  /// Behind the last cell so many more values can be read from each column.
+  /// This many more values can be read from each column behind the last cell.
   static constexpr std::size_t kPadding = 16;
 
   /// Per cell: the mean of its points (x, y, z), the mean of the unit vectors to the sensors that
@@ -23,7 +23,7 @@ struct MeasuredCells {
   std::array<std::vector<float>, 7> columns;
   std::vector<Rgb> colors;  ///< means; empty without colour
   VoxelGrid grid;           ///< all occupied voxels; voxel's begin and end are cells
-  std::vector<Peak> peaks;  ///< per voxel of the grid; empty when sub-voxels were not counted
+  std::vector<Peak> peaks;  ///< per voxel of the grid; empty if sub-voxels were not counted
   std::vector<Vec3f> peak_points;
 
   std::size_t size() const {

@@ -1,5 +1,5 @@
 #pragma once
-// From frames to one cloud in the table frame (thesis 3.4.1).
+// Merges frames into one cloud in the table frame (thesis 3.4.1).
 
 #include <turnscan/core/frame.hpp>
 #include <turnscan/reconstruction/object_partition.hpp>
@@ -8,10 +8,10 @@
 
 namespace turnscan::voxels {
 
-/// All points of a scan in the table frame, with where each was seen from.
+/// All points of a scan in the table frame, with their viewpoints.
 struct MergedCloud {
   PointCloud cloud;                   ///< cloud.frame is set: position of the frame
-  std::vector<Viewpoint> viewpoints;  ///< per frame, table frame, the turn taken out
+  std::vector<Viewpoint> viewpoints;  ///< per frame, table frame, with the rotation compensated
   std::uint64_t returns = 0;          ///< valid returns of all frames before the crop
   std::uint64_t inside_crop = 0;      ///< of these
   std::uint64_t kept = 0;             ///< of these, kept by the filter of each frame
@@ -21,13 +21,14 @@ struct MergedCloud {
   Vec3f towards_sensor(std::size_t i) const;
 };
 
-/// The per-frame part: a pure function of one frame. Crop (if any), filter, then to the table.
+/// The per-frame part, a pure function of one frame: crop (if any), filter, then transform to the
+/// table.
 struct FrameRecipe {
   const SequenceHeader* header = nullptr;
   std::vector<RayTable> rays;  ///< per sensor
   std::optional<Cylinder> cylinder;
   OutlierOptions outliers;
-  std::optional<Pose> T_object_table;      ///< then points are in the object's frame
+  std::optional<Pose> T_object_table;      ///< if set, points are in the object's frame
   const ObjectPartition* share = nullptr;  ///< of its table; nullptr: all of it
 };
 struct FramePart {
@@ -38,8 +39,8 @@ struct FramePart {
 Result<FramePart> process_frame(const Frame& frame, const FrameRecipe& recipe,
                                 const Pose& T_table_sensor);
 
-/// Joins what a frame gave; its viewpoint is in the table frame. Colours are kept for all points or
-/// for none.
+/// Appends the points of a frame; its viewpoint is in the table frame. Colours are kept for all
+/// points or for none.
 void append(const FramePart& part, const Viewpoint& viewpoint, MergedCloud& merged);
 
 }  // namespace turnscan::voxels

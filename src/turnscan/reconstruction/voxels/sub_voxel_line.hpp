@@ -8,8 +8,8 @@
 namespace turnscan::voxels {
 
 /// Visits, in order, each cell of the grid [0, s)^3 (unit cells) that the line through p with
-/// direction d meets (Amanatides and Woo 1987): the whole chord, or only the part from p along +d.
-/// p lies in the grid; coordinates that rounding has put outside by less than a cell are clamped.
+/// direction d crosses (Amanatides and Woo 1987): the whole chord, or only the part from p along
+/// +d. p is in the grid; coordinates that rounding has put outside by less than a cell are clamped.
 /// With d = 0 only the cell of p is visited. visit(x, y, z).
 template <class Visit>
 void walk_sub_voxels(Vec3d p, const Vec3d& d, int s, bool whole_chord, const Visit& visit) {
@@ -29,7 +29,7 @@ void walk_sub_voxels(Vec3d p, const Vec3d& d, int s, bool whole_chord, const Vis
   for (int a = 0; a < 3; ++a) {
     const double x = p[a] + t_enter * d[a];
     cell[a] = std::min(s - 1, std::max(0, static_cast<int>(std::floor(x))));
-    // On its entry face a line that goes down belongs to the cell below the face.
+    // On its entry face a descending line belongs to the cell below the face.
     step[a] = d[a] > 0.0 ? 1 : d[a] < 0.0 ? -1 : 0;
     if (d[a] < 0.0 && x == cell[a] && cell[a] > 0 && whole_chord) --cell[a];
     t_step[a] = step[a] == 0 ? std::numeric_limits<double>::infinity() : 1.0 / std::abs(d[a]);

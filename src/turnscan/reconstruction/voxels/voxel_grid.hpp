@@ -1,5 +1,5 @@
 #pragma once
-// Points counted in cubic voxels, and the filter on these counts (thesis 3.4.2).
+// Point counts in cubic voxels, and the filter on these counts (thesis 3.4.2).
 
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -8,24 +8,25 @@ namespace turnscan::voxels {
 
 using VoxelIndex = Eigen::Vector3i;
 
-/// The occupied voxels of a cloud, ordered by (z, y, x). Voxel i covers index * size to
-/// (index + 1) * size on each axis: aligned to the frame of the points, not to their bounds.
+/// The occupied voxels of a cloud, ordered by (z, y, x). Voxel i covers index * size to (index + 1)
+/// * size on each axis: aligned to the frame of the points, not to their bounds.
 class VoxelGrid {
  public:
   struct Voxel {
     VoxelIndex index;
     std::uint32_t begin;  ///< its points are order()[begin, end), in ascending order
     std::uint32_t end;
-    std::uint32_t points;  ///< how many points were counted
+    std::uint32_t points;  ///< number of points counted
     std::uint32_t count() const { return points; }
   };
 
-  /// Sorts points into voxels in O(n). Fails with kInvalidOption when a side would take more than
-  /// 2^21 voxels, kTooFewPoints when there are no points, kCancelled. points must outlive the grid.
+  /// Sorts points into voxels in O(n). Fails with kInvalidOption if a side would take more than
+  /// 2^21 voxels, with kTooFewPoints if there are no points, kCancelled. points must outlive the
+  /// grid.
   static Result<VoxelGrid> build(const std::vector<Vec3f>& points, double size_m,
                                  const RunContext& context);
 
-  /// Voxels that were counted elsewhere, ordered by (z, y, x); begin and end stay as they are,
+  /// A grid of voxels that were counted elsewhere, ordered by (z, y, x); begin and end are kept,
   /// order() is empty. Fails as build does.
   static Result<VoxelGrid> of_counted(std::vector<Voxel> voxels, double size_m);
 
@@ -37,7 +38,7 @@ class VoxelGrid {
   }
   /// Position in voxels() or -1.
   std::int64_t find(const VoxelIndex& index) const;
-  /// Calls visit(position) for each occupied voxel that meets the box [low, high], ordered by
+  /// Calls visit(position) for each occupied voxel that intersects the box [low, high], ordered by
   /// (z, y, x). `visit` gets positions in voxels().
   template <class Visit>
   void for_each_in_box(const VoxelIndex& low, const VoxelIndex& high, const Visit& visit) const;
@@ -74,15 +75,15 @@ void VoxelGrid::for_each_in_box(const VoxelIndex& low, const VoxelIndex& high,
   }
 }
 
-/// What the automatic threshold saw.
+/// Result of the automatic threshold.
 struct ThresholdChoice {
   int min_points = 1;
-  double typical_count = 0.0;  ///< count of the voxel in which the median point lies
+  double typical_count = 0.0;  ///< count of the voxel that contains the median point
 };
 
 /// M from the counts themselves: a tenth of the typical count, at least 1. A tenth keeps surfaces
-/// that were seen at 70 degrees in a third of the frames, and drops flying pixels, whose counts are
-/// hundreds of times below the surface's in a dense scan.
+/// that were seen at an incidence angle of 70 degrees in a third of the frames, and drops flying
+/// pixels, whose counts are hundreds of times below the surface's in a dense scan.
 ThresholdChoice choose_min_points(const VoxelGrid& grid);
 
 /// 1 for voxels with at least min_points points.
