@@ -1,7 +1,7 @@
 #pragma once
-// Small dense solvers, compiled once. Eigen's decompositions are templates that cost every source
-// that calls them seconds of compile time; here they are behind functions, for the sizes in use.
-// Another size needs a line at the end of its source.
+// Small dense solvers, compiled once. Eigen's decompositions are templates that cost seconds of
+// compile time in every source that calls them; here they are behind functions, for the sizes in
+// use. Another size needs a line at the end of its source.
 
 #include <Eigen/Core>
 #include <memory>
@@ -12,7 +12,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Solves A x = b by LDL^T with pivoting. A is symmetric, positive or negative semidefinite; only
-/// its lower half is read. In directions that A leaves open x is 0.
+/// its lower half is read. x is 0 in directions that A leaves undetermined.
 template <class Scalar, int N, int Columns>
 Eigen::Matrix<Scalar, N, Columns> solve_ldlt(const Eigen::Matrix<Scalar, N, N>& a,
                                              const Eigen::Matrix<Scalar, N, Columns>& b);
@@ -26,7 +26,7 @@ Eigen::Matrix<double, 6, Columns> solve_lu(const Matrix6d& a,
 template <int N>
 Eigen::Matrix<double, N, N> inverse_lu(const Eigen::Matrix<double, N, N>& a);
 
-/// The x of least norm among those that minimise |A x - b|, by a complete orthogonal decomposition.
+/// The x of least norm among the minimisers of |A x - b|, by a complete orthogonal decomposition.
 Vector6d solve_least_norm(const Matrix6d& a, const Vector6d& b);
 
 /// Eigenvalues in increasing order, and unit eigenvectors as columns.
@@ -36,14 +36,15 @@ struct SymmetricEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Of a symmetric matrix, of which only the lower half is read.
+/// Eigendecomposition of a symmetric matrix, of which only the lower half is read.
 template <int N>
 SymmetricEigen<N> symmetric_eigen(const Eigen::Matrix<double, N, N>& a);
 
 /// The eigenvalues alone, increasing.
 Eigen::Vector3d symmetric_eigenvalues(const Eigen::Matrix3d& a);
 
-/// Of root^T A root: a covariance or information A in the coordinates y = root^-1 x.
+/// Eigendecomposition of root^T A root: a covariance or information A in the coordinates y =
+/// root^-1 x.
 SymmetricEigen<6> congruent_eigen(const Matrix6d& root, const Matrix6d& a);
 
 /// L of A = L L^T, A positive definite; its upper half is 0.
@@ -65,7 +66,7 @@ class DenseLdlt {
   ~DenseLdlt();
 
   void compute(const Eigen::MatrixXd& a);
-  /// False where the last matrix could not be decomposed.
+  /// False if the last matrix could not be decomposed.
   bool succeeded() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;

@@ -1,16 +1,16 @@
 #pragma once
-// Addresses in regular grids whose samples are kept in bricks of 8^3. Throughout, the first
-// coordinate runs fastest.
+// Addresses in regular grids whose samples are stored in bricks of 8^3. The first coordinate always
+// runs fastest.
 
 #include <array>
 #include <cstddef>
 
 namespace turnscan {
 
-/// Of a sample or of a brick, along each axis.
+/// Coordinates of a sample or of a brick along each axis.
 using GridCoords = std::array<int, 3>;
 
-inline constexpr int kBrickSide = 8;               ///< samples along a brick
+inline constexpr int kBrickSide = 8;               ///< samples along an edge of a brick
 inline constexpr std::size_t kBrickSamples = 512;  ///< of a whole brick
 inline constexpr std::size_t kBrickLayer = 64;     ///< of a layer of one k
 
@@ -19,8 +19,8 @@ constexpr std::size_t sample_in_brick(int i, int j, int k) {
   return std::size_t((i & 7) | (j & 7) << 3 | (k & 7) << 6);
 }
 
-/// Numbers the cells of a box of cells: bricks, groups of bricks, or samples of a dense grid. Cells
-/// have coordinates from 0 on; at() needs ones that it contains.
+/// Linear indices of the cells of a box: bricks, groups of bricks, or samples of a dense grid.
+/// Cells have coordinates from 0 on; at() requires cells inside the box.
 class GridIndex {
  public:
   constexpr GridIndex() = default;

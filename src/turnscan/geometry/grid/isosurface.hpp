@@ -11,22 +11,24 @@
 
 namespace turnscan {
 
-/// Values at the samples origin_m + cell_m * (i, j, k), 0 <= i < size[0] and so on, kept in bricks
-/// of 8^3 samples. A brick that was not allocated has one value throughout and costs eight bytes.
+/// Values at the samples origin_m + cell_m * (i, j, k), 0 <= i < size[0] and so on, stored in
+/// bricks of 8^3 samples. A brick that was not allocated has one value throughout and costs eight
+/// bytes.
 class BrickGrid {
  public:
   static constexpr int kBrick = kBrickSide;
   static constexpr std::size_t kBrickSamples = turnscan::kBrickSamples;
 
-  /// No samples at all.
+  /// An empty grid.
   BrickGrid() = default;
-  /// Everything has `value`. Fails with kInvalidOption for sizes outside [1, 2^20] or a cell that
-  /// is not positive, and with kResourceLimit when the table of bricks alone needs over max_bytes.
+  /// A grid in which everything has `value`. Fails with kInvalidOption for sizes outside [1, 2^20]
+  /// or a cell that is not positive, and with kResourceLimit if the table of bricks alone needs
+  /// over max_bytes.
   static Result<BrickGrid> create(const Vec3d& origin_m, double cell_m, GridCoords size,
                                   float value, std::size_t max_bytes);
 
   const GridCoords& size() const { return size_; }
-  /// Bricks along each axis; the last ones may hold samples beyond size(), which count for nothing.
+  /// Bricks along each axis; the last ones may contain samples beyond size(), which are ignored.
   const GridCoords& bricks() const { return bricks_.size(); }
   double cell_m() const { return cell_m_; }
   Vec3d position(int i, int j, int k) const { return origin_m_ + cell_m_ * Vec3d(i, j, k); }
@@ -43,8 +45,8 @@ class BrickGrid {
     const float* own = samples(brick);
     return own != nullptr ? own[within(i, j, k)] : uniform_[brick];
   }
-  /// Gives these bricks samples of their own, at first their uniform value. Fails with
-  /// kResourceLimit when the grid would need over max_bytes.
+  /// Gives these bricks samples of their own, initialised to their uniform value. Fails with
+  /// kResourceLimit if the grid would need over max_bytes.
   Result<> allocate(const std::vector<std::size_t>& bricks);
   /// The samples of an allocated brick, i fastest; nullptr for a uniform one.
   float* samples(std::size_t brick);
@@ -63,7 +65,7 @@ class BrickGrid {
   std::vector<float> uniform_, values_;
 };
 
-/// What a cube of the grid is marched as.
+/// How a cube of the grid is polygonised.
 enum class MarchingCells {
   kTetrahedra,  ///< six each (Doi and Koide 1991): a linear function's zero set
   kCubes        ///< whole (Lorensen and Cline 1987): a third of the triangles, vertices on edges of
@@ -72,8 +74,8 @@ enum class MarchingCells {
 
 /// The surface where the values go from negative (inside) to positive (outside; zero counts as
 /// positive, and so does everything beyond the grid: there the surface ends half a cell outside).
-/// The result is closed, 2-manifold and outward by construction. Tetrahedra: six a cube around one
-/// diagonal (Freudenthal 1942), the same in every cube, one shared vertex per edge that changes
+/// The result is closed, 2-manifold and outward by construction. Tetrahedra: six per cube around
+/// one diagonal (Freudenthal 1942), the same in every cube, one shared vertex per edge that changes
 /// sign; a linear function on a simplicial complex that is zero at none of its vertices has a
 /// 2-manifold zero set. Cubes: neighbours agree on the face that they share, and no triangle's edge
 /// is used by two of them (cube_table.hpp). Vertices lie where the values say, linearly. Fails with

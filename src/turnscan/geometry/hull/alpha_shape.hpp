@@ -12,14 +12,14 @@
 
 namespace turnscan {
 
-/// Four positions in the points.
+/// Indices of four points.
 using Tetrahedron = std::array<std::uint32_t, 4>;
 
 /// The triangles of the boundary of the alpha complex: those with a tetrahedron whose circumradius
-/// is at most alpha_m on exactly one side, facing away from it, and those with none on either
-/// side whose own circumradius is at most alpha_m and whose smallest circumsphere holds no vertex
-/// of the tetrahedra beside them. Not 2-manifold by nature. The vertices are the points that are
-/// used, in their order; metres.
+/// is at most alpha_m on exactly one side, facing away from it, and those with none on either side
+/// whose own circumradius is at most alpha_m and whose smallest circumsphere contains no vertex of
+/// the adjacent tetrahedra. In general not 2-manifold. The vertices are the points that are used,
+/// in their order; metres.
 TriangleMesh alpha_shape(std::span<const Vec3f> points, std::span<const Tetrahedron> delaunay,
                          double alpha_m);
 

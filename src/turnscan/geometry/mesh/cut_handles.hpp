@@ -9,13 +9,12 @@
 namespace turnscan {
 
 /// Cuts a closed, 2-manifold, oriented surface along loops of edges no longer than longest_m that
-/// pass through vertices with cuttable[v] != 0 alone (one entry a vertex), and closes both sides of
-/// each cut with a fan: a thin handle is parted, a narrow tunnel gets a wall. Only loops that do
-/// not separate the surface are cut, so no piece comes off, and each cut lowers the genus by one
+/// pass only through vertices with cuttable[v] != 0 (one entry per vertex), and closes both sides
+/// of each cut with a fan: a thin handle is severed, a narrow tunnel gets a wall. Only loops that
+/// do not separate the surface are cut, so no piece comes off, and each cut lowers the genus by one
 /// (topological noise: Guskov and Wood 2001; loops by a tree and a cotree: Erickson and Whittlesey
-/// 2005). Vertices are appended, copies of those along the cuts and a middle for each fan; colours
-/// and normals come along. Returns the number of cuts. Fails with kFormat for
-/// other meshes, kCancelled.
+/// 2005). Appends vertices: copies of those along the cuts and a centre for each fan, with colours
+/// and normals. Returns the number of cuts. Fails with kFormat for other meshes, kCancelled.
 Result<std::size_t> cut_handles(TriangleMesh& mesh, std::vector<std::uint8_t> cuttable,
                                 double longest_m, const RunContext& context);
 

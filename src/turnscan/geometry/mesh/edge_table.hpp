@@ -1,5 +1,5 @@
 #pragma once
-// Half edges of a triangle mesh, and which of them lie on the same edge.
+// Half edges of a triangle mesh, grouped by edge.
 
 #include <array>
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace turnscan::mesh {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Stands for no vertex, half edge or triangle.
+/// No vertex, half edge or triangle.
 inline constexpr std::uint32_t kNone = ~0u;
 
 /// Half edge h = 3 * triangle + corner runs from that corner to the triangle's next corner.
 inline std::uint32_t next_in_triangle(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 inline std::uint32_t previous_in_triangle(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-/// The vertex that half edge h leaves.
+/// The origin vertex of half edge h.
 inline std::uint32_t origin(const TriangleMesh& mesh, std::uint32_t h) {
   return mesh.triangles[h / 3][h % 3];
 }
@@ -26,8 +26,8 @@ inline std::uint32_t origin(const TriangleMesh& mesh, std::uint32_t h) {
 /// Half edges grouped by their edge. O(triangles) memory and, for bounded vertex degrees, time.
 class EdgeTable {
  public:
-  /// Triangles for which use[t] == 0 are left out (an empty use: none is). The indices of the
-  /// others must be in [0, vertex_count). At most 2^30 triangles.
+  /// Skips triangles for which use[t] == 0 (an empty use: none). The indices of the others must be
+  /// in [0, vertex_count). At most 2^30 triangles.
   EdgeTable(std::span<const Triangle> triangles, std::size_t vertex_count,
             std::span<const std::uint8_t> use = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Well-shaped triangles out of a marched surface.
+// Improves the triangle shapes of a marched surface.
 
 #include <optional>
 #include <turnscan/core/result.hpp>
@@ -16,13 +16,13 @@ struct ClusterScale {
 };
 
 /// Marching gives each edge of its grid a vertex, hence slivers between vertices around the same
-/// sample. These vertices become one, at their mean, about a quarter of the triangles remain and
-/// they are about as long as a cell (regularised marching tetrahedra: Treece, Prager and Gee 1999).
-/// Vertices are joined edge by edge, only where the surface stays a closed 2-manifold (the link
-/// condition: the two have no neighbours in common but the two beside their edge) and no triangle
-/// turns by more than about 60 degrees. The mesh must be closed and 2-manifold; attributes other
-/// than positions are dropped. Works in the memory of the mesh that it is given. Fails with kFormat
-/// as validate_mesh does, kCancelled. Deterministic.
+/// sample. Merges these vertices into one at their mean; about a quarter of the triangles remain,
+/// with edges about as long as a cell (regularised marching tetrahedra: Treece, Prager and Gee
+/// 1999). Vertices are merged edge by edge, only if the surface stays a closed 2-manifold (the link
+/// condition: the two have no common neighbours but the two beside their edge) and no triangle
+/// rotates by more than about 60 degrees. The mesh must be closed and 2-manifold; attributes other
+/// than positions are dropped. Works in place on the mesh passed in. Fails with kFormat as
+/// validate_mesh does, kCancelled. Deterministic.
 Result<TriangleMesh> merge_clustered_vertices(TriangleMesh mesh, const ClusterScale& scale,
                                               const RunContext& context);
 

@@ -18,10 +18,10 @@ std::uint32_t add_mean_vertex(TriangleMesh& mesh, std::span<const std::uint32_t>
 /// Removes the triangles with drop[t] != 0 and keeps the order of the rest.
 void drop_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& drop);
 
-/// Removes vertices that no triangle names and keeps the order of the rest.
+/// Removes unreferenced vertices and keeps the order of the rest.
 void compact_vertices(TriangleMesh& mesh);
 
-/// The triangles listed, in that order, with the vertices they name, in the order of mesh.
+/// The listed triangles, in that order, with the vertices they reference, in the order of mesh.
 TriangleMesh extract(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 
 /// Twice the triangle's area times its normal.

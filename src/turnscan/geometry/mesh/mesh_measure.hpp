@@ -1,5 +1,5 @@
 #pragma once
-// Areas and volumes of meshes whose triangles name vertices that exist.
+// Areas and volumes of meshes with valid triangle indices.
 
 #include <turnscan/core/triangle_mesh.hpp>
 
@@ -9,7 +9,7 @@ namespace turnscan {
 double triangle_area(const TriangleMesh& mesh, std::size_t triangle);
 double surface_area(const TriangleMesh& mesh);
 
-/// In cubic metres, positive when the triangles of a closed mesh face outward.
+/// In cubic metres, positive if the triangles of a closed mesh face outward.
 double signed_volume(const TriangleMesh& mesh);
 
 }  // namespace turnscan

@@ -1,7 +1,8 @@
 #pragma once
 // Steps that turn triangles into a surface. Every function checks its mesh first and fails with
-// kFormat as validate_mesh does; an empty mesh passes through. Per-vertex colours and normals come
-// along; vertices that a step creates get them from their neighbours. All are deterministic.
+// kFormat as validate_mesh does; an empty mesh is returned unchanged. Per-vertex colours and
+// normals are preserved; vertices that a step creates get them from their neighbours. All are
+// deterministic.
 
 #include <cstdint>
 #include <limits>
@@ -13,9 +14,9 @@
 
 namespace turnscan {
 
-/// Makes one vertex of those that agree in all three coordinates (STL soups), or, with a tolerance,
-/// of those that fall chain-wise within tolerance_m of each other; the first one's place and
-/// attributes stay. Triangles that so lose a corner are dropped.
+/// Merges vertices that agree in all three coordinates (STL soups), or, with a tolerance, those
+/// that are connected by chains of distances within tolerance_m; position and attributes of the
+/// first one are kept. Triangles that lose a corner thereby are dropped.
 Result<TriangleMesh> merge_vertices(const TriangleMesh& mesh, double tolerance_m = 0.0);
 
 /// Drops triangles that repeat a vertex, that have no area at all, or that are exact copies of an
@@ -25,24 +26,24 @@ Result<TriangleMesh> remove_degenerate(const TriangleMesh& mesh);
 /// One mesh per piece (pieces share no vertex), most triangles first, then by first triangle.
 Result<std::vector<TriangleMesh>> split_components(const TriangleMesh& mesh);
 
-/// All triangles of all meshes in one; attributes stay if every mesh with vertices has them.
+/// All triangles of all meshes in one; attributes are kept if every mesh with vertices has them.
 TriangleMesh join_meshes(const std::vector<TriangleMesh>& meshes);
 
-/// Makes every edge one of at most two triangles that run along it in opposite directions, and
-/// every vertex the centre of one fan, by cutting the surface apart where that fails (vertices are
+/// Makes every edge one of at most two triangles that traverse it in opposite directions, and every
+/// vertex the centre of one fan, by cutting the surface apart where that fails (vertices are
 /// duplicated, no triangle with area is dropped, none is moved). Where three or more triangles meet
-/// at an edge, the two that continue each other most smoothly stay together. Cuts leave boundaries.
-/// The triangles' orientations are kept: neighbours that disagree are cut apart, so call
-/// orient_consistently first where they cannot be trusted.
+/// at an edge, the two that continue each other most smoothly stay connected. Cuts leave
+/// boundaries. The triangles' orientations are kept: neighbours that disagree are cut apart, so
+/// call orient_consistently first if they are not reliable.
 Result<TriangleMesh> make_manifold(const TriangleMesh& mesh);
 
-/// Turns triangles so that neighbours across two-triangle edges agree, piece by piece, by flood
-/// from the piece's first triangle (a one-sided piece keeps disagreements; make_manifold then cuts
-/// it).
+/// Flips triangles so that neighbours across two-triangle edges agree, piece by piece, by flood
+/// fill from the piece's first triangle (a one-sided piece keeps disagreements; make_manifold then
+/// cuts it).
 Result<TriangleMesh> orient_consistently(const TriangleMesh& mesh);
 
-/// orient_consistently, then turns whole pieces whose signed volume is negative. A piece that is
-/// not closed goes by the volume of the cone from its centroid, i.e. most of it faces away from
+/// orient_consistently, then flips whole pieces whose signed volume is negative. For a piece that
+/// is not closed the volume of the cone from its centroid decides, i.e. most of it faces away from
 /// there.
 Result<TriangleMesh> orient_outward(const TriangleMesh& mesh);
 
@@ -57,23 +58,23 @@ struct FillHolesOptions {
 struct FilledMesh {
   TriangleMesh mesh;
   std::vector<std::uint8_t> filled;  ///< per triangle: 1 = it closes a hole
-  std::size_t holes = 0;             ///< loops closed
+  std::size_t holes = 0;             ///< number of loops closed
 };
 
-/// Closes the boundary loops of a mesh that make_manifold would leave alone (kFormat otherwise).
+/// Closes the boundary loops of a mesh that make_manifold would not change (kFormat otherwise).
 /// Loops of up to some hundred edges get the triangulation of least area (Barequet and Sharir 1995,
 /// by dynamic programming; larger loops are first halved greedily); the patch is refined (Liepa
 /// 2003, after Pfeifle and Seidel 1996) and faired. The result is manifold and consistently
-/// oriented and, without max_edges, closed. Patches may pass through other parts of the surface.
+/// oriented and, without max_edges, closed. Patches may intersect other parts of the surface.
 Result<FilledMesh> fill_holes(const TriangleMesh& mesh, const FillHolesOptions& options,
                               const RunContext& context);
 
 struct RelaxOptions {
   /// 0: thin plate (continues slope and curvature of the surroundings), 1: membrane (least area,
-  /// as a soap film); in between a mixture.
+  /// like a soap film); a mixture in between.
   double tension = 0.0;
-  /// Per vertex, 0 or more: a movable one is held where it is with this weight of its squared
-  /// distance from there. Empty: none is.
+  /// Per vertex, at least 0: weight of the squared distance of a movable vertex from its start
+  /// position. Empty: 0 for all.
   std::vector<float> hold = {};
 };
 OptionTable describe(RelaxOptions& options);
@@ -90,14 +91,14 @@ OptionTable describe(RelaxOptions& options);
 Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint8_t>& movable,
                            const RelaxOptions& options, const RunContext& context);
 
-/// The whole chain on any triangles: merge, remove_degenerate, orient_consistently, make_manifold,
-/// fill_holes, orient_outward. The result passes check_mesh(...).watertight(), or the call fails
-/// with kTooFewPoints (nothing is left) or kLibrary (says what stands against it).
+/// The whole chain for arbitrary triangles: merge, remove_degenerate, orient_consistently,
+/// make_manifold, fill_holes, orient_outward. The result passes check_mesh(...).watertight(), or
+/// the call fails with kTooFewPoints (nothing is left) or kLibrary (with the reason).
 Result<TriangleMesh> repair(const TriangleMesh& mesh, const FillHolesOptions& options,
                             const RunContext& context);
 
-/// Unit normals per vertex, weighted by the angle of each triangle at the vertex; zero where no
-/// triangle with area is.
+/// Unit normals per vertex, weighted by the angle of each triangle at the vertex; zero if there is
+/// no triangle with area.
 std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh);
 
 }  // namespace turnscan

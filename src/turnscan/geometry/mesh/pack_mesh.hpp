@@ -1,5 +1,5 @@
 #pragma once
-// Meshes in few bytes, for a page that is sent.
+// Compact encoding of meshes for transmission.
 
 #include <array>
 #include <cstdint>
@@ -8,17 +8,16 @@
 
 namespace turnscan {
 
-/// Streams of meshoptimizer's codecs (vertex version 0, index version 1), which every decoder of
-/// it reads, three.js's among them.
+/// Streams of meshoptimizer's codecs (vertex version 0, index version 1), which all of its decoders
+/// read, including three.js's.
 struct PackedMesh {
   std::size_t vertices = 0, triangles = 0;
   std::string vertex_stream, index_stream;
 };
 
-/// Vertices and triangles are ordered anew, so that neighbours follow each other; vertices that no
-/// triangle names are left out. records: `stride` bytes a vertex. Throws std::invalid_argument when
-/// stride is not a multiple of 4 from 4 to 256, or a triangle names a vertex that is not there.
-/// Deterministic.
+/// Reorders vertices and triangles for locality; unreferenced vertices are dropped. records:
+/// `stride` bytes per vertex. Throws std::invalid_argument if stride is not a multiple of 4 from 4
+/// to 256, or a triangle references a vertex that does not exist. Deterministic.
 PackedMesh pack_mesh(std::span<const std::array<std::uint32_t, 3>> triangles,
                      std::span<const std::uint8_t> records, std::size_t stride);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles over the area that outlines in a plane enclose.
+// Triangulation of the area that planar outlines enclose.
 
 #include <Eigen/Core>
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace turnscan::mesh {
 
-/// A closed outline: numbers of points, each joined to the next and the last to the first.
+/// A closed outline: indices of points, each joined to the next and the last to the first.
 using Outline = std::vector<std::uint32_t>;
 
-/// The constrained Delaunay triangulation of what the outlines enclose, an even number of them
-/// being outside (GEOS). Its triangles use the outlines' points and no others, turn clockwise, and
-/// have each edge of an outline once, in the other direction than the outline where that has its
-/// inside to the left. Empty optional: outlines touch or cross.
+/// The constrained Delaunay triangulation of the area enclosed by the outlines with the even-odd
+/// rule (GEOS). Its triangles use only the outlines' points, are clockwise, and contain each edge
+/// of an outline once, in the direction opposite to that of an outline with its inside to the left.
+/// nullopt if outlines touch or cross.
 std::optional<std::vector<Triangle>> triangulate_outlines(std::span<const Eigen::Vector2d> points,
                                                           std::span<const Outline> outlines);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Fewer triangles for the same shape.
+// Mesh simplification.
 
 #include <cstdint>
 #include <turnscan/core/result.hpp>
@@ -9,18 +9,18 @@
 namespace turnscan {
 
 struct SimplifyGoal {
-  std::size_t triangles = 0;  ///< as few as this, unless the error would be larger
-  double max_error_m = 1e30;  ///< largest distance that the quadrics estimate
-  bool one_solid = false;     ///< it is known to be one watertight piece: not looked at again
-  /// One flag per triangle, those that stay as they are; empty: none of them.
+  std::size_t triangles = 0;  ///< target number, unless the error would be larger
+  double max_error_m = 1e30;  ///< maximum distance as estimated by the quadrics
+  bool one_solid = false;     ///< known to be one watertight piece, which is not checked again
+  /// One flag per triangle that is to stay unchanged; empty: none.
   std::vector<std::uint8_t> keep = {};
 };
 
 /// Collapses edges by quadric error (Garland and Heckbert 1997; meshoptimizer) until the goal is
-/// met. Vertices stay where they are, with their attributes; triangles keep their order of
-/// vertices. A watertight mesh stays watertight, which is checked: where edges fold together,
-/// the surface is parted and the cuts are closed, and if that does not help it ends sooner, at
-/// worst where it began. Other meshes keep their borders.
+/// met. Vertices keep their positions and attributes; triangles keep their order of vertices. A
+/// watertight mesh stays watertight, which is checked: where edges fold together, the surface is
+/// separated and the cuts are closed, and if that does not help it stops earlier, in the worst case
+/// at the input. Other meshes keep their borders.
 /// Fails with kFormat as validate_mesh does. Deterministic.
 Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal);
 

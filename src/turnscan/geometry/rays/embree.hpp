@@ -1,5 +1,5 @@
 #pragma once
-// Embree 3 and 4 behind one face: packets of 16 rays against a scene. The build defines
+// Common interface of Embree 3 and 4: packets of 16 rays against a scene. The build defines
 // TURNSCAN_EMBREE_MAJOR as the major version that it found. Always inlined, because kernels are
 // compiled once per instruction set and must not share a copy of a function.
 
@@ -13,7 +13,7 @@ namespace turnscan::embree {
 
 #if TURNSCAN_EMBREE_MAJOR >= 4
 
-/// How a series of packets is traced. Coherent: the rays of a packet take similar ways.
+/// How a series of packets is traced. Coherent: the rays of a packet take similar paths.
 class Query {
  public:
   [[gnu::always_inline]] explicit Query(bool coherent) {
@@ -22,11 +22,11 @@ class Query {
     intersect_.flags = occluded_.flags =
         coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
-  /// The nearest hits of the lanes that are -1 in valid (aligned to 64 bytes).
+  /// The nearest hits of the lanes whose entry in valid (aligned to 64 bytes) is -1.
   [[gnu::always_inline]] void intersect(const int* valid, RTCScene scene, RTCRayHit16& packet) {
     rtcIntersect16(valid, scene, &packet, &intersect_);
   }
-  /// Sets tfar of blocked rays to minus infinity.
+  /// Sets tfar of occluded rays to minus infinity.
   [[gnu::always_inline]] void occluded(const int* valid, RTCScene scene, RTCRay16& packet) {
     rtcOccluded16(valid, scene, &packet, &occluded_);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a scene in groups of neighbours, as they are drawn.
+// The triangles of a scene in groups of neighbours, for rasterisation.
 
 #include <array>
 #include <turnscan/geometry/rays/triangle_clusters.hpp>
@@ -9,7 +9,7 @@ namespace turnscan::sampling {
 
 class RasterMesh {
  public:
-  /// The same for every number of threads. Needs 46 bytes a triangle.
+  /// The result does not depend on the number of threads. Needs 46 bytes per triangle.
   static RasterMesh build(const std::vector<ObjectView>& objects);
 
   Clusters view() const;

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes and the platter, ready to be hit by rays. Embree stays behind this header.
+// Meshes and the platter, prepared for ray queries. Hides Embree.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace turnscan {
 
-/// Points origin + t * direction with t in (t_min, t_max). direction need not be of unit length.
+/// Points origin + t * direction with t in (t_min, t_max). direction need not have unit length.
 struct Ray {
   Vec3f origin = Vec3f::Zero();
   Vec3f direction = Vec3f::UnitZ();
@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kPlatter = 0xfffffffeu;   ///< RayHit::object of 
 
 struct RayHit {
   float t = std::numeric_limits<float>::infinity();  ///< in lengths of the ray's direction
-  std::uint32_t object = kNoObject;                  ///< position in the scene's objects
+  std::uint32_t object = kNoObject;                  ///< index in the scene's objects
   std::uint32_t triangle = 0;                        ///< of that object; 0 on the platter
   float u = 0.0f, v = 0.0f;      ///< barycentric: (1 - u - v) a + u b + v c; 0 on the platter
   Vec3f normal = Vec3f::Zero();  ///< unit, from the triangle's winding; platter: +Y
@@ -33,32 +33,32 @@ struct RayHit {
   bool valid() const { return object != kNoObject; }
 };
 
-/// Rays that lie next to each other in the span and have much the same origin and direction are
-/// kCoherent: 1.5 to 2.5 times as fast. The result is the same either way.
+/// kCoherent: consecutive rays in the span have similar origins and directions, which is 1.5 to 2.5
+/// times as fast. The result is the same either way.
 enum class RayOrder { kCoherent, kIncoherent };
 
-/// Immutable; all members may be called from several threads at once. Triangles count from both
-/// sides. No ray slips through between two triangles that share an edge; of rays aimed exactly at a
-/// vertex Embree 3.13 loses about one in 200 (measured on a sphere).
+/// Immutable; all members may be called from several threads at once. Triangles are two-sided. No
+/// ray slips through between two triangles that share an edge; of rays aimed exactly at a vertex
+/// Embree 3.13 loses about one in 200 (measured on a sphere).
 class Scene {
  public:
-  /// Copies what it needs of the meshes. A mesh without triangles is allowed. platter_radius_m
-  /// adds a disc about the y axis with its face at y = 0. Fails with kFormat when a triangle names
-  /// a vertex that does not exist or one that is not finite; with kInvalidOption when the radius is
-  /// not positive; with kResourceLimit when Embree runs out of memory. The same scene for every
-  /// number of threads.
+  /// Copies what it needs of the meshes. A mesh without triangles is allowed. platter_radius_m adds
+  /// a disc about the y axis with its face at y = 0. Fails with kFormat if a triangle references a
+  /// vertex that does not exist or is not finite, with kInvalidOption if the radius is not
+  /// positive, and with kResourceLimit if Embree runs out of memory. The scene does not depend on
+  /// the number of threads.
   static Result<Scene> create(std::span<const TriangleMesh> objects,
                               std::optional<double> platter_radius_m = std::nullopt);
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// The nearest hit of each ray. hits must be as long as rays.
+  /// The nearest hit of each ray. hits must have the same length as rays.
   void intersect(std::span<const Ray> rays, std::span<RayHit> hits,
                  RayOrder order = RayOrder::kIncoherent) const;
   RayHit intersect(const Ray& ray) const;
 
-  /// 1 where anything lies on the ray, else 0. blocked must be as long as rays.
+  /// 1 if anything is on the ray, else 0. blocked must have the same length as rays.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
                 RayOrder order = RayOrder::kIncoherent) const;
   bool occluded(const Ray& ray) const;
@@ -67,9 +67,9 @@ class Scene {
   std::optional<double> platter_radius_m() const;
   /// The corners of a triangle. Preconditions: object < object_count() and has that triangle.
   std::array<Vec3f, 3> corners(std::uint32_t object, std::uint32_t triangle) const;
-  /// Box about the objects, without the platter.
+  /// Bounding box of the objects, without the platter.
   const Box& object_box() const;
-  /// Box about everything.
+  /// Bounding box of everything.
   Box box() const;
 
   /// For the simulator's own sources (scene_impl.hpp).

@@ -1,5 +1,5 @@
 #pragma once
-// The inside of a scene, for those sources of the simulator that speak to Embree themselves.
+// Implementation of a scene, for sources of the simulator that call Embree themselves.
 
 #include <memory>
 #include <mutex>
@@ -24,17 +24,17 @@ struct Scene::Impl {
 
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter> device;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter> scene;
-  std::vector<sampling::ObjectView> objects;  ///< their buffers are Embree's
+  std::vector<sampling::ObjectView> objects;  ///< their buffers belong to Embree
   std::optional<double> platter_radius_m;
-  float platter_radius_squared = -1.0f;  ///< negative: there is none
+  float platter_radius_squared = -1.0f;  ///< negative if there is none
   Box object_box;
 
-  /// Made when it is first asked for.
+  /// Created on first use.
   const sampling::RasterMesh& raster() const;
   std::size_t triangle_count() const;
 
   Result<> attach(const TriangleMesh& mesh, std::uint32_t id);
-  /// Where the ray meets the platter, or infinity.
+  /// Parameter at which the ray intersects the platter, or infinity.
   float platter_t(const Ray& ray) const;
   void intersect_packet(std::span<const Ray> rays, std::span<RayHit> hits,
                         embree::Query& query) const;

@@ -15,25 +15,25 @@ struct ObjectView {
   std::uint32_t vertex_count = 0, triangle_count = 0;
 };
 
-/// The triangle in a slot of a scene's clusters.
+/// Object and index of the triangle in a slot of a scene's clusters.
 struct TriangleName {
   std::uint32_t object = 0, triangle = 0;
 };
 
 inline constexpr int kLevels = 3;
 
-/// GroupBoxes about things that lie together: of each kLanes of them centre x y z and half size x y
+/// Bounding boxes of neighbouring elements: for each kLanes of them centre x y z and half size x y
 /// z.
 struct GroupBoxes {
   const float* bounds = nullptr;
   int count = 0;
 };
 
-/// All triangles of a scene in groups of kLanes neighbours; slot s is lane s % kLanes of group
-/// s / kLanes. Where triangles run out the last is repeated.
+/// All triangles of a scene in groups of kLanes neighbours; slot s is lane s % kLanes of group s /
+/// kLanes. The last triangle is repeated as padding.
 struct Clusters {
-  const float* corners = nullptr;       ///< of each group ax, ay, az, bx, ... cz: kLanes each
-  const TriangleName* names = nullptr;  ///< of each slot
+  const float* corners = nullptr;       ///< per group ax, ay, az, bx, ... cz: kLanes each
+  const TriangleName* names = nullptr;  ///< per slot
   GroupBoxes levels[kLevels];           ///< of groups, of kLanes groups, of kLanes of these
 };
 

@@ -8,16 +8,16 @@
 
 namespace turnscan {
 
-/// The same place in two frames.
+/// The same point in two frames.
 struct PointPair {
   Vec3d source = Vec3d::Zero(), target = Vec3d::Zero();
 };
 
 struct PairLimits {
-  /// The points lie at least so far (rms) from the straight line that fits them best, which bounds
-  /// the turn about that line.
+  /// Minimum distance (rms) of the points from the straight line that fits them best, which
+  /// determines the rotation about that line.
   double min_spread_m = 0.0;
-  double max_residual_m = 0.0;  ///< no pair fits worse
+  double max_residual_m = 0.0;  ///< maximum for any pair
 };
 
 struct PairFit {
@@ -26,11 +26,11 @@ struct PairFit {
   double rms_m = 0.0;               ///< of them
 };
 
-/// The rigid motion, without scale, that brings the source points nearest to the target points in
-/// the least-squares sense (Horn 1987; Umeyama 1991, equations 40 to 42, with c = 1). Never a
+/// The rigid motion, without scale, that minimises the squared distances between the moved source
+/// points and the target points (Horn 1987; Umeyama 1991, equations 40 to 42, with c = 1). Never a
 /// reflection. Fails with kTooFewPoints for fewer than three pairs and for points of either frame
-/// that lie too near to each other or to one straight line, kInvalidOption where a point is not
-/// finite or a pair contradicts the others; the sentences count pairs from 1.
+/// that are too close to each other or to one straight line, with kInvalidOption if a point is not
+/// finite or a pair contradicts the others; the messages count pairs from 1.
 Result<PairFit> fit_point_pairs(std::span<const PointPair> pairs, const PairLimits& limits);
 
 }  // namespace turnscan

@@ -8,20 +8,21 @@
 
 namespace turnscan {
 
-/// The point of triangle (a, b, c) nearest to p; degenerate triangles (segments, points) included.
+/// The point of triangle (a, b, c) nearest to p; handles degenerate triangles (segments, points).
 /// Region test of Ericson, Real-Time Collision Detection (2005), section 5.1.5.
 Vec3d closest_point_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
-/// Answers nearest-point queries on a mesh (metres): a hierarchy of float boxes that only ever
-/// prunes what is farther, and double arithmetic at the triangles. Queries may run from many
-/// threads. Triangles with an index out of range or a vertex that is not finite are left out.
+/// Answers nearest-point queries on a mesh (metres), with a conservative hierarchy of float boxes
+/// and double arithmetic at the triangles. Queries may run from many threads. Triangles with an
+/// index out of range or a vertex that is not finite are ignored.
 class MeshDistance {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   struct Hit {
     Vec3d point = Vec3d::Zero();     ///< on the mesh
-    std::uint32_t triangle = kNone;  ///< of equally near ones the lowest; kNone: nothing found
+    std::uint32_t triangle = kNone;  ///< the lowest index among equally near ones; kNone: nothing
+                                     ///< found
     double distance = std::numeric_limits<double>::infinity();  ///< metres, unsigned
   };
 
@@ -31,8 +32,8 @@ class MeshDistance {
   MeshDistance& operator=(MeshDistance&&) noexcept;
   ~MeshDistance();
 
-  /// Nearest point within max_distance (inclusive, metres). Nothing found: triangle == kNone, as
-  /// for an empty mesh or a p that is not finite.
+  /// Nearest point within max_distance (inclusive, metres). If nothing is found, as for an empty
+  /// mesh or a p that is not finite: triangle == kNone.
   Hit closest(const Vec3d& p, double max_distance = std::numeric_limits<double>::infinity()) const;
 
  private:

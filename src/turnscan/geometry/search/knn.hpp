@@ -1,5 +1,5 @@
 #pragma once
-// Nearest neighbours among free points in space, exact and with a fixed order of ties.
+// Exact nearest neighbours among points in space, with a fixed order of ties.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +13,9 @@
 namespace turnscan {
 
 /// A kd-tree over points (metres, any frame). Neighbours are ordered by (squared distance, index),
-/// so that equal distances, duplicates included, always come out the same: the result equals that
-/// of a sort of all points. Squared distances are dx*dx + dy*dy + dz*dz in float32. Points that are
-/// not finite keep their index but are nobody's neighbour. Queries may run from many threads.
+/// so that the order of equal distances, including duplicates, is well-defined: the result equals
+/// that of sorting all points. Squared distances are dx*dx + dy*dy + dz*dz in float32. Points that
+/// are not finite keep their index but are never neighbours. Queries may run from many threads.
 class KdTree {
  public:
   KdTree();
@@ -29,14 +29,14 @@ class KdTree {
   std::size_t size() const;
 
   /// The k nearest points of query, nearest first, in index[0..k) and squared_distance[0..k)
-  /// (metres squared). Returns how many were found: min(k, size()), fewer where reach_m bounds
-  /// their distance, 0 for a query that is not finite. A query that is one of the points finds
-  /// itself, too. A bound near what is sought makes the search faster.
+  /// (metres squared). Returns the number found: min(k, size()), fewer if reach_m bounds their
+  /// distance, 0 for a query that is not finite. A query that is one of the points finds itself,
+  /// too. A tight bound makes the search faster.
   std::size_t knn(const Vec3f& query, std::size_t k, std::uint32_t* index, float* squared_distance,
                   float reach_m = std::numeric_limits<float>::infinity()) const;
 
   /// All points with squared distance <= radius * radius, nearest first, as (index, squared
-  /// distance); replaces what out held. Nothing for a radius that is negative or not finite.
+  /// distance); replaces the contents of out. Empty for a radius that is negative or not finite.
   void radius(const Vec3f& query, float radius,
               std::vector<std::pair<std::uint32_t, float>>& out) const;
 

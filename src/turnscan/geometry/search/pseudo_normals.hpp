@@ -1,5 +1,5 @@
 #pragma once
-// On which side of a mesh a point is, from the nearest point on the mesh.
+// Determines the side of a mesh on which a point is, from the nearest point on the mesh.
 
 #include <array>
 #include <cstdint>
@@ -8,17 +8,18 @@
 
 namespace turnscan {
 
-/// The normals of a mesh's faces, edges and vertices: of an edge the sum of its faces', of a vertex
-/// the sum of its faces' weighted by their angle there. With these the sign of the distance from a
-/// closed mesh is right everywhere (Baerentzen and Aanaes 2005, "Signed distance computation using
-/// the angle weighted pseudonormal"); a face's normal alone is wrong beside sharp edges.
+/// The normals of a mesh's faces, edges and vertices: an edge's is the sum of its faces', a
+/// vertex's the sum of its faces' weighted by their angle there. With these the sign of the
+/// distance from a closed mesh is correct everywhere (Baerentzen and Aanaes 2005, "Signed distance
+/// computation using the angle weighted pseudonormal"); a face's normal alone is wrong beside sharp
+/// edges.
 class PseudoNormals {
  public:
-  /// Copies what it needs. Triangles must name vertices that exist.
+  /// Copies what it needs. Triangles must reference existing vertices.
   explicit PseudoNormals(const TriangleMesh& mesh);
 
   /// Unit normal at a point on a triangle, as MeshDistance::closest() finds it: of the vertex or
-  /// edge of the triangle that the point lies on (to within 1 nm), else of the face. Zero where the
+  /// edge of the triangle that contains the point (to within 1 nm), else of the face. Zero if the
   /// faces have no area.
   Vec3d at(const Vec3d& point, std::uint32_t triangle) const;
 

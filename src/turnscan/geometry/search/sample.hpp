@@ -12,16 +12,16 @@ namespace turnscan {
 struct SurfaceSamples {
   std::vector<Vec3f> points;             ///< metres, on the mesh
   std::vector<Vec3f> normals;            ///< unit normals of the triangles, by vertex order
-  std::vector<std::uint32_t> triangles;  ///< where each point lies
-  double area_m2 = 0.0;                  ///< of the mesh: a sample stands for area_m2 / count
+  std::vector<std::uint32_t> triangles;  ///< the triangle that contains each point
+  double area_m2 = 0.0;                  ///< of the mesh: a sample represents area_m2 / count
 
   std::size_t size() const { return points.size(); }
 };
 
-/// Draws `count` points, equally dense over the area. The i-th is a pure function of (mesh, count,
-/// seed, i). The draw along the area is stratified: any part of the surface that is contiguous in
-/// triangle order gets its share to within one point.
-/// Fails with kFormat as validate_mesh does, with kTooFewPoints when the mesh has no area, and when
+/// Draws `count` points, uniformly distributed over the area. The i-th is a pure function of (mesh,
+/// count, seed, i). Sampling along the area is stratified: any part of the surface that is
+/// contiguous in triangle order gets its share to within one point.
+/// Fails with kFormat as validate_mesh does, with kTooFewPoints if the mesh has no area, and when
 /// cancelled.
 Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::size_t count,
                                       std::uint64_t seed, const RunContext& context = {});
