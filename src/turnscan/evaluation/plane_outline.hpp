@@ -7,11 +7,11 @@
 
 namespace turnscan::artefact {
 
-/// Without the points that are nearer than the margin to the outline.
+/// The points without those nearer than the margin to the outline.
 std::vector<Vec3d> within_margin(const std::vector<Vec3d>& points, const Plane& plane,
                                  double margin_m);
 
-/// Length and width, metres, of the least rectangle about the outline.
+/// Length and width, metres, of the smallest rectangle around the outline.
 std::pair<double, double> outline_size(const std::vector<Vec3d>& points, const Plane& plane);
 
 }  // namespace turnscan::artefact

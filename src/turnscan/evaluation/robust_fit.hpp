@@ -1,5 +1,5 @@
 #pragma once
-// Spheres and planes through points, and the rejection of points that VDI/VDE 2634 allows.
+// Spheres and planes through points, with the rejection of points that VDI/VDE 2634 allows.
 
 #include <functional>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace turnscan::artefact {
 
-/// Both have distance(p), signed, positive outside.
+/// Both types have distance(p), signed, positive outside.
 struct Sphere {
   Vec3d center = Vec3d::Zero();
   double radius = 0.0;
@@ -23,8 +23,8 @@ struct Plane {
 };
 
 /// Least squares of the distances over centre and radius, or with fixed_radius over the centre
-/// alone, from a start that is near it (Gauss and Newton). nullopt: fewer than 4 points, or they do
-/// not determine it.
+/// alone, from a start close to it (Gauss-Newton). nullopt: fewer than 4 points, or they do not
+/// determine it.
 std::optional<Sphere> fit_sphere(const std::vector<Vec3d>& points, const Sphere& start,
                                  bool fixed_radius);
 
@@ -32,17 +32,17 @@ std::optional<Sphere> fit_sphere(const std::vector<Vec3d>& points, const Sphere&
 /// points.
 std::optional<Plane> fit_plane(const std::vector<Vec3d>& points, const Plane& start);
 
-/// Of a fit from which a share of the points was rejected.
+/// Distances after a fit from which a share of the points was rejected.
 struct Deviations {
-  std::vector<double> kept;  ///< distances of the points that were not, sorted
+  std::vector<double> kept;  ///< distances of the points that were not rejected, sorted
   std::size_t rejected = 0;
   double range() const { return kept.empty() ? 0.0 : kept.back() - kept.front(); }
   double sigma() const;
 };
 
-/// Rejects floor(share N) points with the largest |distance|, fits to the others, and so on until
-/// the same are rejected, at most 50 times. `fit` turns points into a surface, from the surface
-/// before; nullopt as it returns it.
+/// Rejects the floor(share N) points with the largest |distance|, fits to the others, and repeats
+/// this until the same points are rejected, at most 50 times. `fit` fits a surface to points,
+/// starting at the previous surface; returns nullopt if it does.
 template <class Surface>
 std::optional<Deviations> fit_rejecting(
     const std::vector<Vec3d>& points, double share, Surface& surface,

@@ -18,16 +18,16 @@ struct FrameRow {
 };
 
 struct FrameTable {
-  std::vector<FrameRow> rows;  ///< by index
+  std::vector<FrameRow> rows;  ///< ordered by index
   std::vector<std::string> notes;
 };
 
-/// The column names, with the line's end.
+/// The column names, with the line end.
 std::string frames_csv_header();
-/// One line, with its end. Names are quoted where they need it; they have no line ends.
+/// One line, with its end. Names are quoted if necessary; they contain no line ends.
 std::string frames_csv_line(const FrameInfo& info, const std::string& color_file);
 
-/// Reads the whole table. A last line without its end that cannot be read is left out with a note;
+/// Reads the whole table. A last line without its end that cannot be parsed is skipped with a note;
 /// every other wrong line is an error (kFormat) that names it.
 Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count);
 

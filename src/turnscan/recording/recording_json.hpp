@@ -17,17 +17,17 @@ struct RecordingDescription {
   SequenceHeader header;
   CaptureSettings capture;
   bool complete = false;
-  std::optional<std::uint32_t> frame_count;  ///< at the last time when it was complete
+  std::optional<std::uint32_t> frame_count;  ///< when it was last complete
 };
 
-/// Fails with kUnsupported when the schema is newer, with kFormat when a field is missing or wrong.
+/// Fails with kUnsupported if the schema is newer, with kFormat if a field is missing or wrong.
 /// Unknown fields are ignored.
 Result<RecordingDescription> parse_recording_json(std::string_view text);
 
 std::string recording_json(const RecordingDescription& description);
 
-/// What every description of a sensor begins with: kind, model, and a camera's intrinsics and
-/// depth.
+/// The fields at the beginning of every sensor's description: kind, model, and a camera's
+/// intrinsics and depth.
 text::OrderedJson sensor_kind_json(const SensorInfo& sensor);
 
 /// The object "turntable", SI units.

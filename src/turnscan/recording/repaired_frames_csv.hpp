@@ -1,5 +1,5 @@
 #pragma once
-// frames.csv of an unfinished recording, as text.
+// Repairs the text of an unfinished recording's frames.csv.
 
 #include <string>
 #include <string_view>
@@ -7,10 +7,10 @@
 
 namespace turnscan::recording_format {
 
-/// The table with the rows' whole lines, in their order, each byte of a line as it was; only the
-/// status of a row differs where `row.info.status` says dropped and its line does not. rows: parsed
-/// from this text, their status changed at will. A table without a status column gets one when it
-/// is needed. Fails with kLibrary when the new text does not read back as the rows.
+/// The table with the complete lines of the rows, in their order and byte by byte; only the status
+/// of a row differs if `row.info.status` is dropped and that of its line is not. rows: parsed from
+/// this text, with changed statuses. A table without a status column gets one if necessary. Fails
+/// with kLibrary if the new text does not parse to the same rows.
 Result<std::string> repaired_frames_csv(std::string_view text, const std::vector<FrameRow>& rows,
                                         std::size_t sensor_count);
 

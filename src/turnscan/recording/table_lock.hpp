@@ -11,7 +11,7 @@ namespace turnscan::recording_format {
 
 namespace fs = std::filesystem;
 
-/// A lock on frames.csv, which a writer holds as long as it is at work.
+/// A lock on frames.csv, which a writer holds while it is active.
 class TableLock {
  public:
   explicit TableLock(const fs::path& table)

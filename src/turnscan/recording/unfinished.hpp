@@ -1,18 +1,18 @@
 #pragma once
-// What a writer leaves that was killed.
+// Remains of a writer that was killed.
 
 #include <filesystem>
 #include <turnscan/core/result.hpp>
 
 namespace turnscan {
 
-/// Whether the folder holds a recording that its writer did not finish, or the beginnings of one,
-/// and nothing else. False for one that is being written just now, and for one that was complete
-/// before more was added to it.
+/// Whether the folder contains a recording that its writer did not finish, or the beginnings of
+/// one, and nothing else. False for one that is currently being written, and for one that was
+/// complete before more was appended to it.
 bool is_unfinished_recording(const std::filesystem::path& folder);
 
-/// Removes what such a recording consists of; recording.json goes last, so that it stays an
-/// unfinished one when this is interrupted. Fails with kInvalidOption when it is none, with kIo.
+/// Removes the files of such a recording; recording.json last, so that an interruption leaves an
+/// unfinished recording. Fails with kInvalidOption if it is not one, with kIo.
 Result<> remove_unfinished_recording(const std::filesystem::path& folder);
 
 }  // namespace turnscan
