@@ -1,6 +1,6 @@
 #pragma once
-// Everything that a simulated recording is made from, as people write it: on the command line, or
-// in one TOML file.
+// The complete description of a simulated recording in the form that users write: on the command
+// line, or in one TOML file.
 
 #include <filesystem>
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace turnscan {
 
-/// A preset or file, and what of the placement is its own: "kinect-v2,azimuth=90deg,roll=10deg".
+/// A preset or file, and its own placement options: "kinect-v2,azimuth=90deg,roll=10deg".
 struct ScannerEntry {
   std::string model;
   std::vector<std::pair<std::string, std::string>> placement;  ///< names of describe(), values
 };
 
-/// Fails with kInvalidOption. Whether the scanner exists shows later.
+/// Fails with kInvalidOption. Whether the scanner exists is checked later.
 Result<ScannerEntry> parse_scanner_entry(std::string_view text);
 
-/// How the object lies in a further pass: names of ObjectPlacement's options, and values, for those
-/// that differ from the first. Its height does not change.
+/// Placement of the object in a further pass: names of ObjectPlacement's options and values, for
+/// those that differ from the first. Its height does not change.
 using PassEntry = std::vector<std::pair<std::string, std::string>>;
 
 /// "tip=90deg,yaw=30deg". Fails with kInvalidOption.
@@ -32,13 +32,13 @@ struct SceneDescription {
   SceneDescription();
 
   std::string object;  ///< file or builtin:NAME; builtin:empty for the table alone
-  std::string unit;    ///< of the object's file if that does not say it
+  std::string unit;    ///< of the object's file if that does not specify it
   ObjectPlacement object_placement;
   std::vector<PassEntry> next_passes;
-  std::vector<ScannerEntry> scanners;  ///< none: kinect-v2
-  ScannerPlacement placement;          ///< of every scanner, but for what is its own
+  std::vector<ScannerEntry> scanners;  ///< empty: kinect-v2
+  ScannerPlacement placement;          ///< of every scanner, except for its own options
   MotionOptions motion;
-  PlatterOptions platter;  ///< 12 mm thick unless told otherwise
+  PlatterOptions platter;  ///< 12 mm thick by default
   TablePlacement table;
   RoomOptions room;
   ObjectMove object_move;
@@ -50,28 +50,27 @@ struct SceneDescription {
 
 struct SceneTable {
   std::string name;   ///< of the table in the file
-  std::string title;  ///< for people
+  std::string title;  ///< for display
   OptionTable options;
 };
 
 /// All options but object, unit and scanners, by table. They refer to the description.
 std::vector<SceneTable> describe(SceneDescription& scene);
 
-/// Adds what a file says: the tables of describe(), in [object] also `file` and `unit`, and
+/// Adds the contents of a file: the tables of describe(), in [object] also `file` and `unit`, and
 /// [[scanner]] with `model` and any of the options of [placement], [[pass]] with any of [object]
 /// for each pass after the first. Paths are relative to the file's folder. Fails with kNotFound or
 /// kInvalidOption, naming file and line.
 Result<> read_scene(const std::filesystem::path& file, SceneDescription& scene);
 
-/// The same from the text of such a file. `file` is its name in errors, and what its paths are
-/// relative to.
+/// The same from the text of such a file. `file` is its name in errors, and the base of its paths.
 Result<> parse_scene(std::string_view text, const std::filesystem::path& file,
                      SceneDescription& scene);
 
-/// The description as a file that read_scene understands; lengths and angles to 6 digits.
+/// The description as a file that read_scene can read; lengths and angles to 6 digits.
 std::string scene_toml(const SceneDescription& scene);
 
-/// How the object lies in each pass, the first included. Fails with kInvalidOption.
+/// Placement of the object in each pass, including the first. Fails with kInvalidOption.
 Result<std::vector<ObjectPlacement>> pass_placements(const SceneDescription& scene);
 
 /// Looks up the scanners. Fails with kNotFound or kInvalidOption.

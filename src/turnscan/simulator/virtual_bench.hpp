@@ -1,5 +1,5 @@
 #pragma once
-// What stands where at each moment of a virtual scan: table, objects, room, scanners.
+// Poses of table, objects, room and scanners at each moment of a virtual scan.
 
 #include <optional>
 #include <span>
@@ -17,17 +17,17 @@ class VirtualBench {
                                      const VirtualScanOptions& options, const PlatterState& first);
 
   double aim_height_m() const { return aim_height_m_; }
-  /// The table's frame, from the objects as they were given.
+  /// Maps the objects as they were given to the table's frame.
   Pose T_table_given() const { return rotation_about_y(-yaw_rad_); }
   /// With the axis at rest and at angle 0.
   const Pose& T_world_table() const { return T_world_table_; }
-  /// The same, had the table been put where it was meant to be.
+  /// The same for the nominal placement of the table.
   Pose T_world_meant_table() const;
   Pose T_world_platter(double angle_rad) const;
-  /// From where the objects stood at first: the platter's, unless they have moved on it.
+  /// Maps from the objects' initial frame: the platter's pose, unless they have moved on it.
   Pose T_world_objects(const PlatterState& state) const;
   Pose T_world_sensor(std::size_t scanner, const PlatterState& state) const;
-  /// Where the scanner would be had nobody knocked it.
+  /// The pose that the scanner would have without its knock.
   Pose T_world_meant_sensor(std::size_t scanner, double travel) const;
 
   /// Table frame, at angle 0.
@@ -36,7 +36,7 @@ class VirtualBench {
   const Scene& scene() const { return *scene_; }
   const Scene* room() const { return room_ ? &*room_ : nullptr; }
 
-  /// What is seen at a moment. kinds() and meshes() say what a body is by its position, which is
+  /// The bodies visible at a moment. kinds() and meshes() describe a body by its index, which is
   /// always the same; the hand, which comes last, is not always there.
   std::vector<Body> bodies_at(const PlatterState& state) const;
   std::vector<BodyKind> kinds() const;
@@ -59,7 +59,7 @@ class VirtualBench {
   std::vector<TriangleMesh> standing_;  ///< the room; empty without; world
   std::vector<TriangleMesh> hand_mesh_;
   std::optional<Scene> scene_, room_;
-  std::optional<Scene> objects_alone_, platter_alone_;  ///< where the objects move
+  std::optional<Scene> objects_alone_, platter_alone_;  ///< used if the objects move
   std::optional<Scene> hand_;
 };
 

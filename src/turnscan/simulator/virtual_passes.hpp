@@ -1,17 +1,16 @@
 #pragma once
-// Several virtual scans one after the other as one sequence: passes, between which the object is
-// laid another way.
+// Several virtual scans as one sequence of passes, between which the object is repositioned.
 
 #include <turnscan/simulator/virtual_scan.hpp>
 
 namespace turnscan {
 
-/// The frames of the scans in order. Those of scan k have its pass number; indices and times go on
-/// (a second after the last frame of the pass before), angles begin anew with each pass.
+/// The frames of the scans in order. Those of scan k have its pass number; indices and times
+/// continue (a second after the last frame of the previous pass), angles restart with each pass.
 class VirtualPasses : public FrameSequence {
  public:
-  /// At least one, of the same scanners, turntable and recorded calibration: the header is the
-  /// first's. Throws std::invalid_argument without any.
+  /// At least one scan, all with the same scanners, turntable and recorded calibration: the header
+  /// is the first one's. Throws std::invalid_argument without any.
   explicit VirtualPasses(std::vector<VirtualScan> scans);
 
   const SequenceHeader& header() const override;
@@ -20,9 +19,9 @@ class VirtualPasses : public FrameSequence {
 
   std::size_t count() const { return scans_.size(); }
   const VirtualScan& pass(std::size_t k) const { return scans_.at(k); }
-  /// Which scan a frame is of, and its position there. Precondition: there is such a frame.
+  /// The scan of a frame, and its position there. Precondition: the frame exists.
   std::pair<std::size_t, std::size_t> place_of(std::size_t position) const;
-  /// As VirtualScan's, over all passes.
+  /// As in VirtualScan, over all passes.
   std::array<std::uint64_t, 10> tally(std::size_t scanner) const;
 
  private:

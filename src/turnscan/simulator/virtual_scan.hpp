@@ -16,42 +16,42 @@
 
 namespace turnscan {
 
-/// What a body of TrueSamples is, and the frame of the points on it.
+/// Kind of a body of TrueSamples, and the frame of the points on it.
 enum class BodyKind : std::uint8_t {
-  kObjects,       ///< and the platter, unless the objects move on it; the table's frame at angle 0
-  kRoom,          ///< the world's frame
+  kObjects,  ///< including the platter, unless the objects move on it; the table's frame at angle 0
+  kRoom,     ///< the world's frame
   kPlatterAlone,  ///< the table's frame at angle 0
   kHand           ///< the world's frame
 };
 
-/// All about one frame that the recording does not say. Of the arrays of exact, hits has the same
-/// places; it says something where exact.hit(). p_body and normal_body of a hit are in the frame
-/// of its body.
+/// Ground truth of one frame, which the recording does not contain. hits has the same indices as
+/// the arrays of exact, and is valid where exact.hit(). p_body and normal_body of a hit are in the
+/// frame of its body.
 struct TrueSamples {
   std::uint32_t scanner = 0;
   std::vector<BodyKind> bodies;  ///< by exact.body()
   SampleGrid exact;              ///< without noise
-  MeasuredGrid measured;         ///< what is recorded (before it is rounded), or why nothing is
+  MeasuredGrid measured;         ///< recorded values (before rounding), or why there is none
   std::vector<SampleHit> hits;
 };
 
 /// All scanners take a frame at each instant; in the sequence the frames of one instant follow each
-/// other in the order of the scanners. The object and the platter turn, scanners and room stay
-/// (but for a scanner's travel and a knock): at the angle a of a frame
+/// other in the order of the scanners. The object and the platter turn, scanners and room are
+/// static (except for a scanner's travel and a knock): at the angle a of a frame
 ///   p_world = T_world_table * wobble(a) * Ry(a) * p_table,
-/// wobble with the runout. Objects that move on the platter are taken back to where they stood at
-/// first: p_table of their points stays what it was.
+/// where wobble includes the runout. Objects that move on the platter are mapped back to their
+/// initial position: p_table of their points does not change.
 ///
-/// The table's frame is the one that the turntable's axis and centre give to scanner 0 at the first
-/// frame (thesis eq. 3.10), so that a calibration finds it again: scanner 0, not yet knocked, is at
-/// x = 0 on the side of -Z. The objects stand as given while it is there with azimuth and aim 0 and
-/// the table in its place; else they are turned with it.
+/// The table's frame is the one that the turntable's axis and centre determine for scanner 0 at the
+/// first frame (thesis eq. 3.10), so that a calibration finds it again: scanner 0, not yet knocked,
+/// is at x = 0 on the side of -Z. The objects stand as given if it has azimuth and aim 0 and the
+/// table its nominal placement; otherwise they are rotated with it.
 ///
-/// Depth is along z in steps of the scanner's depth unit, rounded, 0 where no sample counts. Line
-/// scanners give points. Each value is a function of (seed, scanner, frame, sample) alone.
+/// Depth is along z in steps of the scanner's depth unit, rounded, 0 if no sample counts. Line
+/// scanners deliver points. Each value is a function of (seed, scanner, frame, sample) alone.
 class VirtualScan : public FrameSequence {
  public:
-  /// objects: platter at angle 0. Fails with kInvalidOption when an option is out of range or there
+  /// objects: platter at angle 0. Fails with kInvalidOption if an option is out of range or there
   /// are no or more than 64 scanners, and as Scene::create does.
   static Result<VirtualScan> create(std::vector<TriangleMesh> objects,
                                     const VirtualScanOptions& options);
@@ -61,33 +61,33 @@ class VirtualScan : public FrameSequence {
 
   const SequenceHeader& header() const override;
   const std::vector<FrameInfo>& frames() const override;
-  /// Rendered anew at each call, on the calling thread.
+  /// Rendered anew in each call, on the calling thread.
   Result<Frame> read(std::size_t position) const override;
 
-  /// How many samples of a scanner were taken so far, by what became of them: position i counts
-  /// Miss(i) of samples.hpp. Every call of read() adds to it.
+  /// Number of samples of a scanner taken so far, by outcome: index i counts Miss(i) of
+  /// samples.hpp. Every call of read() adds to it.
   std::array<std::uint64_t, kMissCount> tally(std::size_t scanner) const;
 
-  // The truth.
+  // Ground truth.
   /// Every sample of a frame, also of a dropped one. Fails with kNotFound.
   Result<TrueSamples> samples(std::size_t position) const;
   /// In the table's frame, at angle 0.
   std::span<const TriangleMesh> objects() const;
   /// Objects, then the body of the platter if it has a thickness; table frame.
   const Scene& scene() const;
-  /// Takes the points of a frame, those on the objects, to the table's frame at angle 0: everything
-  /// included. The recording itself knows of no knock and no move.
+  /// Maps the points of a frame, those on the objects, to the table's frame at angle 0, with
+  /// everything included. The recording itself contains no knock and no move.
   Pose T_table_sensor(std::size_t position) const;
   double angle_rad(std::size_t position) const;
   /// In the frame of scanner 0 at the first frame, before it is knocked.
   const TurntableInfo& turntable() const;
-  /// What does not turn, in the world's frame; nullptr without a room.
+  /// Static surroundings, in the world's frame; nullptr without a room.
   const Scene* room() const;
-  /// The table's frame as T_table_sensor has it.
+  /// Maps the world's frame to that of T_table_sensor.
   Pose T_table_world(std::size_t position) const;
-  /// Height of the point that scanners without one of their own look at; world.
+  /// Height of the point at which scanners without an aim height of their own look; world.
   double aim_height_m() const;
-  /// About the y axis, from the objects as they were given to objects().
+  /// Rotation about the y axis from the objects as given to objects().
   Pose T_table_given() const;
 
  private:

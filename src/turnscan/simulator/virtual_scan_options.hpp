@@ -1,5 +1,5 @@
 #pragma once
-// Everything that a virtual scan is made from but the objects' meshes.
+// Options of a virtual scan, without the objects' meshes.
 
 #include <cstdint>
 #include <string>
@@ -31,27 +31,27 @@ OptionTable describe(PlatterOptions& options);
 struct MeasureOptions {
   std::string noise = "gaussian:1.5mm";  ///< see parse_noise_options
   double mixed_pixels = 0.0;             ///< share of the silhouette's pixels, 0 to 1
-  double mixed_reach_m = 0.08;           ///< how far behind the edge they may lie
+  double mixed_reach_m = 0.08;           ///< maximum distance behind the edge
   int noise_window_px = 1;               ///< see NoiseOptions
   double edge_fattening_px = 0.0;        ///< see NoiseOptions
-  double exposure_s = 0.0;               ///< of a frame, about its time; 0: an instant
+  double exposure_s = 0.0;  ///< duration of a frame's exposure, centred at its time; 0: an instant
   double wiggling_m =
-      0.0;  ///< greatest error of a time-of-flight scanner by the phase of its light
-  double wiggling_period_m = 0.75;  ///< in range; of four images at 50 MHz
-  double warm_up_m = 0.0;           ///< how much too far a scanner measures when it is switched on
-  double warm_up_time_s = 900.0;    ///< until a third (1/e) of it is left
+      0.0;  ///< maximum error of a time-of-flight scanner due to the phase of its light
+  double wiggling_period_m = 0.75;  ///< in range; for four images at 50 MHz
+  double warm_up_m = 0.0;           ///< depth offset of a scanner when it is switched on
+  double warm_up_time_s = 900.0;    ///< until it has decayed to 1/e
   int seed = 1;
 };
 
 OptionTable describe(MeasureOptions& options);
 
 enum class RecordedCalibration {
-  kTrue,     ///< where the turntable is
-  kNominal,  ///< where it was meant to be: without TablePlacement
+  kTrue,     ///< the turntable's true pose
+  kNominal,  ///< its nominal pose: without TablePlacement
   kNone      ///< neither turntable nor poses
 };
 
-/// What the recording says beside the frames.
+/// What the recording contains besides the frames.
 struct RecordOptions {
   RecordedCalibration calibration = RecordedCalibration::kTrue;
   bool angles = true;
@@ -72,15 +72,15 @@ struct VirtualScanOptions {
   MeasureOptions measure;
   RecordOptions record;
   ColorCameraOptions color_camera;
-  std::uint32_t first_instant = 0;  ///< of the random numbers; see VirtualPasses
+  std::uint32_t first_instant = 0;  ///< for the random numbers; see VirtualPasses
 };
 
-/// Fails with kInvalidOption when an option is out of range, or there are no or more than 64
-/// scanners. Those of the motion and of the noise are left to those who use them.
+/// Fails with kInvalidOption if an option is out of range, or there are no or more than 64
+/// scanners. Options of the motion and of the noise are checked by their users.
 Result<> check(const VirtualScanOptions& options);
 
-/// The same when something is to happen only after the end of the recording, or the exposure is
-/// longer than from frame to frame.
+/// The same if an event is after the end of the recording, or the exposure is longer than the frame
+/// interval.
 Result<> check_moments(const VirtualScanOptions& options, double end_s);
 
 }  // namespace turnscan

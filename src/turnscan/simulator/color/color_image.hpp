@@ -1,5 +1,5 @@
 #pragma once
-// What the colour camera of a virtual depth camera takes.
+// Images of the colour camera of a virtual depth camera.
 
 #include <span>
 #include <turnscan/core/image.hpp>
@@ -9,7 +9,7 @@
 
 namespace turnscan::sampling {
 
-/// sRGB of a place on a mesh: its texture's, its vertices', or grey.
+/// sRGB of a point on a mesh: from its texture, its vertices, or grey.
 Vec3f surface_color(const TriangleMesh& mesh, std::uint32_t triangle, float u, float v);
 /// sRGB of the platter.
 Vec3f platter_color();
@@ -21,12 +21,12 @@ class ColorCamera {
   static Result<ColorCamera> create(const ColorCameraOptions& options,
                                     std::vector<std::span<const TriangleMesh>> meshes);
 
-  /// Of things at one moment, in linear light, without exposure and noise; 2 x 2 samples a pixel.
-  /// Lamp and shadows stand in the world.
+  /// Linear light at one moment, without exposure and noise; 2 x 2 samples per pixel. Lamp and
+  /// shadows are fixed in the world.
   Image<Vec3f> light(std::span<const Body> bodies, const Pose& T_world_sensor) const;
 
-  /// The image that the camera gives: exposure and white balance of the frame, vignetting, sRGB,
-  /// noise. key: of the frame's random numbers.
+  /// The resulting image: exposure and white balance of the frame, vignetting, sRGB, noise. key: of
+  /// the frame's random numbers.
   ColorImage exposed(const Image<Vec3f>& light, std::uint64_t key) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// sRGB and noise of millions of pixels: looked up, since powers and logarithms would take longer
-// than all else of an image.
+// sRGB and noise of millions of pixels from lookup tables, since powers and logarithms would
+// dominate the time of an image.
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace turnscan::sampling {
 
-/// IEC 61966-2-1, to a hundredth of a level.
+/// IEC 61966-2-1, accurate to a hundredth of a level.
 class SrgbCurve {
  public:
   static const SrgbCurve& instance();
 
-  /// 0 to 255 to light in [0, 1]. Precondition: within these.
+  /// 0 to 255 to light in [0, 1]. Precondition: within this range.
   float linear(float srgb) const {
     const float at = srgb * kStepsPerLevel;
     const int i = std::min(int(at), kLevels - 1);
@@ -23,7 +23,7 @@ class SrgbCurve {
   Vec3f linear(const Vec3f& srgb) const {
     return {linear(srgb.x()), linear(srgb.y()), linear(srgb.z())};
   }
-  /// The inverse; what is below 0 is 0, and light beyond 1 goes on beyond 255.
+  /// The inverse; negative light gives 0, and light above 1 continues above 255.
   float srgb(float linear) const {
     if (!(linear > 0.0f)) return 0.0f;
     if (linear >= 1.0f) return beyond(linear);
@@ -43,12 +43,12 @@ class SrgbCurve {
   std::array<float, std::size_t(kLights) + 1> srgb_;
 };
 
-/// Normally distributed: 4096 values, each as likely as the others. Enough for noise that is
-/// rounded to levels of an image.
+/// Normally distributed: 4096 equally likely values, sufficient for noise that is rounded to levels
+/// of an image.
 class NoiseTable {
  public:
   static const NoiseTable& instance();
-  /// By the lowest 12 bits.
+  /// Selects a value by the lowest 12 bits.
   float operator()(std::uint64_t bits) const { return values_[bits & (kValues - 1)]; }
   static constexpr int kBits = 12;
 

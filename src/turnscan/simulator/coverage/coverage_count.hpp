@@ -6,18 +6,18 @@
 namespace turnscan::coverage {
 
 struct CoverageJob {
-  std::vector<CoveragePass> passes;  ///< the first one, too
+  std::vector<CoveragePass> passes;  ///< including the first one
   std::span<const ScannerModel> scanners;
   std::span<const CoveragePose> poses;
   const CoverageMapOptions& options;
   const Scene* room = nullptr;
 };
 
-/// Fills samples, views, best incidence and sigma of patches and cells from the frames' samples.
+/// Sets samples, views, best incidence and sigma of patches and cells from the frames' samples.
 Result<std::uint64_t> count_samples(const CoverageJob& job, CoveragePatches& surface,
                                     const RunContext& context);
 
-/// Fills state and reason of the cells.
+/// Sets state and reason of the cells.
 Result<> explain_cells(const CoverageJob& job, CoveragePatches& surface, const RunContext& context);
 
 }  // namespace turnscan::coverage

@@ -1,5 +1,5 @@
 #pragma once
-// The surface of objects cut into patches and gathered into cells.
+// The surface of objects divided into patches and grouped into cells.
 
 #include <turnscan/simulator/coverage/coverage_map.hpp>
 
@@ -8,12 +8,12 @@ namespace turnscan::coverage {
 /// Faces larger than a cell are halved at their longest edge until they are not.
 class CoveragePatches {
  public:
-  /// Cuts; enlarges cell_m when there would be too many patches.
+  /// Divides the surface; enlarges cell_m if there would be too many patches.
   CoveragePatches(std::span<const TriangleMesh> objects, double cell_m);
 
   std::vector<CoveragePatch> patches;
   std::vector<CoverageCell> cells;     ///< area and centre are set
-  std::vector<std::uint32_t> largest;  ///< patch of each cell
+  std::vector<std::uint32_t> largest;  ///< largest patch of each cell
   double cell_m;
 
   bool has(std::uint32_t object, std::uint32_t triangle) const {
@@ -27,7 +27,7 @@ class CoveragePatches {
   std::uint8_t albedo_step(std::uint32_t object, std::uint32_t triangle) const {
     return albedo_[first_[object] + triangle];
   }
-  /// The patch at a point of a face.
+  /// The patch that contains a point of a face.
   std::uint32_t patch_at(std::uint32_t object, std::uint32_t triangle, const Vec3f& p) const;
 
   static constexpr int kAlbedoSteps = 16;
@@ -36,7 +36,7 @@ class CoveragePatches {
   using CellKey = std::array<std::int64_t, 4>;
 
  private:
-  /// An edge that is halved: of the children the first has the edge's first corner.
+  /// A halved edge: the first child contains the edge's first corner.
   struct Node {
     int edge;
     std::array<std::int32_t, 2> child;  ///< a patch, or ~node
@@ -49,8 +49,9 @@ class CoveragePatches {
   std::vector<std::uint32_t> place_by_key(std::vector<CellKey>& keys,
                                           std::vector<double>& areas) const;
 
-  std::vector<std::size_t> first_;   ///< face of each object in roots_, and the end
-  std::vector<std::int32_t> roots_;  ///< of each face: a patch, or ~node
+  std::vector<std::size_t> first_;   ///< index in roots_ of the first face of each object, and the
+                                     ///< end
+  std::vector<std::int32_t> roots_;  ///< per face: a patch, or ~node
   std::vector<Vec3f> normals_;
   std::vector<std::uint8_t> albedo_;
   std::vector<Node> nodes_;

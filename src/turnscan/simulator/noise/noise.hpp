@@ -1,5 +1,5 @@
 #pragma once
-// Makes of what a scanner ought to see what it measures.
+// Converts the ideal samples of a scanner to measurements.
 
 #include <cstdint>
 #include <functional>
@@ -27,88 +27,88 @@ inline constexpr double kMaxFattening_px = 15.0;
 
 struct NoiseOptions {
   NoiseKind kind = NoiseKind::kNone;
-  double sigma_m = 0.0;  ///< of kGaussian
-  /// kNone and kGaussian only. Share of the silhouette's pixels (0 to 1) that lie anywhere between
-  /// the edge and what is behind it, at most mixed_reach behind the edge: a caricature of mixed
-  /// pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
+  double sigma_m = 0.0;  ///< for kGaussian
+  /// kNone and kGaussian only. Share of the silhouette's pixels (0 to 1) that are placed randomly
+  /// between the edge and the background, at most mixed_reach behind the edge: a simplified model
+  /// of mixed pixels that needs no rays. kModel and kPhysics mix what the pixel really sees.
   double mixed_pixels = 0.0;
   double mixed_reach_m = 0.08;
-  /// Of scanners that match patterns (structured light, stereo). kModel: side of the window whose
-  /// pixels make one disparity, so that errors of neighbours are alike. All kinds: by how many
-  /// pixels the foreground grows over its edges.
+  /// For scanners that match patterns (structured light, stereo). kModel: side of the window whose
+  /// pixels determine one disparity, so that errors of neighbours are correlated. All kinds: number
+  /// of pixels by which the foreground grows over its edges.
   int window_px = 1;
   double edge_fattening_px = 0.0;
-  /// Of time-of-flight scanners: half the light's path is wrong by wiggling * sin(2 pi * half path
-  /// / period).
+  /// For time-of-flight scanners: the error of half the light's path is wiggling * sin(2 pi * half
+  /// path / period).
   double wiggling_m = 0.0;
   double wiggling_period_m = 1.0;
 };
 
-/// A pixel that sees something, one of whose four neighbours sees nothing or something farther by
-/// more than this, is a pixel of the silhouette. Two neighbours on the platter never are.
+/// A pixel with a hit is a silhouette pixel if one of its four neighbours has none, or one farther
+/// away by more than this. Two neighbours on the platter never are.
 inline constexpr double kSilhouetteStep_m = 0.02;
 
 /// "none", "gaussian:SIGMA" (SIGMA a length up to 1 m), "model" or "physics". Fails with
 /// kInvalidOption.
 Result<NoiseOptions> parse_noise_options(std::string_view text);
 
-/// Share of the scanner's light, 0 to 1, that a triangle of an object of a body sends back.
+/// Share of the scanner's light, 0 to 1, that a triangle of an object of a body reflects.
 using Albedo =
     std::function<float(std::uint32_t body, std::uint32_t object, std::uint32_t triangle)>;
-inline constexpr double kDefaultAlbedo = 0.8;  ///< of what has no colour
+inline constexpr double kDefaultAlbedo = 0.8;  ///< of surface without colour
 
-/// Of each triangle, from the colours of its corners (linear, green and red as the eye weighs
-/// them); empty when the mesh has none.
+/// Albedo of each triangle: mean luminance of its corners' colours (linear light); empty if the
+/// mesh has none.
 std::vector<float> triangle_albedos(const TriangleMesh& mesh);
 
-/// What a scanner sees at one moment of an exposure.
+/// State of the scene and the scanner at one moment of an exposure.
 struct SensorMoment {
   std::vector<Body> bodies;
   Pose T_world_sensor = Pose::Identity();
-  SampleGrid exact;  ///< as of SampleTracer::trace
+  SampleGrid exact;  ///< as from SampleTracer::trace
 };
-/// Moments of an exposure, evenly spread. As many as a Kinect v2 takes images for one frame.
+/// Moments of an exposure, evenly spaced. As many as a Kinect v2 takes images for one frame.
 inline constexpr std::size_t kExposureMoments = 9;
 
-/// From where a frame was taken, of what. All must outlive the call it is passed to.
+/// Viewpoint and scene of a frame. All references must outlive the call it is passed to.
 struct SensorView {
   const SampleTracer& tracer;
   std::span<const Body> bodies;
   const Pose& T_world_sensor;
   const Albedo* albedo = nullptr;  ///< nullptr: kDefaultAlbedo everywhere
-  /// None: an instant. Else kExposureMoments; bodies, pose and exact samples are those of the one
-  /// in the middle.
+  /// Empty: instantaneous. Else kExposureMoments; bodies, pose and exact samples are those of the
+  /// middle one.
   std::span<const SensorMoment> moments = {};
   double too_far_m = 0.0;  ///< added to each depth
 };
 
-/// What a scanner measured of one view: arrays over the rectangle of the exact samples, row by row.
+/// Measurements of one view: arrays over the rectangle of the exact samples, row by row.
 struct MeasuredGrid {
   PixelRect rect;
   std::vector<float> z;        ///< along the optical axis, metres; 0: no return
   std::vector<Miss> miss;      ///< kNone where z > 0
-  std::vector<float> sigma_m;  ///< predicted, along z; on request; 0 where nothing is predicted
+  std::vector<float> sigma_m;  ///< predicted, along z; on request; 0 if nothing is predicted
 };
 
-/// Immutable; apply() may be called from several threads at once. A value depends on the scanner,
-/// the options and (seed, scanner index, frame, pixel) alone; speckle on the seed, the point of the
-/// surface and the direction to the camera.
+/// Immutable; apply() may be called from several threads at once. A value depends only on the
+/// scanner, the options and (seed, scanner index, frame, pixel); speckle on the seed, the point of
+/// the surface and the direction to the camera.
 class SensorNoise {
  public:
-  /// Fails with kInvalidOption when an option or a number of the model is out of range, or when
-  /// physics is asked of a scanner that has none or lacks what it needs.
+  /// Fails with kInvalidOption if an option or a parameter of the model is out of range, or if
+  /// physics is requested for a scanner that has no such model or lacks its parameters.
   static Result<SensorNoise> create(const ScannerModel& model, const NoiseOptions& options,
                                     std::uint64_t seed, std::uint32_t scanner_index);
   SensorNoise(SensorNoise&&) noexcept;
   SensorNoise& operator=(SensorNoise&&) noexcept;
   ~SensorNoise();
 
-  /// exact: of view.tracer.trace(view.bodies, view.T_world_sensor), of the same scanner. Mixed
+  /// exact: from view.tracer.trace(view.bodies, view.T_world_sensor), of the same scanner. Mixed
   /// pixels and laser lines trace more rays. measured is overwritten, on the calling thread.
   void apply(const SensorView& view, const SampleGrid& exact, std::uint32_t frame,
              MeasuredGrid& measured, bool with_sigma = false) const;
 
-  /// One sigma along z of a single sample (see noise_model.hpp); NaN where none is to be expected.
+  /// One sigma along z of a single sample (see noise_model.hpp); NaN if none is expected.
   double predicted_sigma_m(double z_m, double incidence_rad, double albedo = kDefaultAlbedo) const;
 
  private:
@@ -117,8 +117,9 @@ class SensorNoise {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// f * b of a scanner, pixel * metres: of the camera's fx and the distance of its eyes; of a laser
-/// line, of its own camera and the receiver's distance from the sheet of light. 0 with one eye.
+/// f * b of a scanner, pixel * metres: from the camera's fx and the distance of its eyes; for a
+/// laser line, from its own camera and the receiver's distance from the light sheet. 0 with one
+/// eye.
 double focal_baseline(const ScannerModel& model);
 
 }  // namespace turnscan

@@ -1,5 +1,5 @@
 #pragma once
-// The ways to make noise, and what they share.
+// The implementations of the noise kinds, and their common parts.
 
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/random.hpp>
@@ -11,7 +11,7 @@ namespace turnscan::noise {
 
 inline constexpr int kMixedPixelRays = 4;  ///< rows and columns of rays through a mixed pixel
 
-/// What does not change from frame to frame.
+/// Data that do not change from frame to frame.
 struct Setup {
   ScannerModel model;
   NoiseOptions options;
@@ -31,16 +31,16 @@ struct Job {
   const SensorView& view;
   const SampleGrid& exact;
   std::uint32_t frame;
-  MeasuredGrid& out;  ///< sized; z and miss as if nothing were seen
+  MeasuredGrid& out;  ///< sized; z and miss are initialised to no hit
 
-  /// Of random numbers for one purpose.
+  /// Seed of the random numbers for one purpose.
   std::uint64_t seed_of(std::uint64_t purpose) const {
     return hash_key(setup.seed, setup.scanner, frame, purpose);
   }
   Key key_of(std::uint64_t purpose) const;
 };
 
-/// How surfaces lie to the line of sight, and what they send back.
+/// Orientation of surfaces to the line of sight, and their albedo.
 class Surfaces {
  public:
   explicit Surfaces(const SensorView& view);
@@ -56,48 +56,49 @@ class Surfaces {
   std::vector<Eigen::Matrix3d> R_sensor_body_;
 };
 
-/// Which samples count, as an array of 0 and 1.
+/// Flags of the samples that count, as an array of 0 and 1.
 using Mask = std::vector<std::uint8_t>;
 
-/// Where what a pixel sees may not be a plane: next to one that sees nothing (by counts), or where
-/// depth bends by more than kBend_m within three pixels; and all within radius pixels of such.
+/// Pixels whose surface may not be planar: next to one without a hit (by counts), or where depth
+/// bends by more than kBend_m within three pixels; and all within radius pixels of such.
 Mask steps_of(const SampleGrid& exact, const Mask& counts, int radius);
 inline constexpr float kBend_m = 0.002f;
 
 /// Rays within pixels, traced together.
 struct SubSamples {
-  std::vector<std::uint32_t> index;  ///< position in the grid, of each pixel
-  std::vector<float> x, y;           ///< directions, `each` a pixel
+  std::vector<std::uint32_t> index;  ///< index in the grid, per pixel
+  std::vector<float> x, y;           ///< directions, `each` per pixel
   Samples samples;
   std::size_t each = 1;
 
-  /// side x side rays over a square of footprint_px about the pixel's centre moved by (du, dv).
+  /// Adds side x side rays over a square of footprint_px about the pixel's centre shifted by (du,
+  /// dv).
   void add(const Setup& setup, int column, int row, std::size_t index_in_grid, int side,
            double footprint_px, double du, double dv);
 };
 
-/// One sigma for all; with NoiseOptions::mixed_pixels the caricature of a silhouette.
+/// One sigma for all; with NoiseOptions::mixed_pixels the simplified model of a silhouette.
 void apply_gaussian(Job& job);
 /// The formulae of NoiseModel.
 void apply_formulae(Job& job);
-/// Takes out what a matcher of dots would not find (NoiseModel::window_px).
+/// Removes samples that a dot matcher would not find (NoiseModel::window_px).
 void match_windows(Job& job);
 /// Kinect v2.
 void apply_time_of_flight(Job& job);
 void apply_laser_line(Job& job);
-/// Blurs what was measured in the middle of an exposure over its moments.
+/// Blurs the measurement of the middle of an exposure over its moments.
 void blur(Job& job);
 bool matches_patterns(const ScannerModel& model);
 /// Lets the foreground grow over its edges.
 void fatten_edges(Job& job);
 /// Standard normals over the exact samples' rectangle, each the sum over a window about its pixel:
-/// pixels dx and dy apart correlate by the share of their windows that overlaps.
+/// the correlation of pixels dx and dy apart is the overlapping share of their windows.
 std::vector<float> window_normals(const Job& job, std::uint64_t purpose);
-/// Adds what is no noise: wiggling, and the view's too_far_m.
+/// Adds the systematic errors: wiggling, and the view's too_far_m.
 void add_systematic(Job& job);
 /// Fills out.sigma_m.
 void predict(Job& job);
-/// One sigma along z; NaN where none is to be expected.
+/// One sigma along z; NaN if none is expected.
 double predicted_sigma_m(const Setup& setup, double z_m, double incidence_rad, double albedo);
 
 }  // namespace turnscan::noise

@@ -1,5 +1,5 @@
 #pragma once
-// How far a reconstruction is expected to lie from the surface at a spot.
+// Expected error of a reconstruction at a spot of the surface.
 
 #include <turnscan/simulator/planning/turn_view.hpp>
 
@@ -11,13 +11,13 @@ namespace turnscan::planning {
 ///   s = sigma / sqrt(n)
 ///
 /// sigma: of a sample along its ray, the mean of all frames by information; n: frames that see it,
-/// each weighted by the cosine of its incidence; d: distance of samples on the object; r(d): how
-/// far the surface lies from its mean within d, which a grid of samples cannot show; r6: within 6
-/// mm, which is large on thin parts, of which a surface that noise has smoothed loses more. The
-/// form is that of reconstruction/quality (noise averaged, a floor that frames do not average out,
-/// blur). The factors are our own, fitted to the median errors of 82 simulated scans and their
-/// reconstructions (bench/plan_bench model and choices; docs/plan.md has how far they hold, also
-/// for other objects).
+/// each weighted by the cosine of its incidence; d: distance of samples on the object; r(d):
+/// deviation of the surface from its mean within d, which a grid of samples cannot resolve; r6:
+/// within 6 mm, which is large on thin parts, where smoothing against noise loses more of the
+/// surface. The form is that of reconstruction/quality (averaged noise, a floor that frames do not
+/// average out, blur). The factors are fitted to the median errors of 82 simulated scans and their
+/// reconstructions (bench/plan_bench model and choices; docs/plan.md tells how well they
+/// generalise, also to other objects).
 struct ErrorModel {
   static constexpr std::size_t kParts = 5;
   std::array<double, kParts> factors{0.193, 0.018, 0.041, 0.46, 0.294};
@@ -26,7 +26,7 @@ struct ErrorModel {
   double at(const Spot& spot, const SpotSight& sight) const;
 };
 
-/// The parts of the formula without their factors, in its order; metres.
+/// The terms of the formula without their factors, in its order; metres.
 std::array<double, ErrorModel::kParts> error_parts(const Spot& spot, const SpotSight& sight);
 
 }  // namespace turnscan::planning

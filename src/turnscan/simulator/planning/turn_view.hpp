@@ -1,5 +1,5 @@
 #pragma once
-// What one turn in front of a sensor shows of the spots of a surface, and how well.
+// What one turn in front of a sensor shows of the spots of a surface, and with which accuracy.
 
 #include <span>
 #include <turnscan/geometry/rays/scene.hpp>
@@ -10,12 +10,12 @@
 
 namespace turnscan::planning {
 
-/// Predicted sigma of a scanner's samples at steps of distance, incidence and albedo.
+/// Predicted sigma of a scanner's samples, tabulated over distance, incidence and albedo.
 class SigmaSteps {
  public:
-  /// noise: as `--noise`. Fails as parse_noise_options() and SensorNoise::create().
+  /// noise: as for `--noise`. Fails as parse_noise_options() and SensorNoise::create().
   static Result<SigmaSteps> create(const ScannerModel& model, const NoiseOptions& noise);
-  /// Along z; NaN where nothing returns.
+  /// Along z; NaN if nothing returns.
   float at(float z_m, float cosine, std::uint8_t albedo_step) const;
 
  private:
@@ -28,34 +28,34 @@ class SigmaSteps {
 struct TurnView {
   const ScannerModel* model = nullptr;
   const SigmaSteps* sigma = nullptr;
-  const Scene* scene = nullptr;  ///< object and platter as the object lies; table frame, angle 0
-  Pose T_table_surface = Pose::Identity();  ///< takes spots to that frame
-  std::span<const Pose> T_table_sensor;     ///< of directions of the turn
-  double frames_per_direction = 1.0;        ///< how many frames each stands for
+  const Scene* scene = nullptr;  ///< object and platter in this pose; table frame, angle 0
+  Pose T_table_surface = Pose::Identity();  ///< maps spots to that frame
+  std::span<const Pose> T_table_sensor;     ///< for the directions of the turn
+  double frames_per_direction = 1.0;        ///< number of frames that each represents
 };
 
-/// What a turn shows of a spot. Sums over the frames that see it.
+/// Observation of a spot during a turn. Sums over the frames that see it.
 struct SpotSight {
-  float missed = 1.0f;    ///< chance that no sample of any frame falls on the cell
-  float cosines = 0.0f;   ///< of the incidence: frames, each as seen from the front
+  float missed = 1.0f;    ///< probability that no sample of any frame falls on the cell
+  float cosines = 0.0f;   ///< of the incidence: equivalent number of frontal frames
   float weights = 0.0f;   ///< cosine / sigma^2, 1/m^2
-  float steps_m2 = 0.0f;  ///< squared distance of samples at the object, times cosine
+  float steps_m2 = 0.0f;  ///< squared distance of samples on the object, times cosine
 
-  /// That the coverage map counts the cell.
+  /// Probability that the coverage map counts the cell.
   float chance() const { return 1.0f - missed; }
   bool seen() const { return missed < 0.5f; }
   SpotSight& operator+=(const SpotSight& o);
 };
 
-/// One entry a spot. A spot is tried at its middle; where that shows nothing, at its further
-/// points, each of which stands for its part of the cell. As of SampleTracer, a sample counts when
-/// it is in view, in range, flat by no more than the scanner's largest incidence, and seen by both
-/// eyes; it has to have a sigma, too. Samples of a frame lie on a grid, at random to the cell: a
-/// cell on which h of them are to be expected gets none with the chance max(0, 1 - h).
+/// One entry per spot. A spot is tested at its middle; if that is not seen, at its further points,
+/// each of which represents its part of the cell. As in SampleTracer, a sample counts if it is in
+/// view, in range, within the scanner's largest incidence, and seen by both eyes; it must also have
+/// a sigma. Samples of a frame lie on a grid at a random offset to the cell: a cell with an
+/// expected number h of samples gets none with the probability max(0, 1 - h).
 std::vector<SpotSight> turn_sights(const PlanSurface& surface, const TurnView& view);
 
-/// One entry a frame: where the sensor is seen from the table as that turns, of at most `most`
-/// frames, evenly spread. T_world_sensor as of scanner_pose().
+/// Poses of the sensor relative to the turning table, one per frame, for at most `most` frames,
+/// evenly spread. T_world_sensor as from scanner_pose().
 std::vector<Pose> turn_directions(std::span<const double> angles_rad, const Pose& T_world_table,
                                   const Pose& T_world_sensor, std::size_t most);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes in their light, row by row of a picture.
+// Renders lit meshes row by row.
 
 #include <span>
 #include <turnscan/geometry/rays/scene.hpp>
@@ -10,7 +10,7 @@
 
 namespace turnscan::rendering {
 
-/// Meshes made ready for any number of pictures; refers to them.
+/// Meshes prepared for any number of pictures; refers to them.
 struct Subject {
   Scene scene;
   std::vector<PictureSurface> surfaces;
@@ -26,11 +26,12 @@ struct ViewSetup {
   Vec3f to_light;
 };
 
-/// The key light, from the upper left of who looks from that azimuth.
+/// The key light, from the upper left of a viewer at that azimuth.
 Vec3f light_for(double azimuth_rad);
 
-/// Paints a view of options.width columns into the image, from first_column on. view: of the random
-/// numbers of its soft shadows. Progress counts rows; a cancelled view is left unfinished.
+/// Renders a view of options.width columns into the image, starting at first_column. view: selects
+/// the random numbers of its soft shadows. Progress counts rows; a cancelled view is left
+/// incomplete.
 void paint_view(const Subject& subject, const PictureOptions& options, const ViewSetup& setup,
                 int view, std::size_t first_column, ColorImage& image, const RunContext& context);
 

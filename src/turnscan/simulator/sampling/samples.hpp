@@ -1,6 +1,6 @@
 #pragma once
-// What a scanner's samples see, without noise: of every sample the hit, and if it does not count,
-// why. A sample counts when its ray meets a surface within the scanner's range and the scanner's
+// Ideal samples of a scanner, without noise: the hit of every sample, and the reason if it does not
+// count. A sample counts if its ray hits a surface within the scanner's range and the scanner's
 // other eye sees the same side of the surface there.
 
 #include <cstdint>
@@ -13,27 +13,27 @@
 
 namespace turnscan {
 
-/// Why a sample (or, of coverage, a part of a surface) is missing. The tracer gives the first that
-/// holds of kOutOfView, kNothing, kTooNear, kTooFar, kGrazing, and last that the other eye is
-/// blocked; noise adds the last two.
+/// Why a sample (or, for coverage, a part of a surface) is missing. The tracer gives the first that
+/// applies of kOutOfView, kNothing, kTooNear, kTooFar, kGrazing, and lastly occlusion from the
+/// other eye; noise adds the last two.
 enum class Miss : std::uint8_t {
-  kNone,             ///< it counts
+  kNone,             ///< the sample counts
   kNothing,          ///< the ray hits nothing
-  kTooNear,          ///< what the ray meets is nearer than near_m
-  kTooFar,           ///< what the ray meets is farther than far_m
-  kOutOfView,        ///< outside the image, or no ray belongs to that image point
+  kTooNear,          ///< the surface hit is nearer than near_m
+  kTooFar,           ///< the surface hit is farther than far_m
+  kOutOfView,        ///< outside the image, or no ray corresponds to that image point
   kEmitterBlocked,   ///< the receiver sees it, the emitter does not
   kReceiverBlocked,  ///< the emitter sees it, the receiver does not
-  kGrazing,          ///< the ray is too flat to the surface
+  kGrazing,          ///< the incidence angle is too large
   kTooDark,          ///< too little light returns
-  kRejected          ///< the sensor's own filters took it out
+  kRejected          ///< removed by the sensor's own filters
 };
 inline constexpr int kMissCount = 10;
 
 /// Lower case with hyphens: "emitter-blocked".
 std::string_view name_of(Miss miss);
 
-/// A rigid group of things and where it is. The scene must outlive the call it is passed to.
+/// A rigid group of objects and its pose. The scene must outlive the call it is passed to.
 struct Body {
   const Scene* scene = nullptr;
   Pose T_world_body = Pose::Identity();
@@ -49,8 +49,8 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
-/// Samples as parallel arrays. z, surface and triangle tell of whatever the ray meets, also when
-/// the sample does not count.
+/// Samples as parallel arrays. z, surface and triangle describe whatever the ray hits, even if the
+/// sample does not count.
 struct Samples {
   static constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
@@ -62,7 +62,7 @@ struct Samples {
   std::size_t size() const { return z.size(); }
   bool counts(std::size_t i) const { return miss[i] == Miss::kNone; }
   bool hit(std::size_t i) const { return surface[i] != kNoSurface; }
-  /// Position in the bodies traced. Precondition: hit(i).
+  /// Index in the bodies traced. Precondition: hit(i).
   std::uint32_t body(std::size_t i) const { return surface[i] >> 24; }
   /// As RayHit::object. Precondition: hit(i).
   std::uint32_t object(std::size_t i) const {
@@ -72,7 +72,7 @@ struct Samples {
   void resize(std::size_t n);
 };
 
-/// The samples of an image within rect, row by row; those around it see nothing (kNothing).
+/// The samples of an image within rect, row by row; those outside it see nothing (kNothing).
 struct SampleGrid : Samples {
   int width = 0, height = 0;  ///< of the whole image
   PixelRect rect;
@@ -87,30 +87,32 @@ struct SampleGrid : Samples {
   }
 };
 
-/// Where and how a sample meets its surface, computed in double from the triangle itself.
+/// Geometry of a sample on its surface, computed in double from the triangle itself.
 struct SampleHit {
   Vec3d p_sensor = Vec3d::Zero();
   Vec3d p_body = Vec3d::Zero();
   Vec3d normal_body = Vec3d::Zero();  ///< unit, by the triangle's winding; platter: +Y
-  bool back = false;                  ///< the ray meets the side that the normal turns away from
+  bool back = false;                  ///< the ray hits the side opposite to the normal
   double incidence_rad = 0.0;         ///< between ray and surface normal, [0, pi/2]
   double other_incidence_rad = 0.0;   ///< the same for the other eye
   double u = 0.0, v = 0.0;            ///< barycentric, as RayHit
 };
 
 enum class OcclusionMethod {
-  /// A ray to the other eye only from those samples of an image that something in it could hide.
-  /// Nothing is taken to hide a sample that is itself thinner than the distance of two samples.
-  /// For images whose other eye lies along their rows or columns, and without distortion.
+  /// Traces a ray to the other eye only from those samples of an image that something in it could
+  /// occlude. Occluders thinner than the distance of two samples are ignored. For images whose
+  /// other eye is displaced along their rows or columns, and without distortion.
   kDoubtful,
   kAllRays  ///< from every sample
 };
 
 enum class HitMethod {
-  kCheapest,  ///< as seems cheaper for the pose, by the triangles for each pixel
+  kCheapest,  ///< whichever is expected to be cheaper for the pose, by the number of triangles per
+              ///< pixel
   kRays,      ///< a ray through every pixel
-  /// The triangles are drawn; a lens with distortion gets rays all the same. The same triangle, and
-  /// with it the same depth to the last bit, but where a ray meets an edge within rounding.
+  /// Rasterises the triangles; a lens with distortion gets rays nevertheless. Gives the same
+  /// triangle, and thus the same depth to the last bit, except where a ray hits an edge within
+  /// rounding.
   kDrawn
 };
 
@@ -130,22 +132,22 @@ class SampleTracer {
 
   const ScannerModel& model() const;
 
-  /// The samples of the whole image, on the calling thread; out's memory is used again. The rect
-  /// holds all pixels that may see a body. Occlusion ends 2^-20 of the distances concerned before
-  /// the surface (about 2 um at 1 m), so that rounding blocks nothing. Throws
-  /// std::invalid_argument when there are more than kMaxBodies bodies or one has no scene.
+  /// The samples of the whole image, on the calling thread; out's memory is reused. The rect
+  /// contains all pixels that may see a body. Occlusion ends 2^-20 of the distances concerned
+  /// before the surface (about 2 um at 1 m), so that rounding occludes nothing. Throws
+  /// std::invalid_argument if there are more than kMaxBodies bodies or one has no scene.
   void trace(std::span<const Body> bodies, const Pose& T_world_sensor, SampleGrid& out) const;
 
   /// The samples of rays in the directions (x[i], y[i], 1) from the sensor's origin, NaN for none
   /// (kOutOfView). Neighbours in the list should be neighbours in space: 16 are traced together.
-  /// Throws also when x and y differ in length.
+  /// Also throws if x and y differ in length.
   void trace(std::span<const Body> bodies, const Pose& T_world_sensor, std::span<const float> x,
              std::span<const float> y, Samples& out) const;
 
-  /// Direction with z = 1 of the ray through an image point; NaN where there is none.
+  /// Direction with z = 1 of the ray through an image point; NaN if there is none.
   Vec3d direction(double u, double v) const;
 
-  /// Of a sample with a hit, seen in the direction given (z = 1).
+  /// Details of a sample with a hit, seen in the given direction (z = 1).
   SampleHit hit_of(std::span<const Body> bodies, const Pose& T_world_sensor, const Samples& samples,
                    std::size_t i, const Vec3d& direction) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// An object that moves on the platter while it turns: pushed, turned, tipped.
+// A motion of the object on the turning platter: pushed, rotated, tipped.
 
 #include <span>
 #include <turnscan/core/option_table.hpp>
@@ -20,9 +20,9 @@ struct ObjectMove {
 
 OptionTable describe(ObjectMove& move);
 
-/// Takes the objects from where they stood at first to where they stand then; both in the frame of
-/// the platter, whose azimuth 0 is -Z. They turn about the vertical through the middle of their
-/// box, tip to the direction, and stand with their lowest point as high as before.
+/// Maps the objects from their initial to their final position; both in the frame of the platter,
+/// whose azimuth 0 is -Z. They rotate about the vertical through the centre of their bounding box,
+/// tip towards the direction, and stand with their lowest point at the same height as before.
 Pose moved_objects(const ObjectMove& move, std::span<const TriangleMesh> objects);
 
 }  // namespace turnscan

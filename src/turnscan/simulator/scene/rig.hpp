@@ -1,6 +1,6 @@
 #pragma once
-// Where scanners and turntable stand. The world's frame: origin at the place meant for the centre
-// of the platter's surface, +Y against gravity.
+// Poses of scanners and turntable. The world's frame: origin at the nominal centre of the platter's
+// surface, +Y against gravity.
 
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/option_table.hpp>
@@ -9,13 +9,13 @@ namespace turnscan {
 
 enum class TravelAlong {
   kAxis,   ///< up along the turntable's axis
-  kAcross  ///< sideways, to the scanner's right while it is not rolled
+  kAcross  ///< sideways, to the scanner's right without roll
 };
 
-/// Somebody runs into a scanner, and it stays as it is then.
+/// Somebody bumps into a scanner, which stays displaced.
 struct ScannerKnock {
   double at_s = 0.0;           ///< since the first frame
-  double shift_m = 0.0;        ///< across its view
+  double shift_m = 0.0;        ///< across its viewing direction
   double direction_rad = 0.0;  ///< of the shift: 0 to its right, 90 deg up
   double pan_rad = 0.0;        ///< to its right
   double tilt_rad = 0.0;       ///< up
@@ -27,7 +27,7 @@ struct ScannerPlacement {
   double distance_m = 0.9;                     ///< to the point that it looks at
   double elevation_rad = 0.29670597283903605;  ///< 17 deg above the horizontal
   double azimuth_rad = 0.0;  ///< about the table, counter-clockwise seen from above; 0: on -Z
-  std::optional<double> aim_height_m;   ///< of the point it looks at; none: middle of the object
+  std::optional<double> aim_height_m;   ///< of the point it looks at; nullopt: middle of the object
   double aim_x_m = 0.0, aim_z_m = 0.0;  ///< of that point; world
   double roll_rad = 0.0;                ///< about the viewing axis, clockwise seen from behind
   double travel_m = 0.0;                ///< from its first to its last frame
@@ -40,28 +40,28 @@ OptionTable describe(ScannerPlacement& placement);
 struct TablePlacement {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< of its centre; world
   double tilt_rad = 0.0;                   ///< of its axis against the vertical
-  double tilt_direction_rad = 0.0;         ///< to where it leans, as a scanner's azimuth
+  double tilt_direction_rad = 0.0;         ///< in which it tilts, as a scanner's azimuth
 };
 
 OptionTable describe(TablePlacement& placement);
 
-/// With roll and azimuth 0 its x axis is -X of the world. travelled is the share of its travel that
-/// is behind it, 0 to 1; halfway it is where the placement says. axis: of the turntable, world.
-/// aim_height_m stands for the placement's own where that has none.
+/// Pose of a scanner. With roll and azimuth 0 its x axis is -X of the world. travelled is the
+/// completed share of its travel, 0 to 1; halfway it is at the given placement. axis: of the
+/// turntable, world. aim_height_m is used if the placement has none of its own.
 Pose scanner_pose(const ScannerPlacement& placement, double aim_height_m, double travelled,
                   const Vec3d& axis);
 
-/// Takes points from a knocked scanner to where it was before. It pans about its own y axis after
-/// it has tilted about its x axis.
+/// Maps points from a knocked scanner to its previous frame. It pans about its own y axis after it
+/// has tilted about its x axis.
 Pose knock_pose(const ScannerKnock& knock);
 
-/// T_world_table with the axis at rest, its X and Z as near to the world's as the tilt allows.
+/// T_world_table with the axis at rest, its X and Z as close to the world's as the tilt allows.
 Pose table_pose(const TablePlacement& placement);
 
 /// The rotation about the table's axis after which the table's frame is the one that axis and
-/// centre alone give to the scanner (thesis eq. 3.10: X = axis x centre in its frame), so that a
-/// calibration finds the same frame: T_world_table * rotation_about_y(yaw). 0 where the scanner
-/// stands on the axis.
+/// centre alone determine for the scanner (thesis eq. 3.10: X = axis x centre in its frame), so
+/// that a calibration finds the same frame: T_world_table * rotation_about_y(yaw). 0 if the scanner
+/// is on the axis.
 double canonical_yaw(const Pose& T_world_table, const Pose& T_world_sensor);
 
 }  // namespace turnscan
