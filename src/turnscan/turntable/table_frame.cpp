@@ -8,7 +8,7 @@ Result<Pose> table_from_sensor(const TurntableInfo& turntable) {
     return fail(ErrorCode::kFormat, "turntable: axis or centre is not finite, or the axis is zero");
   const Vec3d y = turntable.axis.normalized();
   Vec3d x = y.cross(o);
-  // A centre on the line of the axis through the sensor leaves the direction of X open.
+  // If the centre is on the line of the axis through the sensor, the direction of X is undefined.
   if (x.norm() < 1e-9 * std::max(1.0, o.norm())) {
     int farthest = 0;
     y.cwiseAbs().minCoeff(&farthest);

@@ -1,6 +1,6 @@
 #pragma once
-// Registers the passes of one object by shape alone, or tells why its shape does not determine
-// their motions.
+// Registers the passes of one object by their surfaces, or gives the reason why these do not
+// determine the motions.
 
 #include <span>
 #include <string>

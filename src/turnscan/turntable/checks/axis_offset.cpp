@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kMaxFrames = 36, kMinFrames = 4;
 constexpr double kMinTurn = kTurn / 8.0;
-// What a mesh does not forgive, and what noise that is not Gaussian makes of a right axis.
+// Offsets that are visible in a mesh, and those that non-Gaussian noise causes for a correct axis.
 constexpr double kLargestShift_m = 0.0015;
 constexpr double kLargestTilt = 0.5 * kRadiansPerDegree;
 constexpr double kSigmas = 4.0;
 
-/// Frames that were told an angle, evenly spread.
+/// Evenly spaced frames with a known angle.
 std::vector<std::size_t> placed_frames(const std::vector<double>& angle) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < angle.size(); ++i)
@@ -56,7 +56,7 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   const auto& table = sequence.header().turntable;
   if (!table)
     return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
-  // Profiles of a line scanner have nothing in common when the table has turned.
+  // Profiles of a line scanner do not overlap once the table has turned.
   const auto& sensors = sequence.header().sensors;
   if (sensors.empty() || sensors.front().kind != SensorKind::kDepthCamera) return std::nullopt;
   const auto angle = checks::recorded_angles(sequence);

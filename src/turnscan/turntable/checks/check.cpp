@@ -66,7 +66,7 @@ class RecordingCheck {
     return {};
   }
 
-  /// Still pixels: mean depth of the first tenth of the frames and of the last.
+  /// Compares the mean depth of static pixels in the first and the last tenth of the frames.
   Result<> check_drift() {
     if (sequence_.header().sensors.front().kind != SensorKind::kDepthCamera) return {};
     const auto all = spread_positions(sequence_, 0, sequence_.frames().size());
@@ -146,7 +146,7 @@ class RecordingCheck {
         good ? "" : fmt::format(", {:+.2f} % off", 100.0 * (ratio - 1.0)));
   }
 
-  /// Angles that every frame was recorded with, e.g. by an encoder, against those of the motion.
+  /// Compares the angles recorded with every frame, e.g. by an encoder, with those of the motion.
   void check_angles(const Calibration& found) {
     const auto& frames = sequence_.frames();
     const bool has_angles = std::all_of(frames.begin(), frames.end(),
@@ -158,7 +158,7 @@ class RecordingCheck {
       const double sign = recorded * found.angles_rad[i] < 0.0 ? -1.0 : 1.0;
       off.push_back(std::abs(sign * recorded - found.angles_rad[i]) * kDegreesPerRadian);
     }
-    // A plate that is seen edge on shows little of its turn: some frames may be far off.
+    // A plate seen edge on hardly shows its rotation: some frames may be far off.
     std::sort(off.begin(), off.end());
     const double most = off[off.size() * 9 / 10];
     say(rating_of(most < kAnglesWithin_deg),
@@ -167,7 +167,7 @@ class RecordingCheck {
         most);
   }
 
-  /// Slips and stops.
+  /// Checks for slips and stops.
   Result<> check_turning(const Calibration& found) {
     if (!determined(found, "angles")) {
       say(Rating::kNotKnown,

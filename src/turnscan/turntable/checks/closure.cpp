@@ -20,18 +20,21 @@ using motion::MotionFrame;
 using motion::SurfaceSample;
 
 constexpr std::size_t kMaxPairs = 6;
-/// Between frames that show nearly the same view: a wrong axis or speed moves one against the other
-/// by a tenth of what it does half a turn apart, or less.
+/// Maximum angle between frames with nearly the same view: a wrong axis or speed moves one relative
+/// to the other by at most a tenth of its effect half a turn apart.
 constexpr double kSameView = 12.0 / kDegreesPerRadian;
-constexpr double kMinLever = 0.02;  // share of a turn that the normals see; noise alone is less
-/// How many deviations of what few, noisy pairs show are taken for chance.
+constexpr double kMinLever = 0.02;  // share of a rotation visible along the normals; noise alone is
+                                    // less
+/// Number of standard deviations of few, noisy pairs that are attributed to chance.
 constexpr double kChance = 2.5;
-/// Deviation of a median of normal values over that of their mean, and over their median one.
+/// Standard deviation of a median of normal values over that of their mean, and over the median
+/// deviation.
 constexpr double kMedianOverMean = 1.25;
 
 struct TurnPair {
   std::size_t first, second;
-  std::size_t beside = 0;  ///< frame next to the first that shows the same view; the first: none
+  std::size_t beside = 0;  ///< frame next to the first, with the same view; equals the first if
+                           ///< there is none
 };
 
 std::size_t frame_beside(const FrameSequence& sequence, const std::vector<double>& angle,
@@ -72,9 +75,9 @@ struct PairClosure {
   double turn_rad, shift_m;
 };
 
-/// How far free registration moves the first frame's points from where the calibration puts them.
-/// Only what it moves along the normals counts: a plate slides in its plane and a cylinder turns
-/// about itself at no cost, and there registration finds anything.
+/// Displacement of the first frame's points by unconstrained registration from the pose of the
+/// calibration. Only the part along the normals counts: a plate slides in its plane and a cylinder
+/// rotates about itself at no cost, and there registration is arbitrary.
 std::optional<PairClosure> compare_frames(const MotionFrame& first, const MotionFrame& second,
                                           const TurntableInfo& table, double turn,
                                           const RunContext& context) {
@@ -106,7 +109,7 @@ std::optional<PairClosure> compare_frames(const MotionFrame& first, const Motion
     lever += per_radian * per_radian;
     reach += tangent.squaredNorm();
   }
-  // Of a displacement, its normals see a third of the square where they point in all directions.
+  // If normals point in all directions, they see a third of a displacement's square.
   const double shift = std::sqrt(3.0 * moved / double(points.size()));
   const bool shown = lever > kMinLever * reach;
   return PairClosure{shown ? moved_by_turn / lever : std::nan(""), shift};
@@ -116,7 +119,7 @@ struct Measured {
   double value, sigma;
 };
 
-/// The median, and its deviation from how far the values lie from it.
+/// The median, and its standard deviation from the scatter of the values about it.
 Measured median_of(std::vector<double> values) {
   const double middle = median(values);
   std::vector<double> off;
@@ -127,8 +130,8 @@ Measured median_of(std::vector<double> values) {
 
 double squared(double value) { return value * value; }
 
-/// turns, shifts: of pairs a turn apart; those of neighbours, which nothing but noise turns and
-/// shifts, tell how far chance alone moves a pair, also where the pairs are few.
+/// turns, shifts: of pairs a turn apart; those of neighbours, which only noise rotates and shifts,
+/// show how far chance alone moves a pair, even if there are few pairs.
 ClosureError closure_of(const std::vector<PairClosure>& pairs,
                         const std::vector<PairClosure>& neighbours) {
   ClosureError out;

@@ -33,7 +33,7 @@ class MotorCheck {
     state.axis = found_.table.axis;
     state.center = found_.table.center_m;
     const double first = sequence_.frames().front().time_s;
-    // A table that starts slowly has no event there.
+    // A slow start of the table is not an event.
     const double start = found_.start_s.value_or(first);
     const double steady = start > first + 0.1 ? start + 2.0 : first;
     const auto events_from = [&](double from, const std::vector<double>& expected) {
@@ -66,7 +66,7 @@ class MotorCheck {
     return load_motion(sequence_, loading, context_);
   }
 
-  /// Of the time that the recording takes, not of the motor: nullopt without times.
+  /// Speed from the duration of the recording, not from the motor: nullopt without times.
   std::optional<double> usual_speed() const {
     if (found_.table.speed_rad_s) return found_.table.speed_rad_s;
     std::vector<double> speeds;
@@ -79,7 +79,7 @@ class MotorCheck {
     return median(speeds);
   }
 
-  /// As recorded, in the direction in which the object is seen to turn.
+  /// The recorded angles, in the direction in which the object is observed to turn.
   std::vector<double> expected_angles(const MotionData& data) const {
     const auto& frames = sequence_.frames();
     const double recorded = *frames.back().angle_rad - *frames.front().angle_rad;
@@ -89,8 +89,8 @@ class MotorCheck {
     return out;
   }
 
-  /// Whether the recorded angles are those of a table that turns on while frames are taken: then
-  /// most steps have about the same speed, and a stop among them is one.
+  /// Whether the recorded angles are those of a table that turns while frames are taken: then most
+  /// steps have about the same speed, and a stop among them is an event.
   static bool turns_evenly(const MotionData& data) {
     std::vector<double> speeds;
     for (std::size_t i = 1; i < data.frames.size(); ++i)

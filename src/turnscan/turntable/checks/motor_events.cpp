@@ -13,17 +13,17 @@ using motion::MotionData;
 using motion::MotionState;
 
 constexpr double kStretchTurn = 12.0 * kRadiansPerDegree;  ///< between the frames compared
-constexpr double kReach = 70.0 * kRadiansPerDegree;        ///< that is searched, coarse to fine
+constexpr double kReach = 70.0 * kRadiansPerDegree;        ///< search range, coarse to fine
 constexpr double kCoarse = 1.5 * kRadiansPerDegree, kFine = 0.5 * kRadiansPerDegree;
-/// Of an event; and half the turn that was expected.
+/// Minimum size of an event; and half of the expected rotation.
 constexpr double kMinEvent = 5.0 * kRadiansPerDegree;
 constexpr std::size_t kPairsPerStretch = 6, kSamples = 250;
 
 struct Stretch {
   std::size_t first = 0, last = 0;  ///< frames
-  double turn = 0.0;                ///< seen
-  double least = 1.0;               ///< cost with it
-  double steepness = 0.0;           ///< how much more it is 5 degrees to either side
+  double turn = 0.0;                ///< observed rotation
+  double least = 1.0;               ///< its cost
+  double steepness = 0.0;           ///< increase of the cost 5 degrees to either side
 };
 
 class MotorEventFinder {
@@ -67,7 +67,7 @@ class MotorEventFinder {
                              : expected_[last] - expected_[first];
   }
 
-  /// Each moment lies in two of them.
+  /// Each moment is in two stretches.
   void place_stretches(double from_s, double to_s) {
     const std::size_t n = data_.frames.size();
     for (std::size_t a = 0; a + 1 < n;) {
@@ -77,7 +77,7 @@ class MotorEventFinder {
       }
       std::size_t b = a + 1;
       while (b < n && std::abs(expected(a, b)) < kStretchTurn) {
-        // Recorded angles may stand still for long.
+        // Recorded angles may be constant for long.
         if (time(b) - time(a) > 3.0 * kStretchTurn / std::max(std::abs(speed_), 1e-6)) break;
         ++b;
       }
@@ -87,7 +87,7 @@ class MotorEventFinder {
     }
   }
 
-  /// The mean over pairs of frames, begun by the stretch's first quarter, of how badly they fit.
+  /// Mean misfit of pairs of frames that start in the stretch's first quarter.
   double cost(const Stretch& s, double more) const {
     const std::size_t quarter = std::max<std::size_t>(1, (s.last - s.first) / 4);
     double sum = 0.0, count = 0.0;
@@ -129,7 +129,7 @@ class MotorEventFinder {
     s.steepness = std::min(cost(s, best - kMinEvent), cost(s, best + kMinEvent)) - s.least;
   }
 
-  /// Turned farther, on either side, it fits clearly worse.
+  /// Whether the fit is clearly worse when rotated farther to either side.
   static bool shows_turn(const Stretch& s) { return s.steepness > std::max(0.03, 0.15 * s.least); }
 
   double off(const Stretch& s) const { return s.turn - expected(s.first, s.last); }
@@ -140,7 +140,7 @@ class MotorEventFinder {
     return cost(s, 0.0) - s.least > std::max(0.04, 0.3 * s.least);
   }
 
-  /// One stretch between two that are part of it may show nothing.
+  /// A single stretch between two that belong to an event may be inconclusive.
   std::size_t end_of_event(std::size_t begin) const {
     std::size_t end = begin;
     for (std::size_t k = begin; k < std::min(end + 2, stretches_.size()); ++k) {
@@ -151,7 +151,7 @@ class MotorEventFinder {
     return end;
   }
 
-  /// A stop takes away what would have been turned, no more; each moment counts twice.
+  /// A stop removes at most the rotation that would have taken place; each moment counts twice.
   MotorEvent event_of(std::size_t begin, std::size_t end) const {
     const std::size_t low = begin > 0 ? begin - 1 : 0, high = std::min(end + 1, stretches_.size());
     double sum = 0.0, jump = 0.0, least = 2.0;
@@ -173,7 +173,7 @@ class MotorEventFinder {
     return event;
   }
 
-  /// Of all moments at which it can have begun the one with which the frames fit best.
+  /// Of all moments at which the event can have begun, the one with which the frames fit best.
   double moment(std::size_t first, std::size_t last, const MotorEvent& event) const {
     const std::size_t step = 1 + (last - first) / 60;
     double least = 0.0, best = time(first);

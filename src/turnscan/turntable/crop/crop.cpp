@@ -35,7 +35,7 @@ FramePoints crop(const FramePoints& points, const SensorCrop& crop) {
 
 PlatterReturns measure_platter(const std::vector<Vec3f>& p_table, double radius_m) {
   constexpr auto kReach = float(PlatterReturns::kReach_m);
-  constexpr std::size_t kMaxHeights = 200000;  // more tell no more, and have to be sorted
+  constexpr std::size_t kMaxHeights = 200000;  // more add no information and have to be sorted
   std::vector<float> heights;
   const float r2 = static_cast<float>(radius_m * radius_m);
   for (const Vec3f& p : p_table) {

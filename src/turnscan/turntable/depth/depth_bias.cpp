@@ -5,7 +5,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kApart_m = 0.05;  // of distances, for a scale
+constexpr double kApart_m = 0.05;  // minimum difference of distances for estimating a scale
 
 }  // namespace
 

@@ -15,12 +15,13 @@ using detection::ScanPixels;
 
 constexpr Range kDiameter{0.02, 1.0};
 constexpr double kMinCosine = 0.42;  // 65 degrees
-constexpr double kFree = 0.6;        // of the pixels that the ball should show
+constexpr double kFree = 0.6;        // minimum share of the expected pixels of the ball
 constexpr double kHuber = 2.0;
 constexpr std::size_t kMinPixels = 60;
 constexpr int kRounds = 12;
-constexpr double kSystematic_m = 3e-5;  // of depth seen at a right angle less than at a low one
-constexpr int kBlock = 4;               // pixels of a side, over which errors may be shared
+constexpr double kSystematic_m = 3e-5;  // difference of depth between perpendicular and grazing
+                                        // incidence
+constexpr int kBlock = 4;               // side in pixels, over which errors may be correlated
 
 struct Ball {
   Vec3d center = Vec3d::Zero();
@@ -29,7 +30,7 @@ struct Ball {
 
 struct BallPixels {
   std::vector<std::int32_t> pixels;  ///< on the ball, within the tolerance
-  std::size_t expected = 0;          ///< pixels that a free ball would show
+  std::size_t expected = 0;          ///< pixels that an unoccluded ball would show
   double share() const { return expected > 0 ? double(pixels.size()) / double(expected) : 0.0; }
 };
 
@@ -76,10 +77,10 @@ class BallFinder {
  private:
   Vec3d ray(std::size_t i) const { return {rays_.x()[i], rays_.y()[i], 1.0}; }
 
-  /// Half width of the ball in pixels at a distance.
+  /// Radius of the ball in pixels at a distance.
   double reach(double z) const { return radius_ * scan_.intrinsics.fx / z; }
 
-  /// The plane through a pixel's window, in inverse depth; towards the sensor.
+  /// Plane through a pixel's window, in inverse depth; oriented towards the sensor.
   std::optional<Vec3d> normal_at(int x, int y, int half) const {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     Vec3d right = Vec3d::Zero();
@@ -106,8 +107,8 @@ class BallFinder {
     return std::size_t(y) * std::size_t(pixels_.width) + std::size_t(x);
   }
 
-  /// Where a surface of the ball's curvature would have its centre, from places all over the image;
-  /// of those near each other the one that most pixels agree with.
+  /// Possible centres, assuming a surface of the ball's curvature, from pixels all over the image;
+  /// of nearby ones the one that most pixels agree with.
   std::vector<Ball> candidates() const {
     struct Vote {
       Ball ball;
@@ -148,7 +149,7 @@ class BallFinder {
     return out;
   }
 
-  /// Every stride-th column and row of the pixels that the ball covers, up to 65 degrees.
+  /// Every stride-th column and row of the pixels that the ball covers, up to 65 degrees incidence.
   BallPixels visible_pixels(const Ball& ball, double tolerance, int stride) const {
     BallPixels out;
     const Vec3d& c = ball.center;
@@ -173,7 +174,7 @@ class BallFinder {
     return out;
   }
 
-  /// Whether the ray meets the ball at less than 65 degrees.
+  /// Whether the ray meets the ball at an incidence angle below 65 degrees.
   bool shows(const Ball& ball, const Vec3d& direction) const {
     const Vec3d d = direction.normalized();
     const double along = d.dot(ball.center);
@@ -193,7 +194,7 @@ class BallFinder {
       if (std::abs(fit.ball.offset_m) > 0.3 * fit.ball.center.z()) return std::nullopt;
       tolerance = std::max(std::min(tolerance, 5.0 * fit.rms_m), 3.0 * noise_);
     }
-    // A surface that is no ball lies farther off than noise explains.
+    // A surface that is not a ball deviates more than noise explains.
     if (fit.rms_m > std::max(2.0 * noise_, 0.02 * radius_)) return std::nullopt;
     return fit;
   }
@@ -207,11 +208,11 @@ class BallFinder {
     std::int32_t pixel;
   };
 
-  /// nullopt where the ray does not meet the ball.
+  /// nullopt if the ray does not meet the ball.
   std::optional<PixelRow> row_of(const Ball& ball, std::int32_t pixel) const {
     const Vec3d r = ray(std::size_t(pixel));
     const double z = pixels_.point[std::size_t(pixel)].z();
-    // Where the ray meets the ball: noise along the ray moves neither that place nor its normal.
+    // Where the ray meets the ball: noise along the ray affects neither that point nor its normal.
     const Vec3d& c = ball.center;
     const double rr = r.squaredNorm(), along = r.dot(c);
     const double root = along * along - rr * (c.squaredNorm() - radius_ * radius_);
@@ -223,7 +224,7 @@ class BallFinder {
     row.d = u.dot(r) * (z + ball.offset_m - hit);
     const double cosine = u.dot(r.normalized());
     row.obliquity = 1.0 - cosine * cosine;
-    // Noise is along the ray; a tenth of it stays where that lies in the surface.
+    // Noise is along the ray; a tenth of it remains for rays tangential to the surface.
     row.sigma = std::sqrt(cosine * cosine + 0.01);
     row.pixel = pixel;
     return row;
@@ -259,13 +260,13 @@ class BallFinder {
     fit.rms_m = std::sqrt(squares / double(rows.size()));
     fit.sigma_m =
         std::sqrt(excess_variance(rows, scale) * factors.solve(Eigen::Vector4d::UnitW())[3]);
-    // What is systematic and grows with the obliquity, as at silhouettes.
+    // Systematic errors that grow with the obliquity, as at silhouettes.
     fit.sigma_m = std::hypot(fit.sigma_m, kSystematic_m * factors.solve(systematic)[3]);
     return true;
   }
 
-  /// Errors that a block of pixels shares add up instead of averaging out: by how much, as a factor
-  /// of the variance.
+  /// Errors shared by a block of pixels accumulate instead of averaging out: their effect as a
+  /// factor of the variance.
   double excess_variance(const std::vector<PixelRow>& rows, double scale) const {
     struct Block {
       double sum = 0.0, count = 0.0;

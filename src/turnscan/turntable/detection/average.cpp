@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxFrames = 65535;
 
-/// Sums over whole numbers: exact, so that their order does not matter.
+/// Sums of integers, which are exact, so that their order does not matter.
 struct PixelSums {
   std::vector<std::uint64_t> value, square;
   std::vector<std::uint16_t> count;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kMaxPlanes = 14;
 constexpr std::size_t kMinPixels = 150;
 constexpr std::size_t kMaxRefined = 3;
-constexpr double kMinWorth = 0.35;  // of the best candidate's
+constexpr double kMinWorth = 0.35;  // relative to the best candidate
 
 Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels) {
   Vec3d sum = Vec3d::Zero();
@@ -19,7 +19,7 @@ Vec3d middle_of(const ScanPixels& scan, const std::vector<std::int32_t>& pixels)
   return sum / double(pixels.size());
 }
 
-/// The pixels of the plane well inside the circle.
+/// The plane's pixels well inside the circle.
 std::vector<std::int32_t> inside(const PlaneView& view, const RimCircle& circle) {
   std::vector<std::int32_t> out;
   for (std::size_t i = 0; i < view.in.size(); ++i) {
@@ -50,8 +50,8 @@ class PlatterDetector {
   }
 
  private:
-  /// Adds the plane's platter to the candidates, if it has a round rim. The rim says which pixels
-  /// are the platter's, and these give the plane that the rim lies in.
+  /// Adds the plane's platter to the candidates, if it has a round rim. The rim determines the
+  /// platter's pixels, and these give the plane that contains the rim.
   void examine(const FoundPlane& found, std::uint64_t seed, const RunContext& context) {
     Plane plane = found.plane;
     for (int round = 0; round < 3; ++round) {
@@ -76,8 +76,8 @@ class PlatterDetector {
     candidates_.push_back(last_);
   }
 
-  /// Only what may be the platter: it costs time. Where the best ones are no platter, as half discs
-  /// of clutter are, one that counts for less before it is refined may be.
+  /// Refines only possible platters, since it is expensive. If the best ones are no platters, as
+  /// half discs of clutter are, one with a lower worth before refinement may be.
   void refine_best(const RunContext& context) {
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const auto& l, const auto& r) { return worth(l) > worth(r); });
@@ -125,7 +125,8 @@ class PlatterDetector {
     return best;
   }
 
-  /// Where the ray through the rim's centre meets the refined plane.
+  /// Stores the result; its centre is where the ray through the rim's centre meets the refined
+  /// plane.
   void keep(const PlaneEstimate& estimate, const RimCircle& circle, const Vec3d& center,
             const DiscSupport& support, std::size_t count) {
     DetectedPlatter p;
@@ -140,7 +141,7 @@ class PlatterDetector {
     p.rim_points = circle.points;
     p.center_sigma_m = std::sqrt(circle.center_covariance.trace());
     p.radius_sigma_m = circle.radius_sigma_m;
-    // m = normal / offset: what moves it across its direction turns the plane.
+    // m = normal / offset: changes perpendicular to its direction rotate the plane.
     const Vec3d n = estimate.plane.normal;
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
     const double d = std::abs(estimate.plane.offset);
@@ -153,7 +154,7 @@ class PlatterDetector {
     return support.agreement * support.filled * std::min(1.0, support.rim_share / 0.5);
   }
 
-  /// How much a candidate's disc counts: of two good ones the larger is the platter.
+  /// Worth of a candidate's disc: of two good ones the larger is the platter.
   static double worth(const PlatterCandidate& c) {
     return c.platter.confidence * std::min(1.0, c.platter.rim_share / 0.5);
   }

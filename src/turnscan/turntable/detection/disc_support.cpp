@@ -20,14 +20,14 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
     const Vector2d uv = view.camera.project(p);
     const int x = int(std::lround(uv.x())), y = int(std::lround(uv.y()));
     if (x < 0 || y < 0 || x >= view.scan.width || y >= view.scan.height) return std::nullopt;
-    // What flickers, a turning object or an edge, says nothing.
+    // Flickering pixels, on a turning object or an edge, are inconclusive.
     const auto i = std::size_t(y) * std::size_t(view.scan.width) + std::size_t(x);
     if (!view.scan.still[i] && view.scan.point[i].z() > 0.0f) return std::nullopt;
-    // What would be nearer than anything that the sensor measures is out of its range.
+    // Surface nearer than anything that the sensor measures is out of its range.
     if (!(view.scan.point[i].z() > 0.0f) && p.z() < view.scan.nearest_m) return std::nullopt;
     return view.side(x, y);
   };
-  /// Where the disc has no return, it may be dark or in a shadow.
+  /// If the disc has no return, it may be dark or in a shadow.
   const auto returned_at = [&](const Vector2d& q) -> std::optional<int> {
     const Vector2d uv = view.camera.project(view.frame.to_space(q));
     const auto side = side_at(q);
@@ -36,7 +36,7 @@ DiscSupport support_of(const PlaneView& view, const RimCircle& circle) {
                    std::size_t(std::lround(uv.x()));
     return view.scan.point[i].z() > 0.0f ? side : std::nullopt;
   };
-  /// Radial length of this many pixels at a place of the rim.
+  /// Radial length of this many pixels at a point of the rim.
   const auto pixels = [&](const Vector2d& direction, double count) {
     const Vec3d a = view.frame.to_space(circle.center + circle.radius_m * direction);
     const Vec3d b = view.frame.to_space(circle.center + (circle.radius_m + 1e-4) * direction);

@@ -49,7 +49,7 @@ std::optional<Circumcircle> circumcircle(const Vec3d& a, const Vec3d& b, const V
   return Circumcircle{a + to_center, 0.5 * n, to_center.norm(), 0.5 * n.norm()};
 }
 
-/// Two unit vectors that make a right-handed frame with n.
+/// Two unit vectors that form a right-handed frame with n.
 std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
   int least = 0;
   n.cwiseAbs().minCoeff(&least);
@@ -57,7 +57,7 @@ std::pair<Vec3d, Vec3d> across(const Vec3d& n) {
   return {u, n.cross(u)};
 }
 
-/// The normal equations of the rim distances (in the plane, and from it) at a circle. Unknowns: two
+/// Normal equations of the rim distances (in the plane, and from it) at a circle. Unknowns: two
 /// tilts of the axis, the centre along (u, v, axis), the radius.
 struct CircleSystem {
   Matrix6 normal = Matrix6::Zero();
@@ -136,7 +136,7 @@ Result<Circle> circle_from_triples(std::span<const Vec3d> points, const Vec3d& s
       for (std::size_t k = j + 1; k < points.size(); ++k) {
         const auto triangle = circumcircle(points[i], points[j], points[k]);
         if (!triangle) continue;
-        // Which way round a triangle was picked says nothing: turn its normal to the sensor.
+        // The orientation of a triangle is arbitrary: flip its normal towards the sensor.
         const double side = triangle->area_normal.dot(sensor - points[i]) < 0.0 ? -1.0 : 1.0;
         centers += triangle->center;
         normals += side * triangle->area_normal;

@@ -23,7 +23,7 @@ std::optional<Plane> plane_through(const Vec3d& a, const Vec3d& b, const Vec3d& 
   return plane;
 }
 
-/// Pixels that are free yet, every few of them, for counting.
+/// A sparse sample of the unassigned pixels, for counting.
 struct Sample {
   std::vector<std::int32_t> pixels;
   std::vector<Vec3f> points;
@@ -44,7 +44,7 @@ Sample sample_of(const ScanPixels& scan, const std::vector<std::uint8_t>& free) 
   return sample;
 }
 
-/// A still pixel near another, from random numbers; -1 where there is none.
+/// A random still pixel near another; -1 if there is none.
 std::int32_t neighbour(const ScanPixels& scan, const std::vector<std::uint8_t>& free,
                        std::int32_t pixel, int reach, std::uint64_t key) {
   const int x = pixel % scan.width + int((uniform01(mix64(key)) - 0.5) * 2 * reach);
@@ -103,7 +103,8 @@ std::vector<std::int32_t> near_plane(const ScanPixels& scan, const std::vector<s
   return out;
 }
 
-/// From a rough hypothesis to the least-squares plane of what lies near it, in steps that shrink.
+/// Refines an approximate hypothesis to the least-squares plane of the nearby pixels, with
+/// shrinking tolerances.
 std::optional<FoundPlane> refine(const ScanPixels& scan, const RayTable& rays,
                                  const std::vector<std::uint8_t>& free, Plane plane,
                                  double tolerance, const RunContext& context) {

@@ -8,8 +8,8 @@ namespace turnscan::detection {
 namespace {
 
 constexpr std::size_t kMinSurface = 150;  // pixels
-constexpr double kHeightFloor_m = 1e-5;   // no residual shows how true a sensor's depth is
-constexpr double kRoundness = 4e-4;       // of the radius: by how much no platter is rounder
+constexpr double kHeightFloor_m = 1e-5;   // residuals do not show the accuracy of a sensor's depth
+constexpr double kRoundness = 4e-4;       // relative to the radius: no platter is rounder
 
 std::vector<std::uint8_t> mask_of(const ScanPixels& scan, const Plane& plane, double tolerance) {
   std::vector<std::uint8_t> in(scan.point.size(), 0);
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> mask_of(const ScanPixels& scan, const Plane& plane, do
   return in;
 }
 
-/// Whether all pixels about one lie in the plane, too: at an edge a filter mixes what it joins.
+/// Whether all neighbours of a pixel are in the plane, too: at an edge a filter mixes surfaces.
 bool amid_plane(const PlaneView& view, int x, int y, int reach) {
   if (x < reach || y < reach || x + reach >= view.scan.width || y + reach >= view.scan.height)
     return false;
@@ -31,7 +31,7 @@ bool amid_plane(const PlaneView& view, int x, int y, int reach) {
   return true;
 }
 
-/// The pixels of the platter's surface that no edge can have changed.
+/// The pixels of the platter's surface that no edge can have affected.
 std::vector<std::int32_t> undisturbed(const PlaneView& view, const RimModel& model, int blur_px,
                                       const RunContext& context) {
   const RimView rays(view.camera, view.plane, view.frame);
@@ -48,8 +48,8 @@ std::vector<std::int32_t> undisturbed(const PlaneView& view, const RimModel& mod
   return out;
 }
 
-/// A filter over neighbours favours the brighter, which are the nearer ones: by about the change of
-/// depth from pixel to pixel, times that change's share of the depth. Along the normal.
+/// A filter over neighbours favours the brighter ones, which are nearer: the bias is about the
+/// change of depth from pixel to pixel, times that change relative to the depth. Along the normal.
 double filter_bias(const Plane& plane, const Vec3d& at, const CameraIntrinsics& camera,
                    int blur_px) {
   const double facing = -plane.normal.dot(at) / at.norm();
@@ -66,7 +66,7 @@ struct Refinement {
   std::size_t pixels = 0;
 };
 
-/// Plane, then the rim in it.
+/// Estimates the plane, then the rim in it.
 std::optional<Refinement> refine_once(const ScanImage& image, const Refinement& from,
                                       double tolerance_m, std::optional<double> radius_m,
                                       const RunContext& context) {
@@ -95,12 +95,12 @@ void set_deviations(const Refinement& from, const CameraIntrinsics& camera, Dete
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
   const Eigen::Matrix3d covariance = from.noise.pixels_per_sample * from.plane.covariance;
   const double d = std::abs(from.plane.plane.offset);
-  // m = normal / offset: what moves it across its direction turns the plane.
+  // m = normal / offset: changes perpendicular to its direction rotate the plane.
   p.axis_sigma_rad = d * std::sqrt((across * covariance * across).trace());
   p.height_sigma_m =
       std::hypot(d * std::sqrt(p.center_m.dot(covariance * p.center_m)), kHeightFloor_m,
                  filter_bias(from.plane.plane, p.center_m, camera, from.noise.blur_px));
-  // The rim is seen in a direction: where the plane is higher, it is nearer.
+  // The rim is observed by its direction: if the plane is higher, it is nearer.
   const double lean = (across * p.center_m).norm() / std::abs(n.dot(p.center_m));
   p.center_sigma_m =
       std::sqrt(from.rim.covariance.topLeftCorner<2, 2>().trace() +
@@ -129,7 +129,7 @@ std::optional<PlatterCandidate> refine_platter(const ScanImage& image,
   start.plane.plane = {rough.platter.axis, rough.platter.axis.dot(rough.platter.center_m)};
   start.rim.model.radius_m = rough.platter.radius_m;
   start.center = rough.platter.center_m;
-  // The noise is known after the first time.
+  // The noise is known after the first pass.
   const auto first = refine_once(image, start, rough.tolerance_m, radius_m, context);
   if (!first) return std::nullopt;
   const auto last = refine_once(image, *first, rough.tolerance_m, radius_m, context);
@@ -143,7 +143,7 @@ std::optional<PlatterCandidate> refine_platter(const ScanImage& image,
   p.plane_pixels = last->pixels;
   p.rim_points = last->rim.edge_pixels;
   set_deviations(*last, image.camera, p);
-  // The pixels about the rim say more than the places on it.
+  // The pixels around the rim are more informative than the points on it.
   RimCircle circle;
   circle.radius_m = p.radius_m;
   out.support =

@@ -10,7 +10,7 @@ namespace {
 constexpr int kCorrelationReach =
     3;  // pixels: twice the reach of a filter over 3 x 3, and one for noise
 
-/// Residuals over their own limits would let one edge decide.
+/// Clamps residuals, since those beyond their limits would let a single edge dominate.
 class ResidualImage {
  public:
   ResidualImage(const ScanPixels& scan, const RayTable& rays, const Plane& plane,
@@ -63,7 +63,7 @@ NoiseCorrelation correlation_of(const ScanPixels& scan, const RayTable& rays, co
   if (!(variance > 0.0)) return out;
   const double beside =
       0.5 * (residuals.covariance(pixels, 1, 0) + residuals.covariance(pixels, 0, 1)) / variance;
-  // Uncorrelated noise through a box of n pixels: neighbours have 1 - 1 / n in common.
+  // Uncorrelated noise through a box of n pixels: neighbours have a share of 1 - 1 / n in common.
   const double width = 1.0 / std::max(0.2, 1.0 - std::max(0.0, beside));
   out.blur_px = static_cast<int>(std::lround(0.5 * (width - 1.0)));
   double sum = 1.0;

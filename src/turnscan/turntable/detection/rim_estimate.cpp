@@ -11,7 +11,7 @@ namespace {
 constexpr double kFirstReach_px = 6.0, kReach_px = 4.5;
 constexpr std::size_t kMaxInSearch = 2000;  // pixels
 constexpr std::array kThicknesses_m{0.0, 0.003, 0.007, 0.012, 0.02, 0.03, 0.045, 0.065};
-constexpr double kThickestMode_m = 0.03;  // of a higher wall enough is seen
+constexpr double kThickestMode_m = 0.03;  // higher walls are sufficiently visible
 constexpr std::array kSpreads_px{1.0, 0.7, 0.5, 0.36, 0.27, 0.2, 0.14, 0.1};
 constexpr std::size_t kMinRimPixels = 60;
 
@@ -30,7 +30,7 @@ RimState moved(RimState state, const RimEquations::Vector& step) {
   return state;
 }
 
-/// Fisher scoring with Levenberg and Marquardt's damping.
+/// Fisher scoring with Levenberg-Marquardt damping.
 class RimAscent {
  public:
   RimAscent(const RimData& data, const RimState& start)
@@ -67,7 +67,7 @@ class RimAscent {
   double damping_ = 1e-3;
 };
 
-/// Pixels on the wrong side of the outline, however far from it.
+/// Number of pixels on the wrong side of the outline, however far from it.
 std::size_t wrong_pixels(const RimData& data, const RimState& state) {
   std::size_t wrong = 0;
   for (const RimPixel& pixel : data.pixels) {
@@ -79,7 +79,7 @@ std::size_t wrong_pixels(const RimData& data, const RimState& state) {
   return wrong;
 }
 
-/// The thickness decides which place of the near side is the rim: several are tried. Their
+/// The thickness determines which point of the near side is the rim, so several are tried. Their
 /// likelihoods are of different pixels, those about each outline, and cannot be compared.
 RimState best_thickness(const RimData& data, const RimModel& start) {
   RimState best;
@@ -104,8 +104,8 @@ struct RimMode {
   double log_likelihood = 0.0;  ///< of all pixels
 };
 
-/// Where the far side is not seen, a low wall and a place nearer to the sensor look much alike.
-/// From each thickness to the maximum beside it; the best first.
+/// Where the far side is not seen, a low wall and a rim nearer to the sensor look much alike.
+/// Climbs from each thickness to the nearest maximum; the best first.
 std::vector<RimMode> modes(const RimData& data, const RimState& start) {
   std::vector<RimMode> out;
   const auto climb_from = [&](double thickness) {
@@ -141,7 +141,7 @@ RimState best_spread(const RimData& data, const RimState& start) {
   return best;
 }
 
-/// Evenly fewer pixels: while searching, what all of them say is not needed.
+/// An even subset of the pixels, which is sufficient during the search.
 RimData thinned(const RimData& data) {
   RimData out{data.rays, {}, data.noise, data.empty_share, data.radius_m};
   const std::size_t n = std::min(kMaxInSearch, data.pixels.size());
@@ -159,9 +159,9 @@ double empty_share(const std::vector<RimPixel>& pixels) {
   return all > 0.0 ? empty / all : 0.0;
 }
 
-/// What neighbours have in common, such as what lies behind them, the model does not know, but the
-/// scores of the sectors scatter by it: the sandwich estimator over clusters (Liang and Zeger
-/// 1986). Not less than the likelihood's own covariance.
+/// The model ignores what neighbours have in common, such as their background, but the scores of
+/// the sectors scatter by it: the sandwich estimator over clusters (Liang and Zeger 1986). At least
+/// the likelihood's own covariance.
 Eigen::Matrix4d covariance_of(const RimEquations& equations) {
   const RimEquations::Matrix own = estimation::inverse_lu(equations.information);
   RimEquations::Matrix scatter = RimEquations::Matrix::Zero();
@@ -182,8 +182,8 @@ Eigen::Matrix4d covariance_of(const RimEquations& equations) {
   return out;
 }
 
-/// By how much the estimate would be wrong if another maximum were the truth, by their likelihoods.
-/// These are of pixels that have more in common than they know: half of their difference counts.
+/// Error of the estimate if another maximum were the truth, weighted by likelihood. The pixels are
+/// more correlated than the likelihoods assume: half of their difference counts.
 Eigen::Matrix4d scatter_of(const std::vector<RimMode>& maxima) {
   const auto unknowns = [](const RimModel& m) {
     return Eigen::Vector4d(m.center.x(), m.center.y(), m.radius_m, m.thickness_m);
@@ -194,7 +194,7 @@ Eigen::Matrix4d scatter_of(const std::vector<RimMode>& maxima) {
   for (const RimMode& other : maxima) {
     const double weight = std::exp(0.5 * (other.log_likelihood - best.log_likelihood));
     const Eigen::Vector4d apart = unknowns(other.state.model) - unknowns(best.state.model);
-    // Several starts lead to one maximum, which counts once.
+    // Several starts may lead to the same maximum, which counts once.
     if (weight * apart.squaredNorm() <= most) continue;
     most = weight * apart.squaredNorm();
     weights = 1.0 + weight;
@@ -203,7 +203,7 @@ Eigen::Matrix4d scatter_of(const std::vector<RimMode>& maxima) {
   return sum / weights;
 }
 
-/// Fills agreement and rim_share.
+/// Sets agreement and rim_share.
 void count_witnesses(const RimData& data, RimEstimate& out) {
   constexpr std::size_t kBearings = 72;
   constexpr double kBeside_px = 4.0;
@@ -239,7 +239,7 @@ std::optional<RimEstimate> estimate_rim(const PlaneView& view, const RimModel& s
   state.model = start;
   for (int round = 0; round < 3; ++round) {
     const double slack = round == 0 ? 0.01 : round == 1 ? 0.004 : 0.0;
-    // At first a wall of any height is to find its foot among the pixels.
+    // At first the pixels must contain the foot of a wall of any height.
     RimModel about = state.model;
     if (round == 0) about.thickness_m = kThicknesses_m.back();
     data.pixels = label_rim(view, rays, about, noise, round == 0 ? kFirstReach_px : kReach_px,

@@ -14,9 +14,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kEdgeSigma_px = 0.35;  // a rim between two pixels: 0.29, and a little noise
+constexpr double kEdgeSigma_px = 0.35;  // a rim between two pixels: 0.29, and some noise
 constexpr double kWallSigma_px = 0.25;
-// How far mixed pixels shift a rim: not at all, or by half a pixel where each of them is lost.
+// Shift of a rim by mixed pixels: none, or half a pixel if each of them is lost.
 constexpr double kOffset_px = 0.25, kOffsetSigma_px = 0.35;
 constexpr std::size_t kMaxCircles = 8, kMaxEnds = 600;
 constexpr std::array<std::array<int, 2>, 4> kAround{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -35,7 +35,7 @@ std::optional<Circle2> circle_through(const Vector2d& a, const Vector2d& b, cons
   return Circle2{a + to, to.norm()};
 }
 
-/// Width of a pixel across the rim, seen from the centre.
+/// Width of a pixel across the rim, as seen from the centre.
 double pixel_across(const RimPoint& p, const Vector2d& center) {
   const Vector2d out = (p.at - center).normalized();
   return (p.footprint.transpose() * out).norm();
@@ -97,7 +97,7 @@ void hold_radius(double radius_m, const RimCircle& circle, RimSystem& system) {
   system.right[2] -= prior * (circle.radius_m - radius_m);
 }
 
-/// Least squares, keeping what lies near; nullopt when it runs away.
+/// Least squares with rejection of distant points; nullopt if it diverges.
 std::optional<RimCircle> refine(const std::vector<RimPoint>& points, const Circle2& start,
                                 std::optional<double> radius_m) {
   RimCircle circle;
@@ -117,7 +117,7 @@ std::optional<RimCircle> refine(const std::vector<RimPoint>& points, const Circl
       return std::nullopt;
     if (i > 6 && step.norm() < 1e-8) break;
   }
-  // The ends of neighbouring rows lie on one staircase: taken as every second being independent.
+  // The ends of neighbouring rows form one staircase: every second one counts as independent.
   const double scale = 2.0 * std::max(1.0, system.squares / double(system.points));
   const Eigen::Matrix4d covariance = scale * system.normal.inverse();
   circle.center_covariance = covariance.topLeftCorner<2, 2>();
@@ -149,13 +149,13 @@ int PlaneView::side(int column, int row) const {
 
 namespace {
 
-/// Walks over the pixels of a plane and looks where it ends.
+/// Scans the pixels of a plane for its ends.
 class RimSearch {
  public:
   explicit RimSearch(const PlaneView& view)
       : view_(view), w_(view.scan.width), h_(view.scan.height) {}
 
-  /// Of pixels for which `counts` is not 0.
+  /// Ends of the pixels for which `counts` is not 0.
   std::vector<RimPoint> ends_of(const std::vector<std::uint8_t>& counts) {
     for (int y = 1; y + 1 < h_; ++y) {
       for (int x = 1; x + 1 < w_; ++x) {
@@ -188,8 +188,8 @@ class RimSearch {
     return ray * view_.plane.depth_along(ray);
   }
 
-  /// Adds the place where the surface ends beyond pixel (x, y), if it ends there before something
-  /// farther.
+  /// Adds the point where the surface ends beyond pixel (x, y), if it ends there in front of
+  /// something farther away.
   void examine(int x, int y, int dx, int dy) {
     const int nx = x + dx, ny = y + dy, fx = x + 2 * dx, fy = y + 2 * dy;
     if (!inside(nx, ny) || !inside(fx, fy) || view_.in[index(nx, ny)]) return;
@@ -205,8 +205,8 @@ class RimSearch {
     add(x + half * dx, y + half * dy, true);
   }
 
-  /// Whether a pixel sees something well below the plane, or nothing. Slightly below it may be the
-  /// upper end of a wall, of which it cannot be said where it begins.
+  /// Whether a pixel sees something well below the plane, or nothing. Slightly below, it may be the
+  /// upper end of a wall, whose beginning is not known.
   bool lies_deep(int x, int y, int dx, int dy) const {
     const Vec3f& p = view_.scan.point[index(x, y)];
     if (!(p.z() > 0.0f)) return true;
@@ -219,8 +219,8 @@ class RimSearch {
     return std::abs(view_.plane.height(next.cast<double>()) - height) < 0.15 * pixel;
   }
 
-  /// Where a wall goes down from the rim, pixel by pixel, its first pixels still count as the
-  /// plane; the line through the heights of the next two says where it begins.
+  /// Where a wall descends from the rim, pixel by pixel, its first pixels still count as the plane;
+  /// the line through the heights of the next two gives its beginning.
   std::optional<double> wall_begins(int x, int y, int dx, int dy) const {
     if (!inside(x + 3 * dx, y + 3 * dy)) return std::nullopt;
     std::array<double, 3> height{};
@@ -261,7 +261,7 @@ class RimSearch {
 
 namespace {
 
-/// 1 in the largest set of pixels of the plane that are connected along rows and columns.
+/// 1 for the largest set of the plane's pixels that are connected along rows and columns.
 std::vector<std::uint8_t> largest_part(const PlaneView& view) {
   const int w = view.scan.width, h = view.scan.height;
   std::vector<std::uint8_t> open = view.in;
@@ -329,7 +329,7 @@ std::vector<RimCircle> find_circles(const std::vector<RimPoint>& all, double min
     circles[t] = *circle;
     score[t] = places_near(points, *circle).count();
   });
-  // The best few are refined: a circle through three neighbouring points is rough.
+  // Refines the best few: a circle through three neighbouring points is inaccurate.
   std::vector<std::size_t> order(kTrials);
   for (std::size_t t = 0; t < kTrials; ++t) order[t] = t;
   std::stable_sort(order.begin(), order.end(),

@@ -7,9 +7,9 @@ namespace {
 
 enum class Seen : std::uint8_t { kUnknown, kPlatter, kFlickers, kBehind, kNothing, kBefore };
 
-constexpr double kInwards_px = 7.0;  // from the outermost pixels that count into the platter
+constexpr double kInwards_px = 7.0;  // from the outermost relevant pixels into the platter
 constexpr int kCrowdReach = 2, kBareReach = 3;  // pixels
-constexpr int kMaxInCrowd = 12;                 // flickering, of 25: an edge has up to 10
+constexpr int kMaxInCrowd = 12;                 // flickering ones, of 25: an edge has up to 10
 
 class RimLabelling {
  public:
@@ -55,7 +55,7 @@ class RimLabelling {
     return std::size_t(y) * std::size_t(w_) + std::size_t(x);
   }
 
-  /// What lies behind decides whether its mixture with the platter has a return, and that on which
+  /// The background determines whether its mixture with the platter has a return, and thus on which
   /// side of the outline the mixture begins.
   void mark_bare(std::vector<RimPixel>& pixels) const {
     std::vector<std::int8_t> emptier(seen_.size(), 0);
@@ -87,7 +87,7 @@ class RimLabelling {
     return behind > tolerance ? Seen::kBehind : Seen::kPlatter;
   }
 
-  /// Noise that grows with the square of the distance is no flicker.
+  /// Noise that grows with the square of the distance does not count as flicker.
   bool as_noisy_as_far(double z, double z_platter, std::size_t i) const {
     const double farther = z / z_platter;
     return farther > 1.2 &&
@@ -102,14 +102,14 @@ class RimLabelling {
     return false;
   }
 
-  /// What moves before platter and background flickers all over.
+  /// What moves in front of platter and background flickers everywhere.
   bool in_crowd(int x, int y) const {
     int count = 0;
     any_near(x, y, kCrowdReach, [&](Seen s) { return (count += s == Seen::kFlickers), false; });
     return count > kMaxInCrowd;
   }
 
-  /// Whether a pixel behind the platter lies between it and what is seen beside, as a filter joins
+  /// Whether a pixel behind the platter is between it and the background beside, as a filter mixes
   /// them.
   bool between(int x, int y) const {
     const auto surface = rays_.surface(model_, x, y);
@@ -126,8 +126,8 @@ class RimLabelling {
     return farthest - z > std::max(smooth, 0.15 * (farthest - surface->z_m));
   }
 
-  /// Where nothing is seen on the inner side either, an object's shadow from the sensor's lamp may
-  /// lie on the platter.
+  /// If nothing is seen on the inner side either, the platter there may be in the object's shadow
+  /// from the sensor's lamp.
   bool inside_is_seen(int x, int y) const {
     const Eigen::Vector2d here(x, y);
     const Eigen::Vector2d way = middle_ - here;

@@ -11,16 +11,15 @@ namespace {
 
 using Unknowns = RimEquations::Vector;
 
-constexpr double kEdgeReach_px = 3.5;  // beyond it a pixel says nothing about the rim
-constexpr double kOutliers = 0.02;     // share of pixels whose label is chance
+constexpr double kEdgeReach_px = 3.5;  // pixels beyond it are independent of the rim
+constexpr double kOutliers = 0.02;     // share of pixels with random labels
 constexpr double kWallHuber = 2.0;
-constexpr double kPixelSigma_px = 0.1;  // of where a pixel looks
+constexpr double kPixelSigma_px = 0.1;  // of a pixel's viewing direction
 constexpr double kRadiusSigma_m = 0.0005;
-// What is known before: of the thickness next to nothing, of the mixed pixels that the edge is
-// among them.
+// Priors: hardly any for the thickness; for the mixed pixels, that the edge is among them.
 constexpr double kThickness_m = 0.012, kThicknessSigma_m = 0.03;
-// A filter lets the platter, which is nearer and brighter, reach out into what lies behind, and
-// farther where that is so dark or far that their mixture has no return.
+// A filter extends the platter, which is nearer and brighter, into the background, and farther if
+// that is so dark or distant that their mixture has no return.
 constexpr double kFilterShift_px = -0.3, kFilterBare_px = -0.3;
 constexpr double kFilterBareSigma_px = 0.4, kBareSigma_px = 0.06;
 constexpr double kBand_px = 0.5, kBandSigma_px = 1.0, kBandLeast_px = 0.05;
@@ -29,8 +28,7 @@ constexpr double kShiftPerBand = 0.35, kShiftPerBlur = 0.25, kShiftLeast_px = 0.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x * std::numbers::sqrt2 / 2.0); }
 double normal_pdf(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
 
-/// Probabilities of the three labels and their derivatives with respect to the distance and the
-/// band's width.
+/// Probabilities of the three labels and their derivatives by the distance and the band's width.
 struct LabelChances {
   std::array<double, 3> chance, by_distance, by_band;
 };
@@ -53,8 +51,7 @@ LabelChances chances(const EdgeResponse& edge, double shift_px, double distance_
   return c;
 }
 
-/// Of an empty pixel it cannot be said whether it is mixed or beyond: only that it is not the
-/// platter.
+/// An empty pixel may be mixed or beyond: it is only known not to be the platter.
 LabelChances without_mixed(LabelChances c) {
   c.chance[0] += c.chance[1];
   c.by_distance[0] += c.by_distance[1];
@@ -89,8 +86,8 @@ void add_edge(const OutlineDistance& distance, const RimPixel& pixel, const Edge
   ++out.edge_pixels;
 }
 
-/// Depth that the sensor's filter makes of the surfaces about a pixel, and how it changes; nullopt
-/// where an end of them is among them.
+/// Depth after the sensor's filter over the surfaces about a pixel, and its derivatives; nullopt if
+/// one of them ends there.
 std::optional<SurfaceDepth> filtered(const RimData& data, const RimModel& model,
                                      const RimPixel& pixel) {
   const int reach = data.noise.blur_px;
@@ -100,7 +97,7 @@ std::optional<SurfaceDepth> filtered(const RimData& data, const RimModel& model,
     for (int dx = -reach; dx <= reach; ++dx) {
       const auto s = data.rays.surface(model, pixel.column + dx, pixel.row + dy);
       if (!s) return std::nullopt;
-      // What faces the sensor sends back more light.
+      // Surface that faces the sensor reflects more light.
       sum.z_m += s->facing * s->z_m;
       sum.gradient += s->facing * s->gradient;
       sum.per_pixel_m += s->facing * s->per_pixel_m;
@@ -151,7 +148,7 @@ void add_priors(const RimData& data, const RimModel& model, const EdgeResponse& 
   add_prior(out, 3, model.thickness_m, kThickness_m, kThicknessSigma_m);
   const double shift =
       std::hypot(kShiftPerBand * edge.band_px, kShiftPerBlur * data.noise.blur_px, kShiftLeast_px);
-  // Where nothing is behind, only the inner end of the band is seen.
+  // Without a background, only the inner end of the band is observed.
   const double behind = 1.0 - data.empty_share;
   const bool filter = data.noise.blur_px > 0;
   add_prior(out, 4, edge.shift_px, filter ? kFilterShift_px : 0.0, shift);
@@ -160,10 +157,10 @@ void add_priors(const RimData& data, const RimModel& model, const EdgeResponse& 
   add_prior(out, 5, edge.band_px, kBand_px * behind, kBandSigma_px * behind + kBandLeast_px);
 }
 
-/// Pixels within the outline by so much are not mixed with what lies beyond.
+/// Pixels inside the outline by this much are not mixed with the background.
 double inner_margin(const RimData& data) { return 0.5 + 2.0 * data.noise.blur_px; }
 
-/// A filter makes one of as many pixels as it joins.
+/// A filter reduces as many pixels as it averages to one.
 double edge_weight(const RimData& data) {
   const double joined = 2.0 * data.noise.blur_px + 1.0;
   return 1.0 / (joined * joined);

@@ -22,8 +22,8 @@ std::optional<RimView::PlaneRay> RimView::ray(double column, double row) const {
   return PlaneRay{{u_.dot(direction), v_.dot(direction)}, slope, plane_.offset / slope};
 }
 
-/// Where, between the heights of the disc and of the wall's foot, the ray is nearest to the axis:
-/// the outline of the cylinder is that of all discs that it consists of.
+/// The height, between the disc and the wall's foot, at which the ray is nearest to the axis: the
+/// outline of the cylinder is that of all discs that it consists of.
 RimView::OutlineDepth RimView::depth_of_outline(const RimModel& model, const PlaneRay& ray) const {
   const double length2 = ray.along.squaredNorm();
   if (!(length2 > 1e-12)) return {ray.z_plane, false};
@@ -32,8 +32,8 @@ RimView::OutlineDepth RimView::depth_of_outline(const RimModel& model, const Pla
   return {std::clamp(nearest, ray.z_plane, foot), nearest >= foot};
 }
 
-/// Perspective makes pixels longer with the distance: their mean length between two places is the
-/// geometric mean of those there.
+/// Perspective makes pixels longer with the distance: their mean length between two points is the
+/// geometric mean of the lengths there.
 double RimView::metres_per_px(const PlaneRay& ray, double z, const Vector2d& out,
                               double to_rim_m) const {
   const auto longest = [&](double depth, const Vector2d& along, double slope) {
@@ -120,7 +120,7 @@ std::optional<SurfaceDepth> RimView::surface(const RimModel& model, double colum
   if (at.norm() <= model.radius_m || !(length2 > 1e-12)) return out;
   // The near wall: |at + dz * along| = radius.
   const double half = at.dot(r->along) / length2;
-  if (half >= 0.0) return out;  // behind the disc: no wall is seen
+  if (half >= 0.0) return out;  // behind the disc: the wall is not visible
   const double rest = half * half - (at.squaredNorm() - model.radius_m * model.radius_m) / length2;
   const double dz = rest > 0.0 ? -half - std::sqrt(rest) : -half;
   out.wall = true;

@@ -8,8 +8,9 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kStandingSigma = 2e-5;  // radians from frame to frame while the table stands
-constexpr double kTransientWalk = 0.5;  // of the speed in a second, while the table starts or stops
-constexpr double kSlipSigma = 0.2;      // radians, of how far a table slips
+constexpr double kTransientWalk = 0.5;  // relative to the speed, per second, while the table starts
+                                        // or stops
+constexpr double kSlipSigma = 0.2;      // radians, of the size of a slip
 
 class AnglePriorRows {
  public:
@@ -26,7 +27,7 @@ class AnglePriorRows {
     add_(std::array{PriorTerm{0, 1.0}}, angle_[0], 1.0 / (1e-7 * 1e-7));
     if (prior_.nominal_sigma_rad > 0.0) add_nominal();
     if (prior_.timed) add_speed();
-    // Keeps a frame that shows nothing from being without any equation.
+    // Keeps an unobserved frame from being without any equation.
     for (int i = 0; i < n_; ++i) add_(std::array{PriorTerm{i, 1.0}}, 0.0, 1e-2);
     return cost_;
   }
@@ -70,7 +71,7 @@ class AnglePriorRows {
          1.0 / (sigma * sigma));
   }
 
-  /// Somewhere between frame i and the next one of these frames.
+  /// Whether it slips between frame i and the next one of these frames.
   bool slips(int i) const {
     if (prior_.slips.empty()) return false;
     const auto first = prior_.slips.begin() + std::ptrdiff_t(frames_[std::size_t(i)]);
@@ -90,8 +91,8 @@ class AnglePriorRows {
          1.0 / (sigma * sigma));
   }
 
-  /// The change of speed from the gap after frame a to that after frame b; between them the table
-  /// slipped if they are not neighbours.
+  /// The change of speed from the gap after frame a to that after frame b; if they are not
+  /// neighbours, the table slipped between them.
   void add_change(int a, int b) {
     const double h = gap(a), g = gap(b);
     if (!(h > 0.0 && g > 0.0)) return;
@@ -104,7 +105,7 @@ class AnglePriorRows {
     const double robust = 1.0 / (1.0 + std::pow(error / (4.0 * sigma), 2));
     const double worth = robust / (sigma * sigma);
     cost_ += 16.0 * std::log1p(std::pow(error / (4.0 * sigma), 2)) + 2.0 * std::log(sigma);
-    // Of neighbouring gaps the two terms in the middle are of the same angle.
+    // For neighbouring gaps the two terms in the middle belong to the same angle.
     add_(std::array{PriorTerm{b + 1, 1.0 / g}, PriorTerm{b, -1.0 / g}, PriorTerm{a + 1, -1.0 / h},
                     PriorTerm{a, 1.0 / h}},
          error, worth);

@@ -7,12 +7,11 @@ namespace turnscan::motion {
 
 namespace {
 
-// How far a platter may lie from square to the axis, and its rim's centre from it. In the mean
-// over a turn the plane is square to the axis wherever it is.
+// Deviation of a platter from perpendicular to the axis, and of its rim's centre from it. Averaged
+// over a turn the plane is always perpendicular to the axis.
 constexpr double kPlatterLean = 5e-4, kEccentricity_m = 1e-3;
 
-/// The tilts and shifts that lead from one axis to another, at the height of the first one's
-/// centre.
+/// The tilts and shifts from one axis to another, at the height of the first one's centre.
 Eigen::Vector4d way_between(const AxisEstimate& from, const AxisEstimate& to) {
   const auto [u, v] = tangent_basis(from.axis);
   const Vec3d lean = from.axis.cross(to.axis), off = from.center - to.center;
@@ -21,7 +20,7 @@ Eigen::Vector4d way_between(const AxisEstimate& from, const AxisEstimate& to) {
   return {lean.dot(u), lean.dot(v), shift.dot(u), shift.dot(v)};
 }
 
-/// Estimated covariances of nested data may contradict each other.
+/// Clamps negative eigenvalues, since estimated covariances of nested data may be inconsistent.
 Eigen::Matrix4d without_negative(const Eigen::Matrix4d& matrix) {
   const auto eigen = estimation::symmetric_eigen(matrix);
   return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
@@ -48,7 +47,7 @@ void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec
   normal.diagonal() += weight;
   if (platter == nullptr) return;
   const auto [u, v] = tangent_basis(axis);
-  const Vec3d lean = axis.cross(platter->axis);  // the turn that would get there
+  const Vec3d lean = axis.cross(platter->axis);  // the rotation towards the platter's axis
   const Vec3d off = platter->center_m - center;
   right += weight.cwiseProduct(Eigen::Vector4d(lean.dot(u), lean.dot(v), off.dot(u), off.dot(v)));
 }

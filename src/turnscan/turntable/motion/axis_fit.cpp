@@ -12,7 +12,7 @@ MotionState state_of(const MotionData& data, const TurntableInfo& table,
                      const std::vector<double>& angle_rad) {
   MotionState state;
   state.axis = table.axis.normalized();
-  // The point of the axis beside the object: tilting about it moves the object least.
+  // The point of the axis beside the object: tilts about it move the object least.
   state.center = table.center_m + state.axis.dot(data.middle - table.center_m) * state.axis;
   state.angle = angle_rad;
   return state;

@@ -10,15 +10,15 @@ namespace turnscan::motion {
 
 namespace {
 
-// Views that are compared: near enough to see the same, far enough apart to show the axis.
+// Views that are compared: close enough to overlap, far enough apart to determine the axis.
 constexpr double kMinApart = 8.0 * kRadiansPerDegree, kBestApart = 35.0 * kRadiansPerDegree;
 constexpr std::size_t kMaxPairs = 12, kMaxQueries = 32, kMaxSurfacePoints = 600;
-/// Places are tried up to so many mean widths from the middle of what is seen, four a width.
+/// Search range in mean widths from the middle of the visible scene, with four steps per width.
 constexpr int kPlaces = 6;
 constexpr double kStep = 0.5;
-constexpr double kSameNormal = 0.6;  ///< least cosine between normals of one surface
+constexpr double kSameNormal = 0.6;  ///< minimum cosine between normals of one surface
 
-/// What is seen of a frame, a point in every few millimetres.
+/// A thinned surface of a frame, one point every few millimetres.
 struct CoarseSurface {
   std::vector<Vec3f> normals;
   KdTree tree;
@@ -26,7 +26,7 @@ struct CoarseSurface {
 };
 
 struct ComparedPair {
-  std::size_t to;  ///< position in the surfaces
+  std::size_t to;  ///< index in the surfaces
   double turn_rad;
   std::vector<SurfaceSample> samples;
 };
@@ -73,7 +73,8 @@ class AxisSearch {
     }
   }
 
-  /// The frame whose view is most nearly kBestApart from that of `from`; itself: none.
+  /// The frame whose view is closest to kBestApart from that of `from`; `from` itself if there is
+  /// none.
   std::size_t partner_of(std::size_t from) const {
     std::size_t best = from;
     double least = kTurn;
@@ -87,8 +88,8 @@ class AxisSearch {
     return best;
   }
 
-  /// Candidate axes: upright, leaning towards the scanner or away from it, and a little sideways.
-  /// A scanner sees surfaces that face it: it looks along the direction that most normals have.
+  /// Candidate axes: upright, tilted towards the scanner or away from it, and slightly sideways. A
+  /// scanner sees surfaces that face it, so most normals point along its viewing direction.
   void find_directions() {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const CoarseSurface& surface : surfaces_)
@@ -122,11 +123,11 @@ class AxisSearch {
     }
   }
 
-  /// Of what is seen, about a half of its radius.
+  /// About half the radius of the visible scene.
   double width() const { return 0.25 * data_.extent_m; }
 
-  /// Point-to-plane distances over how far a place's and a direction's step may move a point; what
-  /// has no neighbour with such a normal costs as much as what is as far off.
+  /// Point-to-plane distances relative to the motion of a point by one step of position and
+  /// direction; points without a neighbour of similar normal have the cost of the maximum distance.
   double cost_of(const AxisTrial& trial) const {
     double sum = 0.0, count = 0.0;
     for (const ComparedPair& pair : pairs_) {
@@ -153,7 +154,7 @@ class AxisSearch {
     return count > 0.0 ? sum / count : 1.0;
   }
 
-  /// Neighbours of a better trial lead to the same solution.
+  /// Removes neighbours of a better trial, which lead to the same solution.
   std::vector<AxisTrial> far_apart(const std::vector<AxisTrial>& trials, std::size_t most) const {
     std::vector<AxisTrial> out;
     for (const AxisTrial& trial : trials) {

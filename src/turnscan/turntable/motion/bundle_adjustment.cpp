@@ -14,7 +14,7 @@ using Eigen::Index;
 constexpr double kFirstReach_m = 0.008, kMinReach_m = 0.003;
 constexpr double kMaxHeight_m = 0.003;  // in one step
 constexpr double kStationary = 2e-5;    // radians
-/// How evenly tables turn: AnglePrior::speed_walk, from a good motor to one that is pushed by hand.
+/// Candidates of AnglePrior::speed_walk, from a good motor to a table pushed by hand.
 constexpr std::array kSpeedWalks{2e-4, 5e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1.2e-2, 2e-2, 4e-2};
 
 std::vector<std::size_t> frames_with_surface(const MotionData& data, std::size_t most) {
@@ -62,7 +62,7 @@ class BundleAdjustment {
   }
 
  private:
-  /// The model tells priors apart that pairs of views, with rotation biases, do not.
+  /// The model distinguishes priors that pairs of views, with rotation biases, do not.
   void choose_speed_walk() {
     if (!prior_.timed) return;
     double least = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ class BundleAdjustment {
     }
   }
 
-  /// Returns how far the farthest angle moved, or the axis tilted.
+  /// Returns the largest motion of an angle, or tilt of the axis.
   double apply() {
     const auto heights = system_.heights();
     for (std::size_t s = 0; s < heights.size(); ++s) {
@@ -114,7 +114,7 @@ class BundleAdjustment {
   AnglePrior prior_;
   const BundleOptions& options_;
   MotionSolution out_;
-  std::vector<std::size_t> frames_;  ///< positions in data_.frames
+  std::vector<std::size_t> frames_;  ///< indices in data_.frames
   AngleKnots knots_;
   BundleSystem system_;
   SurfelObservations observations_;

@@ -15,9 +15,9 @@ using Eigen::Index;
 constexpr double kHeldSigma_rad = 1e-7;
 constexpr std::size_t kBlocks = 64;  // of frames, whose errors are compared
 
-/// Errors that neighbouring pixels and frames share do not average out: what a block of frames
-/// says of an unknown that all share is then farther off than independent noise would make it.
-/// Returns by how much, as a factor of the variance.
+/// Errors that neighbouring pixels and frames share do not average out: the estimate of a shared
+/// unknown by a block of frames then deviates more than independent noise explains. Returns the
+/// excess as a factor of the variance.
 double excess_variance(const std::vector<FrameEquations>& blocks, double scale_m) {
   double worst = 1.0;
   for (Index j = 0; j < 4; ++j) {
@@ -98,7 +98,7 @@ double BundleSystem::add_frame(const BundleState& at, std::size_t frame,
   return squares;
 }
 
-/// The lower half of the matrix is filled.
+/// Fills the lower half of the matrix.
 void BundleSystem::add_block(const FrameEquations& sum, Index knot, double share) {
   const std::array<double, 2> part{1.0 - share, share};
   for (Index a = 0; a < 2; ++a) {
@@ -131,7 +131,7 @@ void BundleSystem::eliminate_heights() {
   });
 }
 
-/// What was seen, and what a prior and the platter say.
+/// The observations with the prior and the platter.
 BundleSystem::Dense BundleSystem::with_prior(const BundleState& at, const AnglePrior& prior) const {
   Dense out{matrix_, right_};
   const AddPriorRow add = [&](std::span<const PriorTerm> terms, double error, double worth) {

@@ -9,9 +9,9 @@ namespace turnscan::motion {
 
 namespace {
 
-/// An axis that is known no better is none.
+/// A less accurate axis is rejected.
 constexpr double kLargestAxisSigma = 1.0 * kRadiansPerDegree;
-/// Of a platter that the object's own turn checks (DetectOptions).
+/// For a platter that is verified by the object's own rotation (DetectOptions).
 constexpr double kMinAgreement = 0.65, kMinConfidence = 0.5;
 
 struct Attempt {
@@ -19,7 +19,7 @@ struct Attempt {
   RefinedMotion refined;
 };
 
-/// started: set when a motion was seen to start from.
+/// started: set once a motion to start from was found.
 Result<Attempt> attempt(const FrameSequence& sequence, const FromMotionOptions& options,
                         const MotionDataOptions& loading, const RunContext& context,
                         bool& started) {
@@ -35,7 +35,7 @@ Result<Attempt> attempt(const FrameSequence& sequence, const FromMotionOptions& 
   return out;
 }
 
-/// With the platter; without it where nothing turns above what was taken for one.
+/// With the platter; without it if nothing turns above the supposed platter.
 Result<Attempt> first_attempt(const FrameSequence& sequence, const FromMotionOptions& options,
                               MotionDataOptions& loading, const RunContext& context) {
   bool started = false;
@@ -62,7 +62,8 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
   MotionDataOptions loading;
   loading.detect = detect;
   loading.level = true;
-  // What turns checks the platter; edges of stereo cameras are rough (0.73 on a D435's table).
+  // The rotating object verifies the platter; edges of stereo cameras are rough (0.73 on a D435's
+  // table).
   loading.detect.min_agreement = std::min(detect.min_agreement, kMinAgreement);
   loading.detect.min_confidence = std::min(detect.min_confidence, kMinConfidence);
   loading.max_keys = std::size_t(options.key_frames);

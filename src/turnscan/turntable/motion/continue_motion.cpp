@@ -9,8 +9,9 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kOverlap = 0.35;          ///< rad: how far partners of later frames lie off
-constexpr std::size_t kMaxLater = 240;     ///< of the later frames; others lie between them
+constexpr double kOverlap = 0.35;          ///< rad: maximum angle to the partners of later frames
+constexpr std::size_t kMaxLater = 240;     ///< of the later frames that are read; others are
+                                           ///< interpolated
 constexpr std::size_t kMaxPartners = 100;  ///< on either side
 
 class MotionContinuation {
@@ -49,7 +50,7 @@ class MotionContinuation {
     return frames_[i].status == FrameStatus::kOk && frames_[i].sensor == 0;
   }
 
-  /// By the speed of the last stretch and the frames' times, or by their own angles.
+  /// From the speed of the last stretch and the frames' times, or from their own angles.
   Result<> predict() {
     angle_ = first_.angles_rad;
     const std::size_t last = known_ - 1;
@@ -75,7 +76,7 @@ class MotionContinuation {
     return {};
   }
 
-  /// Frames that are read: partners among those with known angles, then some of the later.
+  /// Frames that are read: partners among those with known angles, then some of the later ones.
   std::vector<std::size_t> choose() {
     std::vector<std::size_t> before, earlier, later;
     const auto [low, high] =
@@ -142,10 +143,10 @@ class MotionContinuation {
     return data.noise_m;
   }
 
-  /// Frames that were not read differ from the prediction by what their neighbours do.
+  /// Frames that were not read deviate from the prediction as their neighbours do.
   void put_between(const std::vector<std::size_t>& chosen) {
     const std::vector<double> fitted = angle_;
-    if (!predict()) return;  // it did before
+    if (!predict()) return;  // succeeded before
     const std::vector<double> predicted = std::exchange(angle_, fitted);
     std::size_t a = known_ - 1, next = 0;
     for (std::size_t i = known_; i < frames_.size(); ++i) {

@@ -12,8 +12,8 @@ namespace turnscan::motion {
 
 namespace {
 
-/// A point of the axis: the surface that is seen lies in front of it, by about half the object's
-/// half width.
+/// A point on the axis: the visible surface is in front of it by about a quarter of the object's
+/// width.
 Vec3d behind_surface(const MotionData& data, const Vec3d& axis, double depth) {
   const Vec3d view = (data.to_sensor - data.to_sensor.dot(axis) * axis).normalized();
   const Vec3d side = axis.cross(view);
@@ -53,7 +53,7 @@ std::vector<double> costs_of_speeds(const MotionData& data, const MotionState& a
   return costs;
 }
 
-/// From one key frame to the next.
+/// Time from one key frame to the next.
 double key_step_s(const MotionData& data) {
   std::vector<double> steps;
   for (std::size_t k = 0; k + 1 < data.keys.size(); ++k)
@@ -61,18 +61,18 @@ double key_step_s(const MotionData& data) {
   return median(steps);
 }
 
-/// Pairs of frames that are compared, and the fewest that tell something.
+/// Number of pairs of frames compared, and the minimum for a conclusion.
 constexpr std::size_t kRecurrencePairs = 16, kMinRecurringPairs = 4;
-/// Of how frames that do not show the same view differ, what those do that do, at most.
+/// Maximum cost of recurring views relative to that of frames with different views.
 constexpr double kRecurs = 0.6;
-/// And of the least such, those of other turns.
+/// And relative to the smallest such cost, for those of other turns.
 constexpr double kAsDeep = 1.5;
-/// How much worse pairs that are about so far apart may fit at the speed at which views come back.
+/// Maximum increase of the cost of pairs about this far apart at the speed at which views return.
 constexpr double kLittleWorse = 1.5, kPlainTurn = 5.0 * kRadiansPerDegree;
-/// A speed that pairs next to each other tell may be so many times too high or low.
+/// Maximum factor by which the speed from neighbouring pairs may be wrong.
 constexpr double kFarthestSpeed = 3.0;
 
-/// The usual cost of frames that are so many key frames apart, as if nothing had turned.
+/// Typical cost of frames with this distance in key frames, as if nothing had turned.
 double recurrence_cost(const MotionData& data, std::size_t gap) {
   const auto pairs = spread_pairs(data, gap, kRecurrencePairs);
   if (pairs.size() < kMinRecurringPairs) return 1.0;
@@ -82,7 +82,7 @@ double recurrence_cost(const MotionData& data, std::size_t gap) {
   return median(costs);
 }
 
-/// Best turn between two frames near a guess, by golden section after a coarse walk.
+/// Best rotation between two frames near a guess, by golden section after a coarse search.
 double best_turn(const MotionData& data, const MotionState& state,
                  const std::vector<FramePair>& pairs, const std::vector<double>& offset,
                  double guess, double reach, double sigma_rad) {
@@ -130,15 +130,15 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
   if (data.platter || hint) {
     state.axis = data.platter ? data.platter->axis : hint->axis.normalized();
     state.center = data.platter ? data.platter->center_m : hint->center_m;
-    // The point of the axis beside the object: tilting about it moves the object least.
+    // The point of the axis beside the object: tilts about it move the object least.
     state.center += state.axis.dot(data.middle - state.center) * state.axis;
     out.push_back(state);
     return out;
   }
-  // Upright for the sensor: y down for a camera, y up for scans of points; the sensor looks down.
+  // Upright for the sensor: y down for a camera, y up for point scans; the sensor looks down.
   const Vec3d up = data.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
   const Vec3d across = up.cross(data.to_sensor);
-  // From right above there is no direction towards the sensor: any will do.
+  // From directly above the direction towards the sensor is undefined: use any.
   const Vec3d right = across.norm() > 0.05 ? Vec3d(across.normalized()) : tangent_basis(up).first;
   for (const double tilt : {0.0, 20.0, 40.0, 60.0}) {
     for (const double roll : {0.0, 15.0, -15.0}) {
@@ -199,7 +199,7 @@ std::optional<double> recurrence_speed(const MotionData& data, const std::vector
   const double most = std::min(kRecurs * usual, kAsDeep * deepest);
   std::optional<double> best;
   for (std::size_t gap = 2; gap + 1 < n; ++gap) {
-    // A dip that may go on beyond the last gap that is known is none yet.
+    // A dip that may continue beyond the last known gap is not a minimum yet.
     if (cost[gap] > most || cost[gap] > cost[gap - 1] || cost[gap] > cost[gap + 1] ||
         cost[gap + 1] == 1.0)
       continue;
@@ -211,7 +211,8 @@ std::optional<double> recurrence_speed(const MotionData& data, const std::vector
       best = speed;
   }
   if (!best) return best;
-  // An object that looks alike from two sides comes back after half a turn, but does not turn so.
+  // An object that looks alike from two sides recurs after half a turn, but does not turn by a
+  // whole one.
   const double step = std::abs(guess * dt);
   const auto gap = std::clamp<std::size_t>(std::size_t(std::lround(kPlainTurn / step)), 1, 8);
   if (gap >= n) return std::nullopt;
@@ -234,7 +235,7 @@ void track_angles(const MotionData& data, MotionState& state, double step_sigma)
       const std::size_t then = data.keys[k - back];
       if (data.frames[then].surface.empty() || data.frames[now].samples.size() < 30) continue;
       if (data.frames[then].pass != data.frames[now].pass) continue;
-      // From now back to then, so that the turn is the negative one.
+      // From the later to the earlier frame, so that the rotation is negative.
       pairs.push_back({std::uint32_t(now), std::uint32_t(then)});
       offset.push_back(-(state.angle[last] - state.angle[then]));
     }

@@ -12,9 +12,9 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr std::size_t kMaxStarts = 6;     ///< that are solved with care
-constexpr std::size_t kSieveStride = 12;  ///< of the samples that the others are judged by
-/// Logarithm of the ratio of two speeds that are not the same.
+constexpr std::size_t kMaxStarts = 6;     ///< that are solved carefully
+constexpr std::size_t kSieveStride = 12;  ///< of the samples by which the others are judged
+/// Logarithm of the ratio above which two speeds are different.
 constexpr double kMisled = 0.15;
 
 class Initialisation {
@@ -41,7 +41,7 @@ class Initialisation {
   }
 
  private:
-  /// An axis that points down turns the other way.
+  /// An axis that points down turns in the opposite direction.
   InitialMotion upright(InitialMotion motion) const {
     const Vec3d up = data_.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
     if (data_.platter || table_ || motion.state.axis.dot(up) >= 0.0) return motion;
@@ -62,7 +62,7 @@ class Initialisation {
     return AngleSource::kNothing;
   }
 
-  /// An axis to start from, with angles.
+  /// An initial axis with angles.
   struct Start {
     MotionState state;
     AnglePrior prior;
@@ -74,7 +74,7 @@ class Initialisation {
       TURNSCAN_TRY(search_everywhere(starts));
       return starts;
     }
-    std::optional<Error> failure;  // of the first axis that nothing can be said about
+    std::optional<Error> failure;  // of the first axis without a usable speed
     for (const MotionState& axis : candidate_axes(data_, table_)) {
       TURNSCAN_TRY(context_.check());
       auto begun = start_angles(axis, starts);
@@ -85,7 +85,7 @@ class Initialisation {
     return starts;
   }
 
-  /// Moves the start's axis and angles; leaves them where no equation helps.
+  /// Refines the start's axis and angles; leaves them unchanged if no equation helps.
   Result<> solve_roughly(Start& start, std::size_t stride, int iterations,
                          bool hold_angles = false) const {
     SolveOptions options;
@@ -104,12 +104,12 @@ class Initialisation {
     return {};
   }
 
-  /// The angles' own sign takes precedence where the other fits hardly better.
+  /// The angles' own sign takes precedence if the other fits hardly better.
   double cost_of(const Start& start) const {
     return mean_pair_cost(data_, start.state) * (start.prior.nominal_sign < 0.0 ? 1.25 : 1.0);
   }
 
-  /// Of many starts those that fit best after a quick look.
+  /// Keeps those of many starts that fit best after a quick evaluation.
   Result<> keep_promising(std::vector<Start>& starts) const {
     if (starts.size() <= kMaxStarts) return {};
     std::vector<std::pair<double, std::size_t>> order;
@@ -124,7 +124,7 @@ class Initialisation {
     return {};
   }
 
-  /// Adds the starts about an axis. Fails with kMissingData where no speed is seen and none is
+  /// Adds the starts about an axis. Fails with kMissingData if no speed is observed and none is
   /// known.
   Result<> start_angles(const MotionState& axis, std::vector<Start>& starts) const {
     const Start start{axis, {}};
@@ -142,7 +142,7 @@ class Initialisation {
     double seen = guess_speed(data_, start.state);
     const auto recurs =
         seen != 0.0 ? recurrence_speed(data_, recurrence_, start.state, seen) : std::nullopt;
-    // Where the axis is off, frames next to each other are best turned by too little.
+    // If the axis is wrong, neighbouring frames fit best with too small a rotation.
     const bool misled = recurs && std::abs(std::log(*recurs / seen)) > kMisled;
     if (misled) seen = *recurs;
     const double speed = seen != 0.0 ? seen : known_speed_.value_or(0.0);
@@ -161,7 +161,7 @@ class Initialisation {
     return {};
   }
 
-  /// The list of angles may count the other way round; about a rough axis that cannot be told yet.
+  /// The list of angles may have the opposite sign, which an approximate axis cannot determine yet.
   void start_from_angles(const Start& start, std::vector<Start>& starts) const {
     const std::vector<double> told = told_angles();
     for (const double sign : {1.0, -1.0}) starts.push_back(start_with(start.state, told, sign));
@@ -176,7 +176,7 @@ class Initialisation {
     return out;
   }
 
-  /// Since the first frame.
+  /// Stated angles since the first frame.
   std::vector<double> told_angles() const {
     std::vector<double> out;
     for (const MotionFrame& frame : data_.frames)
@@ -184,7 +184,7 @@ class Initialisation {
     return out;
   }
 
-  /// Scans that lie far apart are aligned only from near by.
+  /// Scans that are far apart can only be aligned from a close start.
   Result<> search_everywhere(std::vector<Start>& starts) const {
     const std::vector<double> told = told_angles();
     TURNSCAN_ASSIGN(const auto trials, search_axes(data_, told, kMaxStarts, context_));
@@ -196,10 +196,10 @@ class Initialisation {
   const MotionData& data_;
   const FromMotionOptions& options_;
   const RunContext& context_;
-  std::optional<TurntableInfo> table_;  ///< the recording's, where it is to be used
+  std::optional<TurntableInfo> table_;  ///< the recording's, if it is to be used
   std::optional<double> known_speed_;
   AngleSource source_;
-  std::vector<double> recurrence_;  ///< of frames with times alone
+  std::vector<double> recurrence_;  ///< for frames with times only
 };
 
 }  // namespace

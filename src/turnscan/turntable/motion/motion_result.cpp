@@ -11,21 +11,22 @@ namespace turnscan::motion {
 
 namespace {
 
-/// How well an object's lowest points tell where it stands (bench/random_rigs): where it ends at a
-/// gap, at least and as a multiple of the noise, and where it spreads into a desk.
+/// Accuracy of the standing height from an object's lowest points (bench/random_rigs): where it
+/// ends at a gap, at least this and as a multiple of the noise, and where it spreads into a desk.
 constexpr double kBaseSigma_m = 0.004, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
-/// Besides, where nothing is seen below it, of its reach: a round or hollow base is hidden from
-/// above, and thin feet are not told from mixed pixels.
+/// Additional uncertainty, relative to its extent, if nothing is seen below it: a round or hollow
+/// base is occluded from above, and thin feet cannot be distinguished from mixed pixels.
 constexpr double kHiddenBase = 0.15;
-/// How well the height of a platter that the recording states is taken to hold.
+/// Accuracy of the platter's height that the recording states.
 constexpr double kRecordedHeight_m = 0.01;
-/// Of the distance between pixels, times the square of the share of pixels along outlines: what a
-/// sensor that filters over its pixels shifts (bench/random_rigs, 47 rigs with a Kinect v2's
+/// Shift by a sensor that filters over its pixels, relative to the distance between pixels times
+/// the square of the share of pixels along outlines (bench/random_rigs, 47 rigs with a Kinect v2's
 /// physics: 0.17 where that share is 0.55, 0.05 where it is 0.32).
 constexpr double kFilteredShift = 0.55;
-/// Frames that tell a speed, less one.
+/// Minimum number of frames for a speed, minus one.
 constexpr std::size_t kMinStretch = 3;
-/// Share of the frames beside slips and halts, which are short: else the table turns unevenly.
+/// Minimum share of the frames outside slips and halts, which are short: else the table turns
+/// unevenly.
 constexpr double kMinSteady = 0.6;
 
 class Publication {
@@ -63,10 +64,10 @@ class Publication {
  private:
   void set_axis(Calibration& out) const {
     out.table.axis = state_.axis;
-    // Besides noise: what smoothing and mixed pixels at silhouettes shift, a few hundredths of a
-    // pixel, and over the size of what turns still a hundredth. A sensor that filters over its
-    // pixels mixes those beside the outline, too (random_rigs: ten times as much), and shifts the
-    // more the thinner the object is in its image.
+    // In addition to noise: the shift by smoothing and mixed pixels at silhouettes, a few
+    // hundredths of a pixel, and for the tilt a hundredth relative to the object's size. A sensor
+    // that filters over its pixels also mixes those beside the outline (random_rigs: ten times as
+    // much), and the shift increases the thinner the object is in its image.
     const double filtered = data_.correlated_noise ? 1.0 : 0.0;
     const double shift =
         std::hypot(0.03, kFilteredShift * std::pow(1.0 - data_.inner_share, 2)) * data_.spacing_m;
@@ -82,7 +83,8 @@ class Publication {
     if (out.center_sigma_m > 0.003) out.undetermined.emplace_back("centre");
   }
 
-  /// The axis meets the platter's surface, or else ends at the object's lowest points.
+  /// The height at which the axis meets the platter's surface, or else that of the object's lowest
+  /// points.
   Result<> set_height(Calibration& out) const {
     if (data_.platter) {
       set_platter(*data_.platter, out);
@@ -122,8 +124,8 @@ class Publication {
     out.table.reach_m = base.reach_m;
   }
 
-  /// Only what turns above the recording's platter was looked at: the object may end elsewhere when
-  /// it reaches beyond. Its lowest points tell where they are about as high as that platter.
+  /// Only surface above the recording's platter was used: the object may end elsewhere if it
+  /// extends beyond it. Its lowest points give its base if they are about as high as that platter.
   void set_recorded_platter(const TurntableInfo& table, const ObjectBase& base,
                             Calibration& out) const {
     set_object(base, out);
@@ -140,7 +142,7 @@ class Publication {
     if (base.ends) out.undetermined.emplace_back("height");
   }
 
-  /// Frames of other sensors and dropped ones get theirs by time, or from their neighbours.
+  /// Frames of other sensors and dropped ones get their angles by time, or from their neighbours.
   void set_angles(Calibration& out) const {
     const auto& infos = sequence_.frames();
     out.angles_rad.assign(infos.size(), 0.0);
@@ -165,7 +167,7 @@ class Publication {
           data_.frames[unjoined->frame].time_s, std::abs(unjoined->turn_rad) * kDegreesPerRadian));
   }
 
-  /// As for the axis: what silhouettes shift, a few hundredths of a pixel.
+  /// As for the axis: the shift by silhouettes, a few hundredths of a pixel.
   double angle_sigma(std::size_t i) const {
     const auto& unjoined = motion_.prior.unjoined;
     const double apart = unjoined && i >= unjoined->frame ? unjoined->turn_rad : 0.0;
@@ -183,7 +185,7 @@ class Publication {
     return state_.angle[a] + share * (state_.angle[b] - state_.angle[a]);
   }
 
-  /// Frames of which the table turned evenly, and the sums of their regression line.
+  /// Frames during which the table turned evenly, and the sums of their regression line.
   struct Stretch {
     std::size_t first, last;
     double time_s = 0.0, angle_rad = 0.0;  ///< means
@@ -212,7 +214,7 @@ class Publication {
     return !slips.empty() && slips[frame] != 0;
   }
 
-  /// Between slips and halts; all frames where those leave nothing.
+  /// The stretches between slips and halts; all frames if there are none.
   std::vector<Stretch> steady_stretches(std::size_t first, std::size_t last) const {
     std::vector<Stretch> out;
     for (std::size_t i = first; i <= last; ++i) {
@@ -226,7 +228,7 @@ class Publication {
     return out;
   }
 
-  /// Each at the largest of the steps between the frames of which it is known to lie between two.
+  /// Slips, each placed at the largest of the steps between the frames that bracket it.
   std::vector<TableSlip> slips_beside(double speed_rad_s) const {
     const auto& frames = data_.frames;
     std::vector<TableSlip> out;
@@ -247,7 +249,7 @@ class Publication {
     return out;
   }
 
-  /// Slips and halts would be much of the recording.
+  /// Whether slips and halts take up much of the recording.
   bool uneven(std::size_t first, std::size_t last) const {
     const auto& transient = motion_.prior.transient;
     if (transient.empty() || last < first + 4 * kMinStretch) return false;
@@ -260,14 +262,14 @@ class Publication {
     return (state_.angle[b] - state_.angle[a]) / (data_.frames[b].time_s - data_.frames[a].time_s);
   }
 
-  /// The slope that they share.
+  /// Their common slope.
   static double speed_of(const std::vector<Stretch>& lines) {
     double along = 0.0, squares = 0.0;
     for (const Stretch& line : lines) along += line.along, squares += line.squares;
     return along / squares;
   }
 
-  /// The angles of the steady stretches alone, joined.
+  /// The angles of the steady stretches only, concatenated.
   std::vector<double> steady_angles(double speed_rad_s) const {
     std::vector<double> out = state_.angle;
     for (std::size_t i = 0; i + 1 < out.size(); ++i) {
@@ -278,7 +280,7 @@ class Publication {
     return out;
   }
 
-  /// Variance of the mean speed, as the speeds of the quarters tell it.
+  /// Variance of the mean speed, from the speeds of the quarters.
   double variance_of_quarters(const std::vector<double>& angle, std::size_t first,
                               std::size_t last) const {
     double sum = 0.0, squares = 0.0;
@@ -292,15 +294,15 @@ class Publication {
     return std::max(0.0, squares / 4.0 - sum * sum / 16.0) / 3.0;
   }
 
-  /// Of the speed: what the angles' errors make of it, and how far it changes beyond them. lines:
-  /// that it is the slope of; angle: from first to last, without what it leaves out.
+  /// Standard deviation of the speed: from the errors of the angles, and from its variation beyond
+  /// them. lines: whose slope it is; angle: from first to last, without the excluded parts.
   double speed_sigma(double angle_sigma_rad, const std::vector<Stretch>& lines,
                      const std::vector<double>& angle, std::size_t first, std::size_t last) const {
     double spans = 0.0;
     for (const Stretch& line : lines)
       spans += std::pow(data_.frames[line.last].time_s - data_.frames[line.first].time_s, 2);
     const double seconds = data_.frames[last].time_s - data_.frames[first].time_s;
-    // The quarters' share of an angle's error, of which each has two.
+    // Contribution of the angles' errors to the quarters, each of which has two.
     const double of_angles = 8.0 * std::pow(angle_sigma_rad / seconds, 2);
     const double quarters =
         last < first + 4 * kMinStretch ? 0.0 : variance_of_quarters(angle, first, last);
@@ -308,14 +310,14 @@ class Publication {
                      std::max(0.0, quarters - of_angles));
   }
 
-  /// The steady speed: the slope of the angles over time once the table runs, a slip or a halt left
-  /// out; of a table that turns unevenly the mean speed. And the moment at which that line left the
-  /// angle that the table stood at.
+  /// The steady speed: the slope of the angles over time once the table runs, without slips and
+  /// halts; if the table turns unevenly, the mean speed. And the moment at which that line left the
+  /// angle at which the table stood.
   void set_speed(Calibration& out) const {
     const auto& frames = data_.frames;
     const std::size_t n = frames.size();
     const double middle = slope(n / 4, 3 * n / 4);
-    // Runs: from where a stretch of a twentieth goes at nearly the steady speed.
+    // The table runs from where a stretch of a twentieth has nearly the steady speed.
     const std::size_t stretch = std::max<std::size_t>(1, n / 20);
     std::size_t first = 0, last = n - 1;
     while (first + stretch < n / 4 && slope(first, first + stretch) / middle < 0.93) ++first;
@@ -336,7 +338,7 @@ class Publication {
       out.undetermined.emplace_back("speed");
       out.speed_sigma_rad_s = std::nan("");
     }
-    // Where the line meets angle 0.
+    // The intersection of the line with angle 0.
     const double start = lines.front().time_s - lines.front().angle_rad / speed;
     out.start_s = first == 0 ? frames.front().time_s : start;
   }
@@ -349,7 +351,8 @@ class Publication {
   const FromMotionOptions& options_;
 };
 
-/// At most about max_samples, evenly spread over the samples of all frames, turned back to angle 0.
+/// At most about max_samples, evenly spread over the samples of all frames, rotated back to angle
+/// 0.
 std::vector<SurfaceSample> samples_at_zero(const MotionData& data, const MotionState& state,
                                            const Pose& T_table_sensor, std::size_t max_samples) {
   std::vector<SurfaceSample> out;

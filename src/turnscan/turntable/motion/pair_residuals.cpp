@@ -11,7 +11,7 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kObliquityFloor = 0.6;  // added to the squared cosines of both views
-constexpr double kCut = 4.0;             // of Huber's limit
+constexpr double kCut = 4.0;             // relative to Huber's limit
 constexpr double kCostOfNone = 0.6;      // of a sample without a counterpart
 constexpr double kContrastTurn = 8.0 * kRadiansPerDegree;
 
@@ -26,7 +26,7 @@ Moved moved_by(const SurfaceSample& sample, const PairMotion& motion) {
   return {p, n, motion.center_to + turned, motion.R * n};
 }
 
-/// Turned away from the sensor it cannot be seen.
+/// Surface facing away from the sensor is not visible.
 bool visible(const MotionData& data, const Moved& moved) {
   return !data.projective || !(-moved.m.dot(moved.q) < 0.25 * moved.q.norm());
 }
@@ -35,7 +35,7 @@ PairMotion turn_about_axis(const MotionState& state, double turn_rad) {
   return {Eigen::AngleAxisd(turn_rad, state.axis).toRotationMatrix(), state.center, state.center};
 }
 
-/// Mean pair_cost with all pairs turned apart by an angle.
+/// Mean pair_cost with all pairs rotated apart by an angle.
 double mean_cost_beside(const MotionData& data, const MotionState& state, double turn_rad) {
   const auto pairs = select_pairs(data, state.angle, false);
   const double gate = data.inlier_gate_m();
@@ -63,7 +63,7 @@ std::optional<PairMatch> match_sample(const MotionData& data, const SurfaceSampl
   Vec3d found;
   if (!visible(data, moved) || !data.find_correspondence(surface, q, reach_m, found))
     return std::nullopt;
-  // What noise along both rays makes of it; a little for what else is wrong at low angles.
+  // The effect of noise along both rays; a floor for other errors at grazing incidence.
   const double gain =
       data.projective ? 1.0 / std::sqrt(std::pow(n.dot(sample.p.cast<double>()), 2) /
                                             double(sample.p.squaredNorm()) +
@@ -133,7 +133,7 @@ double pair_cost(const MotionData& data, const MotionState& state, const FramePa
   TruncatedCost cost;
   for (std::size_t k = 0; k < n; ++k)
     cost.add(data, samples[k * samples.size() / n], data.frames[pair.to].surface, motion, gate_m);
-  // A turn that shows next to nothing of the samples explains nothing.
+  // A rotation that leaves hardly any samples visible is not supported.
   if (cost.count < 0.2 * double(n) || cost.count == 0.0) return 1.0;
   return cost.sum / cost.count;
 }

@@ -22,7 +22,7 @@ class KeyFrameIndex {
   }
 
   /// The key frame of the frame's pass with the angle nearest to target, less than reach from it;
-  /// of equally near ones the first in the order of the keys. The frame itself when there is none.
+  /// of equally near ones the first in the order of the keys. The frame itself if there is none.
   std::size_t nearest(std::size_t frame, double target, double reach) const {
     const auto pass = passes_.find(data_.frames[frame].pass);
     if (pass == passes_.end()) return frame;
@@ -45,7 +45,7 @@ class KeyFrameIndex {
   }
 
  private:
-  using Key = std::pair<double, std::size_t>;  ///< angle and position in data.keys
+  using Key = std::pair<double, std::size_t>;  ///< angle and index in data.keys
 
   const MotionData& data_;
   std::map<std::uint32_t, std::vector<Key>> passes_;
@@ -76,7 +76,7 @@ class PairSelection {
 
  private:
   void add_same_turn(std::size_t i) {
-    // Near frames say how it turned, far ones where the axis is and that the steps add up.
+    // Near frames determine the rotation, distant ones the axis and the sum of the steps.
     constexpr std::array<double, 5> kApart{0.0, 0.2, 0.5, 0.95, 1.4};
     for (std::size_t k = 0; k < kApart.size(); ++k) {
       if (!is_key_[i] && k != 0 && k != 2) continue;
@@ -95,7 +95,7 @@ class PairSelection {
     }
   }
 
-  /// Key frames that follow each other are always connected.
+  /// Consecutive key frames are always connected.
   void add_successors() {
     for (std::size_t k = 0; k + 1 < data_.keys.size(); ++k) {
       if (data_.frames[data_.keys[k]].pass == data_.frames[data_.keys[k + 1]].pass)

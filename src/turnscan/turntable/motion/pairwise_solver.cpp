@@ -15,11 +15,11 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Of a single pair, as a share of the turn between its views (standard deviation).
+/// Of a single pair, relative to the rotation between its views (standard deviation).
 constexpr double kPairRotationSlack = 0.005;
 /// Standard deviation of MotionState::rotation_bias.
 constexpr double kRotationBiasSigma = 0.003;
-/// Standard deviation of what is held, radians or metres.
+/// Standard deviation of fixed unknowns, radians or metres.
 constexpr double kHeldSigma = 1e-7;
 /// Unknowns of all frames: two tilts, two shifts, two rotation biases.
 constexpr int kSharedUnknowns = 6;
@@ -42,7 +42,8 @@ class PairwiseSolver {
     std::iota(all_frames_.begin(), all_frames_.end(), std::size_t{0});
     std::set<std::uint32_t> used;
     for (const FramePair& pair : pairs) used.insert(pair.from);
-    // The noise of a frame is the same in all its pairs: more of them say no more about it.
+    // The noise of a frame is the same in all its pairs, so additional pairs add no information
+    // about it.
     uses_ = std::max(1.0, double(pairs.size()) / double(used.size() + 1));
   }
 
@@ -99,8 +100,8 @@ class PairwiseSolver {
   }
 
   /// Errors that neighbouring pixels share (smoothing, a sensor's warped depth, fur) do not average
-  /// out: what a pair says of an unknown is then farther off than independent noise would make it,
-  /// and every residual says so much less. The unknown that shows it most counts.
+  /// out: a pair's estimate of an unknown then deviates more than independent noise explains, and
+  /// every residual has that much less weight. The most affected unknown counts.
   void find_excess(const std::vector<PairEquations>& sums, std::vector<float>& sizes) {
     const double scale = options_.scale_m.value_or(estimation::mad_sigma(sizes));
     excess_ = 1.0;
@@ -115,8 +116,8 @@ class PairwiseSolver {
     }
   }
 
-  /// Marginalises a turn of its own for each pair: what a view shows of the turn from another side
-  /// depends on what is seen there.
+  /// Marginalises an additional rotation for each pair: the apparent rotation from another side
+  /// depends on what is visible there.
   void marginalise_slack(const FramePair& pair, PairEquations& sum) const {
     const double sigma = kPairRotationSlack * rotation_bias_terms(out_.state, pair)[0];
     if (sigma == 0.0 || options_.hold_angles) return;
@@ -133,7 +134,7 @@ class PairwiseSolver {
       right_.segment<4>(Eigen::Index(n_)) += sum.right.head<4>();
       return;
     }
-    // The biases are turns, too.
+    // The biases are rotations, too.
     const auto bias = rotation_bias_terms(out_.state, pair);
     Eigen::Matrix<double, kSharedUnknowns, 5> spread =
         Eigen::Matrix<double, kSharedUnknowns, 5>::Zero();
@@ -204,7 +205,7 @@ class PairwiseSolver {
     return {};
   }
 
-  /// Returns how far the farthest point moved, about.
+  /// Returns approximately the largest motion of a point.
   double apply() {
     const auto first = Eigen::Index(n_);
     const auto [size, shift] =
@@ -239,10 +240,10 @@ class PairwiseSolver {
   const SolveOptions& options_;
   std::size_t n_;
   const std::vector<double>& start_;
-  std::vector<std::size_t> all_frames_;  ///< their positions
-  double uses_ = 1.0;                    ///< how often the same noise is counted
-  double excess_ = 1.0;    ///< of the spread of pairs' mean residuals over that of noise
-  double variance_ = 1.0;  ///< what a residual of one standard deviation weighs
+  std::vector<std::size_t> all_frames_;  ///< their indices
+  double uses_ = 1.0;                    ///< multiplicity of the same noise
+  double excess_ = 1.0;                  ///< spread of the pairs' mean residuals over that of noise
+  double variance_ = 1.0;                ///< weight of a residual of one standard deviation
   double cost_ = 0.0, prior_cost_ = 0.0;
   MotionSolution out_;
   std::vector<Eigen::Triplet<double>> triplets_;

@@ -13,19 +13,19 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Fewer views, far apart, have too little in common for a model of the surface.
+/// Fewer views, far apart, have too little in common for a surface model.
 constexpr std::size_t kMinBundleFrames = 24;
 /// turn_contrast() below which the object looks the same from all sides.
 constexpr double kMinTurnContrast = 0.02;
-/// Logarithm of the ratio of two speeds that may be the same, if the table slipped.
+/// Logarithm of the ratio of two speeds that may be the same if the table slipped.
 constexpr double kSameSpeed = 0.1;
-/// What a platter is believed with, and from how many standard deviations on it is not.
+/// Assumed accuracy of a platter, and the number of standard deviations from which it is rejected.
 constexpr double kLargestLean = 0.5 * kRadiansPerDegree, kLargestShift_m = 0.003;
 constexpr double kDisagreement = 6.0;
 constexpr std::size_t kMinPhaseFrames = 24, kMinEvidenceFrames = 12;
 
-/// What outlines shift the axis by, as shares of a pixel (standard deviation of each tilt, over the
-/// size of what turns, and of each shift). Measured with mixed pixels on bench/random_rigs.
+/// Effect of outlines on the axis, relative to a pixel (standard deviation of each tilt, over the
+/// object's size, and of each shift). Measured with mixed pixels on bench/random_rigs.
 constexpr double kOutlineTilt = 0.02, kOutlineShift = 0.035;
 
 class Refinement {
@@ -52,11 +52,11 @@ class Refinement {
     options.reach_m = 0.01;
     options.floor_m = 0.0;
     TURNSCAN_TRY(solve(options, false));
-    // At last with all frames; the pairs follow the angles.
+    // Finally with all frames; the pairs follow the angles.
     options.iterations = 3;
     options.covariance = true;
     TURNSCAN_TRY(solve(options, true));
-    // Where the angles are the prior's, pairs of views do not drift.
+    // If the angles are the prior's, pairs of views do not drift.
     if (data_.projective && out_.turn_observable && data_.keys.size() >= kMinBundleFrames) {
       TURNSCAN_TRY(adjust());
     }
@@ -64,8 +64,8 @@ class Refinement {
   }
 
  private:
-  /// Outlines show turn and axis best, but what is mixed into their pixels shifts the axis. The
-  /// axis is found once more without them.
+  /// Outlines determine rotation and axis best, but their mixed pixels shift the axis. Estimates
+  /// the axis once more without them.
   Result<> adjust() {
     TURNSCAN_ASSIGN(out_.solution, adjust_bundle(data_, out_.solution, out_.prior, {}, context_));
     if (data_.correlated_noise) return {};  // there are no outlines
@@ -97,7 +97,7 @@ class Refinement {
     return {};
   }
 
-  /// Compares the platter with the axis that the frames show without it.
+  /// Compares the platter with the axis estimated from the frames without it.
   Result<> judge_platter(SolveOptions options) {
     if (!data_.platter) return {};
     options.use_platter = false;
@@ -126,8 +126,8 @@ class Refinement {
            shift < std::max(kLargestShift_m, kDisagreement * shift_sigma);
   }
 
-  /// Whether the turn can be seen. What a round object's angles were fitted to is its noise: they
-  /// are those of the prior then.
+  /// Decides whether the rotation is observable. The angles of a round object would be fitted to
+  /// noise, and are those of the prior instead.
   Result<> judge_turn(const SolveOptions& options) {
     out_.turn_observable = out_.source == AngleSource::kNothing ||
                            turn_contrast(data_, state_) > kMinTurnContrast || view_comes_back();
@@ -136,7 +136,7 @@ class Refinement {
     return solve(options, false);
   }
 
-  /// After a turn at about the speed that was found.
+  /// Whether the view recurs after a turn at about the speed that was found.
   bool view_comes_back() const {
     const double speed = out_.prior.speed_rad_s;
     if (out_.source != AngleSource::kTimes || speed == 0.0) return false;
@@ -144,7 +144,7 @@ class Refinement {
     return recurs && std::abs(std::log(*recurs / speed)) < kSameSpeed;
   }
 
-  /// Back to what times or angles say.
+  /// Resets to the times or the recorded angles.
   Result<> reset_to_prior() {
     AnglePrior& prior = out_.prior;
     if (out_.source == AngleSource::kAngles) {
@@ -165,7 +165,7 @@ class Refinement {
     return {};
   }
 
-  /// The motor's phases and how evenly it turns, where the frames have times and show the turn.
+  /// Estimates the motor's phases and evenness, if the frames have times and show the rotation.
   Result<> fit_motor(SolveOptions& options) {
     if (out_.source != AngleSource::kTimes || !out_.turn_observable) return {};
     if (data_.keys.size() >= kMinPhaseFrames && find_transients(data_, state_, out_.prior)) {

@@ -11,15 +11,14 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr int kHeadings = 180;             // that are tried
-constexpr std::size_t kCostSamples = 700;  // for each of them
-constexpr double kMissingCost = 0.7;       // of a point without a correspondence
-constexpr double kSeparate =
-    20.0 * kRadiansPerDegree;            // headings this far apart are different ones
-constexpr double kAmbiguousRatio = 1.1;  // of costs, below which two headings are equally good
-/// Samples of near places share their errors, from frame to frame: so many count as one.
+constexpr int kHeadings = 180;                          // number of yaws tried
+constexpr std::size_t kCostSamples = 700;               // per yaw
+constexpr double kMissingCost = 0.7;                    // of a point without a correspondence
+constexpr double kSeparate = 20.0 * kRadiansPerDegree;  // yaws this far apart are different
+constexpr double kAmbiguousRatio = 1.1;  // of costs, below which two yaws are equally good
+/// Number of nearby samples that count as one, since they share their errors from frame to frame.
 constexpr double kCorrelatedSamples = 30.0;
-/// Of normals, as a multiple of what their noise alone would show: less says nothing of the turn.
+/// Of normals, relative to the effect of their noise alone: less does not determine the rotation.
 constexpr double kMinSignal = 2.0;
 
 Vec3d point_of(const SurfaceSample& s) { return s.p.cast<double>(); }
@@ -81,7 +80,7 @@ class HeadingSearch {
     double cost;
   };
 
-  /// All headings with their best height, the ones that fit best first.
+  /// All yaws with their best height, best fit first.
   std::vector<Candidate> ranked_headings() const {
     std::vector<Candidate> out(kHeadings);
     parallel_for(out.size(), 1, [&](std::size_t k) {
@@ -104,7 +103,7 @@ class HeadingSearch {
   }
 
   /// Mean truncated squared distance of the second's points from the first's surface. Points that
-  /// the first did not see count a fixed part.
+  /// the first did not see have a fixed cost.
   double cost_of(const RelativeYaw& at, double gate) const {
     const Pose T = at.pose();
     const std::size_t n = std::min(kCostSamples, second_.size());
@@ -117,7 +116,7 @@ class HeadingSearch {
     return sum / double(n);
   }
 
-  /// From the plane of the nearest sample that looks the same way.
+  /// Distance from the plane of the nearest sample with a similar normal.
   std::optional<double> distance(const Vec3d& q, const Vec3d& n, double gate,
                                  const SurfaceSample** partner = nullptr) const {
     std::uint32_t index = 0;
@@ -130,7 +129,7 @@ class HeadingSearch {
     return normal_of(there).dot(q - point_of(there));
   }
 
-  /// Gauss-Newton steps over heading and height; nullopt when hardly anything meets.
+  /// Gauss-Newton steps over yaw and height; nullopt if there are hardly any correspondences.
   std::optional<RelativeYaw> refined(RelativeYaw at) const {
     double gate = 3.0 * gate_;
     for (int round = 0; round < 20; ++round) {
@@ -157,7 +156,7 @@ class HeadingSearch {
         right -= w * r * a;
         squares += w * r * r;
       }
-      // The lever of a round object is close to zero: it stays where it is.
+      // The lever of a round object is close to zero: its yaw stays fixed.
       normal(0, 0) += 1e-9 * double(rows.size());
       normal(1, 1) += 1e-6 * double(rows.size());
       const Eigen::Matrix2d inverse = normal.inverse();
@@ -175,7 +174,7 @@ class HeadingSearch {
     return at;
   }
 
-  /// Whether normals show more of a turn than their own noise.
+  /// Whether normals constrain the rotation beyond their own noise.
   bool shows_turn() const {
     double signal = 0.0, noise = 0.0;
     for (const SurfaceSample& s : second_) {

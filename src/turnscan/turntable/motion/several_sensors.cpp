@@ -18,7 +18,7 @@ TurntableInfo table_of(const Pose& T_table_sensor) {
   return table;
 }
 
-/// The frames of one sensor, as a recording of its own.
+/// The frames of one sensor as a recording of its own.
 SequenceView frames_of_sensor(const FrameSequence& sequence, std::uint32_t sensor) {
   SequenceHeader header = sequence.header();
   const SensorInfo info = header.sensors[sensor];
@@ -45,14 +45,14 @@ SequenceView frames_of_sensor(const FrameSequence& sequence, std::uint32_t senso
   return out;
 }
 
-/// What the angles of different sensors' frames are compared at: their times, or else the angles
-/// that they were recorded with.
+/// Common parameter of the angles of different sensors' frames: their times, or else the recorded
+/// angles.
 std::optional<double> moment_of(const FrameInfo& frame, bool timed) {
   if (timed) return frame.time_s;
   return frame.angle_rad;
 }
 
-/// Angles over moments.
+/// Angles as a function of moments.
 struct AngleCurve {
   std::vector<double> moment, angle;  ///< moments increase
 
@@ -120,7 +120,8 @@ class SensorMerger {
     return tl::unexpected<Error>(std::move(error));
   }
 
-  /// Each sensor by itself; those that do not see the turn get the angles of one that does.
+  /// Calibrates each sensor separately; those that do not observe the rotation get the angles of
+  /// one that does.
   Result<> calibrate_each() {
     std::vector<std::optional<Error>> errors(views_.size());
     found_.resize(views_.size());
@@ -175,7 +176,7 @@ class SensorMerger {
     return out;
   }
 
-  /// Seen from below a table turns the other way.
+  /// Seen from below, a table turns in the opposite direction.
   void align_direction(std::size_t k) {
     auto& own = *found_[k];
     const double first = found_[0]->calibration.angles_rad.back(),
@@ -183,7 +184,7 @@ class SensorMerger {
     if (first * second >= 0.0) return;
     own.calibration.table.axis *= -1.0;
     for (double& a : own.calibration.angles_rad) a = -a;
-    // The table's frame of the other axis: half a turn about Z.
+    // The table's frame of the opposite axis: half a turn about Z.
     for (SurfaceSample& s : own.model) {
       s.p = Vec3f(-s.p.x(), -s.p.y(), s.p.z());
       s.n = Vec3f(-s.n.x(), -s.n.y(), s.n.z());
@@ -191,7 +192,7 @@ class SensorMerger {
     own.platter = false;
   }
 
-  /// The first sensor's angle when this one's was 0: the median over its frames.
+  /// The first sensor's angle at this one's angle 0: the median over its frames.
   double zero_of(std::size_t k, const AngleCurve& curve) const {
     const auto& positions = views_[k].positions();
     std::vector<double> all, inside;

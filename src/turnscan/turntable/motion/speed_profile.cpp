@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kStandsWithin = 0.2 * kRadiansPerDegree;
 constexpr double kClearEvidence = 8.0;  ///< difference of MotionSolution::minus_2_log_evidence
-/// A slip explains so much more than an uneven turn does (difference of minus_2_log_evidence), and
-/// is no smaller.
+/// Minimum advantage of a slip over an uneven rotation (difference of minus_2_log_evidence), and
+/// its minimum size.
 constexpr double kSlipEvidence = 30.0, kMinSlip = 1.0 * kRadiansPerDegree;
 constexpr std::size_t kMaxSlips = 3;
-/// What a prior of even turns makes of a slip: the speed is off for a while, by so many times
-/// what is usual, and ends where it is off by this share of the most.
+/// Effect of a slip on a prior of even rotation: the speed deviates for a while by this multiple of
+/// its usual variation, until it falls to this share of its peak.
 constexpr double kBumpPeak = 2.0, kBumpEnd = 0.1;
-/// pair_cost() across a slip above that beside it; up to how many key frames apart, and how far
-/// from it.
+/// Maximum excess of pair_cost() across a slip over that beside it; maximum distance of the pairs
+/// in key frames, and from the slip.
 constexpr double kMaxCostAcross = 0.3;
 constexpr std::size_t kSpanAcross = 3, kBeside = 12, kSpeedCostSamples = 250;
 
-/// With which priors are compared, so that nothing else differs. solution: with one of them.
+/// Options for comparing priors, with everything else equal. solution: with one of them.
 SolveOptions trial_options(SolveOptions options, const MotionSolution& solution) {
   options.scale_m = solution.scale_m;
   options.variance_m2 = solution.variance_m2;
@@ -34,7 +34,7 @@ SolveOptions trial_options(SolveOptions options, const MotionSolution& solution)
   return options;
 }
 
-/// Finds slips in the angles that were fitted without them.
+/// Finds slips in angles that were fitted without them.
 class SlipSearch {
  public:
   SlipSearch(const MotionData& data, const MotionSolution& solution, SolveOptions options,
@@ -65,7 +65,7 @@ class SlipSearch {
   }
 
  private:
-  /// Gaps between key frames, each named by the key before it, in which the speed is off.
+  /// Gaps between key frames, each identified by the key before it, in which the speed deviates.
   struct Bump {
     std::size_t first = 0, last = 0, peak = 0;
   };
@@ -95,7 +95,7 @@ class SlipSearch {
     return !prior_.transient.empty() && prior_.transient[frame(k)] != 0;
   }
 
-  /// Where the table starts, stops or slips as far as is known, and between two passes.
+  /// Where the table is known to start, stop or slip, and between two passes.
   bool is_known(std::size_t k) const {
     if (data_.frames[frame(k)].pass != data_.frames[frame(k + 1)].pass) return true;
     if (!prior_.slips.empty() && prior_.slips[frame(k)] != 0) return true;
@@ -138,7 +138,7 @@ class SlipSearch {
     TURNSCAN_ASSIGN(Trial best, with_slip(bump, at, context));
     for (std::size_t step = std::bit_floor(bump.last - bump.first + 1) / 2; step > 0; step /= 2) {
       for (const std::size_t k : {at - step, at + step}) {
-        if (k < bump.first || k > bump.last) continue;  // what is below zero wraps around
+        if (k < bump.first || k > bump.last) continue;  // indices below zero wrap around
         TURNSCAN_ASSIGN(Trial tried, with_slip(bump, k, context));
         if (tried.evidence() >= best.evidence()) continue;
         best = std::move(tried);
@@ -148,7 +148,7 @@ class SlipSearch {
     return best;
   }
 
-  /// Evenly up to the gap and from it on.
+  /// Even rotation up to the gap and after it.
   Result<Trial> with_slip(const Bump& bump, std::size_t gap, const RunContext& context) const {
     Trial out{gap, prior_, {}};
     MotionState start = state_;
@@ -166,9 +166,9 @@ class SlipSearch {
     return out;
   }
 
-  /// By how much worse views on both sides of a slip fit each other than views on one side, so
-  /// many key frames apart: what a plate seen edge on shows of its two sides joins them at any
-  /// turn.
+  /// Excess of the misfit of views on both sides of a slip over that of views on one side, at the
+  /// same distance in key frames: views of the two sides of a plate seen edge on fit each other at
+  /// any rotation.
   double cost_across(const Trial& trial) const {
     const MotionState& state = trial.solution.state;
     double across = 0.0, beside = 0.0, pairs_across = 0.0, pairs_beside = 0.0;
@@ -205,7 +205,7 @@ bool find_transients(const MotionData& data, const MotionState& state, AnglePrio
   for (std::size_t k = 0, a = 0, b = 0; k < keys.size(); ++k) {
     while (time(k) - time(a) > half) ++a;
     while (b + 1 < keys.size() && time(b) - time(k) < half) ++b;
-    // Across a gap in the frames at least the neighbours.
+    // Across a gap in the frames use at least the neighbours.
     const std::size_t from = a < b || k == 0 ? a : k - 1;
     const std::size_t to = a < b ? b : std::min(k + 1, keys.size() - 1);
     speed[k] = (state.angle[keys[to]] - state.angle[keys[from]]) / (time(to) - time(from));
@@ -236,7 +236,7 @@ void find_standstills(const MotionState& state, AnglePrior& prior) {
       if (count > 0 && std::abs(a - sum / double(count)) > kStandsWithin) break;
       sum += a;
     }
-    count -= count / 4;  // it moved already when that could be seen
+    count -= count / 4;  // it had already moved before that was detectable
     for (std::size_t i = 0; i < count && count > 2; ++i) prior.still[index(i)] = 1;
   };
   walk([](std::size_t i) { return i; });
@@ -259,7 +259,7 @@ Result<> choose_speed_walk(const MotionData& data, const MotionSolution& solutio
     prior.speed_walk = share;
     TURNSCAN_ASSIGN(MotionSolution tried,
                     solve_pairwise(data, state, pairs, prior, options, context));
-    // The steadiest of those that are about as probable.
+    // The steadiest of those with about the same probability.
     if (best && best->minus_2_log_evidence <= tried.minus_2_log_evidence + kClearEvidence) continue;
     best = std::move(tried);
     speed_walk = share;

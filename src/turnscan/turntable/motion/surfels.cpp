@@ -15,10 +15,10 @@ constexpr double kLowCosine = 0.3, kFullCosine = 0.5;  // of incidence: weight 0
 constexpr double kMinRamp = 0.02;
 constexpr std::size_t kMinObservations = 1000;
 
-/// By the cosine of incidence. Where a surface is seen at low angles tells most of the axis: seen
-/// head-on, a lean of the axis towards the sensor looks like a cone. Noise is along the ray, so
-/// that the distance along the normal has the cosine of it; of a sensor that filters its image as
-/// much as everywhere, for its filter errs there.
+/// Weight by the cosine of incidence. Surface at oblique incidence is most informative about the
+/// axis: seen head-on, a tilt of the axis towards the sensor looks like a cone. Noise is along the
+/// ray, so the distance along the normal is scaled by the cosine; for a sensor with a spatial
+/// filter it counts in full, since the filter causes errors there.
 double incidence_weight(double cosine, bool filtered) {
   const double ramp = (cosine - kLowCosine) / (kFullCosine - kLowCosine);
   return std::clamp(ramp, kMinRamp, 1.0) / (filtered ? 1.0 : cosine * cosine);
@@ -43,7 +43,7 @@ std::vector<TurnedSample> turned_samples(const MotionData& data, const MotionSta
   return out;
 }
 
-/// 20 bits a coordinate, and which way the normal points most.
+/// 20 bits per coordinate, and the dominant direction of the normal.
 std::uint64_t cell_of(const TurnedSample& s, double size) {
   int side = 0;
   s.n.cwiseAbs().maxCoeff(&side);
@@ -81,7 +81,7 @@ std::vector<Surfel> cell_means(const std::vector<TurnedSample>& samples, const V
 std::vector<Surfel> make_surfels(const MotionData& data, const MotionState& state,
                                  std::size_t max_surfels) {
   const auto samples = turned_samples(data, state);
-  // As many cells meet a surface as its area over theirs.
+  // The number of cells that intersect a surface is about its area over theirs.
   double size = 0.1 * data.extent_m;
   auto out = cell_means(samples, state.center, size);
   for (int round = 0; round < 3 && !out.empty(); ++round) {

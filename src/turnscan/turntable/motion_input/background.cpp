@@ -12,22 +12,23 @@ namespace turnscan::motion {
 
 namespace {
 
-/// A patch that flickers, where a mixed pixel jumps between two surfaces at rest, is smaller than
-/// what turns.
+/// Flickering patches, where a mixed pixel jumps between two static surfaces, are smaller than the
+/// moving object.
 constexpr double kMinShareOfLargest = 0.15;
 constexpr std::size_t kMinMovingPixels = 100;
-/// Standard deviations between the tenths at both ends of a pixel's depths: 2.6 of normal noise.
+/// Ratio between the inter-decile range of a pixel's depths and the noise above which it moves; 2.6
+/// for normal noise.
 constexpr double kMovingSigmas = 4.0;
 constexpr double kMinMove_m = 0.003;
-/// Of the steps in which a sensor tells depth: it may fall to either side of what stands still.
+/// In depth steps of the sensor: static depth may fall to either side of a step.
 constexpr double kMovingSteps = 2.5;
-/// A pixel shows two things where nothing lies between them, in ranges of what stands still.
+/// A pixel shows two surfaces if no depth is between them, in ranges of static depth.
 constexpr double kClearGap = 3.0;
 /// What is seen now and then at one depth stands still if that is so of a wide patch: of an object
 /// that turns only lines along its outline are. A share of all that moves.
 constexpr double kMinPassing = 0.02;
 
-/// The depths of every pixel, frame after frame; 0: none.
+/// The depths of every pixel over all frames; 0: none.
 class DepthStack {
  public:
   static Result<DepthStack> read(const FrameSequence& sequence,
@@ -81,7 +82,7 @@ class DepthStack {
 };
 
 /// Second difference of a row over every second pixel, since neighbours share some of their noise;
-/// NaN where it cannot be told.
+/// NaN if it is not available.
 float second_difference(const std::vector<float>& z, std::size_t i, std::size_t width) {
   const std::size_t x = i % width;
   if (x < 2 || x + 2 >= width) return std::numeric_limits<float>::quiet_NaN();
@@ -90,8 +91,8 @@ float second_difference(const std::vector<float>& z, std::size_t i, std::size_t 
   return std::abs(z[i - 2] - 2.0f * z[i] + z[i + 2]);
 }
 
-/// Third difference over every step-th pixel from i on, which curvature leaves alone, as the second
-/// one of the same noise; NaN where it cannot be told.
+/// Third difference over every step-th pixel from i on, which is insensitive to curvature, scaled
+/// as a second difference of the same noise; NaN if it is not available.
 float third_difference(const std::vector<float>& z, std::size_t i, std::size_t width,
                        std::size_t step) {
   if (i % width + 3 * step >= width) return std::numeric_limits<float>::quiet_NaN();
@@ -102,19 +103,19 @@ float third_difference(const std::vector<float>& z, std::size_t i, std::size_t w
   return kToSecond * (a - 3.0f * b + 3.0f * c - d);
 }
 
-/// Standard deviation of a depth from sizes of second differences. On edges and bends these are
-/// larger; most are on neither.
+/// Standard deviation of a depth value from magnitudes of second differences. On edges and bends
+/// these are larger; most are on neither.
 double noise_from(std::vector<float> differences) {
   return estimation::mad_sigma(differences) / std::sqrt(6.0);
 }
 
-/// Rows above and below from which a place is judged: so far away they share no noise with it.
+/// Distance of the rows that determine the smoothness of a place: these share no noise with it.
 constexpr std::size_t kRowsBeside = 3;
-/// Of the places, those that lie on the smoothest surface.
+/// Share of the places, those on the smoothest surface, that is used.
 constexpr double kSmoothest = 0.35;
 
-/// A place in an image: third differences there over every pixel and every second one, and how bent
-/// the surface is beside it.
+/// A place in an image: third differences there over every pixel and every second one, and the
+/// curvature of the adjacent surface.
 struct NoisePlace {
   float near, far, bent;
 };
@@ -130,9 +131,9 @@ std::optional<NoisePlace> noise_place(const std::vector<float>& z, std::size_t i
   return NoisePlace{std::abs(out.near), std::abs(out.far), std::abs(out.bent)};
 }
 
-/// From every few frames and pixels; mask: per pixel, 0 leaves it out; empty: all. Features of an
-/// object look like noise between pixels, so that the smoothest places are used: those whose
-/// neighbours, which have noise of their own, are.
+/// Uses a subset of frames and pixels; mask: per pixel, 0 excludes it; empty: all. Features of an
+/// object look like noise between pixels, so only the smoothest places are used, as judged by their
+/// neighbours, whose noise is independent.
 SpatialNoise noise_of(const DepthStack& stack, std::size_t every_frame, std::size_t every_pixel,
                       const std::vector<std::uint8_t>& mask) {
   std::vector<NoisePlace> places;
@@ -178,8 +179,8 @@ class BackgroundSearch {
   }
 
  private:
-  /// What a pixel's depth changes by without motion. Noise is larger far away and at low angles,
-  /// as it then is between neighbours.
+  /// Range of a pixel's depth without motion. Noise is larger far away and at grazing incidence, as
+  /// is then the difference between neighbours.
   double still_range(std::size_t pixel, double depth_m) const {
     thread_local std::vector<float> differences;
     differences.clear();
@@ -216,7 +217,8 @@ class BackgroundSearch {
     still_.tolerance[i] = float(still);
     if (valid >= 4 && range <= still) passing_[i] = depths[valid / 2];
     farthest_[i] = depths[valid - 1];
-    // The farthest depth may be what stands still if it is seen again; else the object hides it.
+    // The farthest depth may be static if it is seen again; else the object occludes the
+    // background.
     if (valid < 4 || double(depths[valid - 1] - depths[valid - 3]) >= still) return;
     const float far = depths[valid - 2];
     still_.candidate[i] = far;
@@ -224,10 +226,10 @@ class BackgroundSearch {
     apart_[i] = nearer != depths.begin() && double(far - *(nearer - 1)) > kClearGap * still ? 1 : 0;
   }
 
-  /// Where the object hides a pixel always its own farthest depth is seen again, too. It would be
-  /// cut off, of what lies there the part with the noise that makes it nearer would be kept, and
-  /// the axis lean. Where something stands around, it may be that, though: a platter that was not
-  /// recognised, a step of a desk.
+  /// Where the object always occludes a pixel, its own farthest depth is also seen again. Cutting
+  /// it off would keep only the part whose noise makes it nearer, and tilt the axis. Where there
+  /// are static surroundings, however, it may be one of them: a platter that was not detected, or a
+  /// step of a desk.
   void set_limits(std::vector<float>& nearer_than) {
     for (std::size_t i = 0; i < moving_.size(); ++i)
       if (moving_[i] == 0) still_.candidate[i] = 0.0f;
@@ -243,9 +245,9 @@ class BackgroundSearch {
     }
   }
 
-  /// Where the images show now this, now that part of what stands around, hardly a pixel shows it
-  /// most of the time; it is seen where wide patches show one depth whenever they show any. What
-  /// continues it may be seen a single time then. Returns whether it is so.
+  /// If the images show changing parts of the static surroundings, hardly a pixel shows them most
+  /// of the time; they are recognised where wide patches show one depth whenever they show any.
+  /// What continues them may then be seen only once. Returns whether this is the case.
   bool see_what_passes() {
     std::vector<std::uint8_t> passing(moving_.size(), 0);
     for (std::size_t i = 0; i < passing.size(); ++i)
@@ -270,7 +272,7 @@ class BackgroundSearch {
     return true;
   }
 
-  /// Patches of what moves, without lines one or two pixels wide; then as wide again.
+  /// Keeps patches of moving pixels without lines one or two pixels wide (opening).
   void keep_large_patches() {
     std::vector<std::uint8_t> core = eroded(moving_);
     std::vector<std::int32_t> label(core.size(), 0);
@@ -334,7 +336,7 @@ class BackgroundSearch {
   std::vector<std::uint8_t> moving_ =
       std::vector<std::uint8_t>(std::size_t(w_) * std::size_t(h_), 0);
   std::vector<std::uint8_t> lone_ = moving_;   ///< the candidate was not seen again
-  std::vector<std::uint8_t> apart_ = moving_;  ///< nothing is seen shortly before the candidate
+  std::vector<std::uint8_t> apart_ = moving_;  ///< no depth just before the candidate
   std::vector<float> passing_ = std::vector<float>(moving_.size(), 0.0f);  ///< seen now and then
   std::vector<float> farthest_ = passing_;
   StaticBackground still_{w_, h_, std::vector<float>(moving_.size(), 0.0f),

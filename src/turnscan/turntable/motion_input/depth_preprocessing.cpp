@@ -6,8 +6,8 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Weighted sum of z over 5 x 5 pixels around pixel i, row by row; nullopt where the window is
-/// not whole: at the image's border, or where a pixel lies on another surface.
+/// Weighted sum of z over 5 x 5 pixels around pixel i, row by row; nullopt if the window is
+/// incomplete: at the image's border, or if a pixel is on another surface.
 std::optional<double> window_sum(const FrameSurface& surface, const std::vector<float>& z,
                                  std::int32_t i, const std::array<int, 25>& weights, double fx,
                                  double noise_m) {
@@ -25,8 +25,9 @@ std::optional<double> window_sum(const FrameSurface& surface, const std::vector<
   return sum;
 }
 
-/// Subtracts a share of the second differences along rows and columns, summed, where the window is
-/// whole: beside outlines they are not the surface's (random_rigs: half as much gained with them).
+/// Subtracts a share of the second differences along rows and columns, summed, if the window is
+/// complete: beside outlines they are not the surface's (random_rigs: half the improvement if they
+/// are included).
 void subtract_bending(DepthForeground& depth, double share, double fx, double noise_m) {
   static constexpr std::array<int, 5> kSecond{2, -1, -2, -1, 2};
   std::array<int, 25> weights{};
@@ -38,10 +39,10 @@ void subtract_bending(DepthForeground& depth, double share, double fx, double no
       surface.z[std::size_t(i)] -= float(share * *sum / 35.0);
 }
 
-/// A second row of the outline is left out where this share of the pixels remains.
+/// A second row along the outline is excluded if this share of the pixels remains.
 constexpr double kMinShareWithin = 0.5;
 
-/// The pixels of `in` whose eight neighbours are all in it, and on the same surface.
+/// The pixels of `in` whose eight neighbours are all in it and on the same surface.
 std::vector<std::uint8_t> without_outline(const FrameSurface& surface,
                                           const std::vector<std::uint8_t>& in, double fx,
                                           double noise_m) {

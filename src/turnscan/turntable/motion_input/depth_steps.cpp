@@ -9,13 +9,13 @@ namespace turnscan::motion {
 namespace {
 
 constexpr std::size_t kEveryStepPixel = 3;
-/// A depth that is seen less often may be missing by chance; two that are seen are no neighbours.
+/// Rarer depths may be missing by chance, so that two observed values are not adjacent.
 constexpr std::size_t kMinTimes = 10;
-/// Share of a depth that its neighbours lie within, and how many of them tell a step.
+/// Relative range of the neighbouring depths, and the number of them that determines a step.
 constexpr double kAbout = 0.02;
 constexpr std::ptrdiff_t kMinValues = 6;
 
-/// Of ascending values, about the one at `at`.
+/// For ascending values, the step about the one at `at`.
 double step_about(const std::vector<float>& values, std::size_t at) {
   const double depth_m = values[at];
   const auto first = std::lower_bound(values.begin(), values.end(), (1.0 - kAbout) * depth_m);

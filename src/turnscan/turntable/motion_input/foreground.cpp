@@ -6,15 +6,15 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr std::size_t kMeanFrames = 36;  ///< that the search averages
-/// From this ratio of noise in time to noise between pixels on, nothing stands still.
+constexpr std::size_t kMeanFrames = 36;  ///< averaged by the search
+/// Ratio of temporal to spatial noise from which nothing is static.
 constexpr double kMovingNoise = 3.0;
 
-/// Of what moves, the share that stands on its platter.
+/// Share of the moving pixels that is on its platter.
 constexpr double kCarried = 0.8;
 constexpr int kRimPixels = 2;
 
-/// Of a platter of which only the axis is known.
+/// For a platter of which only the axis is known.
 constexpr double kUnknownRadius_m = 0.3;
 
 class ForegroundSearch {
@@ -45,8 +45,8 @@ class ForegroundSearch {
   }
 
  private:
-  /// still: most of what is seen stands still. Else it is looked for where something does, and it
-  /// must carry what moves: a turning object may have a round top.
+  /// still: most of the scene is static. Otherwise the platter is searched for among static pixels
+  /// and must carry the moving ones: a turning object may have a round top.
   Result<> find_platter(const AveragedScan& scan, bool still) {
     PlatterMemory* memory = options_.memory;
     if (memory != nullptr && memory->searched) {
@@ -67,7 +67,7 @@ class ForegroundSearch {
            !(double(scan.noise_m.pixels[pixel]) < kMovingNoise * data_.noise_m);
   }
 
-  /// Beside what stands still pixels are kept: those of a rim flicker.
+  /// Pixels beside static ones are kept, since those of a rim flicker.
   AveragedScan without_moving(AveragedScan scan) const {
     const int w = scan.depth_m.width, h = scan.depth_m.height;
     Image<std::uint8_t> near_still(w, h, 0);
@@ -97,7 +97,7 @@ class ForegroundSearch {
     return above > kCarried * all;
   }
 
-  /// Sets the noise. Returns whether something stands still, a platter perhaps: else the pixels
+  /// Sets the noise. Returns whether something is static, possibly a platter: otherwise the pixels
   /// change by more than noise all over the image.
   Result<bool> find_noise(const AveragedScan& scan, const std::vector<std::size_t>& positions) {
     const std::vector<std::size_t> some(
@@ -105,7 +105,7 @@ class ForegroundSearch {
         positions.begin() + std::ptrdiff_t(std::min<std::size_t>(4, positions.size())));
     TURNSCAN_ASSIGN(const SpatialNoise near, spatial_noise(sequence_, some, context_));
     data_.correlated_noise = near.correlated();
-    // A sensor that rounds, or smooths a lot, shows none between pixels.
+    // A sensor that rounds, or smooths strongly, shows none between pixels.
     const double least = sequence_.header().sensors[0].depth_unit_m * 0.3;
     const double spatial = std::max(near.sigma_m, least), temporal = scan.typical_noise_m();
     const bool still = near.sigma_m < least || temporal < kMovingNoise * spatial;
@@ -121,7 +121,7 @@ class ForegroundSearch {
     foreground_.left = foreground_.top = 0;
     foreground_.right = data_.camera.width;
     foreground_.bottom = data_.camera.height;
-    // The cylinder above the platter, half as high again as wide, in the image.
+    // The cylinder above the platter, half again as high as its diameter, in the image.
     const Pose T = frame_of(axis, center);
     Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
     for (int k = 0; k < 72; ++k) {
@@ -144,7 +144,7 @@ class ForegroundSearch {
     crop_to(options_.hint->axis.normalized(), options_.hint->center_m, radius_m, 0.002);
   }
 
-  /// Things that stand about may stand nearer to the axis than an unknown platter reaches.
+  /// Objects around may stand nearer to the axis than the radius of an unknown platter.
   Result<> tell_by_motion(const std::vector<std::size_t>& positions) {
     const auto found = find_moving(positions);
     if (found || found.error().code == ErrorCode::kCancelled || !options_.hint) {

@@ -10,10 +10,10 @@ namespace turnscan::motion {
 namespace {
 
 constexpr std::uint64_t kSamplingSeed = 0x6d6f74696f6eULL;
-/// Of a scan: more take time to search and say no more of its place.
+/// Of a scan: more take time to search without improving its pose.
 constexpr std::size_t kMaxScanPoints = 150000;
 
-/// At most about `most` of the points, chosen by chance: every few of a grid would be its columns.
+/// A random subset of about `most` points: every n-th of a grid would select its columns.
 std::vector<Vec3f> thin_out(std::vector<Vec3f> points, std::size_t most, std::uint64_t seed) {
   if (points.size() <= most) return points;
   const double share = double(most) / double(points.size());
@@ -70,8 +70,9 @@ class FrameLoader {
 
   std::size_t samples_per_frame(bool key) const {
     const std::size_t n = data_.frames.size();
-    // More say little: noise is smoothed over 25 pixels, so that near samples share theirs.
-    // The nearest point of a scan costs more to find than that of a depth image, and says more.
+    // More add little: noise is smoothed over 25 pixels, so that nearby samples share theirs.
+    // The nearest point of a scan costs more to find than that of a depth image, and is more
+    // informative.
     const std::size_t most = n > 24 ? 1500 : data_.projective ? 4000 : 2000;
     return std::clamp<std::size_t>(150000 / n, key ? 400 : 350, most);
   }
@@ -127,7 +128,7 @@ class FrameLoader {
     frame.surface = trimmed(depth, depth.covered);
   }
 
-  /// A platter that wobbles carries the object with it.
+  /// A wobbling platter carries the object with it.
   void level_frames() {
     std::vector<std::optional<PlatterObservation>> sights;
     for (const MotionFrame& frame : data_.frames) sights.push_back(frame.platter);
@@ -146,7 +147,7 @@ class FrameLoader {
     }
   }
 
-  /// As it was measured, but for what the sensor's own filter does to curved surfaces.
+  /// The measured surface, corrected only for the effect of the sensor's own filter on curvature.
   FrameSurface raw_surface(DepthForeground& depth) const {
     if (!data_.correlated_noise) return trimmed(depth);
     const std::vector<float> filtered = depth.surface.z;
@@ -199,7 +200,7 @@ class FrameLoader {
     return std::move(data_);
   }
 
-  /// Spacing and noise of scans of points, from the neighbours of some of them.
+  /// Spacing and noise of point scans, from the neighbours of some of the points.
   void measure_points() {
     std::vector<double> distances;
     for (const std::size_t k : data_.keys) {
@@ -283,7 +284,7 @@ Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOp
   auto data = FrameLoader(sequence, loading, context).run();
   if (data || data.error().code != ErrorCode::kTooFewPoints || !loading.memory->platter)
     return data;
-  // Nothing stands on what was taken for the platter.
+  // Nothing stands on the supposed platter.
   *loading.memory = {true, std::nullopt};
   return FrameLoader(sequence, loading, context).run();
 }

@@ -12,30 +12,31 @@ namespace turnscan::motion {
 namespace {
 
 constexpr double kMinCell_m = 0.006;      ///< edge of a cell that turns with the object
-constexpr double kCellSpacings = 2.0;     ///< and at least so many distances between pixels
+constexpr double kCellSpacings = 2.0;     ///< and at least this many pixel spacings
 constexpr std::uint32_t kMinSupport = 3;  ///< frames that saw a cell
 constexpr double kMinAround_rad = 20.0 * kRadiansPerDegree;  ///< between these
-/// Of thin and rugged parts (a jaw, legs) the motion uses no pixel, as all are outline. Where
-/// nothing stands still below, their cells count if this share of the frames saw them, which mixed
-/// pixels, wherever they fall, do not reach, and only where they lie this many cells below the
-/// rest; all, if they have so many times the support that they would have if they stood still.
+/// The motion uses no pixels of thin and rugged parts (a jaw, legs), which are all outline. If
+/// nothing static is below, their cells count if this share of the frames saw them, which mixed
+/// pixels at random depths do not reach, and only if they are this many cells below the rest; all
+/// of them count if their support is this many times that of a static interpretation.
 constexpr double kThinShare = 0.2, kThinCells = 3.0, kTurnsRather = 1.4;
-constexpr double kMinStill = 20.0;  ///< pixels of what stands still below
+constexpr double kMinStill = 20.0;  ///< pixels of the static surface below
 constexpr std::size_t kTurningFrames = 48, kMaxPoints = 20000;
 constexpr double kSlice_m = 0.002;
 constexpr std::size_t kSlices = 204;
 constexpr double kMinGap_m = 0.006;   ///< without a surface: the object has ended
-constexpr double kGapRows = 1.8;      ///< and at least so many rows of pixels
+constexpr double kGapRows = 1.8;      ///< and at least this many rows of pixels
 constexpr double kMinWidth_m = 0.01;  ///< of a foot
 constexpr std::size_t kSpreadSlices = 3;
-constexpr double kSpreadShare = 0.12;   ///< of its disc that a desk or a platter shows
-constexpr double kSpreadColumns = 2.0;  ///< times what an upright column as wide shows
-constexpr double kMinDesk_m = 0.05;     ///< radius of what may be one
-constexpr double kAbove_m = 0.008;      ///< where what stands still may touch what turns
-constexpr double kTouches_m = 0.01;     ///< from what turns down to the surface that it stands on
+constexpr double kSpreadShare = 0.12;  ///< share of its disc that is visible of a desk or a platter
+constexpr double kSpreadColumns = 2.0;  ///< relative to an upright column of the same width
+constexpr double kMinDesk_m = 0.05;     ///< minimum radius of a desk
+constexpr double kAbove_m = 0.008;      ///< height up to which static surface may touch the turning
+                                        ///< part
+constexpr double kTouches_m = 0.01;     ///< from the turning part down to its supporting surface
 constexpr std::size_t kFrames = 15;
-constexpr double kMinSeen = 0.7;  ///< of the frames, in a pixel that shows what stands still
-/// Noise deviations between the tenths at both ends of a pixel's depths: 2.6 where nothing moves.
+constexpr double kMinSeen = 0.7;  ///< share of the frames in which a static pixel is seen
+/// Ratio of a pixel's inter-decile depth range to the noise: 2.6 if nothing moves.
 constexpr double kStillSigmas = 4.0;
 
 /// Heights above and distances from the axis' centre.
@@ -46,19 +47,19 @@ struct AxisFrame {
   double radius(const Vec3d& p) const { return axis.cross(p - center).norm(); }
 };
 
-constexpr double kNothing_m = 1e9;  ///< height of the lowest of no points
+constexpr double kNothing_m = 1e9;  ///< height if there are no points
 
 struct TurningPoint {
   Vec3d p;             ///< sensor frame
-  bool inner = false;  ///< within the outline of what turns
+  bool inner = false;  ///< inside the outline of the turning part
 };
 
-/// Lowest and outermost places that turn.
+/// Lowest and outermost turning points.
 struct Extent {
   double low_m = 0.0, reach_m = 0.0;
 };
 
-/// Cells of the turning frame, and how many frames saw each, from how far around.
+/// Cells of the turning frame, with the number and the angular range of the frames that saw each.
 class TurningCells {
  public:
   TurningCells(const AxisFrame& frame, double cell_m) : frame_(frame), cell_m_(cell_m) {}
@@ -81,7 +82,7 @@ class TurningCells {
     }
   }
 
-  /// nullopt: no cell was seen often enough.
+  /// nullopt if no cell was seen often enough.
   std::optional<Extent> extent() const {
     std::optional<Extent> out;
     for (const auto& [key, cell] : cells_) {
@@ -94,14 +95,14 @@ class TurningCells {
     return out;
   }
 
-  /// Frames that saw the cell of a point, the mean of all points.
+  /// Number of frames that saw the cell of a point, averaged over all points.
   double mean_support() const {
     double sum = 0.0, points = 0.0;
     for (const auto& [key, cell] : cells_) sum += cell.points * cell.frames, points += cell.points;
     return points > 0.0 ? sum / points : 0.0;
   }
 
-  /// Mean height of the lowest cell that many frames saw, if it lies well below low_m; else low_m.
+  /// Mean height of the lowest cell that many frames saw, if it is well below low_m; else low_m.
   double thin_low(double low_m) const {
     const auto least = std::max(kMinSupport, std::uint32_t(kThinShare * double(frames_)));
     const double highest = low_m - kThinCells * cell_m_;
@@ -134,7 +135,7 @@ class TurningCells {
   std::unordered_map<std::uint64_t, Cell> cells_;
 };
 
-/// Depths of what stands still, as the medians of some frames; 0 elsewhere.
+/// Depths of static pixels, as medians over some frames; 0 elsewhere.
 class StillImage {
  public:
   static Result<StillImage> read(const MotionData& data, const FrameSequence& sequence) {
@@ -162,7 +163,7 @@ class StillImage {
     return depth_[std::size_t(y) * std::size_t(width_) + std::size_t(x)];
   }
 
-  /// Whether the pixel or one beside it shows something that stands still at about this depth.
+  /// Whether the pixel or an adjacent one shows something static at about this depth.
   bool touches(int x, int y, double z, double limit_m) const {
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v)
       for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width_ - 1); ++u)
@@ -170,7 +171,7 @@ class StillImage {
     return false;
   }
 
-  /// Whether the pixel, which stands still, shows a surface and not a mixture of two.
+  /// Whether the static pixel shows a surface rather than a mixture of two.
   bool on_surface(int x, int y, double limit_m) const {
     int near = 0;
     for (const auto& [dx, dy] : {std::pair{0, -1}, {-1, 0}, {1, 0}, {0, 1}}) {
@@ -200,7 +201,7 @@ class StillImage {
   std::vector<float> depth_;
 };
 
-/// How many of the four pixels beside one that is not at the border show about the same depth.
+/// How many of the four neighbours of a pixel that is not at the border have about the same depth.
 template <class DepthAt>
 int same_beside(const DepthAt& depth_at, int x, int y, double limit_m) {
   int same = 0;
@@ -209,8 +210,8 @@ int same_beside(const DepthAt& depth_at, int x, int y, double limit_m) {
   return same;
 }
 
-/// Whether at least three of the four pixels beside it, which is not at the border, show the same
-/// surface. A rim that mixes what stands still is one pixel wide.
+/// Whether at least three of the four neighbours of a pixel that is not at the border show the same
+/// surface. A mixed rim of a static surface is one pixel wide.
 bool is_inner(const FrameSurface& surface, int x, int y, double limit_m) {
   if (x < 1 || y < 1 || x + 1 >= surface.width || y + 1 >= surface.height) return false;
   const auto at = [&](int u, int v) {
@@ -219,8 +220,8 @@ bool is_inner(const FrameSurface& surface, int x, int y, double limit_m) {
   return same_beside(at, x, y, limit_m) >= 3;
 }
 
-/// What turns, as a frame saw it, without what flickers at the rims of what stands still: a round
-/// foot turns about itself, too.
+/// The turning part as a frame saw it, without flicker at the rims of static surfaces: a round foot
+/// turns about itself, too.
 std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFrame& frame,
                                          const RayTable& rays, const StillImage& image) {
   std::vector<TurningPoint> out;
@@ -245,8 +246,8 @@ std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFra
   return out;
 }
 
-/// What a frame saw below what turns, within its reach. Of mixed pixels, which lie at any depth,
-/// few have two neighbours as far away.
+/// What a frame saw below the turning part, within its reach. Of mixed pixels, at random depths,
+/// few have two neighbours at the same depth.
 std::vector<TurningPoint> points_below(const MotionData& data, const DepthImage& depth,
                                        const SensorInfo& sensor, const RayTable& rays,
                                        const AxisFrame& frame, const Extent& turning) {
@@ -272,7 +273,7 @@ std::vector<TurningPoint> points_below(const MotionData& data, const DepthImage&
   return out;
 }
 
-/// Pixels of what stands still in the slices below a height, within reach of the axis.
+/// Static pixels in slices below a height, within reach of the axis.
 class StillSlices {
  public:
   StillSlices(const AxisFrame& frame, const Extent& turning) : frame_(frame), turning_(turning) {}
@@ -300,7 +301,8 @@ class StillSlices {
     return sum;
   }
 
-  /// spacing_m: between pixels. up: cosine of the angle between the axis and the way to the sensor.
+  /// spacing_m: between pixels. up: cosine of the angle between the axis and the direction to the
+  /// sensor.
   ObjectBase base(double spacing_m, double up) const {
     const double pixel = spacing_m * spacing_m, across = std::sqrt(1.0 - up * up);
     const double column = kSlice_m * std::max(across, 0.1) / pixel;  // pixels per metre of width
@@ -311,7 +313,7 @@ class StillSlices {
     for (std::size_t k = 0; k + kSpreadSlices <= kSlices; ++k) {
       Slice window;
       for (std::size_t j = k; j < k + kSpreadSlices; ++j) window.add(slices_[j]);
-      // Of a disc as wide as what is seen at this height, and of an upright column as wide.
+      // For a disc as wide as the surface at this height, and for an upright column as wide.
       const double wide = window.wide_m();
       const double disc = std::numbers::pi * wide * wide * up / pixel;
       if (wide > kMinDesk_m &&
@@ -336,13 +338,13 @@ class StillSlices {
       heights_m += other.heights_m;
       squared_radii_m2 += other.squared_radii_m2;
     }
-    /// Radius of the disc that has these pixels.
+    /// Radius of the disc that has as many pixels.
     double wide_m() const {
       return pixels > 0.0 ? std::sqrt(2.0 * squared_radii_m2 / pixels) : 0.0;
     }
   };
 
-  /// Mean height of the surface whose first pixels lie in slice k.
+  /// Mean height of the surface whose first pixels are in slice k.
   double surface_at(std::size_t k) const {
     std::size_t most = k;
     for (std::size_t j = k; j < std::min(k + 2 * kSpreadSlices, kSlices); ++j)
@@ -358,7 +360,8 @@ class StillSlices {
   std::vector<Slice> slices_ = std::vector<Slice>(kSlices);
 };
 
-/// Where hardly a place was seen to turn: a two-hundredth of the points lie lower.
+/// Used if hardly any turning point was seen: the height below which a two-hundredth of the points
+/// is.
 double low_of_cloud(const MotionData& data, const AxisFrame& frame) {
   std::vector<double> heights;
   for (const Vec3f& p : data.cloud) heights.push_back(frame.height(p.cast<double>()));
@@ -367,7 +370,7 @@ double low_of_cloud(const MotionData& data, const AxisFrame& frame) {
   return *at;
 }
 
-/// Of what turns, where nothing stands still below it.
+/// Lowest height of the turning part if nothing static is below it.
 Result<double> low_of_thin_parts(const MotionData& data, std::span<const double> angles_rad,
                                  const FrameSequence& sequence, const RayTable& rays,
                                  const AxisFrame& frame, const Extent& turning, double cell_m) {

@@ -11,18 +11,18 @@ namespace turnscan::motion {
 
 namespace {
 
-constexpr double kWithinRim = 0.93;  ///< farther out pixels mix with what lies behind
+constexpr double kWithinRim = 0.93;  ///< pixels farther out mix with the background
 constexpr double kMaxTilt_rad = 3.0 * kRadiansPerDegree;
 constexpr std::size_t kMinPixels = 200;
 constexpr double kTukeySigmas = 4.0;
 constexpr int kRounds = 8;
-/// Of the platter's radius: what is seen of it must spread so far in each direction (rms).
+/// Minimum spread of the visible platter in each direction (rms), relative to its radius.
 constexpr double kMinSpread = 0.15;
 
-/// Of tilts that tell a wobble, rms.
+/// Minimum rms of tilts for a wobble.
 constexpr double kMinWobble_rad = 0.1 * kRadiansPerDegree, kWobbleOverNoise = 2.5;
-constexpr double kMinShare = 0.8;  ///< of the frames, those that show the platter
-/// Of a circle through the tilts, what they may be off it (rms), in its radius.
+constexpr double kMinShare = 0.8;  ///< of the frames that must show the platter
+/// Maximum rms deviation of the tilts from a circle, relative to its radius.
 constexpr double kRoundest = 0.35;
 
 /// The platter's frame: y along its axis.
@@ -50,8 +50,8 @@ struct PlatterPlane {
   }
 };
 
-/// Middle of the circle through points (Kasa 1976), where they lie on one; else their mean, which
-/// is the origin.
+/// Centre of the circle through points (Kasa 1976), if they are on one; else their mean, which is
+/// the origin.
 Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& points) {
   estimation::NormalEquations<3> equations;
   for (const Eigen::Vector2d& p : points)

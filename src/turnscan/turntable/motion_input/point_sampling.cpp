@@ -10,8 +10,8 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Half width of the surface that a normal is taken over. A wider one would give normals of noses
-/// and ears that lie so far off that steps towards the angles overshoot.
+/// Half width of the surface over which a normal is estimated. With a wider one, normals of noses
+/// and ears would be so wrong that steps towards the angles overshoot.
 constexpr double kWindow_m = 0.004;
 
 struct Normal {
@@ -19,7 +19,7 @@ struct Normal {
   double sigma;
 };
 
-/// The plane through the depth values of a window, in inverse depth.
+/// Plane through the depth values of a window, in inverse depth.
 std::optional<Normal> normal_at(const std::vector<float>& z, int width, int height, int x, int y,
                                 int reach, const CameraIntrinsics& camera, double noise_m,
                                 double spacing_m) {
@@ -42,7 +42,7 @@ std::optional<Normal> normal_at(const std::vector<float>& z, int width, int heig
   const int all = (2 * reach + 1) * (2 * reach + 1);
   if (4 * count < 3 * all) return std::nullopt;
   const Vec3d m = estimation::solve_ldlt(sum, right);
-  // A mixed pixel lies off the plane of its neighbours.
+  // A mixed pixel is off the plane of its neighbours.
   double squares = 0.0;
   for (int v = -reach; v <= reach; ++v) {
     for (int u = -reach; u <= reach; ++u) {
@@ -63,7 +63,7 @@ std::optional<Normal> normal_at(const std::vector<float>& z, int width, int heig
   return out;
 }
 
-/// Turns m of normal_at, given about pixel (x, y), into the unit normal towards the sensor.
+/// Converts m of normal_at, given about pixel (x, y), to the unit normal towards the sensor.
 Vec3d unit_normal(const Vec3d& scaled, const Vec3d& ray, const Vec3d& p) {
   // 1 = gx (X - ray.x Z) + gy (Y - ray.y Z) + c Z: the normal is (gx, gy, c - gx ray.x - gy ray.y).
   Vec3d n(scaled.x(), scaled.y(), scaled.z() - scaled.x() * ray.x() - scaled.y() * ray.y());
@@ -71,14 +71,14 @@ Vec3d unit_normal(const Vec3d& scaled, const Vec3d& ray, const Vec3d& p) {
   return n.dot(p) > 0.0 ? Vec3d(-n) : n;
 }
 
-/// Of scans whose points lie nearer together than they are noisy.
+/// For scans whose point spacing is below their noise.
 constexpr std::size_t kMaxNeighbours = 100;
 
 std::size_t place_of(std::uint64_t key, std::size_t count) {
   return std::size_t(uniform01(key) * double(count));
 }
 
-/// The plane through the points nearest to p; nothing where they lie in none.
+/// Plane through the points nearest to p; nullopt if they are not in a plane.
 std::optional<SurfaceSample> plane_at(const FrameSurface& surface, const Vec3f& p,
                                       std::size_t neighbours, const Viewpoint& viewpoint) {
   std::array<std::uint32_t, kMaxNeighbours> index{};
@@ -110,7 +110,7 @@ void sample_depth(const MotionData& data, const RayTable& rays, const DepthForeg
   const FrameSurface& surface = depth.surface;
   const std::vector<std::int32_t>& pixels = depth.pixels;
   if (pixels.size() < 50) return;
-  // One of each stretch of rows, so that all parts are represented; then once more.
+  // One of each stretch of rows, so that all parts are represented; then another round.
   const double stretch = std::max(1.0, double(pixels.size()) / double(wanted));
   const std::size_t tries = std::min(2 * wanted, 3 * pixels.size());
   for (std::size_t t = 0; t < tries && frame.samples.size() < wanted; ++t) {

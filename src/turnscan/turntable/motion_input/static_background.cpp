@@ -9,7 +9,7 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Half width of the window that a plane is fitted in, and the pixels that it needs.
+/// Half width of the window in which a plane is fitted, and the required number of pixels.
 constexpr int kReach = 4;
 constexpr int kMinKnown = 8;
 
@@ -79,7 +79,8 @@ class Continuation {
       ++count;
     });
     if (count < kMinKnown) return false;
-    normal.diagonal().head<2>().array() += 1.0;  // known pixels in a line say nothing across it
+    normal.diagonal().head<2>().array() += 1.0;  // collinear pixels do not constrain the plane
+                                                 // across their line
     const double inverse = estimation::solve_ldlt(normal, right)[2];
     return inverse > 0.0 &&
            std::abs(1.0 / inverse - double(in_.candidate[i])) < double(in_.tolerance[i]);

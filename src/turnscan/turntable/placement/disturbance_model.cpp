@@ -7,7 +7,7 @@ namespace turnscan::placement {
 
 namespace {
 
-/// The twist of a rotation about an axis through `at` (table frame); turn times lever.
+/// The twist of a rotation about an axis through `at` (table frame); rotation times lever.
 Twist rotation_twist(const Vec3d& turn, const Vec3d& at, const ModelScene& scene) {
   Twist out;
   out.head<3>() = turn;
@@ -15,12 +15,12 @@ Twist rotation_twist(const Vec3d& turn, const Vec3d& at, const ModelScene& scene
   return out;
 }
 
-/// A turn of the platter by one more lever's length moves the frame back by as much.
+/// A rotation of the platter by one more lever's length moves the frame back by as much.
 Twist turn_twist(const ModelScene& scene) {
   return rotation_twist(-Vec3d::UnitY(), Vec3d::Zero(), scene);
 }
 
-/// Six unknowns: the sensor rotates about the object's middle, and shifts; sensor frame.
+/// Six unknowns: the sensor rotates about the object's middle, and translates; sensor frame.
 Basis sensor_basis(const ModelFrame& frame, const ModelScene& scene) {
   const Eigen::Matrix3d R = frame.T_table_sensor.linear();
   const Vec3d at = frame.T_table_sensor * scene.middle_sensor;
@@ -33,7 +33,8 @@ Basis sensor_basis(const ModelFrame& frame, const ModelScene& scene) {
   return out;
 }
 
-/// The platter tilts about two level axes and shifts in three directions, all as cosine and sine.
+/// The platter tilts about two horizontal axes and translates in three directions, all as cosine
+/// and sine.
 Basis wobble_basis(double cycles, const ModelFrame& frame, const ModelScene& scene) {
   const double way = cycles * frame.turned_rad;
   const Eigen::Matrix3d R = rotation_about_y(-frame.turned_rad).linear();

@@ -10,7 +10,7 @@ namespace placement {
 
 namespace {
 
-/// "15.3 s", or "frame 460" where there are no times.
+/// "15.3 s", or "frame 460" if there are no times.
 std::string moment_of(const FrameSequence& sequence, std::size_t position) {
   const auto& frames = sequence.frames();
   const FrameInfo& frame = frames[std::min(position, frames.size() - 1)];
@@ -18,7 +18,8 @@ std::string moment_of(const FrameSequence& sequence, std::size_t position) {
   return fmt::format("frame {}", frame.index);
 }
 
-/// What a step or a drift moves its last frame by, as turn and as the shift of a point.
+/// Motion of a model's last frame by a step or a drift, as rotation and as the translation of a
+/// point.
 struct Move {
   double turn_deg = 0.0, shift_mm = 0.0;
 };

@@ -33,7 +33,7 @@ Window window_of(const FrameSequence& sequence, const Keyframes& keyframes,
   return out;
 }
 
-/// How badly a frame fits the keyframes of the window when it is the last one before the step, or
+/// Misfit between a frame and the keyframes of the window if it is the last one before the step, or
 /// the first one after it.
 class StepCost {
  public:
@@ -72,7 +72,7 @@ class StepCost {
   std::vector<Pose> poses_;
 };
 
-/// The first of the frames that are after the step; `if_none` when none of them is.
+/// The first of the frames that are after the step; `if_none` if there is none.
 std::size_t first_after(const std::vector<std::size_t>& between, const StepCost& cost,
                         std::size_t if_none) {
   std::vector<double> before, after;

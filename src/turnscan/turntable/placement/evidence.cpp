@@ -13,21 +13,22 @@ namespace turnscan::placement {
 
 namespace {
 
-/// Standard deviations of what a pair says, beyond noise: silhouettes, hidden places, warped depth.
+/// Standard deviations of a pair's estimate beyond noise: silhouettes, occluded parts, warped
+/// depth.
 constexpr double kShiftFloor_m = 1e-4, kTurnFloor = 0.03 * kRadiansPerDegree;
 constexpr double kTurnPerApart = 0.004;
-/// Of what two views from different sides seem to be turned by more, as a share of it.
+/// Of the apparent additional rotation between two views from different sides, relative to it.
 constexpr double kBiasSigma = 0.003;
 /// Median of a chi square over its number of unknowns, for three to six of them.
 constexpr double kMedianPerUnknown = 0.87;
-/// Of a model's unknowns, metres: only what nothing shows stays at zero.
+/// Of a model's unknowns, metres: only unobserved ones stay at zero.
 constexpr double kValueSigma_m = 0.1, kCalibrationSigma_m = 0.002, kHeldSigma_m = 1e-7;
 
-/// Biases that belong to no model: two of turns, and of the platter's axis two in the sensor's
-/// frame and two in the table's.
+/// Biases independent of the models: two of rotations, and for the platter's axis two in the
+/// sensor's frame and two in the table's.
 constexpr Eigen::Index kBiases = 6;
 constexpr double kPlatterBias_rad = 1.0 * kRadiansPerDegree;
-/// What hides the platter, and light that comes by way of the object, change with the turn.
+/// Occluders of the platter, and light reflected by the object, change with the rotation.
 constexpr double kTiltFloor_rad = 0.1 * kRadiansPerDegree;
 constexpr std::size_t kMinTilts = 12;
 
@@ -45,7 +46,8 @@ RelativeTwist both_ways(const PairConstraint& a, const PairConstraint* b, double
   return out;
 }
 
-/// The noise of a pair, and what all its points share: (H^-1 + S)^-1, where H may be singular.
+/// Combines the noise of a pair with the errors shared by all its points: (H^-1 + S)^-1, where H
+/// may be singular.
 void add_floor(RelativeTwist& twist, double lever_m) {
   const double turn = lever_m * std::hypot(kTurnFloor, kTurnPerApart * twist.apart_rad);
   Twist floor;
@@ -56,13 +58,13 @@ void add_floor(RelativeTwist& twist, double lever_m) {
   twist.right = estimation::solve_lu(both, twist.right);
 }
 
-/// How many of its eigenvalues say something.
+/// Effective number of informative eigenvalues.
 double rank_of(const Matrix6d& information) {
   const Twist values = estimation::symmetric_eigen(information).values;
   return double((values.array() > 1e-6 * values[5]).count());
 }
 
-/// By how much the unknowns of a model turn the platter's axis in the table frame, (x, z).
+/// Derivative of the platter's axis in the table frame, (x, z), by the unknowns of a model.
 TiltRows tilted_by(ModelKind kind, const Basis& basis, double lever_m) {
   TiltRows out = TiltRows::Zero(2, basis.cols());
   if (kind == ModelKind::kObject) return out;  // It moves on the platter.
@@ -106,7 +108,7 @@ Evidence::Evidence(const Keyframes& frames, const PoseGraph& graph,
   find_tilts(frames, believed);
 }
 
-/// They scatter as successive ones differ.
+/// Their noise is estimated from the differences of successive tilts.
 void Evidence::find_tilts(const Keyframes& frames, const std::vector<Pose>& believed) {
   std::vector<double> steps;
   std::optional<Vec3d> last;
@@ -127,12 +129,12 @@ void Evidence::find_tilts(const Keyframes& frames, const std::vector<Pose>& beli
     last = sight->axis;
   }
   if (tilts_.size() < kMinTilts) tilts_.clear();
-  // Of two degrees of freedom.
+  // For two degrees of freedom.
   tilt_sigma_ = std::sqrt(median(steps) / std::numbers::ln2);
   tilt_sigma_ = std::hypot(tilt_sigma_, kTiltFloor_rad);
 }
 
-/// What single pairs say of an unknown scatters by more than independent noise would make it.
+/// Estimates of an unknown by single pairs scatter more than independent noise explains.
 void Evidence::find_excess(const PoseGraph& graph) {
   for (int k = 0; k < 6; ++k) {
     std::vector<double> ratios;
@@ -150,9 +152,9 @@ void Evidence::find_excess(const PoseGraph& graph) {
 struct Evidence::System {
   std::vector<Basis> basis;             ///< per frame
   std::vector<Basis> between;           ///< per pair
-  std::vector<Basis> weighted;          ///< the same times the information
-  std::vector<TiltRows> tilted;         ///< per tilt, over its deviation
-  Eigen::MatrixXd matrix, tilt_matrix;  ///< of all, and of the tilts alone
+  std::vector<Basis> weighted;          ///< between times the information
+  std::vector<TiltRows> tilted;         ///< per tilt, over its standard deviation
+  Eigen::MatrixXd matrix, tilt_matrix;  ///< of everything, and of the tilts alone
   Eigen::VectorXd right, tilt_right;
   estimation::DenseLdlt factors;
 };
@@ -207,14 +209,14 @@ Evidence::System Evidence::system_of(const std::vector<DisturbanceModel>& models
   return out;
 }
 
-/// The median: a step that is not among the models yet is seen by few pairs.
+/// Uses the median, since a step that is not among the models yet is seen by few pairs.
 double Evidence::spread_of(const System& system, const Eigen::VectorXd& values) const {
   std::vector<double> ratios;
   for (std::size_t k = 0; k < twists_.size(); ++k) {
     const RelativeTwist& t = twists_[k];
     if (t.shown < 1.0) continue;
     const Twist left = t.right - system.weighted[k] * values;
-    // What it leaves, with the pseudo-inverse of the information.
+    // The remaining chi square, with the pseudo-inverse of the information.
     ratios.push_back(left.dot(estimation::solve_least_norm(t.information, left)) / t.shown);
   }
   return std::max(1.0, median(ratios) / kMedianPerUnknown);

@@ -63,7 +63,7 @@ class DisturbanceSearch {
     return tl::unexpected<Error>(error);
   }
 
-  /// Hidden are all frames between the nearest keyframes that are not.
+  /// Marks all frames between the nearest visible keyframes as hidden.
   void add_hidden(const Keyframes& keyframes, const std::vector<std::size_t>& hidden) {
     const auto& at = keyframes.positions;
     for (std::size_t k = 0; k < hidden.size();) {
@@ -84,7 +84,7 @@ class DisturbanceSearch {
     TURNSCAN_ASSIGN(auto models, find_models(keyframes, frames, graph, context_));
     if (models.size() < 2) return {};
     TURNSCAN_TRY(find_moments(sequence_, believed_, keyframes, frames, models, context_));
-    // What happened at a moment comes first: a speed that was measured over it is off, too.
+    // Events come first: a speed that was measured across one is wrong, too.
     for (const bool moment : {true, false}) {
       for (std::size_t k = 0; k < models.size(); ++k)
         if (!models[k].held && (models[k].first > 0) == moment)
@@ -118,7 +118,7 @@ Result<std::optional<Placement>> find_disturbances(const FrameSequence& sequence
                 T_table_sensor.size(), frames.size());
   const auto& sensors = sequence.header().sensors;
   if (sensors.size() != 1 || sensors.front().kind != SensorKind::kDepthCamera) return std::nullopt;
-  // Between passes the object is laid another way.
+  // Between passes the object is repositioned.
   if (std::any_of(frames.begin(), frames.end(),
                   [&](const FrameInfo& f) { return f.pass != frames.front().pass; }))
     return std::nullopt;

@@ -9,16 +9,17 @@ namespace turnscan::placement {
 
 namespace {
 
-/// What a frame shows more of than the usual one before it is left out: share of its points.
+/// Excess over a typical frame from which a frame is excluded: as share of its points, and in
+/// spreads.
 constexpr double kMinHidden = 0.25, kSpreads = 6.0;
-/// A point counts where the neighbour's surface lies this much farther.
+/// A point counts if the neighbour's surface is this much farther away.
 constexpr double kGap_m = 0.012, kNoises = 6.0;
-/// And no nearer surface within so many pixels: what is thin loses its outline's mixed pixels, more
-/// of them where the sensor filters its image (drop_outline).
+/// And if there is no nearer surface within this many pixels: thin parts lose the mixed pixels of
+/// their outline, more of them if the sensor has a spatial filter (drop_outline).
 constexpr int kBeside = 3, kBesideFiltered = 6;
 
-/// Whether the ray through q goes on for a gap before it meets the surface, or misses it, and
-/// nothing beside the platter stands in its way.
+/// Whether the ray through q continues for a gap before it meets the surface, or misses it, and
+/// nothing beside the platter occludes it.
 bool seen_through(const Keyframes& frames, const motion::FrameSurface& surface, const Vec3d& q,
                   double gap) {
   const Eigen::Vector2d uv = frames.data.camera.project(q);
@@ -60,7 +61,7 @@ double share_seen_through(const Keyframes& frames, const std::vector<Pose>& pose
 
 std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vector<Pose>& poses) {
   if (!frames.data.projective) return {};
-  // Whatever stands in front of the object is seen, too: a frame with few points is a plate edge
+  // An occluder in front of the object is seen, too: a frame with few points is a plate seen edge
   // on, whose neighbours see past most of them.
   std::vector<double> counts;
   for (const auto& frame : frames.data.frames) counts.push_back(double(frame.samples.size()));
@@ -84,7 +85,7 @@ std::vector<std::size_t> hidden_frames(const Keyframes& frames, const std::vecto
   for (const double s : share) off.push_back(std::abs(s - usual));
   const double limit =
       usual + std::max(kMinHidden, kSpreads * estimation::kMadToSigma * median(off));
-  // One alone is a view that has little in common with its neighbours, as a plate seen edge on.
+  // A single one is a view that has little in common with its neighbours, as a plate seen edge on.
   const auto over = [&](std::size_t i) { return i < share.size() && share[i] > limit; };
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < share.size(); ++i)

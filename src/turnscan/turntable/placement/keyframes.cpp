@@ -6,7 +6,7 @@ namespace turnscan::placement {
 
 namespace {
 
-/// The turntable as the first frame's pose has it: where no platter is seen, the object is what
+/// The turntable according to the first frame's pose: if no platter is seen, the object is what
 /// stands above it.
 TurntableInfo table_at(const Pose& T_table_sensor, const SequenceHeader& header) {
   TurntableInfo out;

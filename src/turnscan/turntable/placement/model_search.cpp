@@ -10,40 +10,41 @@ namespace turnscan::placement {
 namespace {
 
 constexpr int kMaxRounds = 4;
-/// What a model must explain, in chi square, of where the frames end up when they are left free.
+/// Minimum chi square that a model must explain of the poses of unconstrained frames.
 constexpr double kClearGain = 100.0, kGainPerUnknown = 6.0;
-/// And of where they are: frames that overlap in little more than edges end up anywhere. A step of
-/// 0.7 to 3 mm explains 130 or more, one that seems to be there in an undisturbed recording up
-/// to 60.
+/// And of the residuals at the current poses: frames that overlap in little more than edges end up
+/// anywhere. A step of 0.7 to 3 mm explains 130 or more, a spurious one in an undisturbed recording
+/// up to 60.
 constexpr double kClearGainHere = 40.0, kGainPerUnknownHere = 10.0;
-/// A wobble comes back with every turn and is seen by all frames; by its many unknowns it would
+/// A wobble recurs with every turn and is seen by all frames; because of its many unknowns it would
 /// have to explain more than there is under a sensor's own errors. In undisturbed recordings
-/// wobbles seem to explain up to 27 freely, and 19 where frames are.
+/// spurious wobbles explain up to 27 of unconstrained poses, and 19 at the current ones.
 constexpr double kClearWobble = 60.0, kClearWobbleHere = 40.0;
-/// One that leans less is no more than a shift that a sensor's errors may feign, and must explain
-/// as much as other disturbances.
+/// A smaller tilt is indistinguishable from a translation that a sensor's errors may cause, and
+/// must explain as much as other disturbances.
 constexpr double kMinWobble_rad = 0.1 * kRadiansPerDegree;
-/// Frames that see the same side see it at the same place of a wobble, and the others share little:
-/// their mismatch tells nothing of it, but may not grow by more than this.
+/// Frames that see the same side see it at the same phase of a wobble, and the others share little:
+/// their mismatch is not informative, but may not grow by more than this factor.
 constexpr double kMaxMismatch = 1.02;
-/// Nor by more than this where the platter's tilts alone explain as much as a clear disturbance.
+/// Nor by more than this if the platter's tilts alone explain as much as a clear disturbance.
 constexpr double kClearTilts = 100.0, kMaxMismatchTilted = 1.1;
-/// Keyframes on either side of an event: a few that are off, by errors that they share, are no
-/// other place.
+/// Minimum number of keyframes on either side of an event: a few wrong ones, due to shared errors,
+/// are not an event.
 constexpr std::size_t kMinBeside = 5;
-/// How far it must move the object's points.
+/// Minimum displacement of the object's points.
 constexpr double kMinSize_m = 0.0005;
-/// Of a speed: beyond this it is looked for before anything else.
+/// Relative error of a speed beyond which it is corrected before anything else.
 constexpr double kFarOff = 0.08;
-/// A smaller error of the calibration is left alone: a sensor's warped depth looks like one.
+/// Smaller errors of the calibration are not corrected: a sensor's warped depth looks like one.
 constexpr double kMinCalibration_m = 0.0015;
-/// No table wobbles by more: what the shape hardly shows, together with another calibration, does.
+/// Upper limit of wobbles: larger ones arise from weakly observed directions together with another
+/// calibration.
 constexpr double kLargestWobble_rad = 3.0 * kRadiansPerDegree;
 constexpr PairWeighting kHere{0.015, 0.006, 2}, kFine{0.01, 0.003, 2};
 
 using Penalty = double (*)(const DisturbanceModel& model, double lever_m);
 
-/// By which disturbances are compared.
+/// Penalty for comparing disturbances.
 double full_penalty_of(const DisturbanceModel& model, double = 0.0) {
   return kGainPerUnknown * double(unknowns_of(model.kind)) + kClearGain;
 }
@@ -52,7 +53,7 @@ bool leans(const DisturbanceModel& model, double lever_m) {
   return model.kind == ModelKind::kWobble && wobble_rad(model, lever_m) > kMinWobble_rad;
 }
 
-/// From which on one is believed.
+/// Penalty for accepting a disturbance.
 double penalty_of(const DisturbanceModel& model, double lever_m) {
   return leans(model, lever_m) ? kClearWobble : full_penalty_of(model);
 }
@@ -97,7 +98,7 @@ class ModelSearch {
   }
 
  private:
-  /// The keyframes as the models have them now.
+  /// The keyframes with the current models applied.
   std::vector<ModelFrame> current() const {
     std::vector<ModelFrame> out;
     for (const std::size_t position : keyframes_.positions) {
@@ -138,7 +139,7 @@ class ModelSearch {
     return out;
   }
 
-  /// Of each kind of disturbance the candidate that explains most.
+  /// For each kind of disturbance the candidate that explains most.
   Models best_of_kinds(const Evidence& evidence, const Models& models) const {
     const auto all = candidates();
     const auto gains = evidence.gains(models, all);
@@ -153,8 +154,8 @@ class ModelSearch {
     return out;
   }
 
-  /// Alone, and a slip or a halt also together with another speed: a speed that was measured over
-  /// the whole recording contains both.
+  /// Each alone, and a slip or a halt also together with another speed: a speed that was measured
+  /// over the whole recording contains both.
   std::vector<Models> candidate_sets(const Evidence& evidence, const Models& models) const {
     std::vector<Models> out;
     for (DisturbanceModel& model : best_of_kinds(evidence, models)) out.push_back({model});
@@ -166,7 +167,7 @@ class ModelSearch {
     return out;
   }
 
-  /// How clearly the last models of a fit explain what one without them leaves.
+  /// Significance with which the last models of a fit explain the residuals of one without them.
   double gain_over(const ModelFit& with, const ModelFit& without, Penalty penalty) const {
     double gain = (with.gain - without.gain) / with.spread + with.tilt_gain - without.tilt_gain;
     for (std::size_t k = without.models.size(); k < with.models.size(); ++k)
@@ -174,8 +175,8 @@ class ModelSearch {
     return gain;
   }
 
-  /// Where a speed is far off, frames that are believed to show the same view do not, and say
-  /// nothing sensible; how far free frames turn from one to the next does.
+  /// If a speed is far off, frames that are assumed to show the same view do not, and are
+  /// misleading; the rotations of unconstrained frames from one to the next are not.
   Result<> try_other_speed(const PoseGraph& graph) {
     std::vector<double> faster;
     for (std::size_t k = 1; k < keyframes_.size(); ++k) {
@@ -196,7 +197,8 @@ class ModelSearch {
     return {};
   }
 
-  /// Adds the disturbance that explains most, if any is clear, and improves all. Whether it did.
+  /// Adds the disturbance that explains most, if any is clear, and refines all. Returns whether it
+  /// did.
   Result<bool> add_best(const PoseGraph& graph) {
     const Evidence free(keyframes_, graph, poses(), current(), frames_.scene);
     const Evidence here = evidence_here(kHere, false);
@@ -222,9 +224,9 @@ class ModelSearch {
     return keep_better(starts);
   }
 
-  /// Improves all models from several starts of the new ones; keeps the best if it is better than
-  /// without them: frames fit each other better, or, of a wobble, no worse, and it explains clearly
-  /// more still.
+  /// Refines all models from several starts of the new ones; keeps the best if it is better than
+  /// without them: frames fit each other better, or, for a wobble, no worse, and it still explains
+  /// clearly more.
   Result<bool> keep_better(const std::vector<Models>& starts) {
     const Models before = models_;
     const bool wobbles = starts.front().back().kind == ModelKind::kWobble;
@@ -252,11 +254,12 @@ class ModelSearch {
   }
 
   struct RefinedGain {
-    double all = 0.0;    ///< over what must be explained
+    double all = 0.0;    ///< relative to the required chi square
     double tilts = 0.0;  ///< of the platter alone
   };
 
-  /// How clearly the models after the first ones explain what those leave, where all have come to.
+  /// Significance with which the models after the first ones explain the residuals of those, after
+  /// refinement.
   RefinedGain gain_when_refined(std::size_t first) const {
     const Evidence evidence = evidence_here(kFine, true);
     const auto at = models_.begin() + std::ptrdiff_t(first);
@@ -264,7 +267,7 @@ class ModelSearch {
     return {gain_over(all, fewer, penalty_here), all.tilt_gain - fewer.tilt_gain};
   }
 
-  /// Drops models that the others can do without; a slip stands for what it explains as well.
+  /// Drops models that the others make redundant; a slip then explains their part as well.
   void simplify() {
     const Evidence evidence = evidence_here(kFine, true);
     ModelFit best = evidence.fit(models_);
@@ -292,7 +295,8 @@ class ModelSearch {
     models_ = std::move(best.models);
   }
 
-  /// At the poses of the models; whole: of everything that they explain, not of the rest.
+  /// At the poses of the models; whole: of everything that they explain rather than of the
+  /// residuals.
   Evidence evidence_here(const PairWeighting& weighting, bool whole) const {
     PoseGraph graph;
     graph.poses = poses();
@@ -353,7 +357,7 @@ Pose placed(const ModelFrame& frame, const std::vector<DisturbanceModel>& models
   ModelFrame out = frame;
   for (const DisturbanceModel& model : models) {
     const Twist twist = basis_of(model, out, scene) * model.values;
-    // A turn may be large.
+    // A rotation may be large.
     const Pose motion = turns(model.kind)
                             ? rotation_about_y(twist[1] / scene.lever_m)
                             : estimation::exp_about(scene.middle, twist, scene.lever_m);

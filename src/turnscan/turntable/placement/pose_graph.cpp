@@ -8,8 +8,8 @@ namespace turnscan::placement {
 
 namespace {
 
-/// How far a frame may lie from where it is believed, standard deviation, as a multiple of a
-/// residual's: so weak that only what nothing shows stays in place.
+/// Standard deviation of a frame's pose about the assumed one, relative to that of a residual: so
+/// weak that only unobserved directions stay fixed.
 constexpr double kFreedom = 30.0;
 
 class FreeSolver {
@@ -25,7 +25,7 @@ class FreeSolver {
     for (int i = 0; i < 6; ++i) TURNSCAN_TRY(step(pairs, weighting, context));
     weighting.reach_m = 0.015;
     for (int i = 0; i < 8; ++i) {
-      // Which frames show the same view changes with where they are.
+      // Which frames show the same view depends on their poses.
       pairs = all_pairs(frames_, out_.poses);
       if (i >= 4) weighting.stride = 2;
       TURNSCAN_TRY(step(pairs, weighting, context));
