@@ -7,7 +7,7 @@ namespace turnscan {
 namespace {
 
 constexpr int kSide = 96;          // cells along the longest side
-constexpr double kAround = 0.005;  // beyond the grid its outermost cells decide
+constexpr double kAround = 0.005;  // beyond the grid its outermost cells are used
 
 }  // namespace
 
@@ -62,7 +62,7 @@ ObjectPartition ObjectPartition::of(std::span<const std::size_t> chosen) const {
 
 bool ObjectPartition::contains(const Vec3f& p_table) const {
   const Eigen::Array3f at = (p_table - cells_->origin).array() * cells_->per_cell;
-  // What is far outside does not fit an int.
+  // Points far outside would overflow an int.
   const Eigen::Array3f last = (cells_->size - 1).cast<float>();
   const Eigen::Array3i c = at.max(0.0f).min(last).cast<int>();
   return chosen_[cells_->owner[std::size_t(c.x() +

@@ -7,8 +7,8 @@ namespace turnscan {
 
 namespace {
 
-/// Frames that are read and worked on together: enough to keep the cores busy, few enough to keep
-/// memory flat.
+/// Number of frames that are read and processed together: enough to keep the cores busy, few enough
+/// to keep memory bounded.
 constexpr std::size_t kFramesAtOnce = 64;
 
 }  // namespace

@@ -33,7 +33,7 @@ Result<> check_sensor(const FrameInfo& info, const SequenceHeader& header) {
   return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", info.index, info.sensor);
 }
 
-/// Frames with poses of their own may lie as they like: the poses bring them together.
+/// Frames with poses of their own are not restricted: the poses relate them.
 Result<> check_pass(const FrameInfo& info, const FrameInfo& first, bool poses_within_pass) {
   if (info.pass == first.pass || (info.T_table_sensor && !poses_within_pass)) return {};
   return fail(
@@ -45,8 +45,8 @@ Result<> check_pass(const FrameInfo& info, const FrameInfo& first, bool poses_wi
 
 }  // namespace
 
-/// Places the frames on the table and keeps the first ones until the scale is known; then the
-/// method works on them.
+/// Computes the poses of the frames and keeps the first ones until the scale is known; then passes
+/// frames to the method.
 class ReconstructionStream::Impl {
  public:
   Impl(const SequenceHeader& header, const ReconstructOptions& options,
@@ -106,7 +106,7 @@ class ReconstructionStream::Impl {
   }
 
  private:
-  /// What is used of the frames handed over.
+  /// The frames that are used of those passed in.
   struct Selection {
     std::vector<PosedFrame> frames;
     std::size_t dropped = 0;
@@ -135,7 +135,7 @@ class ReconstructionStream::Impl {
     return out;
   }
 
-  /// Passes come one after another; last: of the frame before.
+  /// Passes come one after another; last: pass of the previous frame.
   Result<> check_placed(const FrameInfo& info, std::uint32_t& last) const {
     if (info.pass >= passes_.size())
       return fail(ErrorCode::kInvalidOption, "frame {} is of pass {}, which has no place",
@@ -147,7 +147,7 @@ class ReconstructionStream::Impl {
     return {};
   }
 
-  /// How many frames there are before those of another pass, if passes are fused.
+  /// Number of frames before those of another pass, if passes are fused.
   std::size_t frames_of_one_pass(std::span<const PosedFrame> frames) const {
     if (passes_.empty()) return frames.size();
     const auto next = std::find_if(frames.begin(), frames.end(), [&](const PosedFrame& frame) {
@@ -156,7 +156,7 @@ class ReconstructionStream::Impl {
     return std::size_t(next - frames.begin());
   }
 
-  /// Its own table crops it, and has to be found in its first frames.
+  /// The pass is cropped by its own table, which has to be found in its first frames.
   Result<> begin_pass(std::uint32_t pass, const RunContext& context) {
     if (pass == pass_ && pass_header_) return {};
     if (pass_header_ && first_frames_) TURNSCAN_TRY(start_with_what_is_there(context));
@@ -173,8 +173,8 @@ class ReconstructionStream::Impl {
     return method_->add(frames, read, context, out_);
   }
 
-  /// Keeps frames until there are enough to estimate the scale; what is left of them then goes to
-  /// the method.
+  /// Keeps frames until there are enough to estimate the scale; the remaining ones then go to the
+  /// method.
   Result<> buffer_until_scale_known(std::span<const PosedFrame> frames, const FrameReader& read,
                                     const RunContext& context) {
     while (first_frames_) {
@@ -197,7 +197,7 @@ class ReconstructionStream::Impl {
     return method_->add(frames, read, context, out_);
   }
 
-  /// The scan has ended before its scale was known.
+  /// Called if the scan has ended before its scale was known.
   Result<> start_with_what_is_there(const RunContext& context) {
     const bool none = first_frames_->frames().empty();
     if (none && options_.merge.pass && !first_)
@@ -208,8 +208,8 @@ class ReconstructionStream::Impl {
     return start_method(estimate, passes_.empty(), context);
   }
 
-  /// Makes the method, or tells it of the next pass, and adds the frames that waited for it. whole:
-  /// there will be no others.
+  /// Creates the method, or starts its next pass, and adds the buffered frames. whole: there will
+  /// be no others.
   Result<> start_method(const estimation::ScanEstimate& estimate, bool whole,
                         const RunContext& context) {
     const bool first = method_ == nullptr;
@@ -247,7 +247,7 @@ class ReconstructionStream::Impl {
     return passes_.empty() || !passes_[pass_].share ? nullptr : &*passes_[pass_].share;
   }
 
-  /// What a further pass's first frames led to.
+  /// Records the estimate from a further pass's first frames.
   void note_pass(const estimation::ScanEstimate& estimate) {
     for (ResolvedParameter choice : estimate.choices) {
       choice.reason = fmt::format("{}: {}", passes_[pass_].name, choice.reason);
@@ -263,9 +263,9 @@ class ReconstructionStream::Impl {
   const MethodEntry& entry_;
   std::vector<RayTable> rays_;  ///< per sensor
   FramePoser poser_;
-  std::optional<FrameInfo> first_;                       ///< of those used, dropped ones too
-  std::uint32_t pass_ = 0;                               ///< whose frames are being added
-  std::optional<SequenceHeader> pass_header_;            ///< with its table, if passes are fused
+  std::optional<FrameInfo> first_;             ///< of the used frames, including dropped ones
+  std::uint32_t pass_ = 0;                     ///< the current pass
+  std::optional<SequenceHeader> pass_header_;  ///< with its table, if passes are fused
   std::optional<estimation::FirstFrames> first_frames_;  ///< until their scale is known
   std::size_t discarded_ = 0;
   std::mutex mutex_;  ///< guards the pointer method_

@@ -8,7 +8,7 @@ namespace {
 
 /// Profiles of line scanners that an estimate needs.
 constexpr std::size_t kProfilesNeeded = 256;
-/// Of more than these the older half is forgotten.
+/// If there are more than these, the older half is discarded.
 constexpr std::size_t kMaxKept = 512;
 
 }  // namespace

@@ -9,17 +9,18 @@ namespace turnscan::estimation {
 
 namespace {
 
-constexpr std::size_t kMaxWitnesses = 64;  // views that are asked
+constexpr std::size_t kMaxWitnesses = 64;  // number of views used
 constexpr std::size_t kPlaces = 3000, kMinPlaces = 100;
-constexpr int kMinNear = 5;    // views that measured a place
-constexpr double kNear = 3.0;  // of the noise: a depth this near to a place is of it
+constexpr int kMinNear = 5;    // views that measured a point
+constexpr double kNear = 3.0;  // times the noise: a depth this close to a point belongs to it
 constexpr double kStep = 0.5;  // pixels
 constexpr int kMaxSteps = 12;
-/// What fewer views than this share of those that measured a place see past it is outvoted anyway.
+/// Free space seen by fewer views than this share of those that measured a point is outvoted
+/// anyway.
 constexpr double kContested = 0.2;
 constexpr double kShareOfPlaces = 0.98;
 
-/// What a view says of a place: by how much deeper its pixel measured, and saw nothing.
+/// Observation of a point by a view: how much deeper its pixel measured, and observed free space.
 struct Testimony {
   std::optional<float> measured, free;
 };
@@ -39,7 +40,8 @@ Testimony ask(const views::DepthView& view, const Vec3f& p) {
 
 using Witnesses = std::vector<const views::DepthView*>;
 
-/// Into the surface at p, as the views that measured it face it; nullopt where they are too few.
+/// Inward direction of the surface at p, as the views that measured it face it; nullopt if there
+/// are too few.
 struct Facing {
   Vec3f inward;
   int views;
@@ -57,8 +59,9 @@ std::optional<Facing> facing(const Witnesses& views, const Vec3f& p, float reach
   return Facing{-outward.normalized().cast<float>(), near};
 }
 
-/// How far from p on all places are contested; nullopt where more views see past p than measured
-/// it: what stands still beside the table turns with it to where all others see nothing.
+/// Distance behind p up to which all points are contested; nullopt if more views see past p than
+/// measured it: static surface beside the table turns with it into space that all others see to be
+/// free.
 std::optional<double> contested_depth(const Witnesses& views, const Vec3f& p, const Facing& facing,
                                       float reach, double step_m) {
   const auto views_past = [&](const Vec3f& q) {

@@ -16,7 +16,7 @@ constexpr std::int64_t kHalf = std::int64_t(1) << (kBits - 1);
 struct ReachCell {
   std::uint64_t key = 0;
   std::uint32_t points = 0;
-  bool inside = false;  ///< one of them lies in the cylinder
+  bool inside = false;  ///< one of them is in the cylinder
   bool reached = false;
   double farthest_m = 0.0;  ///< of its points, from the axis
 
@@ -35,7 +35,7 @@ std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) {
 /// In ascending order of their keys.
 std::vector<ReachCell> cells_of(const std::vector<Vec3f>& p_table, const Cylinder& cylinder,
                                 double cell_m) {
-  // Neighbouring pixels mostly see the same cell: that leaves little to sort.
+  // Neighbouring pixels mostly fall into the same cell, which leaves little to sort.
   std::vector<ReachCell> runs;
   for (const Vec3f& p : p_table) {
     const double r = std::hypot(double(p.x()), double(p.z()));
@@ -82,7 +82,7 @@ void flood_from_inside(std::vector<ReachCell>& cells) {
     work.pop_back();
     for (std::int64_t x = -1; x <= 1; ++x) {
       for (std::int64_t y = -1; y <= 1; ++y) {
-        // Those beside each other along z have keys in a row.
+        // Cells adjacent along z have consecutive keys.
         const std::uint64_t middle = key + std::uint64_t(x * (std::int64_t(1) << (2 * kBits)) +
                                                          y * (std::int64_t(1) << kBits));
         auto at = std::lower_bound(cells.begin(), cells.end(), middle - 1,
@@ -98,7 +98,7 @@ void flood_from_inside(std::vector<ReachCell>& cells) {
 
 std::optional<double> reach_beyond(const std::vector<Vec3f>& p_table, const Cylinder& cylinder,
                                    double cell_m) {
-  // Keys hold what lies within three radii.
+  // Keys can represent three radii.
   if (!(cell_m > 0.0) || kFarthest * cylinder.radius_m > cell_m * double(kHalf / 2) ||
       cylinder.height_m > cell_m * double(kHalf / 2))
     return std::nullopt;

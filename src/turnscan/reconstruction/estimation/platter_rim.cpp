@@ -7,8 +7,8 @@ namespace turnscan::estimation {
 
 namespace {
 
-constexpr int kRimPlaces = 3;  ///< along and across the rim, of a sector
-constexpr int kMinLooks = 3;   ///< looks at a sector that tell
+constexpr int kRimPlaces = 3;  ///< along and across the rim, per sector
+constexpr int kMinLooks = 3;   ///< required observations of a sector
 constexpr int kSectorsThatTell = 3;
 
 }  // namespace

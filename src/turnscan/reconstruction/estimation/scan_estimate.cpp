@@ -17,20 +17,22 @@ namespace {
 
 constexpr std::size_t kSampledFrames = 12;
 constexpr std::size_t kMinPoints = 10;  // of a frame on the object
-/// So many points of a frame say where the platter and the object end; of more, every n-th is used.
+/// Number of points of a frame sufficient to locate the platter and the object's extent; of more,
+/// every n-th is used.
 constexpr std::size_t kMaxUncropped = 500'000;
-/// Cells in which the object's points hang together, in distances between the points of a frame.
+/// Cell size for the connectivity of the object's points, in distances between the points of a
+/// frame.
 constexpr double kCellSpacings = 3.0;
-/// A crop ends so many spreads above what it leaves out.
+/// A crop ends this many spreads above the excluded surface.
 constexpr double kClearNoises = 4.0;
-/// Of the directions in which frames show what is at a platter's rim: where it must be seen.
+/// Required share of the observed directions in which a platter's rim is seen.
 constexpr double kRoundShare = 0.6;
-/// How far a plane leaves y = 0 that is tilted as a calibration from motion may be.
+/// Deviation from y = 0 of a plane whose tilt is the error of a calibration from motion.
 constexpr double kTilt_m = 0.0005;
-/// Thin parts are hardly seen to turn: a crop leaves room beyond what was.
+/// Thin parts are hardly seen to turn: a crop leaves room beyond the observed extent.
 constexpr double kBeyondReach = 1.25, kBeyondReach_m = 0.015;
 
-/// What the estimate is made from.
+/// Input of the estimate.
 struct PosedScan {
   std::span<const Frame> frames;
   std::span<const Pose> poses;
@@ -48,15 +50,14 @@ std::optional<double> known_radius(const SequenceHeader& header, const CropOptio
   return crop.radius_m || !header.turntable ? crop.radius_m : header.turntable->radius_m;
 }
 
-/// Where to crop sideways as far as the calibration tells; it knows a reach where it saw no
-/// platter.
+/// Crop radius as far as the calibration determines it; it contains an extent if it saw no platter.
 std::optional<double> calibrated_radius(const SequenceHeader& header, const CropOptions& crop) {
   const auto known = known_radius(header, crop);
   if (known || !header.turntable || !header.turntable->reach_m) return known;
   return kBeyondReach * *header.turntable->reach_m + kBeyondReach_m;
 }
 
-/// Roughly the object and its noise, not the platter.
+/// Approximate cylinder of the object and its noise, without the platter.
 Cylinder rough_cylinder(const SequenceHeader& header, const CropOptions& crop) {
   Cylinder rough;
   rough.margin_m = crop.margin_m.value_or(0.003);
@@ -65,7 +66,7 @@ Cylinder rough_cylinder(const SequenceHeader& header, const CropOptions& crop) {
   return rough;
 }
 
-/// An object may be wider than its platter.
+/// Enlarges the cylinder, since an object may be wider than its platter.
 void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
                            ScanEstimate& estimate) {
   const auto reach = reach_beyond(sample, cylinder, kCellSpacings * estimate.spacing_m);
@@ -80,8 +81,8 @@ void take_in_all_of_object(const std::vector<Vec3f>& sample, Cylinder& cylinder,
                             length_text(*reach), length_text(platter))};
 }
 
-/// The returns of a platter of a radius that is known, where they are as wide and as round as its
-/// own, not only an object's feet and walls.
+/// The returns of a platter of known radius, if they are as wide and as round as it, rather than
+/// only an object's feet and walls.
 std::optional<PlatterReturns> platter_with_rim(const PlatterReturns& returns, double most_sigma_m,
                                                const std::vector<Vec3f>& sample, double radius_m,
                                                const PlatterRim& looks) {
@@ -96,22 +97,22 @@ std::optional<PlatterReturns> platter_with_rim(const PlatterReturns& returns, do
   return returns.plane(most_sigma_m) ? returns : at_rim;
 }
 
-/// The platter's returns among those at its height, if one is seen. known_m: its radius, by the
-/// recording or the user; calibrated: so far out something turns, at least.
+/// The platter's returns among those at its height, if one is seen. known_m: its radius, from the
+/// recording or the user; calibrated: minimum radius at which something turns.
 std::optional<PlatterReturns> platter_in(const PlatterReturns& returns,
                                          const std::vector<Vec3f>& sample,
                                          const std::optional<double>& known_m,
                                          const PlatterRim& rim, bool calibrated, double noise_m) {
   const double most_sigma_m = std::max(PlatterReturns::kMaxSigma_m, 2.0 * noise_m);
   if (known_m) return platter_with_rim(returns, most_sigma_m, sample, *known_m, rim);
-  // A calibration that knows no radius has looked for a platter in vain: only what is as thin as
-  // the noise proves the opposite.
+  // A calibration without a radius has searched for a platter without success: only returns as thin
+  // as the noise prove the opposite.
   const bool plane = returns.plane(calibrated ? noise_m + kTilt_m : most_sigma_m);
   return plane ? std::optional(returns) : std::nullopt;
 }
 
-/// Whether frames may lack the platter though there is one: cut to the object by what recorded
-/// them, or scans of it alone.
+/// Whether frames may lack an existing platter: cropped to the object while recording, or scans of
+/// it alone.
 bool may_be_cut(std::span<const Frame> frames) {
   return std::any_of(frames.begin(), frames.end(), [](const Frame& frame) {
     const auto& pixels = frame.depth.pixels;
@@ -119,7 +120,8 @@ bool may_be_cut(std::span<const Frame> frames) {
   });
 }
 
-/// Lowest height that is kept, and why. stands: there is a platter, whether it is seen or not.
+/// Lowest height that is kept, and the reason. stands: there is a platter, whether it is seen or
+/// not.
 std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
                                              const std::optional<PlatterReturns>& platter,
                                              bool stands, double noise_m) {
@@ -141,7 +143,7 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
           "what lies lower than 2 mm"};
 }
 
-/// What frames of depth cameras show where a platter's rim would be.
+/// Observations by depth cameras at the position of a platter's rim.
 PlatterRim looks_at_rim(const PosedScan& scan, double radius_m) {
   PlatterRim rim(radius_m);
   const std::size_t count = std::min(kSampledFrames, scan.frames.size());
@@ -177,7 +179,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   cylinder.radius_m = found.value_or(1e3);
   const PlatterRim rim = looks_at_rim(scan, known.value_or(0.0));
   auto platter = platter_in(returns, sample, known, rim, calibrated.has_value(), estimate.noise_m);
-  // What is left at its height of frames that lack it stands for it.
+  // In frames that lack the platter, the remaining returns at its height represent it.
   if (known && returns.count > 0 && may_be_cut(scan.frames)) platter = returns;
   const bool stands = known && returns.count == 0;
   auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
@@ -188,7 +190,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   estimate.cylinder = cylinder;
 }
 
-/// A frame's points on the object, in the order of their sheet if they lie in one.
+/// A frame's points on the object, in the order of their sheet if they are in one.
 Result<FramePoints> object_points(const Frame& frame, const Pose& pose,
                                   const SequenceHeader& header, const RayTable& rays,
                                   const std::optional<views::LightSheet>& sheet,
@@ -206,7 +208,7 @@ Result<FramePoints> object_points(const Frame& frame, const Pose& pose,
   return points;
 }
 
-/// How far the next profile lies from one: median of the distances of its points.
+/// Distance of the next profile: median over the profile's points.
 double profile_distance(const FramePoints& own, const Pose& own_pose, const FramePoints& next,
                         const Pose& next_pose) {
   std::vector<Vec3f> others;
@@ -235,7 +237,7 @@ class FrameSamples {
  public:
   explicit FrameSamples(const PosedScan& scan) : scan_(scan) {}
 
-  /// `count` of the frames, evenly spread.
+  /// Adds `count` of the frames, evenly spread.
   Result<> add(std::size_t count) {
     std::vector<Result<Sample>> samples(count);
     parallel_for(count, 1,
@@ -266,14 +268,14 @@ class FrameSamples {
     return {};
   }
 
-  /// Of all frames, uncropped, table frame.
+  /// Points of all frames, uncropped, table frame.
   const std::vector<Vec3f>& points() const { return points_; }
 
  private:
-  /// What one frame says.
+  /// Results of one frame.
   struct Sample {
     std::vector<Vec3f> uncropped;               ///< table frame
-    std::optional<FrameStatistics> statistics;  ///< where it has enough points on the object
+    std::optional<FrameStatistics> statistics;  ///< if it has enough points on the object
     std::optional<double> across_m;             ///< to the next profile
   };
 
@@ -341,7 +343,7 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
   const std::size_t count = std::min(kSampledFrames, frames.size());
   TURNSCAN_TRY(samples.add(count));
   TURNSCAN_TRY(samples.summarise(estimate));
-  // Rounding to the sensor's unit spreads depth by unit / sqrt(12) at least.
+  // Rounding to the sensor's unit spreads depth by at least unit / sqrt(12).
   for (const SensorInfo& sensor : header.sensors) {
     if (sensor.kind == SensorKind::kDepthCamera)
       estimate.noise_m = std::max(estimate.noise_m, sensor.depth_unit_m / std::sqrt(12.0));

@@ -18,8 +18,8 @@ namespace turnscan::estimation {
 
 namespace {
 
-/// Spacing of points in no order, from the nearest neighbour and from the eighth: of points strewn
-/// at random the nearest lies only half as far as the points of a grid of the same density.
+/// Spacing of unordered points, from the nearest neighbour and from the eighth: the nearest of
+/// randomly distributed points is only half as far as that of grid points of the same density.
 void unordered_spacing(const std::vector<Vec3f>& points, FrameStatistics& out) {
   constexpr std::size_t kAround = 8;
   const KdTree tree(points);
@@ -39,23 +39,23 @@ void unordered_spacing(const std::vector<Vec3f>& points, FrameStatistics& out) {
 struct Thickness {
   double sigma = 0.0;
   double density = 0.0;  ///< points per square metre
-  double spread = 0.0;   ///< extent across by extent along: 1 on a surface, 0 on a line
+  double spread = 0.0;   ///< ratio of the extents across and along: 1 on a surface, 0 on a line
 };
 
-/// Points of line scanners that spread less than this lie on lines, of which a ball must hold
-/// several before its points a square metre are those of the surface. On thin rods those of other
-/// sensors do, too, in balls of any size.
+/// Points of line scanners with less spread are on lines, of which a ball must contain several
+/// before its points per square metre are those of the surface. On thin rods those of other sensors
+/// are, too, in balls of any size.
 constexpr double kOnALine = 0.5;
 
-/// So many points of a neighbourhood give its thickness to some percent; of more, every n-th is
-/// used.
+/// Number of points of a neighbourhood that determine its thickness to some percent; of more, every
+/// n-th is used.
 constexpr std::size_t kPointsUsed = 2048;
 
-/// Faces of a wall that two directions see, both not too steeply, are one when these are less than
-/// about a right angle apart.
+/// Faces of a wall seen from two directions, both not too obliquely, are the same if these are less
+/// than about a right angle apart.
 constexpr float kSameSide = 0.2f;
 
-/// The points that a grid has sorted, in its order.
+/// The points in the order of a grid.
 struct SortedPoints {
   const std::vector<Vec3f>& points;
   const voxels::VoxelGrid& grid;
@@ -63,7 +63,7 @@ struct SortedPoints {
   double count(std::size_t) const { return 1.0; }
 };
 
-/// Of those only what was seen from about one direction.
+/// The same, restricted to points seen from about one direction.
 struct OneSide : SortedPoints {
   const std::vector<std::uint32_t>& frame;
   const std::vector<Vec3f>& towards_sensor;  ///< per frame
@@ -73,7 +73,8 @@ struct OneSide : SortedPoints {
   }
 };
 
-/// Items within r of p are spread along the normal with sigma. items: those of the grid's voxels.
+/// Standard deviation along the normal of the items within r of p. items: those of the grid's
+/// voxels.
 template <class Items>
 Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const Vec3f& p,
                        double r) {
@@ -88,7 +89,7 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
   grid.for_each_in_box(
       low, high, [&](std::uint32_t v) { around += grid.voxels()[v].end - grid.voxels()[v].begin; });
   const std::size_t step = std::max<std::size_t>(1, around / kPointsUsed);
-  std::size_t skip = 0;  // points of the next voxel to leave out first
+  std::size_t skip = 0;  // points of the next voxel to skip first
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {
     const voxels::VoxelGrid::Voxel& voxel = grid.voxels()[v];
     std::size_t k = voxel.begin + skip;
@@ -110,14 +111,14 @@ Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const 
           extent[2] > 0.0 ? extent[1] / extent[2] : 0.0};
 }
 
-/// So much farther than across the rays may neighbours lie along the surface before the frame says
-/// more about the surface's slope than about its points.
+/// Maximum ratio of the distance of neighbours along the surface to that across the rays; beyond it
+/// a frame is dominated by the surface's slope.
 constexpr double kMaxBySlope = 1.25;
 
-/// A second difference this many times the noise is a step from one surface to another.
+/// A second difference larger than this many times the noise is a step between two surfaces.
 constexpr double kJump = 3.5;
 constexpr int kNoiseRounds = 6;
-/// Fewer than this share of the second differences beside no step say nothing.
+/// Minimum share of second differences that are not beside a step.
 constexpr std::size_t kMinShareOfBends = 8, kMinBends = 16;
 
 /// Second differences along the rows of a grid, z[i] - (z[i-1] + z[i+1]) / 2, of the depth along
@@ -128,7 +129,7 @@ class GridBends {
     const auto& p = points.cloud.points;
     bend_.assign(p.size(), 0.0);
     inner_.assign(p.size(), 0);
-    // A scanner with parallel rays looks along the viewpoint's direction.
+    // For a scanner with parallel rays the ray direction is the viewpoint's direction.
     const Vec3f along =
         points.viewpoint.parallel ? Vec3f(points.viewpoint.value.cast<float>()) : Vec3f::UnitZ();
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
@@ -138,7 +139,7 @@ class GridBends {
     }
   }
 
-  /// From all of them: on a small object most may cross steps.
+  /// From all differences: on a small object most may cross steps.
   double raw_noise() const {
     std::vector<double> bends;
     for (std::size_t i = 0; i < bend_.size(); ++i) {
@@ -147,7 +148,8 @@ class GridBends {
     return noise_of(bends);
   }
 
-  /// From those that lie, with both neighbours, within a surface; nullopt if they are too few.
+  /// From those whose points, with both neighbours, are within a surface; nullopt if there are too
+  /// few.
   std::optional<double> noise_within(double jump_m) const {
     std::vector<double> bends;
     std::size_t all = 0;
@@ -165,7 +167,7 @@ class GridBends {
     return median_step([](const Vec3f& step) { return double(step.norm()); });
   }
 
-  /// The same across the rays, where neither noise nor the surface's slope count.
+  /// The same across the rays, which excludes noise and the surface's slope.
   double spacing_across() const {
     const Vec3f along =
         points_.viewpoint.parallel ? Vec3f(points_.viewpoint.value.cast<float>()) : Vec3f::UnitZ();
@@ -204,7 +206,7 @@ FrameStatistics frame_statistics(const FramePoints& points) {
   for (int round = 0; round < kNoiseRounds; ++round)
     out.noise_m = bends.noise_within(kJump * std::sqrt(1.5) * out.noise_m).value_or(out.noise_m);
   out.spacing_m = bends.spacing();
-  // A frame that looks along a flat part would ask for voxels too coarse for all the others.
+  // A frame looking along a flat part would require voxels too coarse for all the others.
   out.even_spacing_m = std::min(out.spacing_m, std::hypot(kMaxBySlope * bends.spacing_across(),
                                                           std::numbers::sqrt2 * out.noise_m));
   return out;
@@ -212,8 +214,8 @@ FrameStatistics frame_statistics(const FramePoints& points) {
 
 namespace {
 
-/// Of samples: thickness_of(r) gives the function from a random key to the thickness of the cloud
-/// within r of the sample that the key picks, or nullopt where r is too small for a grid.
+/// Samples: thickness_of(r) returns the function from a random key to the thickness of the cloud
+/// within r of the sample selected by the key, or nullopt if r is too small for a grid.
 template <class ThicknessOf>
 CloudStatistics statistics(double start_radius_m, double least_spread,
                            const ThicknessOf& thickness_of) {

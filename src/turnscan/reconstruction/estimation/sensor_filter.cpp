@@ -10,21 +10,22 @@ namespace turnscan::estimation {
 
 namespace {
 
-/// Differences over this many pixels are free of a filter over three.
+/// Differences over this many pixels are not affected by a filter over three.
 constexpr int kApart = 3;
-constexpr std::size_t kMin = 2000;  // differences that an estimate needs
-/// What the differences may exceed the noise by, which a filter hides half of, before they show how
-/// the surface turned.
+constexpr std::size_t kMin = 2000;  // differences required for an estimate
+/// Maximum ratio of the differences to the noise, half of which a filter hides; beyond it they show
+/// the rotation of the surface.
 constexpr double kNoiseSlack = 3.0;
-/// Below, what neighbours have in common moves no edge that matters.
+/// Smaller shares have no relevant effect on edges.
 constexpr double kMinShare = 0.1;
-/// Of the ratios of variances, beside a mesh: what it lacks of the surface fits no filter.
+/// Maximum misfit of the ratios of variances, relative to a mesh: errors of the mesh fit no filter.
 constexpr double kMaxMiss = 0.08;
-constexpr std::size_t kMaxDrawn = 24;  // views beside which a mesh is drawn
-/// Of the noise: what lies farther off the mesh is not its surface.
+constexpr std::size_t kMaxDrawn = 24;  // views for which a mesh is rendered
+/// In units of the noise: points farther from the mesh are not on its surface.
 constexpr double kFarthestOff = 8.0;
 
-/// Absolute second differences over 1, 2 and 3 pixels along the rows of what two images differ by.
+/// Absolute second differences over 1, 2 and 3 pixels along the rows of the difference of two
+/// images.
 struct Differences {
   std::array<std::vector<double>, kApart> over;
   void append(const Differences& other) {
@@ -33,7 +34,7 @@ struct Differences {
   }
 };
 
-/// Turned by less than 1.5 degrees, as a platter turns from frame to frame.
+/// Whether they are less than 1.5 degrees apart, like successive frames of a turning platter.
 bool nearly_same_place(const views::DepthView& a, const views::DepthView& b) {
   const float cosine = 0.5f * ((a.rotation * b.rotation.transpose()).trace() - 1.0f);
   return cosine > 0.99966f && (a.translation - b.translation).norm() < 0.02f && a.fx == b.fx &&
@@ -53,7 +54,7 @@ void append_row(const Row& row, Differences& out) {
   }
 }
 
-/// 0 outside the image, and where nothing was measured.
+/// 0 outside the image, and if nothing was measured.
 std::uint32_t pixel_at(const views::DepthView& view, int x, int y) {
   return x < 0 || y < 0 || x >= view.width || y >= view.height
              ? 0u
@@ -80,7 +81,7 @@ Differences differences(const views::DepthView& a, const views::DepthView& b) {
   return out;
 }
 
-/// Of a view and the mesh as it would see it, in units of the view.
+/// Between a view and the mesh rendered from it, in units of the view.
 Differences differences(const views::DepthView& view, const TriangleMesh& mesh, double noise_m) {
   Differences out;
   const views::ViewDrawing drawing(view, mesh);
@@ -102,30 +103,31 @@ Differences differences(const views::DepthView& view, const TriangleMesh& mesh, 
 }
 
 /// Standard deviation of normal errors, from their absolute values; the largest tenth may be
-/// strays.
+/// outliers.
 double spread(std::vector<double>& values) {
   const auto most = values.begin() + std::ptrdiff_t(9 * values.size() / 10);
   std::nth_element(values.begin(), most, values.end());
   return std::accumulate(values.begin(), most, 0.0) / double(most - values.begin()) / 0.6573;
 }
 
-/// Covariances of a filtered row at 0, 1 and 2 pixels' distance, of independent noise of
+/// Covariances of a filtered row at distances of 0, 1 and 2 pixels, for independent noise of
+/// variance 1.
 /// variance 1.
 std::array<double, 3> covariances(double share) {
   const double own = 1.0 - 2.0 * share;
   return {own * own + 2.0 * share * share, 2.0 * share * own, share * share};
 }
 
-/// Variance of second differences over 1 or 2 pixels, over that of independent noise, which pixels
-/// that lie 3 apart have.
+/// Variance of second differences over 1 or 2 pixels, relative to that of independent noise, which
+/// pixels 3 apart have.
 std::array<double, 2> expected_of_second(double share) {
   const auto [none, one, two] = covariances(share);
   return {1.0 - (8.0 * one - 2.0 * two) / (6.0 * none), 1.0 - 8.0 * two / (6.0 * none)};
 }
 
-/// The share whose ratios are nearest to those of the differences; 0 where no share misses them by
-/// less than most_miss. variances: of a difference of independent values. nullopt where there are
-/// too few, or where rounding or the surface makes them.
+/// The share whose ratios are closest to those of the differences; 0 if every share misses them by
+/// more than most_miss. variances: of a difference of independent values. nullopt if there are too
+/// few, or if they are due to rounding or the surface.
 std::optional<double> share_from(Differences& all, double variances, double most_miss,
                                  double unit_m, double noise_m) {
   if (all.over[0].size() < kMin) return std::nullopt;
@@ -178,7 +180,7 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
   return share_from(all, 6.0, kMaxMiss, double(unit_m), noise_m).value_or(0.0);
 }
 
-/// Along rows and down columns, of each the root of the variance.
+/// Along rows and down columns, each the root of the variance.
 double noise_left_by_filter(double share) { return covariances(share)[0]; }
 
 }  // namespace turnscan::estimation

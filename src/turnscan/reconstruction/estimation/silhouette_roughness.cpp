@@ -10,8 +10,8 @@ namespace turnscan::estimation {
 
 namespace {
 
-constexpr std::size_t kMaxOutlines = 24;       // views beside which a mesh is drawn
-constexpr std::size_t kMinOutside = 300;       // pixels that a share needs
+constexpr std::size_t kMaxOutlines = 24;       // views for which a mesh is rendered
+constexpr std::size_t kMinOutside = 300;       // pixels required for a share
 constexpr double kAlike = 2.5, kBehind = 7.5;  // of the noise, from the surface beside a pixel
 
 struct Outside {
@@ -28,7 +28,7 @@ Outside outside_outlines(const views::DepthView& view, const TriangleMesh& mesh,
       const std::uint32_t raw =
           view.pixels[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] & 0xffffu;
       const float measured = float(raw) * view.unit_m + view.bias_m;
-      std::optional<float> behind;  // the surface beside it that is nearest to what it measured
+      std::optional<float> behind;  // the adjacent surface that is closest to its measurement
       for (const auto& [dx, dy] : kNeighbours) {
         const auto drawn = drawing.received(x + dx, y + dy);
         if (!(drawn.light > 0.0f)) continue;

@@ -13,21 +13,21 @@ namespace turnscan::finishing {
 namespace {
 
 /// Errors of the surface, e, and of its triangles, d (root mean square), are independent: F falls
-/// by at most 0.242 (d / e)^2, at a threshold of e. d is about half of what the quadrics are
-/// allowed, e / 16, which costs less than 0.001.
+/// by at most 0.242 (d / e)^2, at a threshold of e. d is about half of the bound of the quadrics, e
+/// / 16, which costs less than 0.001.
 constexpr double kShareOfError = 0.125;
-/// Detail that may be right is not finer than this, however far off all of it may be.
+/// Correct detail is not finer than this, however large the error of the whole may be.
 constexpr double kShareOfVoxel = 0.25;
 constexpr double kFarthestVoxels = 0.5;
 
 struct Bound {
   std::size_t triangles = 0;
-  double error_m = 0.0;     ///< on the quadrics; 0: none but the number
+  double error_m = 0.0;     ///< bound on the quadrics; 0: only the number counts
   double farthest_m = 0.0;  ///< of any vertex of the full mesh
   std::string reason;
 };
 
-/// Median over the vertices that were measured; nullopt: not known.
+/// Median over the measured vertices; nullopt: not known.
 std::optional<double> expected_error(const ObjectResult& object) {
   const std::vector<std::uint8_t> measured = measured_vertices(object);
   std::vector<float> errors;
@@ -58,7 +58,7 @@ Bound bound_for(const ReconstructOptions& options, std::optional<std::size_t> wa
   return worth_of(object, voxel_m);
 }
 
-/// The triangles about vertices where one kind of evidence borders on another, one flag each.
+/// The triangles around vertices where different kinds of evidence meet, one flag each.
 std::vector<std::uint8_t> evidence_borders(const ObjectResult& object) {
   const auto& triangles = object.mesh.triangles;
   std::vector<std::uint8_t> kinds(object.mesh.vertices.size(), 0), out(triangles.size(), 0);
@@ -79,7 +79,7 @@ Result<TriangleMesh> simplified(const ObjectResult& object, const Bound& bound,
       bound.farthest_m, context);
 }
 
-/// For each vertex of a simplified mesh the one of the full mesh where it lies.
+/// For each vertex of a simplified mesh the vertex of the full mesh at its position.
 std::vector<std::uint32_t> places_in(const TriangleMesh& full, const MeshDistance& on_full,
                                      const TriangleMesh& fewer) {
   std::vector<std::uint32_t> out(fewer.vertices.size());
@@ -100,7 +100,7 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   return out;
 }
 
-/// Shares of a triangle's corners in a point on it.
+/// Barycentric coordinates of a point on a triangle.
 Vec3d barycentric(const TriangleMesh& mesh, std::size_t triangle, const Vec3d& p) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Vec3d pa = mesh.vertices[a].cast<double>() - p, pb = mesh.vertices[b].cast<double>() - p,
@@ -125,8 +125,8 @@ struct QualitySum {
   }
 };
 
-/// Each vertex of the full mesh tells the corners of the triangle that it lies on, but for those
-/// of which it is known otherwise whether they were measured.
+/// Each vertex of the full mesh contributes to the corners of the triangle that contains it, unless
+/// exactly one of them was measured.
 std::vector<VertexQuality> carry_quality(const ObjectResult& full, const TriangleMesh& fewer,
                                          const std::vector<std::uint32_t>& place) {
   const MeshDistance on_fewer(fewer);
@@ -162,7 +162,7 @@ std::vector<Evidence> carry_evidence(const ObjectResult& full, const MeshDistanc
   return out;
 }
 
-/// Puts the mesh into the object, with what is known of it.
+/// Moves the mesh into the object, with its attributes.
 void take(TriangleMesh fewer, ObjectResult& object) {
   const MeshDistance on_full(object.mesh);
   const std::vector<std::uint32_t> place = places_in(object.mesh, on_full, fewer);

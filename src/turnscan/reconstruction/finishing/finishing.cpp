@@ -14,10 +14,10 @@ namespace turnscan::finishing {
 
 namespace {
 
-/// Per triangle or vertex: 1 for those meant.
+/// Per triangle or vertex: 1 if it is marked.
 using Marks = std::vector<std::uint8_t>;
 
-/// Nothing where there are no values.
+/// Does nothing if there are no values.
 template <class T>
 void keep_only(std::vector<T>& values, const Marks& kept) {
   std::size_t count = 0;
@@ -26,7 +26,7 @@ void keep_only(std::vector<T>& values, const Marks& kept) {
   values.resize(count);
 }
 
-/// Removes triangles with what is known of them, and then the vertices that none names.
+/// Removes triangles with their attributes, and then unreferenced vertices.
 void drop(ObjectResult& object, const Marks& dropped) {
   TriangleMesh& mesh = object.mesh;
   if (!object.evidence.empty()) {
@@ -44,7 +44,7 @@ void drop(ObjectResult& object, const Marks& dropped) {
   mesh::compact_vertices(mesh);
 }
 
-/// Number of boundary edges that leave each vertex, of the triangles that are kept.
+/// Number of boundary edges of the remaining triangles that leave each vertex.
 std::vector<std::uint32_t> boundaries_at(const TriangleMesh& mesh, const Marks& dropped) {
   Marks kept(dropped.size());
   std::transform(dropped.begin(), dropped.end(), kept.begin(),
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> boundaries_at(const TriangleMesh& mesh, const Marks& 
   return leaving;
 }
 
-/// Drops the triangles about vertices at which what is left hangs together by that vertex alone.
+/// Drops the triangles around vertices that are the only connection of the remaining surface.
 void drop_at_pinches(const TriangleMesh& mesh, Marks& dropped) {
   for (bool found = true; found;) {
     found = false;
@@ -73,7 +73,7 @@ void drop_at_pinches(const TriangleMesh& mesh, Marks& dropped) {
   }
 }
 
-/// Drops the parts whose longest side is shorter than that. Returns their number.
+/// Drops the parts whose longest side is shorter. Returns their number.
 Result<std::size_t> drop_small_parts(ObjectResult& object, double least_m) {
   const std::vector<Evidence> all(object.mesh.triangles.size(), Evidence::kInvented);
   Marks dropped(object.mesh.triangles.size(), 0);
@@ -100,14 +100,14 @@ Result<> open_holes(ObjectResult& object, const std::vector<HolePatch>& patches,
     for (const std::uint32_t t : patch.triangles) dropped[t] = 1;
   drop_at_pinches(object.mesh, dropped);
   drop(object, dropped);
-  // Scraps in the midst of what nothing measured.
+  // Scraps within unmeasured surface.
   TURNSCAN_TRY(drop_small_parts(object, size_m));
   object.left_open = true;
   object.notes.push_back(holes_text(patches, "left open"));
   return {};
 }
 
-/// What lies in the patches alone becomes a surface of least area over their rims.
+/// Replaces the interior of the patches by a surface of least area over their rims.
 Result<> flatten_holes(ObjectResult& object, const std::vector<HolePatch>& patches,
                        const RunContext& context) {
   const TriangleMesh& mesh = object.mesh;
@@ -125,7 +125,7 @@ Result<> flatten_holes(ObjectResult& object, const std::vector<HolePatch>& patch
   return {};
 }
 
-/// Needs the evidence.
+/// Requires the evidence.
 Result<> settle_holes(const FinishOptions& options, ObjectResult& object,
                       const RunContext& context) {
   if (options.holes == Holes::kSmooth) return {};
@@ -147,7 +147,7 @@ VertexQuality worse_of(const VertexQuality& a, const VertexQuality& b) {
           std::min(a.directions, b.directions)};
 }
 
-/// What a clipped mesh's parts are known to be.
+/// Transfers the attributes of a clipped mesh's parts.
 void take(ClippedMesh clipped, ObjectResult& object) {
   if (!object.evidence.empty()) {
     std::vector<Evidence> evidence;

@@ -7,7 +7,7 @@ namespace turnscan::finishing {
 
 namespace {
 
-/// For each half edge the next one on the same edge, in a circle.
+/// For each half edge the next one on the same edge, cyclically.
 std::vector<std::uint32_t> rings_of(const TriangleMesh& mesh) {
   const mesh::EdgeTable edges(mesh.triangles, mesh.vertices.size());
   std::vector<std::uint32_t> next(3 * mesh.triangles.size());

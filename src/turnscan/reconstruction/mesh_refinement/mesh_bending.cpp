@@ -1,4 +1,4 @@
-// How far vertices go: between what was measured around each and a surface that bends little.
+// Offsets of the vertices: a compromise between the measurements around each and small bending.
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +11,24 @@ namespace turnscan::mesh_refinement {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-/// Support from which on a bend beside a vertex may be a crease: a pixel or two on an edge.
+/// Support from which a bend beside a vertex may be a crease: a pixel or two on an edge.
 constexpr float kCreaseSupport = 0.15f;
 /// Fitted to scans of 36 to 460 frames.
 constexpr double kStiffer = 1.31, kMaxStiffer = 16.0;
-/// The same where neighbours have errors in common.
+/// The same if neighbours have common errors.
 constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMaxStifferInCommon = 32.0;
-/// Conjugate gradients: they end when so little of the residual is left, or after so many rounds,
-/// more of them where the surface is many times as stiff: they grow with the root of the condition.
+/// Conjugate gradients stop at this relative residual, or after this many rounds; more of them for
+/// high stiffness, since they grow with the square root of the condition number.
 constexpr double kTolerance = 1e-4;
 constexpr int kMaxRounds = 80;
 constexpr double kRoundsSufficeFor = 8.0;  // times
-/// Weight with which each vertex stays where it is, in measurements: what is hardly measured is
-/// known from the volume, too.
+/// Weight with which each vertex stays in place, in measurements: hardly measured surface is also
+/// known from the volume.
 constexpr float kStay = 0.3f;
-/// A few vertices that were not measured are filled in by their surroundings; patches wider than
-/// twice so many rings are not part of the surface that was seen.
+/// Single unmeasured vertices are filled in from their surroundings; patches wider than twice this
+/// many rings are not part of the observed surface.
 constexpr int kGapRings = 3;
-/// Rounds of averaging with the neighbours that tell a vertex how its surroundings bend.
+/// Rounds of averaging with the neighbours that determine the bending of a vertex's surroundings.
 constexpr int kSteadyRounds = 30;
 
 class OffsetSolver {
@@ -54,7 +54,7 @@ class OffsetSolver {
   }
 
  private:
-  /// How far each vertex lies below the mean of its neighbours, along its normal.
+  /// Depth of each vertex below the mean of its neighbours, along its normal.
   void bends() {
     const auto& p = mesh_.vertices;
     bend_.resize(p.size());
@@ -63,15 +63,15 @@ class OffsetSolver {
     });
   }
 
-  /// Bends averaged with those of the neighbours: a ridge bends along a line of vertices, while one
-  /// vertex that noise pulled out bends its neighbours the other way, and nothing is left.
+  /// Bends averaged with those of the neighbours: a ridge bends along a line of vertices, while a
+  /// single vertex displaced by noise bends its neighbours the other way, which cancels.
   float shared_bend(std::size_t v) const {
     const float count = neighbours_.count(v);
     return (bend_[v] + count * neighbours_.mean(bend_, v, 0.0f)) / (1.0f + count);
   }
 
-  /// How far a vertex and its neighbours were measured, 0 to 1. A bend beside what was not is no
-  /// crease: measurements end there, and raggedly.
+  /// Degree to which a vertex and its neighbours were measured, 0 to 1. A bend beside unmeasured
+  /// surface is not a crease: measurements end there raggedly.
   std::vector<float> seen() const {
     std::vector<float> out(bend_.size());
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
@@ -91,7 +91,7 @@ class OffsetSolver {
     fade_.resize(bend_.size());
     const float stiffness = float(scale_.stiffness * stiffer_) * typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
-      // Where less was measured than usual, only a larger bend is more than noise.
+      // Where fewer measurements than usual exist, only a larger bend exceeds the noise.
       const float around =
           0.5f * (measured_.support[v] + neighbours_.mean(measured_.support, v, 0.0f)) / typical_;
       const float share =
@@ -104,9 +104,9 @@ class OffsetSolver {
     });
   }
 
-  /// What bends as its surroundings do, a ball or a leg, is left as it is, measured or not: only
-  /// deviations from that cost. Creases, and what was not measured, are no measure of what lies
-  /// beside them.
+  /// Bending like that of the surroundings, of a ball or a leg, is not penalised, measured or not:
+  /// only deviations from it are. Creases and unmeasured surface are excluded from the
+  /// surroundings.
   void subtract_steady_bends() {
     const std::size_t n = bend_.size();
     std::vector<float> sum(n), weight(n);
@@ -128,8 +128,8 @@ class OffsetSolver {
                  [&](std::size_t v) { bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f; });
   }
 
-  /// Where nothing was measured the mesh ends in cliffs and webs: its bends there are no reason for
-  /// what was measured beside them to move.
+  /// Unmeasured parts of the mesh have cliffs and webs: their bends must not move the measured
+  /// surface beside them.
   void forget_unseen_bends() {
     std::vector<float> known(bend_.size());
     parallel_for(known.size(), kGrain, [&](std::size_t v) {
@@ -140,8 +140,8 @@ class OffsetSolver {
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
   }
 
-  /// Adds what a force on the bend at each vertex, here each neighbour's part of it, does to the
-  /// vertices.
+  /// Adds the effect on the vertices of a force on the bend at each vertex, here each neighbour's
+  /// part of it.
   void add_forces(const std::vector<float>& part, std::vector<float>& to) const {
     parallel_for(to.size(), kGrain, [&](std::size_t v) {
       float sum = to[v] + neighbours_.count(v) * part[v];
@@ -172,7 +172,7 @@ class OffsetSolver {
     return out;
   }
 
-  /// The right side: where no vertex has moved.
+  /// The right side: with all vertices at their start.
   std::vector<float> residual() const {
     std::vector<float> part(bend_.size()), out(bend_.size());
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
@@ -183,7 +183,7 @@ class OffsetSolver {
     return out;
   }
 
-  /// In chunks of the same length for any number of threads.
+  /// In chunks whose length does not depend on the number of threads.
   static double dot(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0.0;
     for (const double part :
@@ -197,8 +197,8 @@ class OffsetSolver {
   }
 
   /// Conjugate gradients with the inverse diagonal as preconditioner (Hestenes and Stiefel 1952).
-  /// Waves that are long and hardly measured need them: iterations with fixed steps leave those as
-  /// the volume had them.
+  /// They are required for long, hardly measured waves, which iterations with fixed steps leave
+  /// unchanged.
   std::vector<float> solve() const {
     const std::size_t n = bend_.size();
     const std::vector<float> scale = diagonal();
@@ -263,9 +263,9 @@ double stiffening(double noise_m, double correlation, double spacing_m, double e
                   std::min(in_common, kMaxStifferInCommon));
 }
 
-/// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 +
-/// sum c (mean of the neighbours' d - d)^2 + kStay sum d^2. A bend that is too large to be noise is
-/// a crease, and m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
+/// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 + sum
+/// c (mean of the neighbours' d - d)^2 + kStay sum d^2. A bend that is too large to be noise is a
+/// crease, where m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
 /// with its neighbours rather than each vertex with its own noise.
 std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
                                   const std::vector<Vec3f>& normals,

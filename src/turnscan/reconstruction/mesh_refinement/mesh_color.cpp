@@ -9,10 +9,10 @@ namespace turnscan::mesh_refinement {
 namespace {
 
 constexpr std::size_t kMaxColorViews = 256;
-constexpr float kMinColorCosine = 0.2f;  // rays that graze the surface mix what lies beside it
+constexpr float kMinColorCosine = 0.2f;  // grazing rays mix adjacent surfaces
 constexpr Rgb kPlain{190, 190, 190};
 
-/// Sum of colours, and of their weights in the last place.
+/// Sum of colours, and of their weights in the last component.
 Eigen::Vector4f seen_color(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
                            float tolerance) {
   const Eigen::Vector4f nothing = Eigen::Vector4f::Zero();
@@ -32,7 +32,7 @@ Eigen::Vector4f seen_color(const views::DepthView& view, const Vec3f& vertex, co
   return {w * float(c.r), w * float(c.g), w * float(c.b), w};
 }
 
-/// The mean, rounded, in the first three places.
+/// The mean, rounded, in the first three components.
 Rgb mean_color(const Eigen::Vector4f& sum) {
   const auto byte = [&](int a) {
     return std::uint8_t(std::clamp(sum[a] / sum[3] + 0.5f, 0.0f, 255.0f));
@@ -40,7 +40,7 @@ Rgb mean_color(const Eigen::Vector4f& sum) {
   return {byte(0), byte(1), byte(2)};
 }
 
-/// Colours spread from coloured vertices over the others, one ring a round.
+/// Propagates colours from coloured vertices to the others, one ring per round.
 void spread(TriangleMesh& mesh, std::vector<std::uint8_t> known) {
   std::vector<Eigen::Vector4f> sum(known.size());
   for (bool more = true; more;) {

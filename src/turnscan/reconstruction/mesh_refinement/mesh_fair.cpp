@@ -1,4 +1,4 @@
-// What becomes of vertices that nobody measured, or nobody but the platter.
+// Treatment of unmeasured vertices, and of those where only the platter was measured.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@ namespace turnscan::mesh_refinement {
 void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vector<float>& support,
           const MeshFitScale& scale) {
   constexpr int kRounds = 80;
-  constexpr float kMeasured = 0.05f;  // share of the typical support from which on vertices stay
+  constexpr float kMeasured = 0.05f;  // share of the typical support from which on vertices are
+                                      // fixed
   auto& p = mesh.vertices;
   const float typical = typical_support(support), reach = float(scale.fair_m);
   std::vector<float> hold(p.size(), 1.0f);
@@ -36,7 +37,8 @@ void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vecto
 void straighten_walls(TriangleMesh& mesh, const MeshNeighbours& neighbours,
                       const std::vector<float>& support, const MeshFitScale& scale) {
   constexpr int kRounds = 20;
-  constexpr float kMeasured = 0.1f;  // share of the typical support from which on vertices stay
+  constexpr float kMeasured = 0.1f;  // share of the typical support from which on vertices are
+                                     // fixed
   const float typical = typical_support(support);
   const auto& p = mesh.vertices;
   // On the base but not at its outline.

@@ -8,20 +8,20 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-/// Each iteration uses twice as many views as the one before it, but not fewer than these.
+/// Each iteration uses twice as many views as the previous one, but at least this many.
 constexpr std::size_t kMinFitViews = 128;
-/// Dark or slanted places are noisier than others, up to so many times as far as it matters.
+/// Maximum ratio of the local scatter to the noise; dark or oblique surface is noisier.
 constexpr float kMaxSpread = 4.0f;
-/// What a scatter may exceed the noise by before it counts as larger: outliers make some, too.
+/// Ratio of scatter to noise above which it counts as larger: outliers cause some, too.
 constexpr float kUsualSpread = 1.2f;
-/// A rim scatters, too, by what else is measured near it, but it is narrow: noisy places are wider
-/// than twice so many rings of neighbours.
+/// Rims scatter, too, because of adjacent surfaces, but they are narrow: noisy surface is wider
+/// than twice this many rings of neighbours.
 constexpr int kRimRings = 6;
-/// Fewer views do not show how measurements scatter.
+/// Fewer views do not determine the scatter of measurements.
 constexpr std::size_t kMinViewsForSpread = 24;
 
-/// How many times the noise measurements scatter, when a share of them lies within kNear of its
-/// deviations: of normal errors it is erf(kNear / (sqrt(2) times)).
+/// Ratio of the scatter of measurements to the noise, from the share within kNear of its standard
+/// deviations: for normal errors that is erf(kNear / (sqrt(2) times)).
 float times_the_noise(float share) {
   float low = 1.0f, high = kMaxSpread * kUsualSpread;
   for (int round = 0; round < 12; ++round) {
@@ -66,14 +66,14 @@ class MeshFitter {
   }
 
  private:
-  /// Distance between the views that are used when so many iterations are to follow.
+  /// Stride of the views used when this many iterations remain.
   std::size_t view_stride(int to_go) const {
     std::size_t stride = 1;
     for (; to_go > 0 && views_.size() / (2 * stride) >= kMinFitViews; --to_go) stride *= 2;
     return stride;
   }
 
-  /// Positions and smoothed normals.
+  /// Updates positions and smoothed normals.
   void update_vertices(int iteration) {
     const std::size_t n = fit_.mesh.vertices.size();
     normals_ = vertex_normals(fit_.mesh);
@@ -88,7 +88,7 @@ class MeshFitter {
     observer_.set_vertices(fit_.mesh.vertices, normals_, spread_);
   }
 
-  /// How much more measurements scatter than the noise says, from those of the neighbours, too.
+  /// Estimates the ratio of scatter to noise, including the neighbours' measurements.
   void estimate_spread() {
     parallel_for(spread_.size(), 1024, [&](std::size_t v) {
       const float count = neighbours_.count(v);
@@ -102,7 +102,7 @@ class MeshFitter {
     spread_ = neighbours_.largest(std::move(spread_), kRimRings);
   }
 
-  /// With every stride-th view.
+  /// Uses every stride-th view.
   Result<> measure_all(std::size_t stride, const RunContext& context) {
     TURNSCAN_ASSIGN(VertexObservations found, observer_.observe(views_, stride, scale_, context));
     measured_ = std::move(found.measured);
@@ -110,7 +110,7 @@ class MeshFitter {
     return {};
   }
 
-  /// What was measured in the lower half of the margin may be the platter.
+  /// Measurements in the lower half of the margin may be of the platter.
   void discard_platter() {
     if (!scale_.floor_height_m) return;
     for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
@@ -139,7 +139,7 @@ class MeshFitter {
   MeshFit fit_;
   std::vector<Vec3f> normals_;
   VertexMeasurements measured_;
-  std::vector<float> near_;    // as VertexSums, by vertex
+  std::vector<float> near_;    // as in VertexSums, per vertex
   std::vector<float> spread_;  // squared, as VertexColumns::spread
 };
 

@@ -13,19 +13,20 @@ namespace {
 
 constexpr std::size_t kMaxDrawnViews = 64, kMinDrawnViews = 16;
 constexpr std::size_t kMaxDrawnBytes = std::size_t(64) << 20;
-/// Neighbours this much nearer or farther do not mix: such pixels are rejected, or phases apart.
+/// Neighbours with a larger difference in depth do not mix: such pixels are rejected, or have
+/// different phases.
 constexpr float kApart_m = 0.06f;
-/// Each vertex goes with those around it: alone, rims would become saws.
+/// Steps are averaged over the neighbourhood, without which rims would become jagged.
 constexpr int kRings = 8;
-constexpr float kMin_m = 1e-4f;     // shorter steps are mostly what noise left on the surface
-constexpr float kTrusted = 0.005f;  // of the usual support; with less vertices go less far
-constexpr float kUnseen = 1e-4f;    // with less they stay
-/// Inwards the far side of what is thin, which no view measured, needs more support: it is no
-/// farther away because its near side is nearer.
+constexpr float kMin_m = 1e-4f;     // shorter steps are mostly residual noise of the surface
+constexpr float kTrusted = 0.005f;  // relative to the typical support; vertices with less move less
+constexpr float kUnseen = 1e-4f;    // vertices with less do not move
+/// Inward motion of a thin part's far side, which no view measured, requires more support: it is
+/// not farther away because its near side is nearer.
 constexpr float kTrustedInwards = 0.1f;
-/// Where the other side is so many times the points' spacing away, what is there is thin.
+/// A part is thin if the other side is within this many point spacings.
 constexpr double kThinSpacings = 5.0;
-/// Normals of two sides: their cosine at most.
+/// Maximum cosine between the normals of two sides.
 constexpr float kOtherSide = -0.5f;
 
 void put(views::DepthView& view, std::size_t at, float z) {
@@ -50,7 +51,7 @@ float filtered_depth(const std::vector<views::ViewDrawing::Received>& received, 
   return sum.mean();
 }
 
-/// What the filter makes of the mesh, where the view measured something: the fit saw no more.
+/// The mesh as seen through the filter, where the view has measurements: the fit saw no more.
 views::DepthView draw(const views::DepthView& view, const TriangleMesh& mesh, float share) {
   views::DepthView out = view;
   out.colors.clear();
@@ -86,7 +87,7 @@ Result<std::vector<views::DepthView>> draw_some(const TriangleMesh& mesh,
   return out;
 }
 
-/// Each value becomes the mean of itself and the mean around it.
+/// Replaces each value by the mean of itself and the mean around it.
 template <class T>
 void blend(std::vector<T>& values, const MeshNeighbours& neighbours, const T& zero) {
   std::vector<T> out(values.size(), zero);
@@ -96,7 +97,7 @@ void blend(std::vector<T>& values, const MeshNeighbours& neighbours, const T& ze
   values.swap(out);
 }
 
-/// Tells where another side of the mesh lies behind a vertex.
+/// Detects where another side of the mesh is behind a vertex.
 class ThinParts {
  public:
   ThinParts(const std::vector<Vec3f>& vertices, const std::vector<Vec3f>& normals, double reach_m)
@@ -119,7 +120,7 @@ class ThinParts {
   KdTree tree_;
 };
 
-/// The step of each vertex to where the filter would make of it what was measured.
+/// The step of each vertex after which the filtered mesh would match the measurements.
 std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
                                     const VertexMeasurements& measured,
                                     const VertexMeasurements& drawn, const MeshFitScale& scale) {

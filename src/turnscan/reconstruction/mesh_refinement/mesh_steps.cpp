@@ -1,4 +1,4 @@
-// Who neighbours whom, and steps that turn no triangle over.
+// Vertex adjacency, and steps that do not flip triangles.
 
 #include <algorithm>
 #include <turnscan/core/parallel.hpp>
@@ -8,11 +8,11 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-/// Steps are halved so often before they are not taken at all.
+/// Number of times that steps are halved before they are omitted.
 constexpr int kHalvings = 4;
 
-/// Shortens the steps of triangles that would turn by more than allowed to so much of them. Whether
-/// there were any.
+/// Scales the steps of triangles that would rotate by more than allowed. Returns whether there were
+/// any.
 bool shorten_folding(const TriangleMesh& mesh, std::vector<Vec3f>& step, float to) {
   const auto& p = mesh.vertices;
   std::vector<std::uint8_t> folds(mesh.triangles.size());
@@ -52,7 +52,7 @@ std::vector<float> filtered(const MeshNeighbours& neighbours, std::vector<float>
 }  // namespace
 
 MeshNeighbours::MeshNeighbours(const TriangleMesh& mesh) : begin(mesh.vertices.size() + 1, 0) {
-  // Each edge of a closed mesh runs once in each direction.
+  // Each edge of a closed mesh is traversed once in each direction.
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t v : t) ++begin[v + 1];
   }
@@ -76,8 +76,8 @@ void take_steps(TriangleMesh& mesh, std::vector<Vec3f> step) {
   bool folding = true;
   for (int round = 0; round < kHalvings && folding; ++round)
     folding = shorten_folding(mesh, step, 0.5f);
-  // A vertex that stays may fold triangles that go on without it: until none does. Each round takes
-  // away at least one step, and where none is left nothing folds.
+  // A fixed vertex may fold triangles whose other vertices move: repeat until there are no folds.
+  // Each round removes at least one step, and without steps nothing folds.
   while (folding) folding = shorten_folding(mesh, step, 0.0f);
   parallel_for(step.size(), 4096, [&](std::size_t v) { mesh.vertices[v] += step[v]; });
 }

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
 
 std::vector<float> fading_around(const MeshNeighbours& neighbours,
                                  const std::vector<std::uint8_t>& marked, int rings) {
-  // How many of the rings take a vertex in falls by one from each ring to the next.
+  // The value falls by one from each ring to the next.
   std::vector<float> reached(marked.begin(), marked.end()), out = reached;
   for (int ring = 1; ring < rings; ++ring) {
     reached = neighbours.largest(std::move(reached), 1);

@@ -11,21 +11,21 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr int kMaxContacts = 4;        ///< solutions, each with the contacts of those before it
-constexpr int kMaxRests = 3;           ///< vertices that are put onto the platter
-constexpr float kTouchCells = 1.0f;    ///< above the platter touches it
+constexpr int kMaxContacts = 4;        ///< solutions, each with the contacts of the previous ones
+constexpr int kMaxRests = 3;           ///< vertices placed on the platter
+constexpr float kTouchCells = 1.0f;    ///< lower heights above the platter count as contact
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
-/// Around what passes through other surface.
+/// Rings around intersections with other surface.
 constexpr int kRingsDrawnBack[] = {6, 12, 24, 48};
-constexpr int kContactRounds = 6;   ///< of averaging where the plate touches what was seen
-constexpr float kNearCells = 1.5f;  ///< the rim lies in what was seen
-/// Of a membrane: as long as some 60 edges it is as stiff as a plate. Wide openings are spanned,
-/// and the undersides of limbs stay round.
+constexpr int kContactRounds = 6;   ///< rounds of averaging where the plate touches observed space
+constexpr float kNearCells = 1.5f;  ///< the rim is within observed space
+/// Share of a membrane, which is as stiff as a plate at a length of some 60 edges. Wide openings
+/// are spanned, and the undersides of limbs stay round.
 constexpr double kTension = 0.0003;
 
-/// Of islands in what nothing measured: of a few mixed pixels they are no more than a hint.
-constexpr float kWeakIsland = 0.5f;    ///< support of the best vertex, of the typical one
-constexpr float kSmallIsland = 20.0f;  ///< typical vertices with as much support together
+/// Islands in unmeasured surface: those from a few mixed pixels are weak constraints.
+constexpr float kWeakIsland = 0.5f;    ///< support of the best vertex, relative to the typical one
+constexpr float kSmallIsland = 20.0f;  ///< number of typical vertices with the same total support
 
 using Marks = std::vector<std::uint8_t>;
 
@@ -63,8 +63,8 @@ class PlateCloser {
   }
 
  private:
-  /// Groups of vertices with little support that lie apart from all else that was measured: the
-  /// plate is drawn to them by as much, and not dented by single ones.
+  /// Loosens groups of vertices with little support that are isolated from other measured surface:
+  /// the plate is attracted in proportion to their support, and not dented by single ones.
   void loosen_islands(const std::vector<float>& support) {
     const float typical = typical_support(support);
     Marks apart(loose_.size());
@@ -87,7 +87,7 @@ class PlateCloser {
     }
   }
 
-  /// Solves for the plate until no more vertices touch what was seen.
+  /// Solves for the plate until no more vertices touch observed space.
   Result<> bend(const std::vector<Vec3f>& start) {
     Marks free = loose_;
     contact_.assign(loose_.size(), 0);
@@ -113,8 +113,8 @@ class PlateCloser {
     return {};
   }
 
-  /// Puts a loose vertex onto the platter where the object would tip over without. Whether there is
-  /// one that can go there.
+  /// Places a loose vertex on the platter if the object would tip over without. Returns whether
+  /// there is one that can be placed.
   bool rest_on_platter() {
     if (!closing_.rests_below_m) return false;
     const float touching = kTouchCells * float(closing_.cell_m);
@@ -124,7 +124,7 @@ class PlateCloser {
     const Vec3d center = center_of_mass(mesh_);
     const auto tipping = tipping_direction(center, contacts, kBalanceCells * closing_.cell_m);
     if (!tipping) return false;
-    // Of those that are as low as the lowest the one below the centre of mass.
+    // Among those as low as the lowest, the one below the centre of mass.
     const auto rank = [&](std::uint32_t v) {
       const Vec3d p = mesh_.vertices[v].cast<double>();
       return std::pair(std::floor(p.y() / closing_.cell_m),
@@ -145,7 +145,7 @@ class PlateCloser {
     return true;
   }
 
-  /// Moves a vertex, and all that hang together with it, from the marked ones to a list.
+  /// Moves a vertex and its connected component from the marked ones to a list.
   void take_group(std::uint32_t seed, Marks& marked, std::vector<std::uint32_t>& group) const {
     const auto take = [&](std::uint32_t v) {
       if (!marked[v]) return;
@@ -156,7 +156,7 @@ class PlateCloser {
     for (take(seed); i < group.size(); ++i) neighbours_.each(group[i], take);
   }
 
-  /// All loose vertices that hang together with those.
+  /// All loose vertices connected with those.
   Marks loose_around(const Marks& seeds) const {
     Marks left = loose_, out(loose_.size(), 0);
     std::vector<std::uint32_t> taken;
@@ -166,7 +166,7 @@ class PlateCloser {
     return out;
   }
 
-  /// How much of the way from a place to another lies where nothing was seen, or near the place.
+  /// Share of the path between two points that is unobserved or close to its start.
   float free_share(const Vec3f& from, const Vec3f& to) const {
     const float length = (to - from).norm(), step = 0.5f * float(closing_.cell_m);
     const int steps = int(std::ceil(length / step));
@@ -180,7 +180,7 @@ class PlateCloser {
     return 1.0f;
   }
 
-  /// Where the plate touches what was seen it would show that in steps of a voxel.
+  /// Smooths the steps of a voxel where the plate touches observed space.
   void even_contacts() {
     std::vector<std::uint32_t> touching;
     for (std::uint32_t v = 0; v < contact_.size(); ++v)
@@ -201,8 +201,8 @@ class PlateCloser {
     return crossing_vertices(mesh_, before, closing_.cell_m);
   }
 
-  /// What passes through surface goes back to where it was, and so many rings around it less and
-  /// less far. Whether anything did.
+  /// Moves vertices that cross surface back to their start, and those in this many rings around
+  /// them less, decreasing with distance. Returns whether there were any.
   bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
     const Marks from = crossing(before);
     if (!any_marked(from)) return false;
@@ -212,8 +212,8 @@ class PlateCloser {
     return true;
   }
 
-  /// Parts in which something passes through surface go back to a share of their way. Whether
-  /// there were any.
+  /// Scales the displacement of components that cross surface by a share. Returns whether there
+  /// were any.
   bool draw_back(const std::vector<Vec3f>& start, float share, const Marks& before) {
     const Marks back = loose_around(crossing(before));
     for (std::size_t v = 0; v < back.size(); ++v)
@@ -225,10 +225,10 @@ class PlateCloser {
   const PlateClosing& closing_;
   const RunContext& context_;
   MeshNeighbours neighbours_;
-  Marks loose_;                       ///< may move
-  std::vector<float> hold_;           ///< how strongly where it was; 0 = not
-  Marks contact_;                     ///< stays at the border of what was seen
-  std::vector<std::uint32_t> rests_;  ///< put onto the platter
+  Marks loose_;              ///< may move
+  std::vector<float> hold_;  ///< stiffness of its attachment to its start position; 0 = none
+  Marks contact_;            ///< fixed at the border of observed space
+  std::vector<std::uint32_t> rests_;  ///< placed on the platter
 };
 
 }  // namespace

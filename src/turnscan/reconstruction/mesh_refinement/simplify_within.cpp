@@ -10,10 +10,10 @@ namespace turnscan::mesh_refinement {
 namespace {
 
 constexpr int kTries = 10;
-constexpr int kRingsKept = 3;  ///< of triangles about a vertex that strays too far
-/// Of the vertices: where more stray too far, the bound on the quadrics is too wide.
+constexpr int kRingsKept = 3;  ///< of triangles around a vertex that deviates too far
+/// Share of vertices: if more deviate too far, the bound on the quadrics is too large.
 constexpr double kFewStrays = 0.01;
-/// Folds that as many tries leave are closed by what parts them, or were there before.
+/// Folds that remain after this many tries will be removed by cutting, or existed before.
 constexpr int kTriesWithoutFolds = 3;
 
 /// The vertices of triangles that face against their vertices' normals, one flag each.
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> folded_vertices(const TriangleMesh& mesh) {
   return out;
 }
 
-/// The vertices of triangles that may be left out, one flag each.
+/// The vertices of triangles that may be removed, one flag each.
 std::vector<std::uint8_t> free_vertices(const TriangleMesh& full,
                                         const std::vector<std::uint8_t>& keep) {
   std::vector<std::uint8_t> out(full.vertices.size(), 0);
@@ -40,8 +40,8 @@ std::vector<std::uint8_t> free_vertices(const TriangleMesh& full,
 
 constexpr std::uint8_t kFar = 1, kFolded = 2;
 
-/// Flags of the vertices that lie farther from the other mesh than that, and of the free ones where
-/// it is folded. The other mesh has the full one's normals.
+/// Flags of the vertices that are farther from the other mesh than the limit, and of the free ones
+/// where it is folded. The other mesh has the full one's normals.
 std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const std::vector<std::uint8_t>& free,
                                     const TriangleMesh& fewer, double max_distance_m) {
   const MeshDistance distance(fewer);
@@ -61,7 +61,7 @@ std::vector<std::uint8_t> strays_of(const TriangleMesh& full, const std::vector<
   return out;
 }
 
-/// Marks the triangles of some rings about vertices.
+/// Marks the triangles of some rings around vertices.
 void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
                 std::vector<std::uint8_t>& keep) {
   for (int ring = 0; ring < kRingsKept; ++ring) {
@@ -80,8 +80,9 @@ void keep_about(const TriangleMesh& mesh, std::vector<std::uint8_t> vertices,
 
 }  // namespace
 
-/// Quadrics only estimate how far a surface strays: it is measured, and tried again with a smaller
-/// bound, or where it strays in a few places with those left as they are.
+/// Quadrics only estimate the deviation of a surface: the deviation is measured, and simplification
+/// repeated with a smaller bound, or, if it is too large in only a few places, with those kept
+/// unchanged.
 Result<TriangleMesh> simplify_within(const TriangleMesh& full, const SimplifyGoal& asked,
                                      double max_distance_m, const RunContext& context) {
   TriangleMesh with_normals = full;

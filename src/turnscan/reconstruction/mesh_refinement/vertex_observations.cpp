@@ -10,16 +10,16 @@ namespace {
 
 constexpr std::size_t kBlock = 256;  // vertices that are projected together
 constexpr float kTukey = 4.685f;     // standard deviations; 95 % efficient for normal noise
-constexpr float kMinCosine = 0.2f;   // rays that graze the surface say little about it
+constexpr float kMinCosine = 0.2f;   // grazing rays contribute little
 
-/// Vertices that face alike and lie near each other stand together, so that a view that sees one
-/// of them sees most, and one that sees none can be left out.
+/// Groups vertices with similar normals and positions, so that a view that sees one of them sees
+/// most, and views that see none can be skipped.
 std::vector<std::uint32_t> order_by_facing(const std::vector<Vec3f>& positions,
                                            const std::vector<Vec3f>& normals) {
   Box box = bounds(positions);
   const double side = std::max(box.size().maxCoeff(), 1e-9);
-  // Of each axis 10 bits of position, interleaved; before them one of 24 directions: the cube's
-  // face that the normal goes through, and the quarter of it.
+  // 10 interleaved bits of position per axis; before them one of 24 directions: the cube's face
+  // that the normal points through, and the quarter of it.
   const auto spread = [](std::uint64_t v) {
     std::uint64_t out = 0;
     for (int bit = 0; bit < 10; ++bit) out |= (v >> bit & 1) << (3 * bit);
@@ -123,7 +123,7 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
   return out;
 }
 
-/// Of the vertices that stand at [begin, end).
+/// For the vertices at [begin, end).
 VertexObserver::Patch VertexObserver::patch(std::size_t begin, std::size_t end) const {
   const auto at = [&](std::size_t first, std::size_t i) {
     return Vec3f(columns_[first][i], columns_[first + 1][i], columns_[first + 2][i]);

@@ -22,8 +22,8 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   }
 }
 
-/// Six entries between commas, each of which read(place, entry) makes a number of; none of an empty
-/// one.
+/// Parses six comma-separated entries, each converted by read(index, entry); empty ones are
+/// skipped.
 template <class Read>
 Result<SixNumbers> six_numbers(const char* name, std::string_view text, const char* form,
                                const Read& read) {

@@ -8,31 +8,31 @@ namespace turnscan::passes {
 
 namespace {
 
-/// A square metre seen to be empty outweighs so many that agree: surfaces meet by chance, rays do
-/// not pass through matter.
+/// Area of agreement that is outweighed by a unit of area in free space: surfaces meet by chance,
+/// but rays do not pass through matter.
 constexpr double kAgainst = 3.0;
 constexpr float kAgreeCos = 0.8f;
 
-/// What one sample of a surface says about a motion.
+/// Evidence of one sample of a surface about a motion.
 enum class Says { kNothing, kAgrees, kOpposes };
 struct Statement {
   Says says = Says::kNothing;
-  float r2 = 0.0f;  ///< square of the distance, as a share of the tolerance
+  float r2 = 0.0f;  ///< squared distance relative to the tolerance
   double score() const {
     return says == Says::kAgrees ? double(1.0f - r2) : says == Says::kOpposes ? -kAgainst : 0.0;
   }
 };
 
-/// The samples of one surface against the other surface and what its pass saw to be empty.
+/// The samples of one surface compared with the other surface and the free space of its pass.
 struct Direction {
   const SurfaceLevel& source;
   const SurfaceLevel& target;
   const FreeSpace& free;
   Eigen::Isometry3f T_target_source;
   float tolerance;
-  std::size_t stride;  ///< of views
+  std::size_t stride;  ///< of the views
 
-  /// What a sample agrees with; kNone: with nothing.
+  /// The sample with which a sample agrees; kNone: none.
   struct Partner {
     std::uint32_t sample = NearestGrid::kNone;
     float r2 = 0.0f;
@@ -45,7 +45,7 @@ struct Direction {
     const Vec3f& np = target.samples.normals[near];
     const Vec3f apart = target.samples.points[near] - q;
     const float r = (n + np).normalized().dot(apart) / tolerance;
-    // The nearest sample lies beside the point, but not farther than samples do.
+    // The nearest sample is beside the point, but no farther than the sample spacing.
     const auto beside = float(1.5 * target.samples.spacing_m) + tolerance;
     if (n.dot(np) > kAgreeCos && std::abs(r) < 1.0f && apart.norm() < beside) return {near, r * r};
     return {};
@@ -72,10 +72,10 @@ void add(const Direction& direction, Agreement& out) {
   }
 }
 
-/// Errors of a fitted mesh are alike over a few of its cells.
+/// Errors of a fitted mesh are correlated over a few of its cells.
 constexpr float kEvidenceBlock_m = 0.008f;
 
-/// By how much more one statement of a block of the surface is worth than the other.
+/// Adds the difference of the two motions' scores for each block of the surface.
 void add_differences(const Direction& one, const Direction& other, double& sum, double& squares) {
   std::map<std::array<int, 3>, double> blocks;
   for (std::size_t i = 0; i < one.source.samples.size(); ++i) {

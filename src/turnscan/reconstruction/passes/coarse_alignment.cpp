@@ -11,7 +11,7 @@ constexpr float kAlignCos = 0.6f;
 
 using Vec6f = Eigen::Matrix<float, 6, 1>;
 
-/// A difference of colours by the spread weighs as one of distances by this.
+/// A difference of colours by the spread has the weight of this distance.
 constexpr float kColorLength_m = 0.003f;
 
 /// Sums of weighted squares, in the frame of a, about a center.
@@ -20,7 +20,8 @@ struct Sums {
   Eigen::Matrix<float, 6, 6> matrix = Eigen::Matrix<float, 6, 6>::Zero();
   Vec6f vector = Vec6f::Zero();
 
-  /// Pairs of the source's points with the target's nearest. back: from the target's frame to a's.
+  /// Adds pairs of the source's points with the target's nearest. back: from the target's frame to
+  /// a's.
   void add(const SurfaceLevel& source, const SurfaceLevel& target,
            const Eigen::Isometry3f& T_target_source, const Eigen::Isometry3f& T_a_target,
            bool source_moves, const Vec3f& center, float reach) {
@@ -64,7 +65,7 @@ struct Sums {
                 source.color_gradients[i] * T_target_source.linear().transpose());
     const Vec3f left = source.samples.colors[i] - target.samples.colors[near] + gradient * apart;
     const float u = 1.0f - left.squaredNorm() / (4.0f * color_spread * color_spread);
-    if (!(u > 0.0f)) return;  // NaN, too
+    if (!(u > 0.0f)) return;  // also for NaN
     const float per_color = kColorLength_m / color_spread;
     for (int channel = 0; channel < 3; ++channel)
       add_row(p, T_a_target.linear() * gradient.row(channel).transpose(),
@@ -88,7 +89,8 @@ Pose align_levels(const SurfaceLevel& a, const SurfaceLevel& b, Pose T_a_b,
         sums.matrix.selfadjointView<Eigen::Upper>().toDenseMatrix().cast<double>();
     const double weight = m.block<3, 3>(3, 3).trace();
     if (!(weight > 0.0)) return T_a_b;
-    // So that what the pairs do not hold stays: a thousandth of what holds the rest.
+    // Fixes directions that the pairs do not constrain, with a thousandth of the constraint of the
+    // rest.
     const double lever = 0.25 * bounds(a.samples.points).size().norm();
     m.diagonal().head<3>().array() += 1e-3 * weight * lever * lever;
     m.diagonal().tail<3>().array() += 1e-3 * weight;

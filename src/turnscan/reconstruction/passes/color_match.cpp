@@ -9,21 +9,22 @@ namespace turnscan::passes {
 
 namespace {
 
-/// A pattern of less contrast is noise, or what is left of the light.
+/// A pattern of lower contrast is noise, or residual shading.
 constexpr double kMinDeviation = 0.05;
-/// Of the deviation of all colours: a label that is small against the object differs by more.
+/// Relative to the standard deviation of all colours: a label that is small compared to the object
+/// differs by more.
 constexpr double kSpread = 2.5;
-/// Puts places in another order; prime to most counts.
+/// Stride of a permutation of the samples; coprime to most counts.
 constexpr std::size_t kOtherOrder = 7919;
 constexpr int kFitRounds = 4;
-/// Errors of colour are alike over some pixels of the images.
+/// Errors of colour are correlated over some pixels of the images.
 constexpr float kColorBlock_m = 0.006f;
 
 using Terms = Eigen::Matrix<float, 5, 1>;
 
 Terms terms(float up_a, float up_b) { return {1.0f, up_a, up_a * up_a, up_b, up_b * up_b}; }
 
-/// The colours of samples without what one pass alone can explain by its light.
+/// The colours of samples without what the light of one pass alone explains.
 std::vector<Vec3f> unlit(const Samples& samples) {
   std::vector<ShadingFit::Pair> pairs;
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -35,7 +36,7 @@ std::vector<Vec3f> unlit(const Samples& samples) {
   return out;
 }
 
-/// The samples of b that lie on samples of a, and their colours without what the light explains.
+/// The samples of b that coincide with samples of a, and their colours without the shading.
 class MatchedColors {
  public:
   MatchedColors(const PreparedPass& a, const PreparedPass& b, const Pose& T_a_b,
@@ -65,12 +66,12 @@ class MatchedColors {
 
   std::size_t size() const { return pairs_.size(); }
   float area(std::size_t j) const { return pairs_[j].weight; }
-  /// Of the colour of b at the place j and that of a at the place k.
+  /// Between the colour of b at j and that of a at k.
   float mismatch(std::size_t j, std::size_t k) const {
     const Vec3f difference = first_[k] - second_[j] - light_.at(pairs_[k].up_a, pairs_[j].up_b);
     return std::min(1.0f, difference.squaredNorm() / (spread_ * spread_));
   }
-  /// Per sample of b; -1 where it lies on none.
+  /// Per sample of b; -1 if it coincides with none.
   std::vector<float> of_samples() const {
     std::vector<float> out(samples_, -1.0f);
     for (std::size_t j = 0; j < size(); ++j) out[from_[j]] = mismatch(j, j);
@@ -96,7 +97,7 @@ ShadingFit::ShadingFit(std::span<const Pair> pairs, float scale) {
     for (const Pair& pair : pairs) {
       const Terms t = terms(pair.up_a, pair.up_b);
       const Vec3f left = pair.difference - coefficients_.transpose() * t;
-      // The first round takes all.
+      // The first round uses all.
       const float u2 = round == 0 ? 0.0f : left.squaredNorm() / (4.0f * scale * scale);
       if (!(u2 < 1.0f)) continue;
       const double w = double(pair.weight) * double((1.0f - u2) * (1.0f - u2));
@@ -105,7 +106,7 @@ ShadingFit::ShadingFit(std::span<const Pair> pairs, float scale) {
     }
     const double weight = matrix(0, 0);
     if (!(weight > 0.0)) return;
-    // So that what the pairs do not show is 0.
+    // Sets unobserved coefficients to 0.
     matrix.diagonal().array() += 1e-4 * weight;
     coefficients_ = estimation::solve_ldlt(matrix, vector).cast<float>();
   }

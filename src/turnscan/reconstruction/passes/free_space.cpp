@@ -5,14 +5,14 @@ namespace turnscan::passes {
 
 namespace {
 
-/// One view may be misled by mixed pixels at a silhouette.
+/// A single view may be wrong because of mixed pixels at a silhouette.
 constexpr int kWitnesses = 2;
 
 bool sees_past(const views::DepthView& view, const Vec3f& p_table, float margin_m) {
   const Vec3f p = view.rotation * p_table + view.translation;
   if (!(p.z() > 0.01f) && !view.parallel) return false;
   const Eigen::Vector2f at = view.project(p);
-  // Comparisons in float: what is far outside does not fit an int.
+  // Compares as float: points far outside would overflow an int.
   if (!(at.x() > 0.0f && at.y() > 0.0f && at.x() < float(view.width - 1) &&
         at.y() < float(view.height - 1)))
     return false;

@@ -106,7 +106,7 @@ class ObjectJoin {
     return out;
   }
 
-  /// Of the pairs that were refused the one with the most evidence.
+  /// Of the rejected pairs the one with the most evidence.
   const PairVerdict* verdict_of(std::size_t object) const {
     for (const JudgedPair& judged : verdicts_)
       if ((judged.a == object || judged.b == object) && !judged.verdict.reason.empty())
@@ -150,8 +150,7 @@ class ObjectJoin {
                    agreement_tolerance_m(*surfaces[a], *surfaces[b]), Density::kMedium);
   }
 
-  /// The pairs that overlap in more than a trace, and for each part the one that it overlaps with
-  /// most.
+  /// The pairs with significant overlap, and for each part the one with which it overlaps most.
   std::vector<PassPair> overlapping(std::span<const PreparedPass* const> surfaces,
                                     const std::vector<Pose>& poses) const {
     const std::size_t n = surfaces.size();

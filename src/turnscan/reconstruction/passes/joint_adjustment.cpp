@@ -15,17 +15,18 @@ namespace {
 
 constexpr float kPlaneCos = 0.85f;
 constexpr double kTukey = 4.0, kMinSigma = 3e-5, kConverged = 3e-6;
-/// Errors of a fitted mesh are alike over several of its cells, and where the same frames saw it.
+/// Errors of a fitted mesh are correlated over several of its cells, and where the same frames saw
+/// it.
 constexpr double kBlock = 0.012;
-/// What no scatter of the distances shows: a sensor that looks down sees what faces up better than
-/// what faces down, and a pass's surface comes out raised along its table's axis, by about this
-/// share of a depth's noise; and turned, by another share at its rms distance from the axis of the
-/// turn. From simulated scans.
+/// Systematic errors that the scatter of the distances does not show: a sensor looking down sees
+/// upward surface better than downward surface, and a pass's surface is shifted along its table's
+/// axis by about this share of a depth's noise; and rotated, by another share at its rms distance
+/// from the axis of rotation. From simulated scans.
 constexpr double kRaised = 0.018, kTilted = 0.0045;
-/// What a sensor's own filter does to a curved surface is alike in all frames of a pass, too: of
-/// the square of the distance between pixels over the object's extent, that it is turned by at its
-/// rms distance from the axis of the turn, and shifted by in each direction. From simulated scans
-/// with a Kinect v2's physics (bench/pass_motion).
+/// The effect of a sensor's own filter on curved surfaces is the same in all frames of a pass, too:
+/// rotation at the rms distance from its axis, and translation in each direction, relative to the
+/// square of the pixel spacing over the object's extent. From simulated scans with a Kinect v2's
+/// physics (bench/pass_motion).
 constexpr double kFilterTilted = 1.7, kFilterShifted = 0.7;
 constexpr std::size_t kMinPairs = 50;
 constexpr double kMinColorSigma = 0.02;
@@ -36,8 +37,8 @@ struct PlanePair {
   float distance = 0.0f, weight = 0.0f;  ///< weight 0: no partner
 };
 
-/// The colours of such a pair: what is left between them, and how they change along the surface, a
-/// channel a row. NaN: not known.
+/// The colours of such a pair: their residual, and their gradients along the surface, one channel
+/// per row. NaN: not known.
 struct ColorPair {
   Vec3f difference;
   Eigen::Matrix3f gradient;
@@ -48,13 +49,13 @@ struct DirectedPairs {
   std::size_t source, target;
   bool by_colors;
   std::vector<PlanePair> pairs;
-  std::vector<ColorPair> colors;  ///< as many, or none
+  std::vector<ColorPair> colors;  ///< the same number, or none
   double color_sigma = 0.0;
 };
 
 using Row = Eigen::Matrix<double, 12, 1>;
 
-/// Of the source's step, then of the target's.
+/// Derivatives by the source's step, then by the target's.
 Row row_of(const Vec3f& direction, const Vec3f& point, const Vec3d& center) {
   const Vec3d n = direction.cast<double>(), p = point.cast<double>() - center;
   Row row;
@@ -87,8 +88,8 @@ class JointAdjustment {
   }
 
  private:
-  /// Adds what each pass is shifted and tilted by. That moves it; what moves the first moves all
-  /// others against it.
+  /// Adds the systematic shift and tilt of each pass. Those of the first move all others relative
+  /// to it.
   void add_systematic(Eigen::MatrixXd& covariance) const {
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       const PassSurface& surface = *passes_[k]->surface;
@@ -109,8 +110,8 @@ class JointAdjustment {
     }
   }
 
-  /// x^T M x: mean square distance of a pass's surface from an axis x through its middle. Of a
-  /// slender object it is small along its length, about which the same error is a larger turn.
+  /// x^T M x: mean square distance of a pass's surface from an axis x through its middle. For a
+  /// slender object it is small along its length, about which the same error is a larger rotation.
   Eigen::Matrix3d squared_levers(std::size_t k) const {
     const std::vector<Vec3f>& points = passes_[k]->coarse.samples.points;
     Vec3d middle = Vec3d::Zero();
@@ -142,7 +143,7 @@ class JointAdjustment {
     return {};
   }
 
-  /// What only the light explains, and the scatter of the rest.
+  /// Removes the shading, and estimates the scatter of the remainder.
   void take_out_light(DirectedPairs& directed) const {
     std::vector<ShadingFit::Pair> pairs;
     for (std::size_t i = 0; i < directed.pairs.size(); ++i) {
@@ -155,7 +156,7 @@ class JointAdjustment {
       sizes.clear();
       for (const ShadingFit::Pair& p : pairs)
         sizes.push_back((p.difference - light.at(p.up_a, p.up_b)).norm());
-      // Of three normal deviates the median length is 1.54 of their deviation.
+      // The median length of three normal deviates is 1.54 of their standard deviation.
       return std::max(kMinColorSigma, median(sizes) / 1.54);
     };
     ShadingFit light(pairs, float(kTukey * scatter_of({})));
@@ -183,7 +184,7 @@ class JointAdjustment {
       if (np.dot(nq) < kPlaneCos) return;
       const Vec3f n = (np + nq).normalized(), apart = target.surface->points[near] - q;
       const float r = n.dot(apart);
-      // At the rim of what the target measured its nearest point lies beside.
+      // At the rim of the target's measured surface its nearest point is beside it.
       if ((apart - r * n).squaredNorm() > target.beside_m * target.beside_m) return;
       const float wq = source.weights[i], wp = target.surface->weights[near];
       directed.pairs[k] = {T_first_target * q, T_first_target.linear() * n, r,
@@ -214,7 +215,7 @@ class JointAdjustment {
            double(pair.weight);
   }
 
-  /// Calls use(weight, residual, row) for what a pair of points has to say.
+  /// Calls use(weight, residual, row) for the equations of a pair of points.
   template <class Use>
   void each_row(const DirectedPairs& directed, std::size_t i, const Use& use) const {
     const PlanePair& pair = directed.pairs[i];
@@ -232,7 +233,8 @@ class JointAdjustment {
           row_of(colors.gradient.row(c).transpose(), pair.point, out_.center));
   }
 
-  /// Adds a 12-vector or 12 x 12 matrix of two passes where their unknowns are; the first has none.
+  /// Adds a 12-vector or 12 x 12 matrix of two passes at the positions of their unknowns; the first
+  /// has none.
   template <class Add>
   void scatter(const DirectedPairs& directed, const Add& add) const {
     const std::array<std::size_t, 2> pass{directed.source, directed.target};
@@ -257,7 +259,7 @@ class JointAdjustment {
     }
   }
 
-  /// How far the farthest of the passes moved, at the size of the object.
+  /// Largest motion of a pass, at the size of the object.
   double step() {
     accumulate();
     Eigen::MatrixXd damped = normal_;

@@ -6,7 +6,7 @@ namespace turnscan::passes {
 
 namespace {
 
-/// What lies so near to a surface that is there already, and faces the same way, is that surface.
+/// Points this close to existing surface with a similar normal duplicate it.
 constexpr float kBesideSame = 2.0f, kSameCos = 0.7f;
 
 }  // namespace

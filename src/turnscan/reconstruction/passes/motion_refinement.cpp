@@ -10,10 +10,10 @@ namespace turnscan::passes {
 
 namespace {
 
-/// Of the object's extent.
+/// Relative to the object's extent.
 constexpr std::array<double, 8> kFirstReach{0.08, 0.08, 0.07, 0.06, 0.06, 0.05, 0.04, 0.03};
 constexpr std::array<double, 8> kFinalReach{0.03, 0.03, 0.025, 0.02, 0.02, 0.015, 0.015, 0.015};
-/// Taking back what is undetermined is linear; the second round starts near the end.
+/// Reverting undetermined directions is linear; the second round starts near the end.
 constexpr int kRounds = 2;
 
 std::vector<double> scaled(std::span<const double> shares, double extent_m) {

@@ -10,9 +10,9 @@ namespace turnscan::passes {
 namespace {
 
 constexpr double kRotationSpacing = 14.0 * std::numbers::pi / 180.0;
-constexpr int kSide = 20;         // cells of the translations, each way
+constexpr int kSide = 20;         // cells of the translations along each axis
 constexpr int kFaceBins = 8;      // of normals, along an edge of a cube
-constexpr float kVoteCos = 0.9f;  // normals this near to each other may be the same place
+constexpr float kVoteCos = 0.9f;  // normals closer than this may belong to the same point
 
 int normal_bin(const Vec3f& n) {
   int axis = 0;
@@ -35,18 +35,18 @@ Vec3f bin_direction(int bin) {
   return n.normalized();
 }
 
-/// In cells of translation; the fourth number is padding, so that it is one vector register.
+/// In cells of translation; the fourth number is padding for a vector register.
 using Cell = Eigen::Array4f;
 
 Cell cell_of(const Vec3f& v) { return {v.x(), v.y(), v.z(), 0.0f}; }
 
-/// Points and, where there are any, their colours.
+/// Points and their colours, if any.
 struct Places {
   std::vector<Cell> cells;
   std::vector<Vec3f> colors;
 };
 
-/// The points of a surface by the directions that their normals may have.
+/// The points of a surface indexed by the directions of their normals.
 class NormalIndex {
  public:
   NormalIndex(const Samples& samples, const Vec3f& center, float per_cell) {
@@ -84,13 +84,13 @@ class VoteBox {
 
   void clear() { std::fill(votes_.begin(), votes_.end(), 0.0f); }
   void add(const Cell& cell, float weight) {
-    // Truncated, not rounded down: what is below 1 is left out either way.
+    // Truncation instead of rounding down suffices: values below 1 are excluded either way.
     const Eigen::Array4i c = (cell + 0.5f * kSide).cast<int>();
     const auto inside = [](int i) { return unsigned(i - 1) < unsigned(kSide - 2); };
     if (!inside(c.x()) || !inside(c.y()) || !inside(c.z())) return;
     votes_[std::size_t(c.x() + kSide * (c.y() + kSide * c.z()))] += weight;
   }
-  /// Sums over neighbouring cells, and the two places with the largest.
+  /// Sums over neighbouring cells, and the two cells with the largest sums.
   std::array<Peak, 2> peaks() {
     for (const int stride : {1, kSide, kSide * kSide}) blur(stride);
     std::array<Peak, 2> out;
@@ -165,7 +165,7 @@ Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b
       for (std::size_t i = 0; i < b.size(); ++i) {
         const Places& partners = index.at(rotations[r] * b.normals[i]);
         const Cell q = cell_of(rotations[r] * ((b.points[i] - center_b) * per_cell));
-        // Of a plane all points are partners of each other.
+        // All points of a plane are partners of each other.
         const float weight = 1.0f / std::sqrt(1.0f + float(partners.cells.size()));
         if (color_spread > 0.0f && !a.colors.empty()) {
           for (std::size_t k = 0; k < partners.cells.size(); ++k)

@@ -7,7 +7,7 @@ namespace turnscan::passes {
 namespace {
 
 /// Kuhn 1955 with potentials, row after row along shortest augmenting paths (Jonker and Volgenant
-/// 1987), on a square table of costs; numbers from 1 on, 0 is none.
+/// 1987), on a square table of costs; indices start at 1, 0 is none.
 std::vector<std::size_t> rows_of_columns(std::size_t n, const std::vector<double>& cost) {
   std::vector<double> row_potential(n + 1, 0.0), column_potential(n + 1, 0.0);
   std::vector<std::size_t> row_of(n + 1, 0), before(n + 1, 0);

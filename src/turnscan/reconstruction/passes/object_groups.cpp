@@ -6,8 +6,8 @@ namespace turnscan::passes {
 
 namespace {
 
-/// Two sure motions of one pair are the same when they bring it together so nearly, as a multiple
-/// of what makes two candidates different.
+/// Maximum distance of two certain motions of one pair that count as the same, relative to that of
+/// different candidates.
 constexpr double kSameMotions = 2.0;
 
 bool any_same_pass(std::span<const TableObject> objects, const ObjectGroup& one,
@@ -48,7 +48,7 @@ class Grouping {
  private:
   const PreparedPass& surface(std::size_t k) const { return *objects_[k].surface; }
 
-  /// What contradicts others stays sure until all are done: it speaks against those as well.
+  /// Contradicted verdicts stay certain until the end, since they also speak against the others.
   void unite(std::size_t v) {
     const JudgedPair& judged = verdicts_[v];
     const std::size_t one = group_of_[judged.a], other = group_of_[judged.b];
@@ -63,14 +63,14 @@ class Grouping {
     merge(one, other, T_one_other);
   }
 
-  /// In its group.
+  /// Pose in its group.
   const Pose& place(std::size_t k) const {
     const ObjectGroup& group = groups_[group_of_[k]];
     const auto at = std::find(group.members.begin(), group.members.end(), k);
     return group.T_here_member[std::size_t(at - group.members.begin())];
   }
 
-  /// Whether what one saw speaks against where others are put, or other sure verdicts do.
+  /// Whether the free space of one contradicts the poses of others, or other certain verdicts do.
   bool contradicts(const ObjectGroup& one, const ObjectGroup& other,
                    const Pose& T_one_other) const {
     double agreeing_m2 = 0.0, against_m2 = 0.0;
@@ -116,7 +116,7 @@ class Grouping {
     return {surfaces, group.T_here_member};
   }
 
-  /// The surest pair of groups of which one has several members becomes one, if there is any.
+  /// Merges the most certain pair of groups of which one has several members, if there is any.
   Result<bool> unite_whole_groups() {
     std::optional<PairVerdict> best;
     std::size_t into = 0, from = 0;
@@ -142,7 +142,7 @@ class Grouping {
     return best.has_value();
   }
 
-  /// Of the same members as when it was refused, and not to be asked again.
+  /// Whether the pair was rejected with the same members, and need not be tested again.
   bool refused(std::size_t i, std::size_t j) const {
     return any_same_pass(objects_, groups_[i], groups_[j]) ||
            std::any_of(refused_.begin(), refused_.end(), [&](const auto& pair) {

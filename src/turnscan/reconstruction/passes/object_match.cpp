@@ -6,10 +6,10 @@ namespace turnscan::passes {
 
 namespace {
 
-/// An assignment that lacks less of a pair's evidence makes that pair a guess.
+/// A pair is ambiguous if an assignment without it lacks less than this share of its evidence.
 constexpr double kClear = 0.1;
-/// Of two things of the same shape hardly anything of one lies where the other was seen to be
-/// empty, and they agree in so much of what was measured of the smaller one.
+/// Of two objects of the same shape hardly anything of one is in the other's free space, and they
+/// agree in this share of the measured surface of the smaller one.
 constexpr double kSameAgainst = 0.02, kSameAgreeing = 0.25;
 
 bool same_shape(const PreparedPass& one, const PreparedPass& other, const Pose& T_one_other) {
@@ -51,7 +51,7 @@ class ObjectMatch {
 
   const Pose& motion(std::size_t r, std::size_t c) const { return verdicts_[r][c].best.T_a_b; }
 
-  /// Whether the pair is needed for the evidence, and if not, what that means.
+  /// Tests whether the pair is needed for the evidence, and marks it if not.
   void question(std::size_t r, std::size_t c) {
     EvidenceTable without = evidence_;
     without[r][c] = 0.0;

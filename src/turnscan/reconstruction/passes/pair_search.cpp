@@ -10,15 +10,16 @@ namespace turnscan::passes {
 namespace {
 
 constexpr std::size_t kVoted = 800, kRefined = 40, kKept = 12;
-/// Where the shape leaves it open, many motions fit alike, and colours choose among them.
+/// If the shape leaves the motion undetermined, many motions fit equally, and colours choose among
+/// them.
 constexpr std::size_t kColored = 2;
-/// Of the object's extent. A rotation of the grid is up to 10 degrees off.
+/// Relative to the object's extent. A rotation of the grid is wrong by up to 10 degrees.
 constexpr std::array<double, 12> kCoarseReach{0.11, 0.10, 0.09, 0.08, 0.07, 0.06,
                                               0.05, 0.05, 0.04, 0.04, 0.03, 0.03};
 constexpr std::array<double, 8> kMediumReach{0.03, 0.03, 0.025, 0.02, 0.02, 0.015, 0.015, 0.015};
 constexpr double kCoarseTolerance = 0.015;
 
-/// Refines and ranks the motions, and keeps the best of those that are clearly different.
+/// Refines and ranks the motions, and keeps the best clearly different ones.
 struct Refinement {
   const PreparedPass& a;
   const PreparedPass& b;
@@ -67,7 +68,7 @@ double same_motion_m(const PreparedPass& a, const PreparedPass& b) {
 }
 
 double agreement_tolerance_m(const PreparedPass& a, const PreparedPass& b) {
-  // What many frames together measured is several times better than one of them.
+  // The average of many frames is several times more accurate than one of them.
   return std::max(a.surface->noise_m, b.surface->noise_m) + 0.0005;
 }
 

@@ -9,19 +9,19 @@ namespace turnscan::passes {
 
 namespace {
 
-/// Candidates that are refined before they are compared, and how well.
+/// Number of candidates that are refined before they are compared, and the effort.
 constexpr std::size_t kAdjusted = 4, kAdjustedByColors = 8;
 constexpr AdjustEffort kTrial{4000, 10};
 
-/// A second motion with so nearly the same evidence makes the first one a guess; the lower share
-/// does unless the difference is sure. Of things that are alike from both sides the shares were
-/// above 0.99, and the preferences below 4.
+/// Ratio of the evidence of a second motion above which the first one is ambiguous; above the lower
+/// ratio it is, unless the difference is significant. For objects that are alike from both sides
+/// the ratios were above 0.99, and the preferences below 4.
 constexpr double kGuess = 0.975, kMaybe = 0.9, kSure = 5.0;
 
-/// What is alike from several sides may overlap most where it does not lie: a motion under which
-/// half as much agrees, as closely, and as little contradicts, is no worse. Of a knot that is alike
-/// from six sides the other five had more than 0.8, up to 1.3, and nothing; the next best 0.35, 6,
-/// and contradicted more than it agreed.
+/// An object that is alike from several sides may overlap most in a wrong pose: a motion with half
+/// the agreement, as close, and as little contradiction, is a rival. For a knot with sixfold
+/// symmetry the other five had more than 0.8, up to 1.3, and nothing; the next best 0.35, 6, and
+/// contradicted more than it agreed.
 constexpr double kHalf = 0.5, kAsClosely = 1.5, kHardly = 0.003;
 
 bool fits_as_closely(const Agreement& best, const Agreement& other) {
@@ -38,21 +38,21 @@ bool rivals(const PreparedPass& a, const PreparedPass& b, const CandidateMotion&
           preference(a, b, best.T_a_b, other.T_a_b, agreement_tolerance_m(a, b)) < kSure);
 }
 
-/// Share of the differences of colour that a motion has to explain; of a ball with a few patches
-/// wrong ones explained up to 0.65. And shares of the evidence of the best one: another one is its
-/// rival, or may be if the difference is not sure.
+/// Share of the differences of colour that a motion has to explain; for a ball with a few patches
+/// wrong motions explained up to 0.65. And ratios to the evidence of the best motion above which
+/// another one is a rival, or may be if the difference is not significant.
 constexpr double kColorsFit = 0.7, kExplainsAsMuch = 0.9, kExplainsSome = 0.4;
-/// Where colours tell, much of the surface may agree elsewhere, but not more closely.
+/// If colours are used, a rival may have more agreement elsewhere, but not a closer one.
 constexpr double kLoose = 1.3;
-/// Colours pull from a few millimetres only: candidates that stopped short of the best one, nearer
-/// than this share of the object, are not others.
+/// Colours attract only within a few millimetres: candidates that stopped short of the best one,
+/// within this share of the object's size, are not different.
 constexpr double kStoppedShort = 0.1;
 
-/// The part `share` of the way of a rigid motion, as a screw.
+/// The fraction `share` of a rigid motion, as a screw.
 Pose part_of(const Pose& motion, double share) {
   const Eigen::AngleAxisd turn(motion.linear());
   const Vec3d t = motion.translation(), along = turn.axis().dot(t) * turn.axis();
-  // The axis goes through the point that the turn alone would move by what is left of t.
+  // The axis passes through the point that the rotation alone would move by the rest of t.
   const Vec3d across = t - along;
   const Vec3d point = 0.5 * (across + turn.axis().cross(across) / std::tan(0.5 * turn.angle()));
   Pose part = Pose::Identity();
@@ -61,9 +61,10 @@ Pose part_of(const Pose& motion, double share) {
   return part;
 }
 
-constexpr double kOnTheWay = 0.75;  // of the score, since there nothing was refined
+constexpr double kOnTheWay = 0.75;  // relative to the score, since intermediate motions are not
+                                    // refined
 
-/// How the object could lie as well: by any turn about an axis, or by one.
+/// Describes the alternative motions: any rotation about an axis, or a single one.
 std::string rival_text(const PreparedPass& a, const PreparedPass& b, const CandidateMotion& best,
                        const CandidateMotion& other) {
   const Pose between = other.T_a_b * best.T_a_b.inverse();
@@ -81,7 +82,7 @@ std::string rival_text(const PreparedPass& a, const PreparedPass& b, const Candi
                            turn.angle() * 180.0 / std::numbers::pi, about);
 }
 
-/// Judges a pair by its shapes or, where the scale has a spread, by colours as well.
+/// Judges a pair by its shapes or, if the scale has a spread, also by colours.
 class Judge {
  public:
   Judge(const PreparedPass& a, const PreparedPass& b, const ColorScale& colors,
@@ -111,7 +112,7 @@ class Judge {
   }
 
  private:
-  /// The best motions, refined; best first.
+  /// Refines the best motions; best first.
   Result<> adjust_candidates() {
     TURNSCAN_ASSIGN(const auto motions, search_motions(a_, b_, colors_, context_));
     const std::array<const PreparedPass*, 2> both{&a_, &b_};
@@ -135,7 +136,7 @@ class Judge {
     return {};
   }
 
-  /// A motion that hides the patterns in what the other pass did not see explains nothing.
+  /// A motion that hides the patterns in the other pass's unobserved surface explains nothing.
   bool rivals_in_color(const CandidateMotion& best, const CandidateMotion& other) const {
     const double share = other.colors.evidence_m2() / best.colors.evidence_m2();
     return share > kExplainsAsMuch ||
@@ -143,7 +144,7 @@ class Judge {
             color_preference(a_, b_, best.T_a_b, other.T_a_b, colors_, tolerance_m_) < kSure);
   }
 
-  /// Why the motion is a guess though it fits; empty where it is none.
+  /// Why the motion is ambiguous although it fits; empty if it is not.
   std::string open(const PairVerdict& verdict) const {
     const CandidateMotion& best = verdict.best;
     if (colors_.any() && best.colors.explained() < kColorsFit)

@@ -8,11 +8,11 @@ namespace turnscan::passes {
 namespace {
 
 constexpr std::size_t kMinPoints = 200;
-/// The volume ends in rags where less than this share of the usual measurements is behind it.
+/// The volume's surface is ragged where it has less than this share of the usual measurements.
 constexpr float kMinConfidence = 0.1f;
 constexpr int kRagRings = 2;
 
-/// The corners of triangles that hold a marked vertex are marked, too.
+/// Also marks the corners of triangles that contain a marked vertex.
 void widen(const TriangleMesh& mesh, std::vector<bool>& marked) {
   const std::vector<bool> before = marked;
   for (const auto& t : mesh.triangles) {

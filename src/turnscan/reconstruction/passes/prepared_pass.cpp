@@ -8,7 +8,7 @@ namespace turnscan::passes {
 namespace {
 
 constexpr std::size_t kVoting = 350, kCoarse = 500, kMedium = 4000;
-/// What lies nearer than this in front of a surface may be its noise, or the mesh's smoothing.
+/// Points closer than this in front of a surface may be due to noise, or to the mesh's smoothing.
 constexpr double kFreeSigmas = 3.0, kFreeLeast = 0.001;
 
 constexpr std::size_t kColorNeighbors = 12, kMinColored = 5;
@@ -41,7 +41,7 @@ std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
     }
     if (known < kMinColored) return;
     const float spread = matrix.trace();
-    // Along the normal nothing changes.
+    // The gradient along the normal is zero.
     matrix +=
         spread * normals[i] * normals[i].transpose() + 0.01f * spread * Eigen::Matrix3f::Identity();
     out[i] = vector * matrix.inverse();

@@ -46,7 +46,7 @@ Samples thinned(const PassSurface& surface, std::size_t count) {
     out.points.push_back(point / sum);
     out.normals.push_back(normal.normalized());
     out.areas.push_back(sum);
-    if (!surface.colors.empty()) out.colors.push_back(color / colored);  // NaN where none is known
+    if (!surface.colors.empty()) out.colors.push_back(color / colored);  // NaN if none is known
   }
   return out;
 }

@@ -10,17 +10,17 @@ namespace turnscan::passes {
 
 namespace {
 
-constexpr float kMinCosine = 0.3f;  // rays that graze the surface mix what lies beside it
-constexpr float kGamma = 2.2f;      // about that of sRGB
-constexpr float kDark = 4.0f;       // of 255: below it the logarithm is noise
-/// Light from elsewhere changes lightness more than it changes hue.
+constexpr float kMinCosine = 0.3f;  // grazing rays mix adjacent surfaces
+constexpr float kGamma = 2.2f;      // approximately that of sRGB
+constexpr float kDark = 4.0f;       // of 255: below it the logarithm is dominated by noise
+/// Shading affects lightness more than hue.
 constexpr float kLightnessWeight = 0.5f;
 constexpr std::size_t kHarmonics = 8, kPointsAtOnce = 1024;
 constexpr double kMinSeen = 0.2;  // of the points
 
 using Basis = Eigen::Matrix<double, kHarmonics, 1>;
 
-/// A colour of a point, in a view that turns its normal so.
+/// Colour of a point in a view, with its normal rotated to the view.
 struct Sighting {
   Vec3f color, normal_view;
 };
@@ -97,7 +97,7 @@ class ColorsOfPass {
     Sums() { matrix.setZero(), vector.setZero(); }
   };
 
-  /// From how each point changes while it turns, whatever its own colour is.
+  /// From the variation of each point while it turns, independent of its own colour.
   Eigen::Matrix<double, kHarmonics, 3> light_of_pass() const {
     const auto parts = parallel_chunks<Sums>(surface_.points.size(), kPointsAtOnce,
                                              [&](std::size_t begin, std::size_t end) {
@@ -112,7 +112,7 @@ class ColorsOfPass {
       all.vector += part.vector;
       all.count += part.count;
     }
-    // So that what no point shows is 0.
+    // Sets unobserved coefficients to 0.
     all.matrix.diagonal().array() += 1e-3 * (all.count + 1.0);
     return estimation::solve_ldlt(all.matrix, all.vector);
   }

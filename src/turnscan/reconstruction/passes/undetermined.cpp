@@ -9,7 +9,7 @@ namespace turnscan::passes {
 
 namespace {
 
-/// A direction of which pairs of points say less, as a share of the one they say most of, is open.
+/// A direction with less information from the pairs, relative to the best one, is undetermined.
 constexpr double kHeld = 0.02;
 
 using estimation::Vector6d;
@@ -29,8 +29,8 @@ Matrix6 displacement_metric(const PreparedPass& pass, const Pose& T_first_pass,
   return sum / double(std::max<std::size_t>(1, pass.coarse.samples.size()));
 }
 
-/// Small motions of the second of two passes, in coordinates of which a unit moves the surface by a
-/// metre, by how well they are known.
+/// Directions of small motions of the second of two passes, scaled such that a unit moves the
+/// surface by a metre, sorted by their accuracy.
 struct KnownDirections {
   Matrix6 root;  ///< L; y = L^T x
   estimation::SymmetricEigen<6> eigen;
@@ -63,7 +63,8 @@ double surface_sigma(const PreparedPass& pass, const Pose& T_first_pass, const V
 Pose determined_part(const PreparedPass& pass, const Adjustment& adjustment, const Pose& from,
                      double max_sigma_m) {
   const KnownDirections known(pass, adjustment);
-  // What pairs of points say about each direction, of which noise says a little of any.
+  // Information of the pairs of points about each direction, of which noise contributes a little to
+  // any.
   const Matrix6 half = estimation::solve_lower(known.root, adjustment.information[1]);
   const auto said =
       estimation::symmetric_eigen(estimation::solve_lower(known.root, Matrix6(half.transpose())));

@@ -10,8 +10,8 @@ namespace turnscan::points {
 
 namespace {
 
-/// A wall of the footprint, seen from above: horizontal position and outward normal, and the arc of
-/// the outline it stands for.
+/// A wall of the footprint, seen from above: horizontal position and outward normal, and its arc
+/// length on the outline.
 struct Wall {
   Vec3f p;  ///< y: lowest measured height there
   Vec3f n;  ///< horizontal, unit length
@@ -19,7 +19,7 @@ struct Wall {
   Rgb color;
 };
 
-/// Lowest height that was measured in earnest: the 0.5 % quantile.
+/// Robust lowest measured height: the 0.5 % quantile.
 float lowest_height(const PointCloud& cloud) {
   std::vector<float> y;
   for (const Vec3f& p : cloud.points) y.push_back(p.y());
@@ -51,7 +51,7 @@ std::vector<Wall> find_walls(const PointCloud& cloud, double cell_m, double top_
       lowest = std::min(lowest, cloud.points[i].y());
       if (!cloud.colors.empty()) wall.color = cloud.colors[i];
     }
-    // Opposite walls of a thin part that share a cell cancel out; such a cell says nothing.
+    // Opposite walls of a thin part that share a cell cancel out; such cells are skipped.
     if (wall.n.norm() < 0.3f * float(voxel.count())) continue;
     wall.p /= float(voxel.count());
     wall.p.y() = lowest;
@@ -83,7 +83,7 @@ double winding_number(const std::vector<Wall>& walls, double x, double z, double
   double sum = 0.0;
   for (const Wall& wall : walls) {
     const double dx = wall.p.x() - x, dz = wall.p.z() - z;
-    // Within half a cell the piece is not a point; soften its kernel.
+    // Within half a cell the piece is not a point: soften its kernel.
     const double r2 = std::max(dx * dx + dz * dz, 0.25 * cell_m * cell_m);
     sum += wall.length_m * (wall.n.x() * dx + wall.n.z() * dz) / r2;
   }

@@ -7,8 +7,8 @@ namespace turnscan::points {
 
 namespace {
 
-/// Joins what lies in one cell of `side` voxels or in cells that touch. Half of the neighbours of a
-/// cell are enough, the other half meets it from the other side.
+/// Joins voxels in one cell of `side` voxels or in adjacent cells. Half of the neighbours of a cell
+/// suffice, since the other half meets it from the other side.
 void join_neighbours(const voxels::VoxelGrid& grid, int side, DisjointSets& sets) {
   std::vector<Vec3f> cells;  // as points, so that the grid sorts them
   cells.reserve(grid.voxels().size());
@@ -17,7 +17,7 @@ void join_neighbours(const voxels::VoxelGrid& grid, int side, DisjointSets& sets
     cells.push_back(cell.cast<float>());
   }
   const auto coarse = voxels::VoxelGrid::build(cells, 1.0, RunContext());
-  if (!coarse) return;  // no voxels at all
+  if (!coarse) return;  // there are no voxels
   for (const voxels::VoxelGrid::Voxel& cell : coarse->voxels()) {
     const std::uint32_t first = coarse->order()[cell.begin];
     for (std::uint32_t k = cell.begin + 1; k < cell.end; ++k) sets.join(first, coarse->order()[k]);
@@ -57,10 +57,10 @@ bool is_crumb(const Piece& piece, const std::vector<Piece>& pieces,
   return double(piece.points) < options.min_share * double(pieces.front().points);
 }
 
-/// Joins what floats, but for crumbs, to what holds it. Returns their number.
+/// Joins floating pieces, except crumbs, to what holds them. Returns their number.
 std::size_t join_floating(const voxels::VoxelGrid& grid, const ComponentOptions& options,
                           double floor_m, DisjointSets& sets) {
-  constexpr double kFarthestOfSize = 0.5;  // beyond, no surface would bridge it
+  constexpr double kFarthestOfSize = 0.5;  // beyond this, no surface would bridge it
   std::vector<tsdf::PlacedComponent> places;
   std::vector<std::uint32_t> roots;
   std::vector<std::int32_t> of_root(grid.voxels().size(), -1);

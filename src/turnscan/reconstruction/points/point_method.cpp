@@ -11,13 +11,13 @@ namespace turnscan::points {
 
 namespace {
 
-/// Fewer points than this are no object, and give no scale.
+/// Fewer points do not form an object, and determine no scale.
 constexpr std::size_t kMinPoints = 100;
-/// Automatic voxels are no finer than this part of the cloud's longest side.
+/// Automatic voxels are not finer than this share of the cloud's longest side.
 constexpr double kFinest = 1.0 / 1000.0;
 
-/// The longest side that the cloud shows; of an object of which only one side was seen, also twice
-/// the distance from the axis.
+/// The longest side of the cloud; if only one side of the object was seen, also twice the distance
+/// from the axis.
 double longest_side(const voxels::MergedCloud& cloud, bool turns) {
   double longest = bounds(cloud.cloud.points).size().maxCoeff();
   if (!turns) return longest;
@@ -26,7 +26,7 @@ double longest_side(const voxels::MergedCloud& cloud, bool turns) {
   return longest;
 }
 
-/// The frames of a cloud whose points lie in their order.
+/// The frames of a cloud whose points are in frame order.
 std::vector<voxels::PointsSeen> frames_of(const voxels::MergedCloud& merged) {
   const PointCloud& cloud = merged.cloud;
   std::vector<voxels::PointsSeen> frames;
@@ -43,8 +43,8 @@ std::vector<voxels::PointsSeen> frames_of(const voxels::MergedCloud& merged) {
   return frames;
 }
 
-/// Whether any frame has neighbours along rows and columns, between which there is surface; the
-/// profiles of a line scanner have none.
+/// Whether any frame has neighbours along rows and columns, with surface between them; the profiles
+/// of a line scanner have none.
 bool any_grid(std::span<const Frame> frames) {
   return std::any_of(frames.begin(), frames.end(), [](const Frame& frame) {
     return !frame.depth.pixels.empty() || (frame.grid_width > 1 && frame.grid_height > 1);
@@ -71,10 +71,10 @@ class PointMethod final : public Method {
   Result<> finish(const StageSink& sink, const RunContext& context, Reconstruction& out) override;
 
  private:
-  /// The size of voxels, and what it was found from.
+  /// The voxel size, and the values from which it was chosen.
   struct VoxelScale {
     double voxel_m = 0.0, noise_m = 0.0, spacing_m = 0.0, pixels_m = 0.0;
-    double profile_spacing_m = 0.0;  ///< profiles lie so far apart
+    double profile_spacing_m = 0.0;  ///< distance between profiles
     bool automatic = false;
     std::string reason;
   };
@@ -93,7 +93,7 @@ class PointMethod final : public Method {
   bool whole_;     ///< the first frames are all frames
   bool keep_ = options_.keep_points || options_.merge.cloud_outliers;
   std::uint64_t returns_ = 0;
-  voxels::MergedCloud cloud_;  ///< until the scale is chosen, or all of it where it is asked for
+  voxels::MergedCloud cloud_;  ///< until the scale is chosen, or all of it if it is requested
   std::optional<VoxelScale> scale_;
   std::optional<voxels::PointSums> sums_;
 };
@@ -128,7 +128,7 @@ Result<> PointMethod::begin_pass(const PassInput& pass, const RunContext& /*cont
   return {};
 }
 
-/// What frames gave, in their order. The first ones choose the size of the voxels.
+/// Adds the parts of frames, in their order. The first ones determine the voxel size.
 Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
                                 const std::vector<Viewpoint>& viewpoints,
                                 const RunContext& context) {
@@ -146,7 +146,7 @@ Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
   return choose_scale(whole_);
 }
 
-/// Chooses the scale from the points that are there, and adds them up.
+/// Chooses the scale from the points so far, and sums them.
 Result<> PointMethod::choose_scale(bool whole) {
   scale_ = scale_of(cloud_, whole);
   sums_.emplace(scale_->voxel_m, options_.candidates);
@@ -157,7 +157,7 @@ Result<> PointMethod::choose_scale(bool whole) {
 
 PointMethod::VoxelScale PointMethod::scale_of(const voxels::MergedCloud& cloud, bool whole) const {
   VoxelScale scale;
-  // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
+  // Noise moves neighbouring pixels apart; without it their distance is the pixel spacing.
   const double noise = estimate_.noise_m, step = estimate_.spacing_m;
   scale.pixels_m = std::sqrt(std::max(0.25 * step * step, step * step - 2 * noise * noise));
   const estimation::CloudStatistics statistics =
@@ -214,13 +214,13 @@ Result<> PointMethod::filter_cloud(const RunContext& context) {
   return cloud.size() < kMinPoints ? Result<>() : choose_scale(true);
 }
 
-/// Gives the sums. The scan may have turned out thicker, or sparser, than its first frames: then
-/// automatic voxels are joined.
+/// Returns the sums. If the scan turned out thicker, or sparser, than its first frames, automatic
+/// voxels are joined.
 Result<voxels::MeasuredCells> PointMethod::measure(const RunContext& context, Reconstruction& out) {
   TURNSCAN_ASSIGN(voxels::MeasuredCells measured, sums_->collect(1, context));
   const estimation::CloudStatistics statistics =
       estimation::cloud_statistics(measured, 3.0 * std::max(scale_->pixels_m, scale_->noise_m));
-  // Cells of half a voxel hide what is thinner than they are; the first frames have seen that.
+  // Cells of half a voxel hide thinner clouds, whose thickness is known from the first frames.
   scale_->noise_m = std::max(scale_->noise_m, statistics.noise_m);
   if (statistics.spacing_m > 0.0) scale_->spacing_m = statistics.spacing_m;
   out.merged_noise_m = scale_->noise_m;
@@ -259,12 +259,12 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
     TURNSCAN_ASSIGN(measured, measure(context, out));
     sums_.reset();
   }
-  // The platter of a pass is no floor for what other passes saw.
+  // The platter of a pass is no floor for the surface seen in other passes.
   const auto cylinder = recipe_.T_object_table ? std::nullopt : estimate_.cylinder;
   return reconstruct_points(measured, scale_->spacing_m, cylinder, options_, sink, context, out);
 }
 
-/// Of both methods, which differ in the surface alone.
+/// Common to both methods, which differ only in the surface.
 MethodEntry entry_of(SurfaceMethod method) {
   MethodEntry entry;
   entry.method = method;

@@ -14,7 +14,7 @@ namespace turnscan::points {
 
 namespace {
 
-/// The stages in their order, which share its members.
+/// The stages in their order, with shared members.
 class PointStages {
  public:
   PointStages(const voxels::MeasuredCells& measurements, double spacing_m,
@@ -75,11 +75,12 @@ class PointStages {
   const StageSink& sink_;
   const RunContext& context_;
   Reconstruction& out_;
-  voxels::VoxelGrid grid_;  ///< what is left of the measurements' voxels
+  voxels::VoxelGrid grid_;  ///< the remaining voxels of the measurements
   Components components_;
   Candidates candidates_;
   std::vector<PointCloud> objects_;    ///< oriented points, with base
-  std::vector<std::size_t> measured_;  ///< of these the first ones, without base
+  std::vector<std::size_t> measured_;  ///< number of points in these that are measured, which
+                                       ///< precede those of the base
 };
 
 Result<> PointStages::choose_voxels() {
@@ -142,8 +143,8 @@ Result<> PointStages::orient() {
 
 Result<> PointStages::refine() {
   if (!options_.refine.enabled) return save("refined", candidates_.cloud);
-  // Enough measurements under the weight that the fitted height is good to a tenth of the noise
-  // (a height field of degree 2 has about twice the mean's standard deviation).
+  // Enough measurements under the weight for the fitted height to be accurate to a tenth of the
+  // noise (a height field of degree 2 has about twice the mean's standard deviation).
   const double size = grid_.size_m(), noise = out_.merged_noise_m;
   const double target = std::max(0.1 * noise, 0.05 * size);
   const double wanted = spacing_m_ * (2.0 * noise / target) / std::sqrt(4.0 * EIGEN_PI);
@@ -196,7 +197,7 @@ Result<ObjectResult> PointStages::build_surface(const PointCloud& object, std::s
   ObjectResult result;
   surface::RepairedMesh repaired;
   const double reach = std::max(3.0 * grid_.size_m(), 1.5 * out_.frame_spacing_m);
-  // A gap that was asked for may join what no surface does.
+  // A requested gap may join parts that no surface connects.
   const auto parts = options_.components.gap_m ? surface::Parts::kAll : surface::Parts::kMain;
   if (options_.surface.method == SurfaceMethod::kPoisson) {
     TURNSCAN_ASSIGN(TriangleMesh raw, poisson::poisson_surface(object, options_.surface, context_));

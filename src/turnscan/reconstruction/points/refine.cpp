@@ -12,12 +12,12 @@ namespace {
 
 /// The compact weight (1 - r^2)^3 has the standard deviation of a Gaussian at this reach.
 constexpr double kReach = 2.45;  // times radius_m
-/// Tukey's biweight keeps 95 % efficiency at 4.685 sigma; the first step, whose site may still lie
-/// off the surface by some sigma, looks twice as far.
+/// Tukey's biweight keeps 95 % efficiency at 4.685 sigma; the first step, whose site may still be
+/// off the surface by some sigma, has twice the range.
 constexpr double kTukey = 4.685;  // times noise_m
-/// A measurement supports a surface if its ray met it at less than about 80 degrees.
+/// A measurement supports a surface if the incidence angle of its ray is below about 80 degrees.
 constexpr float kFacing = 0.17f;
-constexpr double kMinSupport = 0.1;  // of the median support
+constexpr double kMinSupport = 0.1;  // relative to the median support
 
 struct Site {
   Vec3d p, n;
@@ -52,8 +52,8 @@ class Projector {
   }
 
  private:
-  /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge lets slope and curvature
-  /// fade where too few points carry them.
+  /// Least squares h = x0 + x1 x + x2 y + x3 xx + x4 xy + x5 yy. A ridge term suppresses slope and
+  /// curvature if too few points support them.
   static estimation::Vector6d fit(const Moments& s) {
     estimation::Matrix6d a;
     a << s[0], s[1], s[2], s[3], s[4], s[5],    //
@@ -80,7 +80,7 @@ class Projector {
     frame.inverse_reach = static_cast<float>(1.0 / reach_);
     frame.inverse_height = static_cast<float>(1.0 / height);
     frame.facing = kFacing;
-    // The box of the cylinder, and of it the voxels that the cylinder may touch.
+    // The bounding box of the cylinder, and the voxels in it that the cylinder may intersect.
     const double size = grid_.size_m();
     const Vec3d half = height * site.n.cwiseAbs() +
                        reach_ * (Vec3d::Ones() - site.n.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
@@ -89,7 +89,7 @@ class Projector {
     const double far = reach_ + 0.87 * size, far2 = far * far;
     refinement::MomentLanes lanes{};
     const refinement::RefineKernel& kernel = refinement::RefineKernels::current();
-    // Voxels that follow each other lie behind each other in memory.
+    // Consecutive voxels are consecutive in memory.
     std::uint32_t begin = 0, end = 0;
     grid_.for_each_in_box(low, high, [&](std::uint32_t i) {
       const voxels::VoxelGrid::Voxel& voxel = grid_.voxels()[i];
@@ -129,7 +129,7 @@ double median_support(const std::vector<Site>& sites) {
   return median(support);
 }
 
-/// Joins those candidates of one voxel that face the same way.
+/// Merges those candidates of one voxel that have similar normals.
 class VoxelMeans {
  public:
   explicit VoxelMeans(const Candidates& from) : from_(from) {}
@@ -144,7 +144,7 @@ class VoxelMeans {
     join(groups_.back(), site, i);
   }
 
-  /// Appends the groups as candidates and sites and starts anew.
+  /// Appends the groups as candidates and sites, and resets.
   void flush(Candidates& out, std::vector<Site>& sites) {
     for (const Group& g : groups_) {
       Site site{g.p / g.weight, g.n.normalized(), g.support / g.weight, false};
@@ -187,7 +187,7 @@ class VoxelMeans {
   std::vector<Group> groups_;
 };
 
-/// One candidate per voxel of the given size (and facing).
+/// One candidate per voxel of the given size (and orientation).
 Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, double size_m,
                         std::vector<Site>& out_sites, const RunContext& context) {
   std::vector<Vec3f> points;
@@ -216,8 +216,8 @@ Result<Candidates> thin(const Candidates& from, const std::vector<Site>& sites, 
   return out;
 }
 
-/// Of the layers of voxels that noise spreads along the normal, the fullest is the best start:
-/// candidates whose voxel has a fuller one next to it along their normal are left out.
+/// Of the layers of voxels over which noise spreads along the normal, the fullest is the best
+/// start: drops candidates whose voxel has a fuller neighbour along their normal.
 std::vector<Site> starting_sites(const voxels::VoxelGrid& grid, const Candidates& candidates) {
   std::vector<Site> sites(candidates.cloud.size());
   parallel_for(sites.size(), 1024, [&](std::size_t i) {

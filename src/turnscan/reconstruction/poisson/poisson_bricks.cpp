@@ -4,9 +4,9 @@
 namespace turnscan::poisson {
 namespace {
 
-/// Along one axis, the part of a block that a neighbour fills.
+/// Along one axis, the part of a block that comes from a neighbour.
 struct HaloPart {
-  int to, from, count;  // first cell in the block, in the neighbour, how many
+  int to, from, count;  // first cell in the block, in the neighbour, and their number
 };
 constexpr HaloPart kParts[3] = {{-kHalo, kSide - kHalo, kHalo}, {0, 0, kSide}, {kSide, 0, kHalo}};
 

@@ -8,12 +8,12 @@ constexpr int kLayer = kWide * kWide;
 constexpr std::size_t kLanes = 8;
 
 // Integrals of products of two quadratic B-splines 0, 1 and 2 cells apart: the quintic B-spline at
-// whole numbers, its negative second derivative and its derivative.
+// integers, its negative second derivative and its derivative.
 constexpr float kMass[3] = {66.0f / 120.0f, 26.0f / 120.0f, 1.0f / 120.0f};
 constexpr float kStiff[3] = {1.0f, -1.0f / 3.0f, -1.0f / 6.0f};
 constexpr float kSlope[2] = {10.0f / 24.0f, 1.0f / 24.0f};
 
-/// Eight neighbours at once, each with two before and two behind it along one axis.
+/// Eight cells at once, each with two before and two behind it along one axis.
 inline void even(const float (&w)[3], const float* from, int stride, float* to) {
   for (int i = 0; i < kSide; ++i)
     to[i] = w[0] * from[i] + (w[1] * (from[i - stride] + from[i + stride]) +
@@ -87,8 +87,8 @@ void divergence(const float* x, const float* y, const float* z, float* out) {
 
 void refine(const float* coarse, float* block) {
   constexpr int kCoarse = 8;
-  // Cell f of the block, counted from 0, lies in the coarse cell 1 + f / 2, nearer to the one
-  // before it when f is even.
+  // Cell f of the block, counted from 0, is in the coarse cell 1 + f / 2, closer to the previous
+  // one if f is even.
   const auto between = [](const float* from, int step, int f) {
     const float* own = from + step * (1 + f / 2);
     return 0.75f * own[0] + 0.25f * (f % 2 == 0 ? own[-step] : own[step]);
@@ -106,8 +106,8 @@ void refine(const float* coarse, float* block) {
 
 void coarsen(const float* fine, float* out) {
   constexpr int kFine = 2 * kSide + 2;
-  // Coarse cell c takes from its own two, fine cells 2 c + 1 and 2 c + 2 counted from the one
-  // before the brick, and from the ones beside these.
+  // Coarse cell c gathers from its own two, fine cells 2 c + 1 and 2 c + 2 counted from the one
+  // before the brick, and from the adjacent ones.
   const auto take = [](const float* from, int step, int c) {
     const float* f = from + step * 2 * c;
     return 0.25f * (f[0] + f[3 * step]) + 0.75f * (f[step] + f[2 * step]);

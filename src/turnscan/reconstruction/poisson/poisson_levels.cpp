@@ -6,16 +6,17 @@
 namespace turnscan::poisson {
 namespace {
 
-/// How many cells away a sample loads the equation: splat and test function reach 1 and 2.
+/// Distance in cells over which a sample contributes to the load: splat and test function reach 1
+/// and 2.
 constexpr int kReach = 3;
-/// Cells of the next finer level that reach a brick's.
+/// Cells of the next finer level that contribute to a brick's.
 constexpr int kFiner = 2 * kSide + 2;
-/// A surface that comes this near to a brick, in units of the step from inside to outside, may lie
-/// in it one level finer.
+/// A surface this close to a brick, in units of the step from inside to outside, may pass through
+/// it one level finer.
 constexpr float kNear = 0.02f;
 
-/// A coefficient of any field by how to get the field of a level; sign: of what lies beyond the
-/// faces against what it mirrors.
+/// A coefficient of any field, given access to the field of a level; sign: of the values beyond the
+/// faces relative to their mirror images.
 template <class Get>
 float read(const OctreeLevels& levels, std::size_t level, const Get& get, float sign, int i, int j,
            int k) {
@@ -33,7 +34,7 @@ float read(const OctreeLevels& levels, std::size_t level, const Get& get, float 
   if (level == 0 || s == 0.0f) return 0.0f;
   float sum = 0.0f;
   for (int c = 0; c < 8; ++c) {
-    // Chaikin's rule: 3/4 of the cell around it, 1/4 of the one that it is nearer to.
+    // Chaikin's rule: 3/4 of the enclosing cell, 1/4 of the closer neighbour.
     const auto along = [c](int x, int a) {
       return (x >> 1) + ((c >> a & 1) ? (x & 1) * 2 - 1 : 0);
     };
@@ -77,7 +78,8 @@ void add_sample_bricks(const OrientedSamples& samples, OctreeLevels& levels) {
     samples.for_each_occupied(bricks.depth(),
                               [&](const Index& cell) { add_around(cell, kReach, bricks); });
     if (l + 1 == levels.size()) continue;
-    // What finer bricks are prolonged from, so that their loads can be restricted to it.
+    // The bricks from which finer bricks are prolonged, so that their loads can be restricted to
+    // them.
     const SparseBricks& finer = levels[l + 1].bricks;
     for (std::size_t s = 0; s < finer.size(); ++s) {
       for (int c = 0; c < 8; ++c) {
@@ -90,7 +92,7 @@ void add_sample_bricks(const OrientedSamples& samples, OctreeLevels& levels) {
   for (OctreeLevel& level : levels) level.solved = level.bricks.size();
 }
 
-/// load = divergence of the level's own splats + what the next finer level's load restricts to.
+/// load = divergence of the level's own splats + restriction of the next finer level's load.
 void add_load(OctreeLevel& level, const OctreeLevel* finer) {
   level.load.assign(level.solved * kCells, 0.0f);
   parallel_for(level.solved, 4, [&](std::size_t s) {
@@ -107,7 +109,7 @@ void add_load(OctreeLevel& level, const OctreeLevel* finer) {
     finer->bricks.window(
         finer->load, {16 * b[0] - 1, 16 * b[1] - 1, 16 * b[2] - 1}, kFiner,
         [&](int i, int j, int k) {
-          // One cell beyond a face: what the mirrored one gives to its mirror image.
+          // One cell beyond a face: the contribution of the mirrored cell to its mirror image.
           float sign = 1.0f;
           for (int* c : {&i, &j, &k}) {
             if (*c >= 0 && *c <= last) continue;
@@ -156,8 +158,8 @@ Result<OctreeLevels> make_levels(const OrientedSamples& samples, const RunContex
 Field prolong(OctreeLevels& levels, std::size_t l) {
   OctreeLevel& level = levels[l];
   const std::size_t cells = level.bricks.size() * kCells;
-  const bool finest = l + 1 == levels.size();  // nobody asks for its normals
-  // Filled aside: a level that has values is read instead of the coarser one.
+  const bool finest = l + 1 == levels.size();  // its normals are never used
+  // Filled separately: a level that has values is read instead of the coarser one.
   Field residual(cells, 0.0f), out(cells, 0.0f);
   VectorField normals;
   if (!finest) normals.assign(cells);
@@ -212,15 +214,15 @@ void add_surface_bricks(OctreeLevels& levels, std::size_t l, double iso) {
   const OctreeLevel& level = levels[l];
   SparseBricks& next = levels[l + 1].bricks;
   const float lowest = float(iso - kOutside) - kNear, highest = float(iso - kOutside) + kNear;
-  std::vector<std::uint8_t> crossed(level.bricks.size(), 0);  // a bit for each child
+  std::vector<std::uint8_t> crossed(level.bricks.size(), 0);  // one bit per child
   parallel_for(level.bricks.size(), 16, [&](std::size_t s) {
     Block block;
     level.bricks.gather(level.indicator, s, block);
     for (int child = 0; child < 8; ++child) {
       float least = 1e30f, most = -1e30f;
       const Index from{(child & 1) * 4, (child >> 1 & 1) * 4, (child >> 2) * 4};
-      // A cell's values lie between the coefficients of it and of those beside it. Where a
-      // neighbour does not exist 0 was gathered, which may add a brick too many.
+      // A cell's values are between its coefficient and those of its neighbours. Where a neighbour
+      // does not exist 0 was gathered, which may add a brick too many.
       for (int k = -1; k <= 4; ++k)
         for (int j = -1; j <= 4; ++j)
           for (int i = -1; i <= 4; ++i) {

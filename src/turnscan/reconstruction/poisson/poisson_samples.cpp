@@ -11,8 +11,8 @@ namespace {
 /// Samples per occupied cell at the level where their density is measured.
 constexpr double kPerCell = 4.0;
 /// Counts are spread and read with quadratic B-splines: a plane with one sample per face of a cell
-/// then reads as this, within a tenth, wherever it lies (0.50 to 0.59 for planes along the axes)
-/// and however it is inclined (the height of a Gaussian of the variance 1/2).
+/// then reads as this, within a tenth, at any position (0.50 to 0.59 for planes along the axes) and
+/// inclination (the height of a Gaussian of the variance 1/2).
 constexpr double kPlane = 0.555;
 /// Share of the samples that must be within half a level of the deepest level.
 constexpr double kFairShare = 0.1;
@@ -85,8 +85,8 @@ void OrientedSamples::choose_depths(double wanted) {
   std::vector<float> sorted = depth;
   const auto rank = std::ptrdiff_t((1.0 - kFairShare) * double(size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
-  // A cloud of even density is about one level deeper than where it was measured; many points at
-  // one place are not to make it much deeper.
+  // A cloud of even density is about one level deeper than the level of measurement; many
+  // coincident points must not make it much deeper.
   deepest_ = std::min(int(std::floor(sorted[std::size_t(rank)] + 0.5f)), measured + kDeeper);
   for (float& d : depth) d = std::min(d, float(deepest_));
   depth_ = std::move(depth);
@@ -117,7 +117,7 @@ SplineFootprint OrientedSamples::spot(std::size_t sample, const Vec3d& position,
     out.cell[a] = std::int8_t(c[a] & 7);
     auto& w = out.weight[a];
     w = spline_weights(std::ldexp(position[Eigen::Index(a)], depth) - c[a]);
-    // Beyond the faces of the cube coefficients are the negative of those that they mirror.
+    // Beyond the faces of the cube coefficients are the negative of their mirror images.
     if (c[a] == 0) w[1] -= std::exchange(w[0], 0.0f);
     if (c[a] == (1 << depth) - 1) w[1] -= std::exchange(w[2], 0.0f);
   }
@@ -126,7 +126,7 @@ SplineFootprint OrientedSamples::spot(std::size_t sample, const Vec3d& position,
 
 ColoredRuns OrientedSamples::runs(int depth) const {
   ColoredRuns out;
-  const int shift = 3 * (max_depth_ - depth + 3);  // a brick holds 8^3 cells
+  const int shift = 3 * (max_depth_ - depth + 3);  // a brick contains 8^3 cells
   for (std::size_t i = 0; i < size();) {
     const std::size_t begin = i;
     while (i < size() && code_[i] >> shift == code_[begin] >> shift) ++i;
@@ -155,7 +155,7 @@ float OrientedSamples::median(const SparseBricks& bricks, const Field& function)
 
 void OrientedSamples::splat(const SparseBricks& bricks, Field& x, Field& y, Field& z) const {
   const int depth = bricks.depth();
-  const double face = std::ldexp(1.0, 2 * depth);  // faces of cells in that of the cube
+  const double face = std::ldexp(1.0, 2 * depth);  // number of faces of cells in that of the cube
   for_each_sample(bricks, [&](std::size_t i, const Neighbours& around) {
     // A depth of 6.3 puts 0.7 of the sample on level 6 and 0.3 on level 7.
     const float share = 1.0f - std::abs(depth_[i] - float(depth));

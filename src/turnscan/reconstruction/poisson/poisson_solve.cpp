@@ -5,21 +5,22 @@
 namespace turnscan::poisson {
 namespace {
 
-constexpr std::size_t kChunk = 64;  // bricks that one sum is taken over
-/// Steps of a level: a smooth error is the coarser levels' to reduce; what is left after these is
+constexpr std::size_t kChunk = 64;  // bricks per partial sum
+/// Steps of a level: smooth errors are reduced by the coarser levels; the error left after these is
 /// below a hundredth of a millimetre on a figure of 40 cm.
 constexpr int kMaxSteps = 40;
 constexpr double kTolerance = 1e-2;  // of the residual
-/// Of the stiffness matrix.
+/// Diagonal of the stiffness matrix.
 constexpr float kDiagonal = 3.0f * (66.0f / 120.0f) * (66.0f / 120.0f);
 
-/// Quadratic B-splines' stiffness, plus the points' pull of the indicator towards zero.
+/// Quadratic B-splines' stiffness, plus the points' screening term, which pulls the indicator
+/// towards zero.
 class ScreenedOperator {
  public:
   ScreenedOperator(const OctreeLevel& level, const OrientedSamples& samples, double point_weight)
       : level_(level), clusters_(samples.clusters(level.bricks)), weight_(float(point_weight)) {}
 
-  /// out += factor times what the points add to the equation for u + offset.
+  /// out += factor times the points' contribution to the equation for u + offset.
   void add_points(const Field& u, float offset, float factor, Field& out) const {
     for_each_cluster([&](const SampleCluster& cluster, const Neighbours& around) {
       const float v = factor * weight_ * cluster.area * (value(cluster.spot, around, u) + offset);

@@ -35,7 +35,7 @@ class CornerInterpolator {
     return out;
   }
 
-  /// Whether there may be both signs: a spline's values lie between its coefficients.
+  /// Whether both signs are possible: a spline's values are between its coefficients.
   static bool may_cross(const CoefficientPatch& p) {
     const auto [low, high] =
         std::minmax_element(p.value.begin(), p.value.begin() + p.wide * p.wide * p.wide);
@@ -60,7 +60,7 @@ class CornerInterpolator {
   }
 
  private:
-  /// The corner `c` of those of the brick, from the cell before its first one on.
+  /// Corner `c` of the brick, from the cells starting with the one before its first.
   float at(const float* cells, int stride, int c) const {
     const float* own = cells + stride * (1 + (halved_ ? c / 2 : c));
     if (halved_ && c % 2 == 1) return 0.75f * own[0] + 0.125f * (own[-stride] + own[stride]);
@@ -72,7 +72,7 @@ class CornerInterpolator {
   float offset_;
 };
 
-/// The marched grid, its bricks uniform: what the indicator is in their middles.
+/// The marched grid with uniform bricks: the indicator at their centres.
 Result<BrickGrid> uniform_grid(const OctreeLevels& levels, const Cube& cube, int depth,
                                double iso) {
   const SparseBricks& bricks = levels.back().bricks;
@@ -123,7 +123,7 @@ std::vector<std::size_t> upper_neighbours(const BrickGrid& grid,
   return out;
 }
 
-/// Away from the finest level's bricks nothing crosses; in them little does. What crosses at the
+/// There are no crossings away from the finest level's bricks, and few in them. A crossing at the
 /// upper end of a brick ends in the next one.
 Result<std::vector<std::size_t>> crossed_bricks(const BrickGrid& grid,
                                                 const std::vector<std::size_t>& finest,
@@ -146,7 +146,7 @@ Result<std::vector<std::size_t>> crossed_bricks(const BrickGrid& grid,
   return out;
 }
 
-/// The indicator minus iso at the corners of cells of level `depth`, in the bricks that it crosses.
+/// The indicator minus iso at the corners of cells of level `depth`, in the bricks with crossings.
 Result<BrickGrid> grid_of(const OctreeLevels& levels, const Cube& cube, int depth, double iso,
                           const RunContext& context) {
   const SparseBricks& bricks = levels.back().bricks;
@@ -186,7 +186,7 @@ class IsoProjector {
   }
 
  private:
-  /// Where the indicator rises by less than this over a cell it says little about the place.
+  /// If the indicator rises by less than this over a cell it does not determine the position.
   static constexpr double kFlat = 0.02;
 
   Vec3d evaluate(const Vec3d& p, double& value) const {

@@ -17,12 +17,12 @@ namespace {
 constexpr double kNoiseShare = 0.29, kFloorShare = 0.018, kHiddenShare = 0.4;
 constexpr double kFitBlur = 0.092, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
-/// Of how many times stiffer a fit is.
+/// Exponents of a fit's relative stiffness.
 constexpr double kLessNoise = 0.1, kMoreBlur = 0.44;
-/// Behind a filter, of the distance between pixels, at walls thinner than two of them.
+/// Behind a filter, relative to the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
-/// Along edges of the mesh, to the nearest vertex that was measured (Dijkstra 1959); metres.
+/// Distance along edges of the mesh to the nearest measured vertex (Dijkstra 1959); metres.
 std::vector<float> way_to_measured(const TriangleMesh& mesh, const mesh::VertexNeighbours& beside,
                                    const std::vector<float>& support) {
   const std::vector<std::uint8_t> unseen = mesh_refinement::unseen_vertices(support);
@@ -57,7 +57,7 @@ double bending_at(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
   return length > 0.0 ? angle / length : 0.0;
 }
 
-/// How much of a bend, as an angle per length, is lost as a distance.
+/// Factor from a bend, as an angle per length, to the distance that is lost.
 double blurring_window_m2(const ErrorScale& scale, double stiffer) {
   const double pixel_m2 = scale.spacing_m * scale.spacing_m;
   switch (scale.pixels) {
@@ -68,7 +68,7 @@ double blurring_window_m2(const ErrorScale& scale, double stiffer) {
     case Pixels::kSharp:
       break;
   }
-  // Pixels of many frames fall between each other's, so that less noise shows finer detail.
+  // Pixels of many frames sample between each other's, so that less noise reveals finer detail.
   return kFitBlur * std::pow(stiffer, kMoreBlur) * std::pow(scale.spacing_m, 1.5) *
          std::sqrt(scale.noise_m);
 }

@@ -10,21 +10,21 @@ namespace turnscan::quality {
 namespace {
 
 constexpr int kDirections = 36;
-constexpr double kNarrow = 0.25;    ///< of the largest section of the lesser side
-constexpr double kMinVolume = 0.1;  ///< of the whole
+constexpr double kNarrow = 0.25;    ///< relative to the largest section of the smaller side
+constexpr double kMinVolume = 0.1;  ///< relative to the whole
 
-constexpr double kShort_m = 0.01;  ///< so far to either side of it sections are twice as large
+constexpr double kShort_m = 0.01;  ///< distance to either side at which sections are twice as large
 
 /// One of many parallel sections.
 struct Section {
   double area_m2 = 0.0, length_m = 0.0;
-  Vec3d middle_m = Vec3d::Zero();  ///< of its outline, times its length
+  Vec3d middle_m = Vec3d::Zero();  ///< centroid of its outline, times its length
 };
 
-/// What lies on one side of a section.
+/// The part on one side of a section.
 struct Side {
   double volume = 0.0, moment = 0.0, largest = 0.0;  ///< in sections
-  double low = 1e9, high = -1e9;                     ///< of what stands, along the normal
+  double low = 1e9, high = -1e9;  ///< extent of the contact area along the normal
 
   void add(const Section& section, double along_m) {
     volume += section.area_m2;
@@ -54,7 +54,8 @@ class Sections {
     for (const auto& triangle : mesh.triangles) cut(triangle, along_m);
   }
 
-  /// The narrowest one that parts what may stand by itself, if it is narrower than the neck.
+  /// The narrowest section that separates parts which may stand by themselves, if it is narrower
+  /// than the neck.
   void find_neck(double stands_below_m, std::optional<Neck>& neck, bool& is_bar) const {
     for (std::size_t i = 0; i < sections_.size(); ++i) {
       const Section& section = sections_[i];
@@ -87,7 +88,7 @@ class Sections {
       add_segment(triangle, d, at(s), sections_[s]);
   }
 
-  /// Its part of the area is what lies between it and the height 0, by Green's theorem.
+  /// Its contribution to the area is the area between it and the height 0, by Green's theorem.
   void add_segment(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& d,
                    double plane, Section& section) const {
     Vec3d up = Vec3d::Zero(), down = Vec3d::Zero();
@@ -103,7 +104,7 @@ class Sections {
     section.middle_m += (up - down).norm() * 0.5 * (up + down);
   }
 
-  /// Where two things touch they soon widen; a bar does not.
+  /// Where two objects touch they soon widen; a bar does not.
   bool is_short(std::size_t neck) const {
     const auto reach = std::size_t(std::lround(kShort_m / step_m_));
     if (neck < reach || neck + reach >= sections_.size()) return false;
@@ -137,7 +138,7 @@ std::optional<Neck> narrowest_neck(const TriangleMesh& mesh, double step_m, doub
     sections[i].emplace(mesh, Vec3d(std::cos(angle), 0.0, std::sin(angle)), step_m);
   });
   std::optional<Neck> neck;
-  bool is_bar = false;  // what the narrowest section cuts
+  bool is_bar = false;  // type of the narrowest section
   for (const auto& one : sections) one->find_neck(stands_below_m, neck, is_bar);
   return is_bar ? std::nullopt : neck;
 }

@@ -12,21 +12,23 @@ namespace {
 
 constexpr std::size_t kMaxViews = 128;
 constexpr float kMinCosine = 0.1f;
-constexpr float kFacingCosine = 0.4f;  ///< a surface that does not reflect hardly at all returns
+constexpr float kFacingCosine = 0.4f;  ///< any surface that is not nearly black returns at these
+                                       ///< angles
 constexpr std::size_t kMinNoReturnViews = 3;
 
-/// Of the views that are looked at.
+/// Indices of the views that are examined.
 std::vector<std::size_t> spread_views(std::size_t count) {
   std::vector<std::size_t> out(std::min(count, kMaxViews));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = i * count / out.size();
   return out;
 }
 
-/// The pixel of a view's window in which a vertex lies that faces it by the cosine; -1 if none
-/// does.
+/// The pixel of a view's window that contains a vertex facing it by the cosine; -1 if there is
+/// none.
 struct PixelOfVertex {
   std::ptrdiff_t pixel = -1;
-  float z = 0.0f, along = 1.0f, cosine = 0.0f;  ///< along: a ray's length by its part along z
+  float z = 0.0f, along = 1.0f, cosine = 0.0f;  ///< along: a ray's length relative to its z
+                                                ///< component
 };
 PixelOfVertex pixel_of(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
                        float least_cosine) {
@@ -48,7 +50,7 @@ bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
   return std::abs(depth - at.z) * at.along * at.cosine <= tolerance_m;
 }
 
-/// Of the sectors in all bands, that of a view as a point sees it.
+/// Of the sectors in all bands, that of a view as seen from a point.
 int sector_of(const Viewpoint& viewpoint, const Vec3f& p) {
   const Vec3f to = viewpoint.direction_from(p.cast<double>()).cast<float>();
   const float turn = std::atan2(to.z(), to.x()) / float(kTurn) + 0.5f;

@@ -8,7 +8,7 @@ namespace turnscan::surface {
 
 namespace {
 
-/// It takes as long as it takes, and may be cancelled.
+/// Its duration is not limited, and it may be cancelled.
 constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
 
 Result<TriangleMesh> hull_from(const process::ChildResult& child) {
@@ -34,7 +34,7 @@ Result<TriangleMesh> concave_hull(const PointCloud& points, double alpha_m,
   if (points.size() < 10)
     return fail(ErrorCode::kTooFewPoints, "concave hull: {} points are too few", points.size());
   TURNSCAN_ASSIGN(const auto program, process::find_helper_program(kConcaveHullProgram));
-  // Around the origin single precision is finest.
+  // Single precision is most accurate around the origin.
   const Vec3f origin = bounds(points.points).center().cast<float>();
   std::vector<Vec3f> centred;
   centred.reserve(points.size());

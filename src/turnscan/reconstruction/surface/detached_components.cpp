@@ -59,7 +59,8 @@ std::vector<std::size_t> attach_detached(const std::vector<PlacedComponent>& com
     for (Bridge& bridge : bridges)
       shorten(components[bridge.from].points, tree, attached[standing[s]], bridge);
     if (s + 1 < standing.size()) continue;
-    // Distances to all that stands are known: the nearest detached one stands from now on.
+    // Distances to all standing components are known: the nearest detached one counts as standing
+    // from now on.
     while (!bridges.empty()) {
       const Bridge best = take_shortest(bridges);
       const double farthest = farthest_of_size * longest_side(components[best.from].points);

@@ -12,13 +12,14 @@ namespace turnscan::surface {
 
 namespace {
 
-/// What Poisson invents is kept where its area is at most this much above the tight continuation's.
+/// Surface that Poisson invents is kept if its area is at most this factor of the tight
+/// continuation's.
 constexpr double kSwollenShare = 1.25;
 
 /// Per vertex: 1 without a candidate within reach.
 using Unsupported = std::vector<std::uint8_t>;
 
-/// Measures the marked vertices, which may have moved, and unmarks those with a candidate in reach.
+/// Tests the marked vertices, which may have moved, and unmarks those with a candidate in reach.
 void unmark_supported(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
                       Unsupported& marked) {
   const float reach2 = static_cast<float>(reach_m * reach_m);
@@ -42,11 +43,11 @@ struct MarkedPiece {
   Unsupported unsupported;
 };
 
-/// A piece beside the main one is a part of the object with at least this share of its vertices
-/// near candidates, and of the main piece's.
+/// A piece beside the main one is a part of the object if it has at least this share of its
+/// vertices near candidates, and this share of the main piece's.
 constexpr double kSupportedPart = 0.5, kPartOfMain = 0.02;
 
-/// The piece with the most vertices near candidates, and of the others, if wanted, what is a part.
+/// The piece with the most vertices near candidates, and, if requested, the other parts.
 Result<MarkedPiece> main_piece(const TriangleMesh& mesh, const KdTree& tree, double reach_m,
                                Parts parts, std::vector<std::string>& notes) {
   TURNSCAN_ASSIGN(auto pieces, split_components(mesh));
@@ -185,7 +186,7 @@ Result<RepairedMesh> repair_poisson(const TriangleMesh& raw, const PointCloud& c
   context.advance();
   unmark_supported(tight.mesh, tree, reach_m, tight.unsupported);
   RepairedMesh out = checked(std::move(tight), std::move(tight_notes));
-  // A sheet that was seen from one side only has nothing between it and its continuation.
+  // A sheet that was seen from one side only encloses nothing with its continuation.
   if (!out.check.watertight()) out = checked(std::move(piece), std::move(notes));
   context.advance();
   if (!out.check.watertight())

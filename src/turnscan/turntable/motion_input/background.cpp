@@ -24,8 +24,8 @@ constexpr double kMinMove_m = 0.003;
 constexpr double kMovingSteps = 2.5;
 /// A pixel shows two surfaces if no depth is between them, in ranges of static depth.
 constexpr double kClearGap = 3.0;
-/// What is seen now and then at one depth stands still if that is so of a wide patch: of an object
-/// that turns only lines along its outline are. A share of all that moves.
+/// Surface that is seen now and then at one depth is static if that holds for a wide patch: on a
+/// turning object only lines along its outline have this property. A share of all moving pixels.
 constexpr double kMinPassing = 0.02;
 
 /// The depths of every pixel over all frames; 0: none.
