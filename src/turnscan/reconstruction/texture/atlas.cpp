@@ -9,21 +9,21 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr double kUsualFill = 0.55;  // share of the picture that charts cover
+constexpr double kUsualFill = 0.55;  // share of the image that charts cover
 constexpr int kScaleSteps = 9;
 constexpr int kOverlapRounds = 12;
 
 using Corners = std::array<Eigen::Vector2f, 3>;
 
-/// The charts drawn along their axes; metres, from the lower corner of each.
+/// The charts projected along their axes; metres, from the lower corner of each.
 struct DrawnCharts {
   std::vector<Corners> corners;                       ///< per triangle
   std::vector<Eigen::Vector2f> size;                  ///< per chart
   std::vector<std::vector<std::uint32_t>> triangles;  ///< per chart
 };
 
-/// Right, and down, with the axis towards the viewer; the chart's longer direction is upright,
-/// since tall charts pack better.
+/// Right and down directions, with the axis towards the viewer; the chart's longer direction is
+/// upright, since tall charts pack better.
 struct ChartFrame {
   Vec3f right, down;
 };
@@ -79,7 +79,7 @@ Eigen::Vector2f snapped(const Eigen::Vector2f& texels) {
   return (texels * 256.0f).array().round().matrix() / 256.0f;
 }
 
-/// Of a chart, in texels from the corner of its squares.
+/// Corners of a chart, in texels from the corner of its squares.
 Corners placed(const Corners& corners_m, double texels_per_m) {
   Corners out;
   for (std::size_t k = 0; k < 3; ++k)
@@ -88,7 +88,7 @@ Corners placed(const Corners& corners_m, double texels_per_m) {
   return out;
 }
 
-/// Rows that a triangle takes within [left, right], widened by the padding.
+/// Adds the rows that a triangle covers within [left, right], widened by the padding.
 void add_columns(const Corners& c, ChartOutline& outline) {
   const float pad = float(kPadding_px), block = float(kBlock_px);
   const auto [least, most] = std::minmax({c[0].x(), c[1].x(), c[2].x()});
@@ -172,7 +172,7 @@ std::optional<Packing> pack_largest(const DrawnCharts& drawn, int side, double m
   return best;
 }
 
-/// Triangles that cover a texel which an earlier one of their chart covers.
+/// Triangles that cover a texel already covered by an earlier one of their chart.
 std::vector<std::uint32_t> overlapping(const DrawnCharts& drawn, double texels_per_m) {
   std::vector<std::vector<std::uint32_t>> found(drawn.size.size());
   parallel_for(drawn.size.size(), 1, [&](std::size_t chart) {
@@ -200,7 +200,7 @@ std::vector<std::uint32_t> overlapping(const DrawnCharts& drawn, double texels_p
   return all;
 }
 
-/// Largest over smallest singular value of the map from a triangle to the picture.
+/// Largest over smallest singular value of the map from a triangle to the image.
 double stretch_of(const std::vector<Vec3f>& normals, const Charts& charts) {
   double most = 1.0;
   for (std::size_t t = 0; t < normals.size(); ++t) {

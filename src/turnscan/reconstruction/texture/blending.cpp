@@ -12,19 +12,21 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr float kOutlier = 10.0f;     // levels of 255 from what is usual: counts a quarter
-constexpr float kDarkerSays = 0.5f;   // against a colour, of what an equal one says for it
-constexpr float kSaturated = 250.0f;  // levels; such colours count a tenth
+constexpr float kOutlier = 10.0f;     // levels of 255 from the usual colour, with a weight of a
+                                      // quarter
+constexpr float kDarkerSays = 0.5f;   // vote of a darker colour against one, relative to that of an
+                                      // equal one for it
+constexpr float kSaturated = 250.0f;  // levels; such colours have a weight of a tenth
 constexpr float kSaturatedWeight = 0.1f;
 constexpr float kNearRimWeight = 1e-3f;
-constexpr float kShineLevels = 4.0f;  // of a highlight that is taken out: counts a quarter
+constexpr float kShineLevels = 4.0f;  // of a removed highlight, with a weight of a quarter
 constexpr float kUnsureShadowWeight = 0.02f;
 constexpr double kMaxShift_px = 1.0;
-constexpr double kNoise = 3.0;      // levels; weaker patterns say nothing of their place
-constexpr double kExplained = 0.4;  // of the squared difference, by a shift
+constexpr double kNoise = 3.0;      // levels; weaker patterns do not determine their position
+constexpr double kExplained = 0.4;  // share of the squared difference that a shift must explain
 constexpr float kMinSharpness = 0.3f, kMaxSharpness = 1.5f;
 
-/// A view's colours as floats of 255, after its correction, which it refers to.
+/// A view's colours as floats of 255, after its correction, to which it refers.
 class Corrector {
  public:
   explicit Corrector(const Correction& correction)
@@ -41,10 +43,10 @@ class Corrector {
       for (Vec3f& level : slots) level = level.array().pow(1.0f / 2.4f).matrix();
   }
 
-  /// What the colours of a block are corrected by, beside gains and levels.
+  /// Corrections of the colours of a block, in addition to gains and levels.
   struct Surface {
-    std::array<Vec3f, kBlockTexels> normal;  ///< where a lamp or a highlight needs it
-    std::array<Vec3f, kSlots> half;          ///< where a highlight needs it
+    std::array<Vec3f, kBlockTexels> normal;  ///< if a lamp or a highlight needs it
+    std::array<Vec3f, kSlots> half;          ///< if a highlight needs it
   };
 
   bool takes_out_lamp() const { return lamp_ != nullptr; }
@@ -86,8 +88,8 @@ class Corrector {
   }
 
  private:
-  /// Multiplies linear light by factor^2.4. sRGB plus an offset is a power of it but where it is
-  /// darkest; there the offset vanishes with it.
+  /// Multiplies linear light by factor^2.4. sRGB plus an offset is a power of it except in the
+  /// darkest range; there the offset vanishes with it.
   static float scaled(float srgb, float factor) {
     constexpr float kOffset = 0.055f * 255.0f, kDark = 0.04045f * 255.0f;
     return srgb + (factor - 1.0f) * (srgb + kOffset * std::min(1.0f, srgb / kDark));
@@ -99,8 +101,9 @@ class Corrector {
   std::vector<std::array<float, 768>> tables_;
 };
 
-/// Sums over the texels of a block of how a view's pattern lies beside that of the best one (Lucas
-/// and Kanade 1981): the matrix of the gradients, gradients times difference, squared differences.
+/// Sums over the texels of a block for the shift of a view's pattern relative to that of the best
+/// one (Lucas and Kanade 1981): the matrix of the gradients, gradients times difference, squared
+/// differences.
 struct ShiftSums {
   float xx = 0.0f, xy = 0.0f, yy = 0.0f, xe = 0.0f, ye = 0.0f, ee = 0.0f, n = 0.0f;
   void add(const ShiftSums& o) {
@@ -111,7 +114,7 @@ struct ShiftSums {
 struct Shift {
   double texels = 0.0;
   bool known = false;
-  bool explains = false;  ///< that the two views differ
+  bool explains = false;  ///< it explains the difference of the two views
 };
 
 /// Along the directions in which the pattern is strong enough.
@@ -132,16 +135,16 @@ Shift shift_of(const ShiftSums& s) {
     out.known = true;
   }
   out.texels = std::sqrt(squared);
-  // A highlight or a shadow differs without being shifted.
+  // A highlight or a shadow is a difference without a shift.
   out.explains = explained > kExplained * double(s.ee);
   return out;
 }
 
-/// A view's colour of a texel, and what it is worth.
+/// A view's colour of a texel, and its weight.
 struct Taken {
   Vec3f color;
   float weight = 0.0f;
-  float trust = 1.0f;  ///< the share of the weight that a highlight leaves
+  float trust = 1.0f;  ///< share of the weight that remains under a highlight
 };
 
 using BlockShifts = std::array<ShiftSums, kSlots>;
@@ -164,7 +167,7 @@ class Blender {
     });
   }
 
-  /// One bit a slot: it lies elsewhere. Shifts of the slots that are known are appended.
+  /// One bit per misplaced slot. Appends the shifts of the slots for which they are known.
   std::uint8_t misplaced(std::size_t b, double texels_per_px, std::vector<float>& px) const {
     std::uint8_t out = 0;
     for (std::size_t k = 1; k < kSlots; ++k) {
@@ -178,7 +181,7 @@ class Blender {
     return out;
   }
 
-  /// Returns the view that weighs most.
+  /// Returns the view with the largest weight.
   std::uint16_t blend(std::size_t b, std::uint8_t left_out, Rgb* colors,
                       std::uint8_t* known) const {
     std::array<float, kSlots> total{};
@@ -194,7 +197,7 @@ class Blender {
         taken[n] = take(b, k, s, surface, i);
         slot[n++] = k;
       }
-      // A texel that only those show which were left out takes what there is.
+      // A texel that only excluded views show uses those.
       for (std::size_t k = 0; n == 0 && k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
         const Sample& s = samples_.of(b, k)[i];
         if (s.valid == 0) continue;
@@ -241,7 +244,7 @@ class Blender {
 
   /// Weighted mean about the colour that most views agree on. A highlight or a shadow moves over
   /// the surface from view to view: where several views have one, they do not agree with each
-  /// other. Weights become what they were in the mean.
+  /// other. Sets the weights to those in the mean.
   Vec3f robust_mean(std::array<Taken, kSlots>& taken, std::size_t n) const {
     if (n == 1) return taken[0].color;
     constexpr float kPerLevel = 1.0f / (kOutlier * kOutlier);
@@ -249,9 +252,9 @@ class Blender {
       const float r = 1.0f + kPerLevel * (taken[j].color - taken[k].color).squaredNorm();
       return 1.0f / (r * r);
     };
-    // A highlight is where the best views look: the others have a say in what is usual. It adds
-    // light, so that darker views speak against a colour, and brighter ones do not. Where one is
-    // known to be, a view hardly votes, however many of them there are.
+    // The best views see a highlight, so the others vote on the usual colour, too. A highlight adds
+    // light, so darker views speak against a colour, and brighter ones do not. Views with a known
+    // highlight hardly vote, however many of them there are.
     std::array<float, kSlots> vote{};
     for (std::size_t k = 0; k < n; ++k)
       vote[k] = std::sqrt(std::sqrt(taken[k].weight / taken[k].trust)) * taken[k].trust;
@@ -317,7 +320,7 @@ class Blender {
     }
   }
 
-  /// Of the block and those around it where the same two views meet.
+  /// Over the block and those around it with the same two views.
   ShiftSums sum_around(std::size_t b, std::size_t k) const {
     ShiftSums sum;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -349,7 +352,7 @@ Result<Blended> blend(const TexelBlocks& blocks, const ChosenViews& chosen,
                       const TexelSamples& samples, const Correction& correction,
                       double texels_per_m, const RunContext& context) {
   const Corrector corrected(correction);
-  // What is darker than usual is as likely a shadow that was missed as what is brighter is a
+  // After a lamp's correction a darker colour is as likely a missed shadow as a brighter one is a
   // highlight.
   const float darker_says = correction.lamp ? 0.0f : kDarkerSays;
   Blender blender(blocks, chosen, samples, corrected, darker_says, context);

@@ -16,24 +16,24 @@ constexpr std::size_t kViewsForPlace = 16;
 constexpr std::size_t kPoints = 12000;
 constexpr int kMargin_px = 40;
 constexpr int kShiftReach = 32,
-              kShiftStep = 2;  // pixels in which a shift of the images is looked for
+              kShiftStep = 2;  // step in pixels of the search for a shift of the images
 constexpr double kTurnSigma_rad = 0.02, kShiftSigma_m = 0.01;
-/// One outline point is worth this much of another's evidence: neighbours err alike.
+/// Weight of an outline point relative to independent evidence, since the errors of neighbours are
+/// correlated.
 constexpr double kOutlineShare = 0.02;
 constexpr double kOutlineSigma_px = 0.7;
-/// Edges that the reconstruction has rounded, or a foot that stands on the platter, are misplaced
-/// alike all around the object: outlines of one height share an error that no number of views
-/// averages out.
+/// Edges that the reconstruction has rounded, or a foot on the platter, are misplaced equally all
+/// around the object: outlines of one height share an error that does not average out over views.
 constexpr double kShapeSigma_px = 1.0;
 
 /// Rounds of averaging over neighbours, for the normals.
 constexpr int kNormalRounds = 30;
 
-/// About the camera's own middle.
+/// About the camera's own centre.
 Pose pose_of(const Motion& motion) { return estimation::exp_about(Vec3d::Zero(), motion); }
 Motion motion_of(const Pose& T) { return estimation::log_about(Vec3d::Zero(), T); }
 
-/// What is kept of an image.
+/// The part of an image that is kept.
 GreyWindow grey_window(const ColorImage& image, const DrawnMesh& drawn) {
   GreyWindow out;
   out.left = std::max(0, drawn.left() - kMargin_px);
@@ -49,7 +49,7 @@ GreyWindow grey_window(const ColorImage& image, const DrawnMesh& drawn) {
   return out;
 }
 
-/// Brings the windows to one mean over what the mesh covers: exposure drifts.
+/// Normalises the windows to one mean over the mesh, since exposure drifts.
 void level(std::vector<GreyWindow>& windows, const std::vector<DrawnMesh>& drawn) {
   std::vector<double> means(windows.size(), 0.0);
   double all = 0.0, used = 0.0;
@@ -73,8 +73,8 @@ void level(std::vector<GreyWindow>& windows, const std::vector<DrawnMesh>& drawn
   }
 }
 
-/// Vertex normals without the noise of the surface: a wall whose normals stray seems to show how
-/// high the camera stands.
+/// Vertex normals without the noise of the surface: a wall with noisy normals would bias the
+/// camera's height.
 std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
   std::vector<Vec3f> normals = vertex_normals(mesh);
   for (int round = 0; round < kNormalRounds; ++round) {
@@ -142,7 +142,7 @@ class Refiner {
     return {};
   }
 
-  /// How well the images fit with the camera at T: smaller is better.
+  /// Misfit of the images with the camera at T: smaller is better.
   double misfit(const Pose& T) {
     T_ = T;
     place();
@@ -159,7 +159,7 @@ class Refiner {
     return std::sqrt(b) - a;
   }
 
-  /// Takes back what the evidence does not determine. Returns the deviation, pixels.
+  /// Reverts what the evidence does not determine. Returns the standard deviation, pixels.
   double keep_what_is_determined() {
     if (points_.empty()) return 0.0;
     evidence_.image = image_movement();
@@ -203,8 +203,8 @@ class Refiner {
     for (auto& d : drawn) drawn_.push_back(std::move(*d));
   }
 
-  /// A camera that looks aside shifts all its images alike: the shift at which outlines lie on
-  /// edges in all of them.
+  /// A rotation of the camera shifts all its images equally: searches for the shift at which
+  /// outlines are on edges in all of them.
   void shift_roughly(const std::vector<GreyWindow>& soft) {
     const double start = strength_at(soft, Eigen::Vector2f::Zero());
     constexpr int kSide = 2 * kShiftReach / kShiftStep + 1;
@@ -253,8 +253,8 @@ class Refiner {
     return all;
   }
 
-  /// One Gauss-Newton step. What the evidence does not determine stays as it was at the start: a
-  /// turn counts as known to a degree, a shift to a centimetre.
+  /// One Gauss-Newton step. Undetermined directions stay at their start: the prior deviations are a
+  /// degree and a centimetre.
   Result<> step(const OutlineEquations& outline, const MotionEquations* pattern) {
     TURNSCAN_TRY(context_.check());
     const double per_outline = kOutlineShare / (kOutlineSigma_px * kOutlineSigma_px);

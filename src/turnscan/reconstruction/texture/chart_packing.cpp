@@ -6,7 +6,7 @@ namespace turnscan::texture {
 
 namespace {
 
-/// The row on which a chart comes to rest in a column.
+/// The row at which a chart comes to rest in a column.
 int rest_of(const ChartOutline& chart, const std::vector<int>& ground, int column) {
   int row = 0;
   for (int c = 0; c < chart.width; ++c)

@@ -12,12 +12,12 @@ namespace {
 using Neighbours = std::vector<std::array<std::uint32_t, 3>>;
 
 constexpr int kDirections = 14;
-constexpr int kSmoothings = 4;  // of the normals that choose a direction
+constexpr int kSmoothings = 4;  // of the normals that determine a direction
 constexpr int kLabelRounds = 6;
 constexpr float kPull = 0.12f;           // of a neighbour, in cosines
 constexpr std::size_t kSmallChart = 48;  // triangles
 constexpr double kSmallShare = 1.5e-3;   // of the surface
-constexpr float kJoinCosine = 0.45f;     // to the axis of the chart that takes a small one in
+constexpr float kJoinCosine = 0.45f;     // to the axis of the chart that absorbs a small one
 
 std::array<Vec3f, kDirections> directions() {
   std::array<Vec3f, kDirections> out;
@@ -38,7 +38,7 @@ Vec3f area_vector(const TriangleMesh& mesh, std::size_t t) {
   return (mesh.vertices[c[1]] - a).cross(mesh.vertices[c[2]] - a);
 }
 
-/// Normals of the surface about each triangle, noise averaged away.
+/// Normals of the surface around each triangle, with noise averaged out.
 std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh, const Neighbours& neighbours) {
   const std::size_t n = mesh.triangles.size();
   std::vector<Vec3f> now(n), next(n);
@@ -70,7 +70,7 @@ int best_direction(const Vec3f& normal, const std::array<Vec3f, kDirections>& al
   return best;
 }
 
-/// In the order of the triangles, each sees what those before it have become.
+/// In the order of the triangles, each using the new labels of those before it.
 std::vector<std::uint8_t> label_triangles(const std::vector<Vec3f>& normals,
                                           const Neighbours& neighbours) {
   const auto all = directions();
@@ -110,7 +110,7 @@ Charts number_charts(const TriangleMesh& mesh, DisjointSets& sets) {
   return out;
 }
 
-/// Of each chart: triangles, area, and how long its border to each other is.
+/// Triangles and area of each chart, and the lengths of its borders with the others.
 struct ChartSizes {
   std::vector<std::size_t> triangles;
   std::vector<double> area;
@@ -137,7 +137,7 @@ ChartSizes measure(const TriangleMesh& mesh, const Neighbours& neighbours, const
   return out;
 }
 
-/// Whether nearly all of a chart's triangles lie within the angle of another axis.
+/// Whether nearly all of a chart's triangles are within the angle of another axis.
 bool fits_axis(const std::vector<std::uint32_t>& triangles, const std::vector<Vec3f>& normals,
                const Vec3f& axis) {
   const auto fit = std::count_if(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
@@ -146,8 +146,8 @@ bool fits_axis(const std::vector<std::uint32_t>& triangles, const std::vector<Ve
   return fit * 50 >= std::ptrdiff_t(triangles.size()) * 49;
 }
 
-/// One round: each small chart joins the one with which it shares most of its border. Whether one
-/// did.
+/// One round: each small chart joins the one with which it shares most of its border. Returns
+/// whether one did.
 bool join_small(const TriangleMesh& mesh, const Neighbours& neighbours,
                 const std::vector<Vec3f>& normals, Charts& charts) {
   const ChartSizes sizes = measure(mesh, neighbours, charts);
@@ -160,7 +160,7 @@ bool join_small(const TriangleMesh& mesh, const Neighbours& neighbours,
   for (std::uint32_t t = 0; t < charts.of.size(); ++t)
     if (small(charts.of[t])) members[charts.of[t]].push_back(t);
   std::vector<std::uint32_t> into(charts.axis.size());
-  std::vector<std::uint8_t> fixed(charts.axis.size(), 0);  // has taken one in, or gone into one
+  std::vector<std::uint8_t> fixed(charts.axis.size(), 0);  // has absorbed one, or has been absorbed
   bool any = false;
   for (std::uint32_t c = 0; c < into.size(); ++c) into[c] = c;
   for (std::uint32_t c = 0; c < into.size(); ++c) {
@@ -189,7 +189,7 @@ bool join_small(const TriangleMesh& mesh, const Neighbours& neighbours,
   return true;
 }
 
-/// Triangles that their chart's axis does not show well enough.
+/// Triangles that are too oblique to their chart's axis.
 std::vector<std::uint32_t> badly_seen(const std::vector<Vec3f>& normals, const Charts& charts) {
   std::vector<std::uint32_t> out;
   for (std::uint32_t t = 0; t < charts.of.size(); ++t)
@@ -252,7 +252,7 @@ void split_off(const TriangleMesh& mesh, const Neighbours& neighbours,
   for (std::uint32_t t = 0; t < charts.of.size(); ++t)
     for (const std::uint32_t u : neighbours[t])
       if (u != kNoTriangle && label[t] == label[u] && charts.of[t] == charts.of[u]) sets.join(t, u);
-  // What is left of a chart stays one, even in several pieces: they did not overlap.
+  // The rest of a chart remains one, even in several pieces: they did not overlap.
   std::vector<std::uint32_t> first(charts.axis.size(), kNoTriangle);
   for (std::uint32_t t = 0; t < charts.of.size(); ++t) {
     if (label[t] != kStays) continue;
@@ -261,7 +261,7 @@ void split_off(const TriangleMesh& mesh, const Neighbours& neighbours,
     sets.join(one, t);
   }
   Charts out = number_charts(mesh, sets);
-  // What stays keeps its axis, so that it stays as it was.
+  // The rest keeps its axis, and thus its projection.
   for (std::uint32_t t = 0; t < charts.of.size(); ++t)
     if (label[t] == kStays) out.axis[out.of[t]] = charts.axis[charts.of[t]];
   charts = std::move(out);
@@ -278,7 +278,8 @@ Charts find_charts(const TriangleMesh& mesh, const Neighbours& neighbours) {
   for (int round = 0; round < 8; ++round)
     if (!join_small(mesh, neighbours, smooth, charts)) break;
   const std::vector<Vec3f> normals = face_normals(mesh);
-  // A direction of the 14 is within 36 degrees of any normal, the mean of such triangles, too.
+  // One of the 14 directions is within 36 degrees of any normal, and so is the mean of such
+  // triangles.
   for (int round = 0; round < 8; ++round) {
     const auto bad = badly_seen(normals, charts);
     if (bad.empty()) break;

@@ -63,7 +63,7 @@ DrawnMesh::DrawnMesh(const ColorView& view, const TriangleMesh& mesh) {
   width_ = right - left_;
   height_ = bottom - top_;
   footprint_ = 1.0f / view.focal_px();
-  depth_.assign(std::size_t(width_) * std::size_t(height_), 0.0f);  // inverse depth meanwhile
+  depth_.assign(std::size_t(width_) * std::size_t(height_), 0.0f);  // temporarily inverse depth
   const Vec3f eye = view.eye();
   for (const auto& t : mesh.triangles) {
     const Vec3f& a = mesh.vertices[t[0]];
@@ -123,7 +123,7 @@ void DrawnMesh::find_rims() {
       step(x, y + 1);
     }
   }
-  // Grown by the rim, along rows and then along columns.
+  // Dilated by the rim, along rows and then along columns.
   std::vector<std::uint8_t> grown(edge.size(), 0);
   rim_.assign(edge.size(), 0);
   for (int y = 0; y < height_; ++y)

@@ -10,11 +10,11 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr float kDarkest = 0.004f, kBrightest = 0.96f;  // linear light that tells of exposure
+constexpr float kDarkest = 0.004f, kBrightest = 0.96f;  // range of linear light usable for exposure
 constexpr int kGainRounds = 4;
-constexpr double kGainScale = 0.08;  // log ratios beyond are taken for something else than exposure
-constexpr double kEnoughBlocks = 20.0;  // that compare two views
-constexpr double kUsualGain = 0.15;     // log of how far gains are from 1
+constexpr double kGainScale = 0.08;     // larger log ratios are not attributed to exposure
+constexpr double kEnoughBlocks = 20.0;  // comparing two views
+constexpr double kUsualGain = 0.15;     // log of the prior deviation of gains from 1
 constexpr double kMinPairError = 0.01;  // log
 constexpr int kStayRounds = 3;
 constexpr std::size_t kGainChunks = 32;
@@ -25,8 +25,8 @@ std::array<float, 256> linear_table() {
   return out;
 }
 
-/// Of one channel, for each two views: weights and weighted sums of what the gain of the first has
-/// more than that of the second, as logarithms.
+/// For one channel and each pair of views: weights and weighted sums of the difference between the
+/// logarithms of their gains.
 struct PairSums {
   Eigen::MatrixXd weight, sum;
 };
@@ -54,8 +54,8 @@ PairSums add_pairs(const ChosenViews& chosen, const BlockMeans& means, int chann
   return sums;
 }
 
-/// Logarithms of the gains that fit the pairs' ratios best. How much these contradict each other
-/// says how much they are worth beside that exposures are usually alike.
+/// Logarithms of the gains that best fit the pairs' ratios. The contradictions between these
+/// determine their weight relative to the prior that exposures are similar.
 Eigen::VectorXd balanced(const Eigen::MatrixXd& weight, const Eigen::MatrixXd& ratio) {
   const Eigen::Index n = weight.rows();
   Eigen::MatrixXd matrix = -weight;
@@ -74,9 +74,10 @@ Eigen::VectorXd balanced(const Eigen::MatrixXd& weight, const Eigen::MatrixXd& r
   return gains;
 }
 
-/// Each two views' ratio is found by itself, then all are balanced. Places that fit badly count
-/// less among those of the same two views only: where a lamp makes each view a little darker than
-/// the next, all around the object, the two that close the circle fit worst, and are right.
+/// The ratio of each pair of views is estimated separately, then all are balanced. Outliers are
+/// downweighted only among the blocks of the same pair: where a lamp makes each view a little
+/// darker than the next, all around the object, the pair that closes the circle fits worst, and is
+/// correct.
 Eigen::VectorXd solve_channel(const ChosenViews& chosen, const BlockMeans& means, int channel,
                               std::size_t views) {
   const auto n = Eigen::Index(views);
@@ -85,7 +86,7 @@ Eigen::VectorXd solve_channel(const ChosenViews& chosen, const BlockMeans& means
   PairSums all{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n)};
   Eigen::MatrixXd usual = Eigen::MatrixXd::Zero(n, n);
   for (int round = 0; round < kGainRounds; ++round) {
-    // The first round has no idea yet of what an outlier is.
+    // In the first round outliers cannot be identified yet.
     const double scale = round == 0 ? 10.0 * kGainScale : kGainScale;
     const auto parts =
         parallel_chunks<PairSums>(means.size(), chunk, [&](std::size_t begin, std::size_t end) {

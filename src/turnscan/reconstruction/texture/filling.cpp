@@ -7,11 +7,11 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr int kGapRounds = 6;      // texels that colours reach into the gaps
-constexpr int kSmoothRounds = 60;  // of the vertices that nobody saw
+constexpr int kGapRounds = 6;      // number of texels by which colours extend into the gaps
+constexpr int kSmoothRounds = 60;  // of the vertices that no view saw
 constexpr float kGrey = 190.0f;
 
-/// Sum of colours, with their count in the last place.
+/// Sum of colours, with their count in the last component.
 using ColorSum = Eigen::Vector4f;
 
 ColorSum sum_of(Rgb c) { return {float(c.r), float(c.g), float(c.b), 1.0f}; }
@@ -23,8 +23,8 @@ Rgb mean_of(const ColorSum& sum) {
   return {byte(0), byte(1), byte(2)};
 }
 
-/// Colours of the vertices, those of known texels of the triangles about them, spread over the
-/// others until none is without, then smoothed where they were spread.
+/// Colours of the vertices from known texels of the adjacent triangles, propagated to the other
+/// vertices until all have one, then smoothed where they were propagated.
 std::vector<ColorSum> vertex_colors(const TriangleMesh& mesh, const TexelBlocks& blocks,
                                     const Blended& blended) {
   std::vector<ColorSum> sums(mesh.vertices.size(), ColorSum::Zero());
@@ -77,7 +77,7 @@ Rgb color_inside(const TriangleMesh& mesh, const TexelBlocks& blocks,
   return mean_of(sum);
 }
 
-/// Fills pixels beside filled ones with their mean, one ring.
+/// Fills pixels adjacent to filled ones with their mean, one ring.
 void grow_into_gaps(ColorImage& image, std::vector<std::uint8_t>& full) {
   const int n = image.width;
   std::vector<std::uint8_t> now = full;
@@ -127,7 +127,7 @@ ColorImage filled_picture(const TriangleMesh& mesh, const TexelBlocks& blocks,
     }
   });
   for (int round = 0; round < kGapRounds; ++round) grow_into_gaps(image, full);
-  // What lies farther from any chart is seen in coarser pictures of it alone.
+  // Texels farther from any chart are only seen at coarser mipmap levels.
   ColorSum sum = ColorSum::Zero();
   for (std::size_t i = 0; i < full.size(); i += 97)
     if (full[i] != 0) sum += sum_of(image.pixels[i]);

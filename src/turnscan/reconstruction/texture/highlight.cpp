@@ -9,21 +9,21 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr std::size_t kShineBlocks = 4000;  // that a highlight is looked for in
-constexpr float kBrightestShine = 0.96f;    // linear light; beyond it an image is clipped
-// What colours of a place usually differ by: a share of them, and linear light.
+constexpr std::size_t kShineBlocks = 4000;  // blocks used for the search
+constexpr float kBrightestShine = 0.96f;    // linear light; images are clipped above it
+// Usual differences between colours of a point: relative, and in linear light.
 constexpr float kUsualShare = 0.1f, kUsualLight = 0.02f;
-// Linear light of a highlight with which a view counts half in what a place's light is.
+// Linear light of a highlight at which a view's weight in a point's light is one half.
 constexpr float kDoubtful = 0.05f;
 constexpr double kMinShineExplained = 0.2;  // of the disagreement
 constexpr float kNothing = 1e-3f;           // linear light
 constexpr float kMuch = 0.1f;               // of the light of the darkest channel
 constexpr int kMaxShineRounds = 40;
 constexpr double kMinShineStep = 0.004;
-// Exponents that are tried, and taken: to the shading of a lamp the widest lobe fits best.
+// Exponents that are tried, and accepted: the widest lobe fits best to the shading of a lamp.
 constexpr double kWidest = 12.0, kWidestTaken = 16.0, kNarrowest = 2000.0;
 
-/// A block as the highlight finds it: of its darkest channel, in which a highlight tells most.
+/// A block as used in the search: its darkest channel, in which a highlight is most visible.
 struct ShineBlock {
   std::array<Vec3f, kSlots> normal, to_eye;  ///< rig's frame, unit
   std::array<float, kSlots> light{};
@@ -65,7 +65,7 @@ struct Lobe {
   double azimuth = 0.0, elevation = 0.0, log_exponent = 0.0, log_strength = 0.0;
 };
 
-/// Tries highlights.
+/// Evaluates highlights.
 class HighlightSearch {
  public:
   HighlightSearch(std::vector<ShineBlock> blocks, const RunContext& context)
@@ -117,7 +117,7 @@ class HighlightSearch {
     score_all(lobe, exponents, strengths);
   }
 
-  /// The least of all, which is noted where it is the least so far.
+  /// The minimum of all, which is stored if it is the best so far.
   double score_all(Lobe lobe, const std::vector<double>& exponents,
                    const std::vector<double>& strengths) {
     const Vec3f to_lamp = rig_direction(lobe.azimuth, lobe.elevation);

@@ -10,17 +10,18 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr std::size_t kLightBlocks = 4000;     // that the lamp is looked for in
-constexpr std::size_t kLookTriangles = 8'000;  // that cast shadows while it is
+constexpr std::size_t kLightBlocks = 4000;     // blocks used for the search
+constexpr std::size_t kLookTriangles = 8'000;  // of the mesh that casts shadows during the search
 constexpr double kLookMap_px = 200.0;          // across the object
 constexpr double kMap_px = 800.0;
 constexpr double kUsualDisagreement = 0.1;  // of albedos
-constexpr double kMinCompared = 0.3;        // of what there is to compare, that shadows may leave
-constexpr double kMinExplained = 2e-3;      // less tells of no lamp
+constexpr double kMinCompared = 0.3;    // share of the comparisons that must remain outside shadow
+                                        // edges
+constexpr double kMinExplained = 2e-3;  // below this there is no lamp
 constexpr int kMaxRounds = 40;
 constexpr double kMinStep = 0.004;
 
-/// A block as the lamp finds it.
+/// A block as used in the search.
 struct LightBlock {
   Vec3f position, normal;  ///< object's frame
   std::array<float, kSlots> luminance{};
@@ -60,7 +61,7 @@ FixedLight light_from(double azimuth, double elevation, double share) {
   return light;
 }
 
-/// Tries lights.
+/// Evaluates lights.
 class LampSearch {
  public:
   LampSearch(const LampScene& scene, std::vector<LightBlock> blocks, const RunContext& context)
@@ -101,7 +102,7 @@ class LampSearch {
     }
   }
 
-  /// The mean over what was seen is 1.
+  /// Its mean over the observed surface is 1.
   FixedLight best() const {
     FixedLight light = light_from(azimuth_, elevation_, share_);
     double mean = 0.0, count = 0.0;
@@ -145,7 +146,7 @@ class LampSearch {
     }
   }
 
-  /// How far the albedos of a block are from their mean, in shares of it; large ones count as one.
+  /// Relative deviation of the albedos of a block from their mean; large ones count as one.
   static double disagreement(const std::array<float, kSlots>& albedo, std::size_t n) {
     float mean = 0.0f;
     for (std::size_t k = 0; k < n; ++k) mean += albedo[k] / float(n);
@@ -157,10 +158,10 @@ class LampSearch {
     return sum;
   }
 
-  /// Means over the places and views that no edge of a shadow is near.
+  /// Means over the blocks and views that are not near the edge of a shadow.
   struct Agreement {
     double disagreement = 1e9;
-    double explained = 0.0;  ///< by how much more they disagree in even light
+    double explained = 0.0;  ///< by how much more they disagree under uniform light
   };
 
   Agreement agreement(const FixedLight& light, const Reached& reached) const {
@@ -203,7 +204,7 @@ class LampSearch {
   double least_ = 1e8, azimuth_ = 0.0, elevation_ = 0.0, share_ = 0.0;
 };
 
-/// Calls work(slot, view, lamp's view) for each slot of each block that shows a view.
+/// Calls work(slot, view, lamp's view) for each slot of each block that uses a view.
 template <class Work>
 Result<> for_each_slot(const LampScene& scene, const FixedLight& light, const RunContext& context,
                        const Work& work) {

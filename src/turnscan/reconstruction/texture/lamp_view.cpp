@@ -9,7 +9,7 @@ namespace {
 constexpr double kFarAway = 200.0;  // distance of the camera, in radii of the object
 constexpr int kMaxMap_px = 2048;
 
-/// A camera from whose place the directions to all of the object are alike to a third of a degree.
+/// A camera so distant that the directions to all of the object agree to a third of a degree.
 ColorView lamp_camera(const TriangleMesh& mesh, const Vec3f& to_lamp, double pixel_m) {
   const auto box = bounds(mesh.vertices);
   const double radius = std::max(0.5 * box.size().norm(), 1e-6);

@@ -16,8 +16,8 @@ DeterminedMotion determined_part(const MotionEvidence& evidence, const Motion& m
       estimation::solve_ldlt(evidence.information, MotionMatrix(MotionMatrix::Identity()));
   const MotionMatrix spread = estimation::solve_ldlt(
       evidence.information, MotionMatrix((evidence.information + evidence.shared) * inverse));
-  // With covariance = K K^T, K^-1 motion has the covariance 1, and so it has when it is rotated to
-  // the axes of the movement in the images.
+  // With covariance = K K^T, K^-1 motion has unit covariance, also after rotation to the principal
+  // axes of the movement in the images.
   const MotionMatrix K = estimation::cholesky_root(0.5 * (spread + spread.transpose()));
   const auto axes = estimation::congruent_eigen(K, evidence.image);
   const Motion deviations = axes.vectors.transpose() * estimation::solve_lower(K, motion);

@@ -8,15 +8,15 @@ namespace turnscan::texture {
 namespace {
 
 constexpr float kMinEdge = 6.0f;        // levels a pixel
-constexpr double kPatternScale = 12.0;  // levels: a place that looks different counts less
+constexpr double kPatternScale = 12.0;  // levels: points that look different have less weight
 constexpr std::size_t kMinSeen = 3;     // views of a point
 constexpr float kFacing = 0.45f;        // cosine
 constexpr int kOutlineStep = 3;         // pixels along the outline
-constexpr float kMaxEdge = 25.0f;       // levels a pixel; stronger edges are worth no more
+constexpr float kMaxEdge = 25.0f;       // levels per pixel; stronger edges have no more weight
 /// The surface ends about half a pixel beyond the last pixel whose centre it covers.
 constexpr float kBeyond = 0.5f;
 
-/// Outward normal of the outline at a pixel: away from what the mesh covers about it.
+/// Outward normal of the outline at a pixel: away from the covered pixels around it.
 Eigen::Vector2f outline_normal(const DrawnMesh& drawn, int x, int y) {
   Eigen::Vector2f inward = Eigen::Vector2f::Zero();
   for (int dy = -4; dy <= 4; ++dy)
@@ -31,7 +31,8 @@ bool on_outline(const DrawnMesh& drawn, int x, int y) {
                                  !drawn.covered(x, y - 1) || !drawn.covered(x, y + 1));
 }
 
-/// Where along the normal the image changes most, from -reach to reach; whether it does anywhere.
+/// Position along the normal, from -reach to reach, of the largest gradient; returns whether there
+/// is one.
 bool edge_along(const GreyWindow& grey, const Eigen::Vector2f& from, const Eigen::Vector2f& normal,
                 double reach_px, double& offset) {
   const int steps = int(2.0 * reach_px) + 1;
@@ -44,7 +45,7 @@ bool edge_along(const GreyWindow& grey, const Eigen::Vector2f& from, const Eigen
     Eigen::Vector2f gradient;
     if (!grey.at(p.x(), p.y(), value, gradient)) return false;
     slope[std::size_t(i + steps)] = std::abs(gradient.dot(normal));
-    // The nearer of two edges alike is more likely the outline.
+    // The closer of two equal edges is more likely the outline.
     const float value_here =
         slope[std::size_t(i + steps)] * (1.0f - 0.4f * float(std::abs(i)) / float(steps));
     if (value_here > strongest) strongest = value_here, best = i;
@@ -187,7 +188,7 @@ OutlineEquations outline_equations(const ColorView& view, const std::vector<Outl
 
 namespace {
 
-/// What one view shows of a point on the surface.
+/// Observation of a surface point by a view.
 struct PatternView {
   double value = 0.0;
   Eigen::RowVector2d slope;                ///< of the image, per pixel
@@ -195,7 +196,7 @@ struct PatternView {
   Eigen::Matrix2d per_tangent;             ///< pixels per metre along the surface's tangents
 };
 
-/// Two unit vectors at right angles to n and to each other.
+/// Two unit vectors perpendicular to n and to each other.
 Eigen::Matrix<double, 3, 2> tangents(const Vec3f& n) {
   const Vec3d normal = n.cast<double>();
   Eigen::Matrix<double, 3, 2> out;
@@ -227,9 +228,9 @@ void find_pattern_views(const std::vector<ColorView>& views, const std::vector<D
   }
 }
 
-/// The pattern has one slope along the surface, the mean of what the views show. With a slope for
-/// each view noise would pass for evidence in directions in which all views see the pattern move
-/// alike, as along the turntable's axis.
+/// The pattern has one gradient along the surface, the mean over the views. With a gradient per
+/// view, noise would pass for evidence in directions in which all views see the pattern move alike,
+/// as along the turntable's axis.
 void add_pattern(const std::vector<PatternView>& seen, MotionEquations& out) {
   const double share = 1.0 / double(seen.size());
   double mean = 0.0;

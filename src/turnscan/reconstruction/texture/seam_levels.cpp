@@ -10,16 +10,16 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr float kCellsPerSide = 20.0f;    // of the longest side of the box of the surface
-constexpr double kDifferent = 0.6;        // log ratios beyond are a highlight or another place
-constexpr double kEnoughCompared = 8.0;   // that compare two views in a cell
+constexpr float kCellsPerSide = 20.0f;    // along the longest side of the surface's bounding box
+constexpr double kDifferent = 0.6;        // larger log ratios are a highlight or another surface
+constexpr double kEnoughCompared = 8.0;   // comparing two views in a cell
 constexpr std::size_t kCompared = 40000;  // blocks, or up to twice as many
-constexpr double kAgree = 20.0;           // beside 1 for two cells of a view
-constexpr double kStayLevel = 0.02;       // of a factor of 1
+constexpr double kAgree = 20.0;  // weight, relative to 1, of the equality of two cells of a view
+constexpr double kStayLevel = 0.02;  // weight of a factor of 1
 constexpr double kTolerance = 1e-3;
 constexpr float kMaxLevel = 2.0f;
 
-/// A lattice over the surface; each cell has a number for each view that a block of it has.
+/// A lattice over the surface; each cell has an index for each view used by one of its blocks.
 class Cells {
  public:
   Cells(const TexelBlocks& blocks, const ChosenViews& chosen, std::size_t views) : views_(views) {
@@ -44,7 +44,7 @@ class Cells {
     return number_[index(cell_of(block), view)];
   }
 
-  /// Numbers of the same view in cells beside each other.
+  /// Indices of the same view in adjacent cells.
   template <class Pair>
   void for_each_pair(const Pair& pair) const {
     for (int z = 0; z < size_.z(); ++z)
@@ -60,7 +60,7 @@ class Cells {
           }
   }
 
-  /// Between the centres of the cells that have the view.
+  /// Interpolates between the centres of the cells that have the view.
   Vec3f between(const Eigen::MatrixX3d& values, std::size_t block, std::size_t view) const {
     const Vec3f at = (places_[block] - origin_) / side_ - Vec3f::Constant(0.5f);
     const Eigen::Vector3i low = at.array().floor().cast<int>().matrix();
@@ -109,8 +109,8 @@ class Cells {
   int count_ = 0;
 };
 
-/// How many blocks compare two views in a cell, and by what the first one's light is to be raised
-/// beside the second's, as logarithms.
+/// Number of blocks that compare two views in a cell, and the log ratio by which the first one's
+/// light is to be raised relative to the second's.
 struct Comparison {
   int first, second;
   double weight;
@@ -152,7 +152,7 @@ std::vector<Comparison> comparisons(const Cells& cells, const ChosenViews& chose
   return all;
 }
 
-/// Logarithms of the factors, by the cells' numbers.
+/// Logarithms of the factors, by the cells' indices.
 Eigen::MatrixX3d solved_levels(const Cells& cells, const std::vector<Comparison>& compared) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(cells.count(), 3);

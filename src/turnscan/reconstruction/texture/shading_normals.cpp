@@ -13,14 +13,14 @@ namespace {
 constexpr int kSquare = NormalTilts::kSquare_px, kInRow = kBlock_px / kSquare;
 constexpr double kReach_m = 0.5e-3;         // Gaussian over the squares that share a tilt
 constexpr int kMaxReach = 6;                // squares
-constexpr float kUsualAlbedoError = 0.15f;  // beyond it is no shading
-/// Added to the mean squared change of light with a tilt: holds it where the views do not tell.
+constexpr float kUsualAlbedoError = 0.15f;  // larger errors are not shading
+/// Added to the mean squared derivative of light by a tilt: regularises unobserved tilts.
 constexpr float kStays = 0.005f;
 constexpr float kMaxTilt = 0.5f;
 constexpr std::uint8_t kDarkestLevel = 12, kBrightestLevel = 250;
 constexpr int kAlbedoRounds = 3;
 
-/// Least squares for a tilt: mean of what the samples say.
+/// Least squares for a tilt, from the mean of the samples.
 struct TiltSums {
   Eigen::Matrix3f matrix = Eigen::Matrix3f::Zero();
   Vec3f right = Vec3f::Zero();
@@ -62,7 +62,7 @@ class ShadingSolver {
   void add_texel(std::size_t b, int i, TiltSums& sums) const {
     const Vec3f normal = blocks_.normal(b, i);
     std::array<float, kSlots> albedo{}, weight{};
-    std::array<Vec3f, kSlots> change;  // of the light with the tilt, in shares of it
+    std::array<Vec3f, kSlots> change;  // relative derivative of the light by the tilt
     std::size_t n = 0;
     for (std::size_t k = 0; k < kSlots && chosen_.view[b][k] != kNoView; ++k) {
       const Sample& s = samples_.of(b, k)[i];
@@ -118,7 +118,7 @@ struct Square {
   std::size_t block, index;
 };
 
-/// The square of a chart's at a column and row of squares of the picture, if there is one.
+/// The square of a chart at a column and row of squares of the image, if there is one.
 std::optional<Square> square_at(const TexelBlocks& blocks, std::uint32_t chart, int column,
                                 int row) {
   const std::int32_t at = blocks.block_at(column * kSquare, row * kSquare);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kSmooth_m = 1.2e-3;  // standard deviation
 constexpr int kMaxSmoothRounds = 30;
-// Of the place of one of six neighbours or of the vertex itself, along one axis, in squared edges.
+// Variance of the position of one of six neighbours or of the vertex itself, along one axis, in
+// squared edges.
 constexpr double kRoundVariance = 3.0 / 7.0;
 
 double mean_edge(const TriangleMesh& mesh) {
@@ -30,7 +31,7 @@ std::vector<Vec3f> smoothed_normals(const TriangleMesh& mesh) {
   std::vector<Vec3f> sum;
   for (int round = 0; round < rounds; ++round) {
     sum = normals;
-    // Each neighbour lies in two triangles.
+    // Each neighbour is in two triangles.
     for (const auto& t : mesh.triangles) {
       const Vec3f a = 0.5f * normals[t[0]], b = 0.5f * normals[t[1]], c = 0.5f * normals[t[2]];
       sum[t[0]] += b + c, sum[t[1]] += c + a, sum[t[2]] += a + b;

@@ -16,7 +16,7 @@ TexelBlocks::TexelBlocks(const TriangleMesh& mesh, const Atlas& atlas,
   const auto block_at_texel = [&](int x, int y) {
     return std::size_t(y / kBlock_px) * std::size_t(side_) + std::size_t(x / kBlock_px);
   };
-  // First which squares there are, then their texels.
+  // First determines the squares, then their texels.
   for (std::size_t t = 0; t < planes_.size(); ++t)
     for_each_texel(atlas.corners[t], [&](int x, int y) { block_of_[block_at_texel(x, y)] = 0; });
   for (std::size_t i = 0; i < block_of_.size(); ++i) {
@@ -79,7 +79,7 @@ TexelBlocks::Surface TexelBlocks::surface(std::size_t block, int texel) const {
 Vec3f TexelBlocks::normal(std::size_t block, int texel) const {
   const auto& t = mesh_.triangles[triangle(block, texel)];
   const Vec3f p = surface(block, texel).position;
-  // Nearer corners count more; no more is needed of a normal that weighs views.
+  // Closer corners have more weight; normals that only weight views need no more.
   Vec3f sum = Vec3f::Zero();
   for (const std::uint32_t v : t) sum += normals_[v] / ((mesh_.vertices[v] - p).norm() + 1e-9f);
   return sum.norm() > 0.0f ? Vec3f(sum.normalized()) : Vec3f(Vec3f::UnitY());

@@ -10,22 +10,23 @@ namespace turnscan::texture {
 namespace {
 
 constexpr float kMinViewCosine = 0.12f;
-constexpr float kNearRim = 0.02f;  // what a place near a rim is worth: better than nothing
+constexpr float kNearRim = 0.02f;  // weight of a point near a rim
 constexpr std::size_t kViewsAtOnce = 8;
 constexpr int kMaxSubsamples = 4;
-// By how well they see a block. Beside the best few, ones farther apart: a highlight is where the
-// best views look, and must not be in most of what is compared.
+// Ranked by how well they see a block. In addition to the best few, views farther apart are chosen:
+// the best views see a highlight, which must not be in most of the compared ones.
 constexpr std::size_t kRanked = 16;
 constexpr std::array<std::size_t, kSlots> kTakenRanks{0, 1, 2, 3, 5, 8, 11, 14};
 
-/// Weights of four pixels in a row about a place a share t behind the second (Keys 1981, a = -1/2).
+/// Weights of four consecutive pixels for a position at a fraction t after the second (Keys 1981, a
+/// = -1/2).
 std::array<float, 4> cubic(float t) {
   const float t2 = t * t, t3 = t2 * t;
   return {-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f,
           -1.5f * t3 + 2.0f * t2 + 0.5f * t, 0.5f * t3 - 0.5f * t2};
 }
 
-/// As pixel_at(), but less of what is fine is lost between the pixels' centres.
+/// As pixel_at(), but preserves more detail between the pixels' centres.
 Vec3f sharp_pixel_at(const ColorImage& image, float u, float v) {
   const int x = int(u), y = int(v);
   const auto wx = cubic(u - float(x)), wy = cubic(v - float(y));
@@ -41,7 +42,7 @@ Vec3f sharp_pixel_at(const ColorImage& image, float u, float v) {
   return sum;
 }
 
-/// A few texels that stand for a block.
+/// A few texels that represent a block.
 struct BlockProbe {
   std::array<Vec3f, 3> position;
   Vec3f normal = Vec3f::Zero();
@@ -63,8 +64,8 @@ BlockProbe probe_of(const TexelBlocks& blocks, std::size_t block) {
   return probe;
 }
 
-/// Pixels squared per area of surface, by the square of the cosine of incidence: once for the
-/// foreshortening, once because flat views are worth less.
+/// Pixels squared per area of surface, times the square of the cosine of incidence: once for the
+/// foreshortening, once because oblique views are less reliable.
 float quality_of(const BlockProbe& probe, const ColorView& view, const DrawnMesh& drawn) {
   const Vec3f to_eye = view.eye() - probe.position[1];
   const float distance = to_eye.norm();
@@ -79,7 +80,7 @@ float quality_of(const BlockProbe& probe, const ColorView& view, const DrawnMesh
   return scale * scale * cosine * cosine * seen / 3.0f;
 }
 
-/// The best so far, in falling order.
+/// The best views so far, in descending order.
 struct Ranking {
   std::array<std::uint16_t, kRanked> view;
   std::array<float, kRanked> quality{};
@@ -96,7 +97,7 @@ struct Ranking {
   }
 };
 
-/// The last ones move up where fewer views see the block, so that none is left out for nothing.
+/// The last ones move up if fewer views see the block, so that no slot is wasted.
 std::array<std::size_t, kSlots> taken_ranks(const Ranking& ranking) {
   std::array<std::size_t, kSlots> out = kTakenRanks;
   const auto end = std::find(ranking.view.begin(), ranking.view.end(), kNoView);
@@ -106,8 +107,8 @@ std::array<std::size_t, kSlots> taken_ranks(const Ranking& ranking) {
   return out;
 }
 
-/// Energy of the second derivatives over that of the first ones, of the object's inside: falls as
-/// an image blurs, whatever it shows.
+/// Ratio of the energy of the second derivatives to that of the first ones, inside the object:
+/// decreases with blur, independently of the content.
 double sharpness_of(const ColorImage& image, const DrawnMesh& drawn) {
   double first = 0.0, second = 0.0;
   for (int y = 2; y + 2 < drawn.height(); y += 2) {
@@ -123,7 +124,7 @@ double sharpness_of(const ColorImage& image, const DrawnMesh& drawn) {
   return first > 0.0 ? second / first : 0.0;
 }
 
-/// By how many pixels the view's image moves from a texel to the next, at most.
+/// Maximum number of pixels by which the view's image moves between adjacent texels.
 int subsamples(const TexelBlocks::Surface& s, const ColorView& view) {
   const Projection a = view.project(s.position), b = view.project(s.position + s.right),
                    c = view.project(s.position + s.down);

@@ -17,12 +17,12 @@ namespace turnscan::texture {
 
 namespace {
 
-constexpr int kMinSize_px = 256, kMaxSize_px = 4096;  // chosen by itself
+constexpr int kMinSize_px = 256, kMaxSize_px = 4096;  // range of the automatic size
 constexpr int kLightRounds = 3;
 constexpr int kTurnedRounds = 3;
-constexpr double kMinTurned_px = 0.15;  // that is worth reading the images again
+constexpr double kMinTurned_px = 0.15;  // minimum for reading the images again
 constexpr double kMinOfScale = 0.97;
-constexpr double kTexelsPerPixel = 2.0;  // so that the texels blur little that the images show
+constexpr double kTexelsPerPixel = 2.0;  // so that the texels blur little of the images' detail
 
 double best_pixels_per_m(const std::vector<ColorView>& views, const Vec3f& center) {
   std::vector<double> all;
@@ -36,8 +36,8 @@ int rounded_size(double side_px) {
   return std::clamp(rounded, kMinSize_px, kMaxSize_px);
 }
 
-/// In a picture of the size that was asked for, which is then used in full, or in the smallest that
-/// holds the finest texels that show more.
+/// An atlas of the requested size, which is then fully used, or the smallest that contains the
+/// finest useful texels.
 Result<Atlas> atlas_for(const TriangleMesh& mesh, const TextureOptions& options,
                         double texels_per_m, const RunContext& context) {
   if (options.size_px)
@@ -47,12 +47,12 @@ Result<Atlas> atlas_for(const TriangleMesh& mesh, const TextureOptions& options,
     TURNSCAN_ASSIGN(Atlas atlas, make_atlas(mesh, size, texels_per_m, context));
     const double share = atlas.texels_per_m / texels_per_m;
     if (share > kMinOfScale || size == kMaxSize_px) return atlas;
-    // Charts of this mesh fill less than those of most.
+    // Charts of this mesh fill less than usual.
     size = std::min(kMaxSize_px, std::max(size + 256, rounded_size(double(size) / share)));
   }
 }
 
-/// From the object's frame to that in which lamps stand still: the table's at angle 0.
+/// From the object's frame to that in which lamps are static: the table's at angle 0.
 std::vector<Eigen::Matrix3f> rig_rotations(const FrameSequence& sequence,
                                            const std::vector<ColorView>& views) {
   std::vector<Eigen::Matrix3f> out;
@@ -77,7 +77,7 @@ TextureReport::Highlight noted(const Highlight& highlight) {
           double(std::asin(std::clamp(to_lamp.y(), -1.0f, 1.0f))), double(highlight.strength)};
 }
 
-/// What the views would show in even light; nothing where the edge of a shadow is near.
+/// The colours under uniform light; negative where the edge of a shadow is near.
 BlockMeans without_light(BlockMeans means, const BlockLight& light) {
   for (std::size_t b = 0; b < means.size(); ++b)
     for (std::size_t k = 0; k < kSlots; ++k)
@@ -94,8 +94,8 @@ BlockMeans with_gains(BlockMeans means, const ChosenViews& chosen,
   return means;
 }
 
-/// Light and exposure in turn: a lamp that stands still looks like an exposure that changes with
-/// the turn, and gains that were found without it would hide most of it.
+/// Alternates between light and exposure: a static lamp looks like an exposure that changes with
+/// the rotation, and gains estimated without it would hide most of it.
 Result<Correction> without_lamp(const LampScene& scene, TexelSamples& samples, double texels_per_m,
                                 const RunContext& context) {
   Correction out;
@@ -117,7 +117,7 @@ Result<Correction> without_lamp(const LampScene& scene, TexelSamples& samples, d
   return out;
 }
 
-/// Finds the colour cameras of all sensors that have their own, and puts the views there.
+/// Estimates the poses of all separate colour cameras, and moves the views there.
 Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
                         std::vector<ColorView>& views, TextureReport& report,
                         const RunContext& context) {
@@ -140,9 +140,9 @@ Result<> refine_cameras(const FrameSequence& sequence, const TriangleMesh& mesh,
   return {};
 }
 
-/// Turns the views by what their images were taken too early or too late, as long as their patterns
-/// lie on each other the better for it. The camera's place, which they had to be taken for, is
-/// found anew among the turned ones.
+/// Rotates the views by the time offset of their images, as long as this improves the alignment of
+/// their patterns. The camera's pose, which absorbed these offsets before, is estimated again with
+/// the rotated views.
 Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
                     const TexelBlocks& blocks, const ChosenViews& chosen,
                     std::vector<ColorView>& views, TexelSamples& samples, TextureReport& report,
@@ -158,7 +158,7 @@ Result<> turn_views(const FrameSequence& sequence, const TriangleMesh& mesh,
     for (std::size_t k = 0; k < views.size(); ++k) views[k].turn(turns[k]);
     if (round == 0 && refine_camera)
       TURNSCAN_TRY(refine_cameras(sequence, mesh, views, report, context));
-    samples = {};  // two of them would be the most that memory holds
+    samples = {};  // frees memory: two of them would exceed its limit
     TURNSCAN_ASSIGN(samples, sample_views(sequence, mesh, blocks, views, chosen, context));
     if (!(pattern_misfit(blocks, chosen, samples) < before)) {
       views = old;
@@ -223,7 +223,7 @@ Result<TextureReport> texture_mesh(const FrameSequence& sequence, std::vector<Co
                           options.refine_camera, context));
   BlockMeans means = block_means(blocks, chosen, samples);
   Correction correction;
-  // Beside a lamp that was taken out, levels would take the shadows that it casts for the truth.
+  // With a removed lamp, levels would compensate its shadows.
   if (options.albedo) {
     TURNSCAN_ASSIGN(const TriangleMesh coarse, coarse_caster(mesh));
     const LampScene scene{mesh, coarse, blocks, chosen, means, rig_rotations(sequence, views)};

@@ -11,17 +11,18 @@ namespace {
 
 constexpr std::size_t kTurnBlocks = 40000, kTurnChunks = 16;
 constexpr int kTurnSteps = 12;         // to either side
-constexpr double kTurnReach = 3.0;     // texels that the middle block moves by at the last step
-constexpr float kMaxTexels = 3.0f;     // that a block is looked at beside where it is
-constexpr float kMinContrast = 4.0f;   // levels, rms: weaker patterns say nothing of their place
+constexpr double kTurnReach = 3.0;     // motion of the middle block in texels at the last step
+constexpr float kMaxTexels = 3.0f;     // maximum offset at which a block is compared
+constexpr float kMinContrast = 4.0f;   // levels, rms: weaker patterns do not determine their
+                                       // position
 constexpr float kPatternNoise = 3.0f;  // levels, of a smoothed texel
 constexpr int kTurnRounds = 200;
-constexpr double kStayShare = 1e-3;  // of the evidence speaks for no turn
+constexpr double kStayShare = 1e-3;  // relative to the evidence, for no rotation
 
 using Pattern = std::array<float, kBlockTexels>;
 
-/// Luminance of a slot of a block, smoothed (1 2 1)/4 each way; nothing where it does not show all
-/// of the block well.
+/// Luminance of a slot of a block, smoothed by (1 2 1)/4 in each direction; nullopt if it does not
+/// show all of the block well.
 std::optional<Pattern> pattern_of(const TexelSamples& samples, std::size_t block,
                                   std::size_t slot) {
   const Sample* s = samples.of(block, slot);
@@ -51,8 +52,8 @@ float contrast(const Pattern& pattern) {
   return std::sqrt(std::max(0.0f, squares / float(kBlockTexels) - mean * mean));
 }
 
-/// Variance of the difference between a pattern and another one that is looked up (dx, dy) texels
-/// away, over where both are.
+/// Variance of the difference between a pattern and another one sampled at an offset of (dx, dy)
+/// texels, over their overlap.
 float difference(const Pattern& a, const Pattern& b, float dx, float dy) {
   float sum = 0.0f, squares = 0.0f, n = 0.0f;
   for (int y = 0; y < kBlock_px; ++y) {
@@ -75,7 +76,8 @@ float difference(const Pattern& a, const Pattern& b, float dx, float dy) {
   return std::max(0.0f, squares / n - mean * mean);
 }
 
-/// How the surface of a block moves, texels a radian, when the object turns about the view's axis.
+/// Motion of the surface of a block, texels per radian, when the object turns about the view's
+/// axis.
 Eigen::Vector2f texels_per_radian(const TexelBlocks& blocks, std::size_t block,
                                   const ColorView& view) {
   const TexelBlocks::Surface s = blocks.surface(block, blocks.middle_texel(block));
@@ -86,7 +88,7 @@ Eigen::Vector2f texels_per_radian(const TexelBlocks& blocks, std::size_t block,
   return gram.inverse() * Eigen::Vector2f(s.right.dot(moved), s.down.dot(moved));
 }
 
-/// Blocks that are covered whole, evenly over all.
+/// Fully covered blocks, evenly spread.
 std::vector<std::size_t> whole_blocks(const TexelBlocks& blocks, const ChosenViews& chosen) {
   std::vector<std::size_t> out;
   const std::size_t step = std::max<std::size_t>(1, blocks.count() / kTurnBlocks);
@@ -99,7 +101,7 @@ std::vector<std::size_t> whole_blocks(const TexelBlocks& blocks, const ChosenVie
 }
 
 /// Calls visit(slot, pattern of the best view, pattern of the slot) for the slots of a block that
-/// show a pattern beside the best view.
+/// have a pattern in addition to the best view's.
 template <class Visit>
 void for_each_pair(const ChosenViews& chosen, const TexelSamples& samples, std::size_t block,
                    const Visit& visit) {
@@ -109,7 +111,7 @@ void for_each_pair(const ChosenViews& chosen, const TexelSamples& samples, std::
     if (const auto other = pattern_of(samples, block, k)) visit(k, *best, *other);
 }
 
-/// What turning one view against another costs, over the steps of the turn.
+/// Cost of rotating one view relative to another, over the steps of the rotation.
 using Curve = std::array<double, 2 * kTurnSteps + 1>;
 
 class TurnSolver {
@@ -143,7 +145,7 @@ class TurnSolver {
   }
 
  private:
-  /// Between the steps a parabola, beyond the last one as there.
+  /// Parabolic interpolation between the steps, constant beyond the last one.
   double at(const Curve& curve, double turn) const {
     const double x = std::clamp(turn / step_rad_ + kTurnSteps, 0.0, 2.0 * kTurnSteps);
     const int i = std::clamp(int(std::lround(x)), 1, 2 * kTurnSteps - 1);
@@ -176,7 +178,7 @@ class TurnSolver {
     return best;
   }
 
-  /// By how much its curves rise at most.
+  /// Maximum rise of its curves.
   double depth_of(std::size_t view) const {
     const std::size_t n = turns_.size();
     double sum = 0.0;
@@ -189,7 +191,7 @@ class TurnSolver {
   }
 
   double step_rad_;
-  std::vector<Curve> curves_;  // of each two views
+  std::vector<Curve> curves_;  // per pair of views
   std::vector<double> turns_, stay_;
 };
 

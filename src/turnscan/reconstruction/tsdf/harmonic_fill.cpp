@@ -10,7 +10,7 @@ constexpr int kFinestRounds = 40, kCoarseRounds = 30;
 constexpr int kCoarsestSide = 4;  // cells
 constexpr int kMinKnown = 8;      // of a cell's 64 samples, for it to be fixed
 
-/// Whether a sample of a brick and those around it in that brick are known.
+/// Whether a sample of a brick and its neighbours in that brick are known.
 bool surrounded(const float* weight, int i, int j, int k) {
   const auto known = [&](int x, int y, int z) {
     return (x | y | z) < 0 || x > 7 || y > 7 || z > 7 || weight[sample_in_brick(x, y, z)] > 0.0f;
@@ -19,8 +19,8 @@ bool surrounded(const float* weight, int i, int j, int k) {
          known(i, j, k - 1) && known(i, j, k + 1);
 }
 
-/// What the samples of a brick's cell (p, q, r) say to the unknown around them: the mean of those
-/// beside unknown ones, or of all. Whether enough of them are known.
+/// Boundary value of a brick's cell (p, q, r) for the unknown around it: the mean of the known
+/// samples beside unknown ones, or of all. Returns whether enough of them are known.
 bool boundary_of_cell(const Volume& volume, std::size_t brick, int p, int q, int r, float& value) {
   const float* values = &volume.value[volume.first_sample(brick)];
   const float* weights = &volume.weight[volume.first_sample(brick)];
@@ -125,8 +125,8 @@ void HarmonicFill::mark_below(const Volume& volume, std::span<const Platter> pla
   }
 }
 
-/// Cells of twice the side: fixed at the mean of those in them that are; below a platter where none
-/// of them is and no other, either.
+/// Cells of twice the side: fixed at the mean of their fixed cells; below a platter if none of them
+/// is fixed or unknown.
 HarmonicFill::FillLevel HarmonicFill::halved(const FillLevel& fine) {
   const GridCoords& size = fine.cells.size();
   FillLevel out({(size[0] + 1) / 2, (size[1] + 1) / 2, (size[2] + 1) / 2});
@@ -166,7 +166,7 @@ void HarmonicFill::prolong(const FillLevel& coarse, FillLevel& fine) {
   }
 }
 
-/// One round of Gauss and Seidel.
+/// One round of Gauss-Seidel.
 void HarmonicFill::relax(FillLevel& g) const {
   const GridCoords size = g.cells.size();
   for (int k = 0; k < size[2]; ++k) {

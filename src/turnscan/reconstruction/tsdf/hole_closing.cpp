@@ -1,4 +1,4 @@
-// What no view saw: decided by what lies around it.
+// Decides unobserved samples from their surroundings.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxExtensions = 8;
 constexpr int kThreadRadius = 2;                   // samples
-constexpr float kBelowPlatter = -1.0f;             // weight of an unknown sample there, for a time
+constexpr float kBelowPlatter = -1.0f;             // temporary weight of an unknown sample there
 constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
 
 /// Calls body(i, j, k) for each sample of a brick.
@@ -55,7 +55,7 @@ class HoleClosing {
  private:
   int floor_row() const { return floor_layer(v_, *scale_.floor_m); }
 
-  /// What was measured there may be the platter.
+  /// Measurements there may be of the platter.
   void forget_below_floor() {
     const int floor = floor_row();
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
@@ -72,7 +72,7 @@ class HoleClosing {
     }
   }
 
-  /// Where the bottom is round it touches the platter at most.
+  /// A round bottom at most touches the platter.
   void end_above_platter() {
     const auto& size = samples_.size();
     for (int k = 0; k < size[2]; ++k) {
@@ -98,7 +98,7 @@ class HoleClosing {
     for_each_in_brick([&](int i, int j, int k) {
       const std::size_t s = base + sample_in_brick(i, j, k);
       if (known > 0.0f)
-        v_.weight[s] = 1.0f;  // seen empty, and stays so
+        v_.weight[s] = 1.0f;  // observed to be free, permanently
       else
         v_.value[s] =
             fill.at_sample(at[0] * kBrickSide + i, at[1] * kBrickSide + j, at[2] * kBrickSide + k);
@@ -108,7 +108,7 @@ class HoleClosing {
     mark_below_platters(b);
   }
 
-  /// Unknown samples below the platter of any pass say nothing to those around them.
+  /// Unknown samples below the platter of any pass do not influence those around them.
   void mark_below_platters(std::size_t b) {
     if (scale_.platters.empty()) return;
     for_each_unknown(b, [&](std::size_t s, const Vec3d& p) {
@@ -128,7 +128,7 @@ class HoleClosing {
     });
   }
 
-  /// What no view saw ends flat on the platters.
+  /// Unobserved parts end flat on the platters.
   void end_on_platters() {
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
       if (v_.slot[b] < 0 || !has_unknown_[b]) continue;
@@ -139,8 +139,8 @@ class HoleClosing {
     }
   }
 
-  /// Signs for bricks without samples, samples for those through which the surface may go, and
-  /// first values for what is unknown.
+  /// Assigns signs to bricks without samples, samples to those through which the surface may pass,
+  /// and initial values to unknown samples.
   void adopt(const HarmonicFill& fill) {
     has_unknown_.assign(v_.brick_count(), 0);
     std::vector<std::size_t> crossed;
@@ -161,13 +161,13 @@ class HoleClosing {
     for (const std::size_t b : crossed) allocate_from(fill, b);
   }
 
-  /// Which signs the cells of a brick and those beside it have.
+  /// The signs of the cells of a brick and its neighbours.
   struct Signs {
     bool negative = false, positive = false;
   };
 
-  /// Signs of a brick without samples that no view saw. Below a platter there is nothing, but
-  /// beside it samples are needed, with which the rest ends there.
+  /// Signs of an unobserved brick without samples. Below a platter it is empty, but beside it
+  /// samples are needed at which the rest ends.
   Signs unseen_signs(const HarmonicFill& fill, const GridCoords& at) const {
     Signs out = signs_around(fill, at);
     const double half = 0.5 * (kBrickSide - 1);
@@ -213,8 +213,8 @@ class HoleClosing {
     return out;
   }
 
-  /// The bricks with unknown samples in which, or beside which, the sign changes at an unknown
-  /// sample. Elsewhere, as deep in the object, only signs count, and these are known.
+  /// The bricks with unknown samples in which, or next to which, the sign changes at an unknown
+  /// sample. Elsewhere, such as deep in the object, only signs matter, and these are known.
   std::vector<std::size_t> bricks_at_surface() const {
     std::vector<std::size_t> unknown = unknown_bricks();
     std::vector<std::uint8_t> changes(unknown.size(), 0), around(v_.brick_count(), 0);
@@ -244,13 +244,13 @@ class HoleClosing {
     return out;
   }
 
-  /// The samples of a halo beside one of them.
+  /// The neighbours of a sample in a halo.
   static std::array<std::size_t, 6> beside(std::size_t c) {
     constexpr int kRow = BrickHalo::kWide, kLayer = kRow * kRow;
     return {c - 1, c + 1, c - kRow, c + kRow, c - kLayer, c + kLayer};
   }
 
-  /// Rounds of Jacobi over what is unknown in some bricks.
+  /// Rounds of Jacobi over the unknown samples of some bricks.
   Result<> relax(const std::vector<std::size_t>& work, int rounds) {
     std::vector<float> next(work.size() * kBrickSamples);
     for (int round = 0; round < rounds; ++round) {
@@ -282,8 +282,8 @@ class HoleClosing {
     });
   }
 
-  /// Gives samples to guessed bricks beside which the surface leaves a brick. Whether there were
-  /// any.
+  /// Gives samples to guessed bricks into which the surface continues from an adjacent brick.
+  /// Returns whether there were any.
   bool extend(const HarmonicFill& fill) {
     std::vector<std::size_t> more;
     for (const std::size_t b : guessed_) {
@@ -310,7 +310,7 @@ class HoleClosing {
     return false;
   }
 
-  /// Whether a layer of a brick's samples, across an axis, has one of the other sign.
+  /// Whether a layer of a brick's samples, across an axis, contains the other sign.
   bool face_differs(std::size_t b, int axis, int layer, bool negative) const {
     const float* values = &v_.value[v_.first_sample(b)];
     for (int c = 0; c < 64; ++c) {
@@ -322,7 +322,7 @@ class HoleClosing {
     return false;
   }
 
-  /// Between rims of what was seen the harmonic function leaves threads and fins.
+  /// Between rims of the observed surface the harmonic function leaves filaments and fins.
   Result<> cut_threads() {
     const SampleBits threads = unobserved_filaments(v_, guessed_, kThreadRadius);
     std::vector<std::uint8_t> around(v_.brick_count(), 0);
@@ -332,7 +332,7 @@ class HoleClosing {
     return relax(marked(unknown_bricks(), around), kMoreRounds);
   }
 
-  /// Makes samples of a brick outside for good. Whether there were any.
+  /// Sets samples of a brick permanently to outside. Returns whether there were any.
   bool cut(std::size_t b, const BrickBits& bits) {
     if (v_.slot[b] < 0) {
       const bool all =
@@ -363,7 +363,7 @@ class HoleClosing {
     }
   }
 
-  /// Walls go on straight down from the floor, but for round bottoms, and end at y = 0.
+  /// Walls continue straight down from the floor, except at round bottoms, and end at y = 0.
   void extend_walls_to_platter() {
     const int floor = floor_row();
     const auto& size = samples_.size();
@@ -384,8 +384,8 @@ class HoleClosing {
     }
   }
 
-  /// Samples for the lowest layers of bricks, but where the brick of layer `source` is all outside:
-  /// there they are outside, too.
+  /// Allocates samples for the lowest layers of bricks, except where the brick of layer `source` is
+  /// all outside: there they are outside, too.
   void allocate_columns(int source, int layers) {
     const GridCoords& bricks = v_.bricks.size();
     std::vector<std::size_t> more;
@@ -427,7 +427,7 @@ class HoleClosing {
   const RunContext& context_;
   VolumeSamples samples_;
   std::vector<std::uint8_t> has_unknown_;  // per brick with samples
-  std::vector<std::size_t> guessed_;       // bricks without samples that no view saw
+  std::vector<std::size_t> guessed_;       // unobserved bricks without samples
 };
 
 }  // namespace

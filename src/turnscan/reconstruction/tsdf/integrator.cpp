@@ -32,8 +32,8 @@ GridCoords Integrator::first_brick(std::size_t group) const {
           kGroupSide * (low_[2] + at[2])};
 }
 
-/// The box that the samples around what the views measured need. On a turning platter it is round,
-/// so that it hardly grows.
+/// Bounding box of the samples around the views' measurements. On a turning platter it is round, so
+/// that it hardly grows.
 Box Integrator::volume_box(std::span<const views::DepthView> batch) const {
   Box box = measured_box(batch, scale_.cylinder);
   if (box.empty()) return box;
@@ -48,7 +48,7 @@ Box Integrator::volume_box(std::span<const views::DepthView> batch) const {
   return box;
 }
 
-/// Makes the table of groups large enough for what the views measured.
+/// Enlarges the table of groups to contain the views' measurements.
 Result<> Integrator::cover(std::span<const views::DepthView> batch, const EarlierViews& before) {
   const Box box = volume_box(batch);
   if (box.empty()) return {};
@@ -97,7 +97,7 @@ void Integrator::grow(const GridCoords& low, const GridCoords& high, const Earli
   add_earlier_free_bricks(added, before);
 }
 
-/// Which bricks of new groups earlier views saw past as a whole.
+/// Determines the bricks of new groups that earlier views saw past completely.
 void Integrator::add_earlier_free_bricks(std::span<const std::size_t> groups,
                                          const EarlierViews& before) {
   constexpr std::size_t kAtOnce = 16;
@@ -121,7 +121,8 @@ void Integrator::add_earlier_free_bricks(std::span<const std::size_t> groups,
   }
 }
 
-/// What earlier views saw past in bricks in which a surface is measured for the first time.
+/// Adds the free space of earlier views in bricks in which a surface is measured for the first
+/// time.
 Result<> Integrator::add_earlier_free_samples(std::span<const BrickMask> made,
                                               const EarlierViews& before,
                                               const RunContext& context) {
@@ -157,8 +158,8 @@ void Integrator::add_earlier_free_samples(std::size_t group, std::size_t brick,
   }
 }
 
-/// Sums for a brick once a view measures a surface in it, with what the views of the batch up to
-/// that one say; nullptr when none does. view: the number of the one after it.
+/// Sums for a brick once a view measures a surface in it, including the views of the batch up to
+/// that one; nullptr if none does. view: the index after that view.
 std::unique_ptr<BrickSums> Integrator::first_sums(std::span<const VisibilityMasks> visibility,
                                                   std::size_t brick, const float first[3],
                                                   std::size_t& view) const {
@@ -180,7 +181,7 @@ std::unique_ptr<BrickSums> Integrator::first_sums(std::span<const VisibilityMask
   return nullptr;
 }
 
-/// Integrates the batch into a group's bricks. Which of them it gave sums to.
+/// Integrates the batch into a group's bricks. Returns those that got sums.
 Integrator::BrickMask Integrator::integrate_into(BrickGroup& group, const GridCoords& first) const {
   const BrickKernel& kernel = BrickKernels::current();
   const std::array<float, 3> group_first = first_sample(first);
@@ -223,7 +224,7 @@ Result<> Integrator::integrate(std::span<const views::DepthView> batch, const Ea
   std::vector<BrickMask> made(groups_.size(), 0);
   std::atomic<std::size_t> bytes{bytes_};
   const auto integrate_group = [&](std::size_t n) {
-    if (bytes > 2 * scale_.max_bytes) return;  // ends in an error
+    if (bytes > 2 * scale_.max_bytes) return;  // results in an error
     made[n] = integrate_into(groups_[n], first_brick(n));
     bytes += std::size_t(std::popcount(made[n])) * sizeof(BrickSums);
   };

@@ -9,8 +9,8 @@ namespace {
 /// Coordinates of points, axis by axis.
 using Columns = std::array<std::vector<float>, 3>;
 
-constexpr double kStray = 2e-4;             // of the points, on each side
-constexpr std::size_t kViewsPerBatch = 16;  // of which points are held twice
+constexpr double kStray = 2e-4;             // share of the points, on each side
+constexpr std::size_t kViewsPerBatch = 16;  // whose points are stored twice
 constexpr std::size_t kMaxPoints = 4'000'000;
 
 void append(Columns& all, Columns& more) {
@@ -42,7 +42,7 @@ Box measured_box(std::span<const views::DepthView> views, const std::optional<Cy
   const std::size_t count = (views.size() + stride - 1) / stride;
   std::size_t kept = 0;
   for (std::size_t v = 0; v < count; ++v) kept += views[v * stride].kept;
-  const std::size_t step = 1 + kept / kMaxPoints;  // of so many points one is taken
+  const std::size_t step = 1 + kept / kMaxPoints;  // stride for thinning the points
   Columns points;
   for (std::size_t first = 0; first < count; first += kViewsPerBatch) {
     std::vector<Columns> own(std::min(kViewsPerBatch, count - first));

@@ -9,11 +9,12 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kViewsAsked = 256;
-/// Doubted is what has less than this share of the usual weight beside a surface, less as many
-/// measurements as no chance brings together: of few frames nothing is.
+/// Samples are doubtful below this share of the typical weight beside a surface, minus the number
+/// of measurements that chance does not produce: with few frames none is.
 constexpr float kDoubtedShare = 0.05f, kUndoubted = 3.0f;
 constexpr float kStepTruncations = 2;     ///< of a depth step
-constexpr float kDoubtedDistance = 0.9f;  ///< of the truncation: what is farther is free
+constexpr float kDoubtedDistance = 0.9f;  ///< of the truncation distance: samples farther away are
+                                          ///< free
 
 float weight_beside_surface(const Volume& volume) {
   std::vector<float> weights;
@@ -31,7 +32,7 @@ class Doubts {
     for (std::size_t k = 0; k < count; ++k) views_.push_back(&views[k * views.size() / count]);
   }
 
-  /// Whether none of the views measured a surface there but beside a step.
+  /// Whether no view measured a surface there except beside a step.
   bool hold(const Vec3f& p_table) const {
     return std::none_of(views_.begin(), views_.end(), [&](const views::DepthView* view) {
       const Vec3f p = view->rotation * p_table + view->translation;
@@ -49,7 +50,7 @@ class Doubts {
     return float(raw) * view.unit_m + view.bias_m;
   }
 
-  /// A view has an empty border: what measured something has neighbours.
+  /// A view has an empty border, so a pixel with a measurement has neighbours.
   bool beside_step(const views::DepthView& view, std::ptrdiff_t at, float depth) const {
     const std::array<std::ptrdiff_t, 4> sides{-1, 1, -view.width, view.width};
     return std::any_of(sides.begin(), sides.end(), [&](std::ptrdiff_t side) {

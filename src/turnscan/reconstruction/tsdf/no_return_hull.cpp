@@ -8,14 +8,15 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kMaxViews = 128;
-constexpr int kMinNoReturnViews = 3;   ///< views that looked at a sample in vain
-constexpr float kMinShare = 0.4f;      ///< of the views that looked at it or were kept from it
-constexpr int kSeenPast = 2;           ///< so many views make a sample free
-constexpr std::size_t kMinPart = 216;  ///< samples; fewer are no part of an object
+constexpr int kMinNoReturnViews = 3;   ///< views that observed a sample without a return
+constexpr float kMinShare = 0.4f;      ///< of the views that observed it or were occluded from it
+constexpr int kSeenPast = 2;           ///< this many views make a sample free
+constexpr std::size_t kMinPart = 216;  ///< samples; smaller parts are dropped
 
-constexpr int kWidestRim = 3;  ///< pixels: median of a sensor whose shadows do not matter
+constexpr int kWidestRim = 3;  ///< pixels: maximum median for sensors with negligible shadows
 
-/// Whether what has no return is usually something that returns none, and no shadow.
+/// Whether pixels without a return are usually due to surface that returns nothing, rather than to
+/// shadows.
 bool rims_are_narrow(const std::vector<std::vector<int>>& widths) {
   std::vector<int> all;
   for (const auto& own : widths) all.insert(all.end(), own.begin(), own.end());
@@ -25,7 +26,8 @@ bool rims_are_narrow(const std::vector<std::vector<int>>& widths) {
   return *middle <= kWidestRim;
 }
 
-/// A view with pixels in vain, and their number in the rectangle from the image's first pixel on.
+/// A view with no-return pixels, and their number in the rectangle starting at the image's first
+/// pixel.
 struct NoReturnView {
   const views::DepthView* view;
   Image<std::uint8_t> no_return;
@@ -42,7 +44,7 @@ struct NoReturnView {
     }
   }
 
-  /// Whether a ball before the sensor may be shown by a pixel in vain.
+  /// Whether a ball in front of the sensor may project onto a no-return pixel.
   bool shows(const Vec3f& p_table, float radius_m) const {
     const Vec3f p = view->rotation * p_table + view->translation;
     if (!(p.z() > 2.0f * radius_m)) return false;
@@ -58,7 +60,7 @@ struct NoReturnView {
   }
 };
 
-/// What the views say of a sample.
+/// The views' votes on a sample.
 struct Votes {
   int past = 0, no_return = 0, hidden = 0;
 
@@ -107,7 +109,7 @@ class HullFinder {
     const Vec3d first = v_.position(at[0] * kBrickSide, at[1] * kBrickSide, at[2] * kBrickSide);
     const double half = 0.5 * (kBrickSide - 1) * v_.cell_m;
     const Vec3f middle = (first.array() + half).cast<float>();
-    const float radius = float(1.75 * half);  // of the ball around it
+    const float radius = float(1.75 * half);  // of the surrounding ball
     const auto showing = std::count_if(views_.begin(), views_.end(), [&](const NoReturnView& view) {
       return view.shows(middle, radius);
     });
@@ -136,7 +138,7 @@ class HullFinder {
     }
   }
 
-  /// Takes out the parts, connected along the axes, of few samples.
+  /// Removes parts, connected along the axes, of few samples.
   void drop_crumbs(SampleBits& hull) const {
     SampleBits left = hull;
     const auto at = [](std::size_t b, std::size_t c) { return b * kBrickSamples + c; };

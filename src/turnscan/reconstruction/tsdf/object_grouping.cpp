@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kNotKept = std::numeric_limits<std::size_t>::max();
 
-/// Numbers of the components that may be objects, largest area first.
+/// Indices of the components that may be objects, largest area first.
 std::vector<std::size_t> by_area(const std::vector<TriangleMesh>& components, double min_share) {
   std::vector<double> areas;
   for (const TriangleMesh& component : components) areas.push_back(surface_area(component));
@@ -27,8 +27,8 @@ std::vector<std::size_t> by_area(const std::vector<TriangleMesh>& components, do
   return order;
 }
 
-/// For each component of the order the one of it that it is attached to. The largest stands,
-/// whatever lies below it.
+/// For each component of the order the one of it that it is attached to. The largest stands, even
+/// if something is below it.
 std::vector<std::size_t> attachments(const std::vector<TriangleMesh>& components,
                                      const std::vector<std::size_t>& order,
                                      const std::optional<double>& detached_above_m) {
@@ -81,14 +81,15 @@ std::vector<ObjectComponents> group_objects(std::vector<TriangleMesh> components
                                             const GroupingRules& rules) {
   const std::vector<std::size_t> order = by_area(components, rules.min_share);
   const std::vector<std::size_t> attached = attachments(components, order, rules.detached_above_m);
-  std::vector<std::size_t> first(order.size());  // what stands: the largest of those close to it
+  std::vector<std::size_t> first(order.size());  // of standing ones: the largest of those close to
+                                                 // it
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (attached[i] != i) continue;
     first[i] = i;
     if (rules.gap_m > 0.0) join_close(components, order, attached, rules.gap_m, i, first);
   }
   std::vector<ObjectComponents> objects;
-  std::vector<std::size_t> object(order.size(), kNotKept);  // of what stands
+  std::vector<std::size_t> object(order.size(), kNotKept);  // of standing ones
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (attached[i] != i || (first[i] == i && rules.keep != 0 && objects.size() >= rules.keep))
       continue;

@@ -14,13 +14,13 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// Less invented surface without a return than this is not worth a note: rims have some.
+/// Smaller invented surface without a return is not worth a note: rims have some.
 constexpr double kMinNoReturn_m2 = 3e-4;
 /// Gaussian noise alone has shares of 0.01 to 0.09, the published lateral noises 0.12 to 0.28
 /// (bench/expected_error).
 constexpr double kRaggedShare = 0.11;
 
-/// Whether vertices that no pass saw lie in the plane of a platter.
+/// Whether vertices that no pass saw are in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
                 const VolumeScale& scale) {
   return std::any_of(scale.platters.begin(), scale.platters.end(), [&](const Platter& platter) {

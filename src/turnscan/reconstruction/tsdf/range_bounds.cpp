@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPartSide = 4;  // samples
 
-/// What a rational lens shows up to an undistorted or a distorted radius at z = 1.
+/// Properties of a rational lens up to an undistorted or a distorted radius at z = 1.
 struct RationalReach {
   double stretch = 1.0;  ///< upper bound of the distortion's derivative
   double shrink = 1.0;   ///< lower bound of the distorted radius by the undistorted one
@@ -58,7 +58,7 @@ double largest_stretch(const views::DepthView& view, double radius) {
          6.0 * radius * (std::abs(double(k.p1)) + std::abs(double(k.p2)));
 }
 
-/// Largest |x / z| and |y / z| of what the window shows, and somewhat beyond.
+/// Largest |x / z| and |y / z| in the window, with a margin.
 std::array<double, 2> largest_slope(const views::DepthView& view) {
   constexpr double kMargin = 32.0;  // pixels
   const auto reach = [](float middle, int size, float focal) {
@@ -68,12 +68,12 @@ std::array<double, 2> largest_slope(const views::DepthView& view) {
   const std::array<double, 2> out{reach(view.cx, view.width, view.fx),
                                   reach(view.cy, view.height, view.fy)};
   if (!view.distorted || !view.lens.rational()) return out;
-  // Of a wide lens rays lie much farther out than their image points.
+  // With a wide lens the rays are much farther out than their image points.
   const double shrink = rational_reach(view.lens, 0.0, std::hypot(out[0], out[1])).shrink;
   return {out[0] / shrink, out[1] / shrink};
 }
 
-/// Half of the box around a cube of samples along a row of the view's rotation.
+/// Half extent of the box around a cube of samples along a row of the view's rotation.
 double half_extent(const views::DepthView& view, int row, int side, double cell_m) {
   return 0.5 * (side - 1) * cell_m * double(view.rotation.row(row).cwiseAbs().sum());
 }
@@ -127,8 +127,8 @@ void RangeBounds::set_steps(const views::DepthView& view, double cell_m) {
   }
 }
 
-/// side: samples along the boxes. Boxes nearer than nearest_m are not bounded: their images are too
-/// large.
+/// side: samples along the boxes. Boxes nearer than nearest_m are not bounded, since their images
+/// are too large.
 void RangeBounds::set_level(const views::DepthView& view, int side, double cell_m, double nearest_m,
                             BoundsLevel& level) const {
   const double half_z = half_extent(view, 2, side, cell_m);
@@ -173,7 +173,7 @@ void RangeBounds::set_view(const views::DepthView& view, const VolumeScale& scal
   }
   const double nearest = double(view.nearest) * double(view.unit_m) + double(view.bias_m);
   const double brick = radius_of(kBrickSide, scale.cell_m);
-  // Nearer than the object only bricks with large images are bounded.
+  // Nearer than the object, only bricks with large images are bounded.
   set_level(view, kBrickSide, scale.cell_m, 0.75 * nearest, f.brick_bounds);
   set_level(view, kPartSide, scale.cell_m, nearest - scale.truncation_m - 2.5 * brick,
             f.part_bounds);
@@ -193,7 +193,7 @@ void RangeBounds::compute() {
   fill(view_.part_bounds, part_bounds_);
 }
 
-/// The kernel's arithmetic, step by step: both must come to the same result.
+/// Same arithmetic as the kernel, step by step: both must give the same result.
 Visibility RangeBounds::visibility(const float first[3], std::size_t brick) const {
   const BrickKernelView& f = view_;
   const BoundsLevel& level = f.brick_bounds;
@@ -216,7 +216,7 @@ Visibility RangeBounds::visibility(const float first[3], std::size_t brick) cons
                                                      : Visibility::kUnobserved;
 }
 
-/// Of the pixels around the image of a brick's centre, as the bounds have them.
+/// Over the pixels around the image of a brick's centre, as in the bounds.
 RangeBounds::DepthRange RangeBounds::depth_range_around(float x, float y, float z) const {
   const BrickKernelView& f = view_;
   const BoundsLevel& level = f.brick_bounds;

@@ -8,18 +8,18 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// With so many views, or if more may come, the usual scales do.
+/// With this many views, or if more may come, the default scales suffice.
 constexpr std::size_t kFewViews = 24;
 
 bool few_views(const VolumetricInput& input) {
   return !input.profiles && input.views.size() < kFewViews;
 }
 
-/// Where few views face a place, little but the samples' size averages the noise. Over a disc of
-/// radius r it falls as 1 / r, and the error on a surface that bends with radius R grows as
-/// r^2 / 8 R: they balance at r^3 = 4 R noise spacing / sqrt(pi views).
+/// If few views face the surface, only the samples' size averages the noise. Over a disc of radius
+/// r it falls as 1 / r, and the error on a surface with radius of curvature R grows as r^2 / 8 R:
+/// they balance at r^3 = 4 R noise spacing / sqrt(pi views).
 double balance(const VolumetricInput& input, double facing, double bend_m) {
-  // A few views may be misplaced all alike.
+  // A few views may all be misplaced in the same way.
   const double independent = std::max(1.0, facing - 3.0);
   return std::cbrt(4.0 * bend_m * input.noise_m * input.spacing_m /
                    std::sqrt(std::numbers::pi * independent));
@@ -29,7 +29,7 @@ double balance(const VolumetricInput& input, double facing, double bend_m) {
 void widen_for_few(const VolumetricInput& input, double longest, double& cell,
                    std::string& reason) {
   if (!few_views(input)) return;
-  // About a third of them face a place.
+  // About a third of them face a point.
   const double facing = std::max(1.0, double(input.views.size()) / 3.0);
   const double gaps = std::min(input.spacing_m, 1.6 * input.spacing_m / std::sqrt(facing));
   if (cell < gaps) {
@@ -45,10 +45,10 @@ void widen_for_few(const VolumetricInput& input, double longest, double& cell,
   }
 }
 
-/// A surface that some views see past keeps an inside where the truncation is so much deeper than
-/// they see; samples much finer than that show nothing more.
+/// A surface that some views see past keeps an inside if the truncation distance is this much
+/// larger than the violation; samples much finer than that resolve no more.
 constexpr double kDeeperThanSeenPast = 1.5, kSeenPastPerCell = 8.0;
-/// Deeper than this share of the longest side it would swallow the object.
+/// With a larger share of the longest side it would swallow the object.
 constexpr double kDeepest = 1.0 / 12.0;
 
 }  // namespace
@@ -87,7 +87,7 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
     reason = fmt::format("voxel-grid {} along {}", *input.grid, length_text(longest));
   }
   scale.cell_m = choose("voxel-size", input.cell_m, cell, reason);
-  // Many views outvote one that is misplaced; few do not.
+  // Many views outvote a misplaced one; few do not.
   const double few = few_views(input) ? 27.0 / double(input.views.size() + 1) : 0.0;
   double truncation = std::max((3.0 + few) * input.noise_m, 2.5 * scale.cell_m);
   reason = fmt::format("the larger of {:.1f} times the noise of {} and 2.5 voxels", 3.0 + few,
@@ -101,7 +101,7 @@ VolumetricScale choose_scale(const VolumetricInput& input, const VolumetricOptio
   scale.full_weight_behind_m = scale.truncation_m * 2.0 / 3.0;
   scale.cylinder = input.cylinder;
   scale.platters = input.platters;
-  // Nothing goes down to a platter that is not seen.
+  // Without a visible platter nothing is extended downwards.
   if (input.cylinder && input.cylinder->margin_m > 0.0) scale.floor_m = input.cylinder->margin_m;
   out.fit_reach_m =
       choose("fit-reach", options.fit_reach_m, std::max(0.55 * input.spacing_m, 1.2 * scale.cell_m),

@@ -11,11 +11,11 @@ namespace {
 constexpr double kLowest_m = 0.003;  ///< above the floor
 constexpr float kAverageOver_m = 0.006f;
 constexpr float kRoundSlope = 0.25f;  ///< inwards per length downwards
-constexpr float kReach_m = 0.03f;     ///< from where it was seen
+constexpr float kReach_m = 0.03f;     ///< from the observed surface
 constexpr float kMaxSlope = 4.0f;
 
-/// Places on the lowest surface that was seen, projected to y = 0, and by how much it goes inwards
-/// there per length downwards.
+/// Points on the lowest observed surface, projected to y = 0, with their inward slope per length
+/// downwards.
 struct LowestSurface {
   std::vector<Vec3f> points;
   std::vector<float> slopes;
@@ -46,7 +46,7 @@ class LowestSurfaceSearch {
     return s >= 0 && volume_.weight[std::size_t(s)] > 0.0f;
   }
 
-  /// By the gradient of the field between two samples of which one is inside.
+  /// From the gradient of the field between two samples of which one is inside.
   void add_crossing(const GridCoords& a, const GridCoords& b) {
     const float from = samples_.value(a[0], a[1], a[2]), to = samples_.value(b[0], b[1], b[2]);
     if ((from < 0.0f) == (to < 0.0f)) return;

@@ -8,7 +8,7 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// The mean over 3^3 samples by their weights, nearer ones counting more. Unknown ones stay.
+/// Weighted mean over 3^3 samples, with more weight for closer ones. Unknown ones are unchanged.
 float smoothed(const BrickHalo& halo, int i, int j, int k) {
   float sum = 0.0f, total = 0.0f;
   for (int n = 0; n < 27; ++n) {

@@ -1,4 +1,4 @@
-// From an integrator's sums to a volume of signed distances.
+// Converts an integrator's sums to a volume of signed distances.
 
 #include <algorithm>
 #include <cmath>
@@ -8,20 +8,20 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// One view that saw past a sample outweighs this many measured distances: passing through is
-/// certain, being behind a surface is not.
+/// Weight of a view that saw past a sample, in measured distances: passing through is certain,
+/// being behind a surface is not.
 constexpr float kFreeWeight = 0.5f;
-constexpr float kMinWeight = 0.3f;         // below, a sample counts as not seen
-constexpr float kMinWeightShare = 0.008f;  // of the typical weight, likewise
-/// But so much is enough, however many views saw other places: what few of many frames saw deep in
-/// a hollow is no less sure than it would be with those few alone.
+constexpr float kMinWeight = 0.3f;         // below, a sample counts as not observed
+constexpr float kMinWeightShare = 0.008f;  // the same relative to the typical weight
+/// This weight suffices, however many views saw other parts: surface deep in a hollow that few of
+/// many frames saw is as certain as with those few alone.
 constexpr float kEnoughWeight = 1.0f;
-/// Of surface, a share of all views is needed, too: mixed pixels put some where there is none, and
-/// of many frames enough agree by chance. Free space is not put anywhere: that of a pixel ends at
+/// Surface also requires a share of all views: mixed pixels cause false surface, and with many
+/// frames enough of them agree by chance. False free space does not arise: that of a pixel ends at
 /// the nearest depth around it.
 constexpr float kEnoughShareOfViews = 1.0f / 375.0f;
 
-/// Where a brick's sample, the first coordinate fastest, lies in its sums.
+/// Position of a brick's sample, the first coordinate fastest, in its sums.
 std::size_t place_in_parts(std::size_t sample) {
   const std::size_t i = sample & 7, j = sample >> 3 & 7, k = sample >> 6;
   return (i >> 2 | j >> 2 << 1 | k >> 2 << 2) << 6 | (i & 3) | (j & 3) << 2 | (k & 3) << 4;
@@ -40,13 +40,13 @@ float weight_beside_surface(const std::vector<const BrickSums*>& all, float cell
   return typical_weight(weights);
 }
 
-/// A brick's samples.
+/// The samples of a brick.
 struct BrickDistances {
   std::vector<float> value = std::vector<float>(kBrickSamples);
   std::vector<float> weight = std::vector<float>(kBrickSamples);
 
-  /// From sums; all_free: views that saw past the whole brick. Returns whether all samples are free
-  /// for sure.
+  /// From sums; all_free: number of views that saw past the whole brick. Returns whether all
+  /// samples are certainly free.
   bool set(const BrickSums& sums, float all_free, float truncation, const LeastWeights& least) {
     const float free_counts = least.surface / least.free;
     bool free_throughout = true;

@@ -20,18 +20,19 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kSampledViews = 64;
-/// Sides that passed through each other farther than this are drawn apart.
+/// Sides that cross each other by more than this are separated.
 constexpr double kUntangleCells = 0.5;
-constexpr double kPlatterCells = 0.5;  ///< above a platter's plane is on it
-/// Of what the best measured piece has per vertex: clutter that stands still has 0.02 to 0.04.
+constexpr double kPlatterCells = 0.5;  ///< vertices below this height above a platter's plane are
+                                       ///< on it
+/// Relative to the best measured piece, per vertex: static clutter has 0.02 to 0.04.
 constexpr double kMinSupport = 0.08;
-constexpr double kLongestLoopCells = 16.0;  ///< around a handle that nothing measured
-constexpr double kMinSection_m = 0.0005;    ///< between the sections that look for a neck
+constexpr double kLongestLoopCells = 16.0;  ///< around an unmeasured handle
+constexpr double kMinSection_m = 0.0005;    ///< between the sections in the search for a neck
 
 using mesh_refinement::MeshFit;
 using mesh_refinement::MeshFitScale;
 
-/// From the surface's components to refined, measured pieces.
+/// Converts the surface's components to refined, measured pieces.
 class VolumetricReconstruction {
  public:
   VolumetricReconstruction(const VolumetricInput& input, const VolumetricScale& scale,
@@ -50,7 +51,7 @@ class VolumetricReconstruction {
         ExtractedSurface surface,
         extract_surface(integrator, scale_.volume, input_.views, box, out_.stages, context_));
     TURNSCAN_ASSIGN(std::vector<TriangleMesh> components, split_components(surface.mesh));
-    surface.mesh = {};  // it is as large as all else
+    surface.mesh = {};  // frees memory: it is as large as everything else
     for (auto& object : group_objects(std::move(components), grouping_rules(min_share)))
       TURNSCAN_TRY(refine(std::move(object), surface));
     for (VolumetricPiece& piece : out_.pieces) {
@@ -86,7 +87,7 @@ class VolumetricReconstruction {
     return rules;
   }
 
-  /// Evens out and fits the components of an object, and makes one piece of them.
+  /// Regularises and fits the components of an object, and combines them into a piece.
   Result<> refine(ObjectComponents object, const ExtractedSurface& surface) {
     VolumetricPiece piece;
     std::vector<TriangleMesh> refined;
@@ -103,7 +104,7 @@ class VolumetricReconstruction {
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
-      // Behind what is thin a filtering sensor measures the depths of both sides mixed.
+      // Behind thin parts a filtering sensor mixes the depths of both sides.
       TURNSCAN_TRY(timed("untangle", [&] {
         return mesh_refinement::untangle(fitted.mesh, even.vertices,
                                          kUntangleCells * scale_.volume.cell_m, context_);
@@ -123,8 +124,8 @@ class VolumetricReconstruction {
     return {};
   }
 
-  /// Pieces of which views measured next to nothing: things that stand about, which do not turn
-  /// with the table, pass every place but once.
+  /// Removes pieces that views hardly measured: objects around the table, which do not turn with
+  /// it, are at each position only once.
   void leave_out_unmeasured() {
     double best = 0.0;
     for (const VolumetricPiece& piece : out_.pieces) best = std::max(best, mean_support(piece));
@@ -140,7 +141,7 @@ class VolumetricReconstruction {
            double(piece.support.size());
   }
 
-  /// mesh: the first one decides where views alone do not tell.
+  /// mesh: the first one, used if the views alone do not determine the share.
   double filter_share(const TriangleMesh& mesh) {
     if (!filter_share_)
       timed("sensor filter", [&] {
@@ -149,7 +150,7 @@ class VolumetricReconstruction {
     return *filter_share_;
   }
 
-  /// A handle or a tunnel that rests on no measurement is none.
+  /// Removes handles and tunnels that no measurement supports.
   Result<> cut_unseen_handles(MeshFit& fitted) const {
     TURNSCAN_TRY(cut_handles(fitted.mesh, mesh_refinement::unseen_vertices(fitted.support),
                              kLongestLoopCells * scale_.volume.cell_m, context_));
@@ -181,7 +182,7 @@ class VolumetricReconstruction {
     return {};
   }
 
-  /// How well it is known, what no frame measured, and how many points there are.
+  /// Sets quality, unmeasured areas, and the number of points.
   Result<> measure(VolumetricPiece& piece) {
     measure_confidence(piece);
     const auto quality = [&]() -> Result<> {

@@ -19,20 +19,20 @@ namespace turnscan::tsdf {
 
 namespace {
 
-/// Views that are summed together, brick by brick. Always so many, however they come.
+/// Number of views that are summed together, brick by brick; independent of how they arrive.
 constexpr std::size_t kViewsAtOnce = 16;
-/// At the end the noise may turn out to be so much larger than at first sight.
+/// Maximum ratio of the final noise to the initial estimate.
 constexpr double kNoiseSlack = 1.3;
 constexpr std::size_t kPreviewBricks = 1500;
 
-/// Platters that differ by less are one: cosine of 1.8 degrees, and metres.
+/// Platters that differ by less are the same: cosine of 1.8 degrees, and metres.
 constexpr double kSamePlane = 0.9995, kSameHeight_m = 0.002;
 
-/// Fewer points than this make no object.
+/// Fewer points do not form an object.
 constexpr std::uint64_t kMinPoints = 100;
 
-/// How far the views disagree. thickness_m: where the frames' places do, the cloud is thicker than
-/// one frame's noise; 0 when there are too few points to tell. seen_past_m: see
+/// Disagreement of the views. thickness_m: if the frames' poses disagree, the cloud is thicker than
+/// one frame's noise; 0 if there are too few points. seen_past_m: see
 /// estimation/free_space_violation.hpp.
 struct Disagreement {
   double thickness_m = 0.0, seen_past_m = 0.0;
@@ -49,9 +49,9 @@ Disagreement disagreement(const VolumetricInput& input, double noise_m, bool ima
   return out;
 }
 
-/// Of the pass whose frames are being added.
+/// The pass whose frames are being added.
 struct CurrentPass {
-  std::optional<Pose> T_object_table;  ///< nullopt: there is but one pass
+  std::optional<Pose> T_object_table;  ///< nullopt: there is only one pass
   std::optional<Cylinder> cylinder;    ///< above its table
   std::vector<std::optional<views::LightSheet>> sheets;
   const ObjectPartition* share;  ///< nullptr: all of the table
@@ -67,7 +67,7 @@ Eigen::Vector4f above_crop(const Cylinder& cylinder, const Pose& T_table_sensor)
   return (row - Eigen::Vector4d(0.0, 0.0, 0.0, margin_m)).cast<float>();
 }
 
-/// What a frame gives: a view, or a profile of a line scanner, which waits for those after it.
+/// Result of a frame: a view, or a profile of a line scanner, which waits for the following ones.
 struct FrameView {
   views::DepthView view;
   std::optional<views::Profile> profile;
@@ -88,7 +88,7 @@ class VolumetricMethod final : public Method {
   Result<> add(std::span<const PosedFrame> frames, const FrameReader& read,
                const RunContext& context, Reconstruction& out) override;
   Result<> begin_pass(const PassInput& pass, const RunContext& context) override;
-  /// Chooses the scale from the views that are there.
+  /// Chooses the scale from the views so far.
   Result<> begin(const RunContext& context) override;
   Result<TriangleMesh> preview(const RunContext& context) const override;
   Result<> finish(const StageSink& sink, const RunContext& context, Reconstruction& out) override;
@@ -108,18 +108,18 @@ class VolumetricMethod final : public Method {
   const SequenceHeader& header_;
   const ReconstructOptions& options_;
   const std::vector<RayTable>& rays_;
-  double noise_m_;  ///< of a depth along its ray, as the first frames show
+  double noise_m_;  ///< of a depth value along its ray, from the first frames
   CurrentPass pass_;
   views::ViewScale view_scale_;
-  VolumetricInput input_;    ///< its views only at the end
-  bool are_images_ = false;  ///< depth images, all of them
+  VolumetricInput input_;    ///< its views are set only at the end
+  bool are_images_ = false;  ///< all are depth images
   bool begun_ = false;
-  std::map<std::uint32_t, views::ProfileGroups> profiles_;  ///< per sensor: of line scanners
+  std::map<std::uint32_t, views::ProfileGroups> profiles_;  ///< per sensor, for line scanners
   std::vector<views::DepthView> pending_;
   std::vector<std::uint32_t> pending_sensor_;
   views::ViewStore kept_;
   VolumetricScale scale_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   Integrator integrator_;
   std::vector<Platter> platters_;  ///< of several passes
   double crop_margin_m_ = 0.0;     ///< largest of theirs
@@ -130,7 +130,7 @@ Result<std::unique_ptr<Method>> VolumetricMethod::create(const MethodInput& in) 
   const double noise = in.estimate.noise_m, apart = in.estimate.even_spacing_m;
   VolumetricInput& input = method->input_;
   input.noise_m = noise;
-  // Noise makes neighbouring pixels lie apart; without it they are the spacing of the pixels.
+  // Noise moves neighbouring pixels apart; without it their distance is the pixel spacing.
   input.spacing_m = std::sqrt(std::max(0.25 * apart * apart, apart * apart - 2 * noise * noise));
   const auto& sensors = in.header.sensors;
   if (std::all_of(sensors.begin(), sensors.end(),
@@ -222,14 +222,14 @@ Result<> VolumetricMethod::begin_pass(const PassInput& pass, const RunContext& c
   return {};
 }
 
-/// Of the current pass.
+/// Adds that of the current pass.
 void VolumetricMethod::add_platter(const Pose& T_object_table) {
   const std::lock_guard lock(mutex_);
   platters_.push_back(platter_of(T_object_table));
   if (pass_.cylinder) crop_margin_m_ = std::max(crop_margin_m_, pass_.cylinder->margin_m);
 }
 
-/// Where the object lies alike in all passes none saw its base, and it ends as that of one pass.
+/// If the object has the same pose in all passes none saw its base, which ends as that of one pass.
 void VolumetricMethod::stand_on_common_platter() {
   const auto at_zero = [](const Platter& platter) {
     return platter.up.y() > kSamePlane && std::abs(platter.offset_m) < kSameHeight_m;
@@ -270,7 +270,7 @@ Result<> VolumetricMethod::begin(const RunContext& context) {
   return integrate_pending(false, context);
 }
 
-/// Integrates the whole batches of what is pending, or all of it.
+/// Integrates the complete batches of the pending views, or all of them.
 Result<> VolumetricMethod::integrate_pending(bool all, const RunContext& context) {
   std::size_t done = 0;
   while (done + (all ? 1 : kViewsAtOnce) <= pending_.size()) {
@@ -289,8 +289,8 @@ Result<> VolumetricMethod::integrate_pending(bool all, const RunContext& context
   return {};
 }
 
-/// When the frames' places disagree more than the first ones let expect, the volume is made once
-/// more, from the views that were kept.
+/// If the frames' poses disagree more than the first ones suggested, the volume is built again from
+/// the views that were kept.
 Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& context) {
   const Disagreement found = disagreement(input_, noise_m_, are_images_);
   out.merged_noise_m = found.thickness_m;

@@ -13,7 +13,7 @@ struct PixelBox {
     x0 = std::min(x0, x), x1 = std::max(x1, x);
     y0 = std::min(y0, y), y1 = std::max(y1, y);
   }
-  /// A rim around it shows where the surroundings are empty.
+  /// The rim around the window shows where the surroundings are empty.
   void widen(int by, int width, int height) {
     x0 = std::max(0, x0 - by), y0 = std::max(0, y0 - by);
     x1 = std::min(width - 1, x1 + by), y1 = std::min(height - 1, y1 + by);
@@ -25,7 +25,7 @@ struct PixelBox {
 
 constexpr int kRim = 6;  // pixels
 
-/// The colour of each pixel of the window, as points_of finds it. The frame fits its sensor.
+/// The colour of each pixel of the window, as in points_of. The frame matches its sensor.
 void take_colors(const Frame& frame, const SensorInfo& sensor, const RayTable& rays,
                  const PixelBox& box, DepthView& view) {
   const auto points = points_of(frame, sensor, rays);
@@ -39,7 +39,7 @@ void take_colors(const Frame& frame, const SensorInfo& sensor, const RayTable& r
   }
 }
 
-/// Takes the measurements outside the crop out of a window.
+/// Removes the measurements outside the crop from a window.
 void drop_rejected(const SensorInfo& sensor, const RayTable& rays, const PixelBox& box,
                    const KeepPoint& keep, DepthView& view) {
   const auto image_width = std::size_t(sensor.intrinsics.width);
@@ -56,8 +56,7 @@ void drop_rejected(const SensorInfo& sensor, const RayTable& rays, const PixelBo
   }
 }
 
-/// Where a crop that was recorded ended, what lay behind is not known: in another pass the object
-/// may be there.
+/// Space beyond the end of a recorded crop is unknown: in another pass the object may be there.
 void end_free_space(const Eigen::Vector4f& plane, const RayTable& rays, int image_width,
                     const PixelBox& box, DepthView& view) {
   constexpr std::uint32_t kUnbounded = 65534;
@@ -161,7 +160,7 @@ DepthView view_of_points(FramePoints points, const Pose& T_table_sensor, const V
       kept.cell.empty() ? triangle_fans(surface, 3.5 * scale.spacing_m) : grid_triangles(kept);
   surface.colors = std::move(kept.cloud.colors);
   const std::size_t count = surface.points.size();
-  // Finer pixels than the points' spacing cost nothing in truth.
+  // Pixels finer than the points' spacing do not reduce accuracy.
   DepthView view =
       view_of_surface(surface, T_table_sensor, 0.5 * scale.spacing_m, scale.edge_step_m);
   if (view.empty()) return view;

@@ -7,11 +7,11 @@ namespace turnscan::views {
 
 namespace {
 
-constexpr std::uint16_t kFar = 65534;  // stands for "empty as far as it matters"
+constexpr std::uint16_t kFar = 65534;  // stands for "empty in the relevant range"
 
 constexpr std::array<std::array<int, 2>, 4> kSides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
-/// Whether a neighbour is so much farther that the pixel may hold a mixture of both.
+/// Whether a neighbour is so much farther that the pixel may be a mixture of both.
 bool beside_edge(const RawWindow& raw, int x, int y, int step) {
   const int own = raw.at(x, y);
   return std::any_of(kSides.begin(), kSides.end(), [&](const auto& side) {
@@ -22,26 +22,26 @@ bool beside_edge(const RawWindow& raw, int x, int y, int step) {
   });
 }
 
-/// Gaps between two rims of up to this many pixels show what lies behind them nowhere unmixed.
+/// In gaps of up to this many pixels between two rims the background is mixed everywhere.
 constexpr int kNarrowGap = 2;
 
-/// Whether the pixel hangs in the air behind a rim, between what it shows on one side and what lies
-/// behind on another: a mixture of both, and a measurement of neither. So is one between two rims,
-/// in a narrow gap. A steep slope is none: there the step to the nearer side is as high as the one
-/// before it.
+/// Whether the pixel is a flying pixel behind a rim, between the surface on one side and the
+/// background on another: a mixture of both, and a measurement of neither. So is one between two
+/// rims, in a narrow gap. A steep slope is not: there the step to the nearer side is as high as the
+/// one before it.
 bool flying(const RawWindow& raw, int x, int y, int step) {
   const int own = raw.at(x, y);
   const auto depth = [&](int u, int v) {
     const bool within = u >= 0 && v >= 0 && u < raw.width && v < raw.height;
     return within && measured(raw.at(u, v)) ? int(raw.at(u, v)) : int(kFar);
   };
-  // Whether a rim lies `pixels` away, with nothing that is nearer in between.
+  // Whether a rim is `pixels` away, with nothing nearer in between.
   const auto rim = [&](int dx, int dy, int pixels) {
     const int near = depth(x + pixels * dx, y + pixels * dy), climb = own - near;
     return climb > step && 2 * (near - depth(x + (pixels + 1) * dx, y + (pixels + 1) * dy)) < climb;
   };
   bool before = false;
-  std::array<int, 4> distance{};  // of the rim on each side; 0: none near enough
+  std::array<int, 4> distance{};  // to the rim on each side; 0: none close enough
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     const auto [dx, dy] = kSides[side];
     before |= depth(x + dx, y + dy) - own > step;
@@ -55,17 +55,17 @@ bool flying(const RawWindow& raw, int x, int y, int step) {
   return (before && beside_rim) || gap(distance[0], distance[1]) || gap(distance[2], distance[3]);
 }
 
-/// A pixel this near to another may look past what that one sees: its own share of the edge, and a
-/// pixel that the sensor's filter spreads it by.
+/// A pixel this close to another may look past what that one sees: half a pixel at the edge, and
+/// one pixel by which the sensor's filter spreads it.
 constexpr int kMayLookPast = 2;
 static_assert(kMayLookPast >= kNarrowGap, "pack_window tells from free depths that no rim is near");
 
-/// to[i] = the lesser of to[i] and from[i].
+/// to[i] = min(to[i], from[i]).
 void take_least(std::span<std::uint16_t> to, const std::uint16_t* from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = std::min(to[i], from[i]);
 }
 
-/// Per pixel the least depth of those around it, up to which it saw free space.
+/// Per pixel the minimum depth around it, up to which it observed free space.
 Image<std::uint16_t> free_depths(const RawWindow& raw) {
   const int w = raw.width, h = raw.height;
   constexpr int kReach = kMayLookPast;
@@ -102,7 +102,7 @@ void pack_window(const RawWindow& raw, double edge_step_m, DepthView& view) {
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x) {
       const std::uint16_t own = raw.at(x, y);
-      // A pixel that hangs behind a rim has seen something so much nearer beside it.
+      // A flying pixel behind a rim has a much nearer surface beside it.
       const bool behind = int(own) - int(free.at(x, y)) > step;
       const bool on_surface = measured(own) && !(behind && flying(raw, x, y, step));
       const std::uint32_t depth = on_surface ? own : 0u;

@@ -9,7 +9,7 @@ namespace {
 
 using Mask = Image<std::uint8_t>;
 
-/// Of the outermost pixels that show something else than the empty border.
+/// Share of the outermost pixels that show something other than the empty border.
 constexpr double kMinOutside = 0.8;
 
 /// Calls body(x, y) along a line of pixels inside the empty border.
@@ -68,7 +68,7 @@ class NoReturn {
     });
   }
 
-  /// What squares of 3 x 3 pixels in the mask cover.
+  /// The union of the squares of 3 x 3 pixels in the mask.
   Mask opened() const {
     Mask out(view_.width, view_.height, 0);
     bool any = false;
@@ -98,7 +98,8 @@ constexpr float kRimStep_m = 0.05f;
 
 constexpr float kBeyond_m = 1e9f;
 
-/// What a pixel is known to show: a measurement, or nothing as far as it matters; else nullopt.
+/// Depth known for a pixel: a measurement, or infinity if it is empty in the relevant range; else
+/// nullopt.
 std::optional<float> depth_of(const DepthView& view, std::uint32_t word) {
   constexpr std::uint32_t kUnbounded = 65534;
   if ((word & 0xffffu) != 0) return float(word & 0xffffu) * view.unit_m + view.bias_m;

@@ -10,14 +10,14 @@ namespace turnscan::views {
 
 namespace {
 
-/// Largest thickness of a sheet, seen from the viewpoint, over its width.
+/// Maximum thickness of a sheet, seen from the viewpoint, relative to its width.
 constexpr double kThickestOfWidth = 0.01;
-/// A group's profiles are seen from directions that differ by so much at most...
+/// Maximum difference of the viewing directions of a group's profiles...
 const double kMinGroupCosine = std::cos(8.0 * std::numbers::pi / 180.0);
-/// ... but for one that turns faster; and they are so many at most.
+/// ... except for fast rotations; and their maximum number.
 constexpr std::size_t kMinProfiles = 3, kMaxProfiles = 128;
 
-/// Where a point lies along the line: an angle, or a length where rays are parallel.
+/// Position of a point along the line: an angle, or a length if rays are parallel.
 double position_along(const LightSheet& sheet, const Viewpoint& eye, const Vec3f& p) {
   if (eye.parallel) return sheet.across.dot(p.cast<double>());
   const Vec3d d = p.cast<double>() - eye.value;
@@ -61,7 +61,7 @@ std::optional<LightSheet> find_sheet(const FramePoints& points) {
   const Viewpoint& eye = points.viewpoint;
   const Vec3d center = mean_of(p);
   const Vec3d away = eye.parallel ? Vec3d(-eye.value) : Vec3d((center - eye.value).normalized());
-  // Seen from the viewpoint, on the plane that faces it, the points are a line.
+  // On the plane that faces the viewpoint, the projected points form a line.
   std::vector<Vec3d> seen;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Vec3f& q : p) {

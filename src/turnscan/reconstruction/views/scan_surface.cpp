@@ -56,7 +56,7 @@ class ScanResampler {
       if (z > 0.0f) low = std::min(low, z), high = std::max(high, z);
     }
     view.unit_m = std::max(high - low, 1e-4f) / 65000.0f;
-    view.bias_m = low - view.unit_m;  // the nearest one is 1
+    view.bias_m = low - view.unit_m;  // the nearest one has raw value 1
     RawWindow raw(width_, height_);
     for (std::size_t i = 0; i < raw.pixels.size(); ++i) {
       if (z_.pixels[i] > 0.0f)
@@ -155,10 +155,10 @@ class ScanResampler {
   std::vector<Vec3d> image_;  // u, v from the window's corner, z
   Image<float> z_;
   Image<std::uint16_t> count_;   // of triangles
-  Image<std::uint32_t> source_;  // the point nearest to what was drawn first
+  Image<std::uint32_t> source_;  // the point nearest to the surface drawn first
 };
 
-/// Points projected to the plane at their centre that faces the viewpoint.
+/// Points projected to the plane through their centre that faces the viewpoint.
 std::vector<Vec3f> image_plane_points(const ScanSurface& s) {
   const Vec3d center = bounds(s.points).center();
   const Eigen::Matrix3d rotation = facing(s.viewpoint, center);

@@ -12,7 +12,7 @@ ViewDrawing::ViewDrawing(const DepthView& view, const TriangleMesh& mesh)
   for (std::size_t v = 0; v < place.size(); ++v) {
     place[v] = view.rotation * mesh.vertices[v] + view.translation;
     const Eigen::Vector2f at = view.project(place[v]);
-    // Samples are numbered; in perspective 1 / z is linear in the image.
+    // In sample coordinates; in perspective 1 / z is linear in the image.
     image[v] = {(at.x() + 0.5f) * kSide - 0.5f, (at.y() + 0.5f) * kSide - 0.5f,
                 view.parallel ? place[v].z() : 1.0f / place[v].z()};
   }

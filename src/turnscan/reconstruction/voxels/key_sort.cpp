@@ -13,7 +13,7 @@ constexpr std::uint32_t kRadixBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kRadixBits;
 constexpr std::size_t kSlice = std::size_t{1} << 18;  // items that one thread counts and moves
 
-/// Where each slice puts its items of each digit: behind those of smaller digits, and of earlier
+/// Destination of each slice's items of each digit: after those of smaller digits, and of earlier
 /// slices, which keeps the order of equal keys.
 void to_places(std::vector<std::array<std::uint32_t, kDigits>>& counts) {
   std::uint32_t place = 0;

@@ -3,7 +3,7 @@
 namespace turnscan::voxels {
 
 Vec3f MergedCloud::towards_sensor(std::size_t i) const {
-  // In single precision: called for every point by several stages, and the points have no more.
+  // In single precision, which is that of the points: called for every point by several stages.
   const Viewpoint& viewpoint = viewpoints[cloud.frame[i]];
   const Vec3f value = viewpoint.value.cast<float>();
   if (viewpoint.parallel) return value;

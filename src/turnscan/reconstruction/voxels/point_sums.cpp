@@ -11,22 +11,22 @@ namespace turnscan::voxels {
 
 namespace {
 
-constexpr int kPlaceBits = 12;                     // of a place within its cell
+constexpr int kPlaceBits = 12;                     // of a position within its cell
 constexpr std::int64_t kPlaces = 1 << kPlaceBits;  // along a cell
 constexpr float kDirections = 2048.0f;             // steps of a unit vector's component
-/// 2^20 times the largest place or direction still fits 32 bits.
+/// 2^20 times the largest position or direction still fits 32 bits.
 constexpr std::uint32_t kMaxPoints = (1U << 20) - 1;
-/// A brick holds 2 x 2 x 2 voxels of 2 x 2 x 2 cells, voxel by voxel.
+/// A brick contains 2 x 2 x 2 voxels of 2 x 2 x 2 cells, voxel by voxel.
 constexpr int kBrickBits = 2;
 constexpr std::size_t kVoxels = 8, kCells = 8;
 constexpr std::size_t kParts = 64;
-/// Cells are numbered from the lowest that is allowed.
+/// Cells are numbered from the lowest allowed one.
 constexpr std::int64_t kMaxCells = std::int64_t{1} << 21;
 constexpr double kOffset = double(kMaxCells * kPlaces);
 
 }  // namespace
 
-/// What is kept of the points of a cell.
+/// Sums over the points of a cell.
 struct CellSums {
   std::uint32_t count = 0;
   std::array<std::int32_t, 3> place{}, towards{};
@@ -37,7 +37,7 @@ namespace {
 
 using BrickColors = std::array<std::array<std::uint32_t, 3>, kVoxels * kCells>;
 
-/// A point as a brick takes it.
+/// A point in the form in which a brick stores it.
 struct Entry {
   std::uint64_t brick;
   std::uint16_t cell;                   ///< in the brick: voxel * 8 + cell of the voxel
@@ -46,11 +46,11 @@ struct Entry {
   Rgb color;
 };
 
-/// Points of a frame, sorted by the part that takes them.
+/// Points of a frame, sorted by the part that stores them.
 struct Sorted {
   std::vector<Entry> entries;
   std::array<std::uint32_t, kParts + 1> begin{};
-  bool outside = false;  ///< a point lies too far away
+  bool outside = false;  ///< a point is too far away
 };
 
 std::uint64_t spread_key(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -63,12 +63,12 @@ VoxelIndex low_voxel(std::uint64_t brick) {
   return {2 * int(brick & kMask) - kLow, 2 * int((brick >> 21) & kMask) - kLow,
           2 * int(brick >> 42) - kLow};
 }
-/// Coordinates 0 or 1 of the k-th of eight.
+/// Coordinates 0 or 1 of the k-th octant.
 VoxelIndex octant(std::size_t k) { return {int(k & 1), int((k >> 1) & 1), int((k >> 2) & 1)}; }
 
 std::size_t part_of(std::uint64_t brick) { return std::size_t(mix64(brick) >> 58); }
 
-/// Places are floored by truncation: shifted by kOffset they are positive.
+/// Positions are floored by truncation: shifted by kOffset they are positive.
 bool to_entry(const Vec3f& p, const Vec3f& towards, double scale, Entry& entry) {
   std::array<std::int64_t, 3> cell{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -118,7 +118,7 @@ Sorted sort(const PointsSeen& frame, double scale) {
   return out;
 }
 
-/// An occupied voxel, of whichever part.
+/// An occupied voxel of any part.
 struct VoxelRef {
   VoxelIndex index;
   std::uint32_t part, brick, voxel;
@@ -127,7 +127,7 @@ struct VoxelRef {
 
 }  // namespace
 
-/// The bricks of one part, in the order in which they were met.
+/// The bricks of one part, in the order in which they were first used.
 class PointSums::Part {
  public:
   Part(int sub_voxels, bool whole_chord) : sub_voxels_(sub_voxels), whole_chord_(whole_chord) {}
@@ -171,7 +171,7 @@ class PointSums::Part {
     }
   }
 
-  /// Writes the cells of a voxel from position `at` on.
+  /// Writes the cells of a voxel starting at position `at`.
   void write(const VoxelRef& ref, double cell_m, std::size_t at, MeasuredCells& out) const {
     for (std::size_t c = 0; c < kCells; ++c) {
       const std::size_t k = ref.voxel * kCells + c;
@@ -180,7 +180,7 @@ class PointSums::Part {
       const double n = std::min(cell.count, kMaxPoints);
       const VoxelIndex low = 2 * ref.index + octant(c);
       for (std::size_t a = 0; a < 3; ++a) {
-        // Places were floored: half a step more in the mean.
+        // Positions were floored: adds half a step on average.
         const double place = (cell.place[a] / n + 0.5) / double(kPlaces) + 0.5;
         out.columns[a][at] = static_cast<float>((low[int(a)] + place) * cell_m);
         out.columns[3 + a][at] = static_cast<float>(cell.towards[a] / n / double(kDirections));
@@ -228,7 +228,7 @@ class PointSums::Part {
     }
   }
 
-  /// Counts the line through sensor and point in the sub-voxels that it meets.
+  /// Counts the line through sensor and point in the sub-voxels that it crosses.
   void walk(const Entry& entry, std::uint32_t brick) {
     const int s = sub_voxels_;
     const VoxelIndex cell = octant(entry.cell % kCells);
@@ -299,7 +299,7 @@ std::size_t PointSums::bytes() const {
 
 namespace {
 
-/// In the order of the voxels into which `joined` are put together along each side.
+/// In the order of the coarse voxels of `joined` voxels along each side.
 Result<std::vector<VoxelRef>> in_order(std::vector<VoxelRef> refs, int joined,
                                        const RunContext& context) {
   VoxelIndex low = VoxelIndex::Constant(1 << 30), high = -low;
@@ -330,7 +330,7 @@ Result<std::vector<VoxelRef>> in_order(std::vector<VoxelRef> refs, int joined,
   return out;
 }
 
-/// Joins fine voxels; gives the position of the first fine one of each, and one more.
+/// Joins fine voxels; returns the position of the first fine one of each, and one more.
 std::vector<VoxelGrid::Voxel> join(const std::vector<VoxelRef>& refs, int joined,
                                    std::vector<std::uint32_t>& first) {
   std::vector<VoxelGrid::Voxel> voxels;
@@ -349,7 +349,7 @@ std::vector<VoxelGrid::Voxel> join(const std::vector<VoxelRef>& refs, int joined
   return voxels;
 }
 
-/// The sub-voxels of the highest count in these voxels, which become one.
+/// The sub-voxels with the highest count in these voxels, which become one.
 template <class Counts>
 void add_peaks(std::span<const VoxelRef> refs, const Counts& counts, int s, double voxel_m,
                MeasuredCells& out) {

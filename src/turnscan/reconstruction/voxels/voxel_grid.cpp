@@ -11,7 +11,7 @@ namespace turnscan::voxels {
 namespace {
 
 constexpr int kMaxSide = 1 << 21;
-/// Rows (z, y) are indexed directly; more than this would be a cloud of a few points far apart.
+/// Rows (z, y) are indexed directly; more would be a cloud of a few points far apart.
 constexpr std::uint64_t kMaxRows = 1ULL << 26;
 
 /// low, high: the outermost voxels.
