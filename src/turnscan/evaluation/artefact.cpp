@@ -25,8 +25,9 @@ constexpr double kRejected = 0.003;   // VDI/VDE 2634 part 2
 constexpr double kRejected95 = 0.05;  // ISO 10360-13
 constexpr std::size_t kSamples = 200000;
 constexpr std::size_t kMinPoints = 100;
-constexpr double kMinCovered = 0.05;  // of a sphere; what one view sees is about a third
-constexpr double kReach = 0.15;       // of a ball's radius: what is farther is not of the ball
+constexpr double kMinCovered = 0.05;  // of a sphere; one view sees about a third
+constexpr double kReach = 0.15;  // relative to a ball's radius: points farther away are not on the
+                                 // ball
 constexpr double kPlateReach_m = 5e-3;
 constexpr double kBandSigmas = 6.0;
 
@@ -36,18 +37,18 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// The points on a surface, and how many are near it, but beyond the band.
+/// The points on a surface, and the number of points near it but beyond the band.
 struct Selection {
   std::vector<Vec3d> points;
   std::size_t left_out = 0;
 };
 
-/// What may be used of the points, beside their distance from the surface.
+/// Whether a point may be used, apart from its distance from the surface.
 template <class Surface>
 using Usable = std::function<bool(const Vec3d&, const Surface&)>;
 
 /// Points within the band about the surface. Without a given band it is six standard deviations,
-/// from the median of the absolute distances of what is within `reach`.
+/// from the median of the absolute distances of the points within `reach`.
 template <class Surface>
 Selection select_points(const Points& points, const Surface& surface, double reach,
                         const std::optional<double>& band, const Usable<Surface>& usable) {
@@ -70,7 +71,7 @@ Selection select_points(const Points& points, const Surface& surface, double rea
   return selection;
 }
 
-/// Selects, fits and selects again until the selection is of the surface that was fitted to it.
+/// Selects and fits repeatedly until the selection matches the surface that was fitted to it.
 template <class Surface>
 std::optional<Selection> settle(const Points& points, Surface& surface, double reach,
                                 const std::optional<double>& band, const Usable<Surface>& usable,
@@ -90,7 +91,7 @@ std::optional<Selection> settle(const Points& points, Surface& surface, double r
   return selection;
 }
 
-/// The figures of the fit; `surface` becomes the one that VDI/VDE 2634's rejection leaves.
+/// The statistics of the fit; `surface` becomes the one after the rejection of VDI/VDE 2634.
 template <class Surface>
 std::optional<FitFigures> figures_of(const Selection& selection, Surface& surface,
                                      const Fit<Surface>& fit) {
@@ -102,7 +103,7 @@ std::optional<FitFigures> figures_of(const Selection& selection, Surface& surfac
                     most->range(),           all->sigma()};
 }
 
-/// Share of the sphere's surface that has points, in 200 parts of equal area.
+/// Share of the sphere's surface with points, in 200 parts of equal area.
 double covered(const std::vector<Vec3d>& points, const Vec3d& center) {
   constexpr std::size_t kBands = 10, kSectors = 20;
   std::vector<std::uint8_t> has(kBands * kSectors, 0);
@@ -139,7 +140,7 @@ class BallMeasurement {
       lowest_ = -0.5;
   }
 
-  /// nullopt: what was found is no ball of this size.
+  /// nullopt if the surface found is not a ball of this size.
   std::optional<BallFigures> measure(Sphere& sphere) const {
     const auto selection =
         settle<Sphere>(points_, sphere, kReach * sphere.radius, band_, usable(), free_);
@@ -157,7 +158,7 @@ class BallMeasurement {
     return ball;
   }
 
-  /// Centre of the sphere that has the calibrated diameter.
+  /// Centre of the sphere with the calibrated diameter.
   std::optional<Vec3d> center_with_fixed_diameter(const BallFigures& ball) const {
     Sphere sphere{ball.center_m, ball.diameter_m / 2};
     const auto selection =
@@ -178,7 +179,7 @@ class BallMeasurement {
   const Points& points_;
   std::optional<double> band_;
   double diameter_m_;
-  double lowest_ = -1.0;  // least y of the direction from the centre
+  double lowest_ = -1.0;  // minimum y of the direction from the centre
   Fit<Sphere> free_ = [](const std::vector<Vec3d>& p, const Sphere& s) {
     return artefact::fit_sphere(p, s, false);
   };

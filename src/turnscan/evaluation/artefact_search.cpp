@@ -15,7 +15,7 @@ constexpr std::size_t kMinSupport = 50;
 constexpr std::uint64_t kSeed = 2634;
 constexpr std::uint64_t kTrials = 3000;
 
-/// About kMaxScored of the points, evenly picked in their order.
+/// An even selection of about kMaxScored of the points.
 std::vector<std::size_t> thinned(std::size_t n) {
   const std::size_t step = (n + kMaxScored - 1) / kMaxScored;
   std::vector<std::size_t> picked;
@@ -52,14 +52,14 @@ class Best {
   std::optional<Surface> surface_;
 };
 
-/// A picked point, of draw `counter` in a trial.
+/// A picked point, from draw `counter` of a trial.
 std::size_t draw(const std::vector<std::size_t>& picked, std::uint64_t trial,
                  std::uint64_t counter) {
   const double u = uniform01(hash_key(kSeed, trial, counter));
   return picked[static_cast<std::size_t>(u * double(picked.size()))];
 }
 
-/// A point not nearer to `from` than `least` nor farther than `most`; nullopt after a few attempts.
+/// A point with a distance from `from` between `least` and `most`; nullopt after a few attempts.
 std::optional<Vec3d> draw_near(const Points& points, const std::vector<std::size_t>& picked,
                                const Vec3d& from, double least, double most, std::uint64_t trial,
                                std::uint64_t stream) {
@@ -71,8 +71,8 @@ std::optional<Vec3d> draw_near(const Points& points, const std::vector<std::size
   return std::nullopt;
 }
 
-/// The centres of the two spheres of this radius through three points; none if they are farther
-/// apart than it allows.
+/// The centres of the two spheres of this radius through three points; none if these are too far
+/// apart for it.
 std::vector<Vec3d> centers_through(const Vec3d& a, const Vec3d& b, const Vec3d& c, double radius) {
   const Vec3d u = b - a, v = c - a, n = u.cross(v);
   const double n2 = n.squaredNorm();

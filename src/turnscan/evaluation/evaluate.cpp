@@ -15,7 +15,7 @@ namespace turnscan {
 namespace {
 
 constexpr int kAlignSamples = 20000;
-constexpr std::size_t kChunk = 1024;  // samples between two looks at the context
+constexpr std::size_t kChunk = 1024;  // samples between checks of the context
 constexpr std::size_t kMaxThresholds = 64;
 
 Vec3f triangle_normal(const TriangleMesh& mesh, std::uint32_t t) {
@@ -26,13 +26,13 @@ Vec3f triangle_normal(const TriangleMesh& mesh, std::uint32_t t) {
   return normal.normalized().cast<float>();
 }
 
-/// Tells points on the open edges of a mesh.
+/// Tests whether points are on open edges of a mesh.
 class OpenEdges {
  public:
   explicit OpenEdges(const TriangleMesh& mesh)
       : mesh_(mesh), open_(mesh.triangles.size(), 0), corner_(mesh.vertices.size(), 0) {
-    // Every edge from its lower to its higher vertex, with the triangle and the corner it starts
-    // at.
+    // Every edge from its lower to its higher vertex, with the triangle and the corner at which it
+    // starts.
     std::vector<std::array<std::uint32_t, 4>> edges;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       for (std::uint32_t c = 0; c < 3; ++c) {
@@ -66,11 +66,11 @@ class OpenEdges {
 
  private:
   const TriangleMesh& mesh_;
-  std::vector<std::uint8_t> open_;    // per triangle a bit for each edge
+  std::vector<std::uint8_t> open_;    // one bit per edge of each triangle
   std::vector<std::uint8_t> corner_;  // per vertex
 };
 
-/// Where each sample's nearest point on the other surface is.
+/// Nearest point of each sample on the other surface.
 struct Nearest {
   std::vector<double> distance;
   std::vector<Vec3d> points;   // on the other surface
@@ -148,7 +148,7 @@ double fraction_seen(const std::vector<std::uint8_t>& seen) {
   return seen.empty() ? 0.0 : double(count) / double(seen.size());
 }
 
-/// Mean way from the surface to the samples that count, along the surface's normals.
+/// Mean offset of the samples that count from the surface, along its normals.
 double bias(const std::vector<Vec3f>& samples, const Nearest& nearest,
             const std::vector<std::uint8_t>& counts) {
   double sum = 0.0;

@@ -27,7 +27,7 @@ std::vector<Point2> convex_hull(std::vector<Point2> points) {
         hull.pop_back();
       hull.push_back(p);
     }
-    hull.pop_back();  // it begins the other side
+    hull.pop_back();  // it is the start of the other side
     std::reverse(points.begin(), points.end());
   }
   return hull;
@@ -42,7 +42,7 @@ struct PlaneAxes {
   Vec3d origin, x, y;
 };
 
-/// Longer side first. One side of the least rectangle lies on one of the hull's.
+/// Longer side first. One side of the smallest rectangle contains one of the hull's.
 std::pair<double, double> size_of(const std::vector<Point2>& hull) {
   std::pair<double, double> best{0.0, 0.0};
   double least = std::numeric_limits<double>::infinity();

@@ -73,7 +73,7 @@ std::optional<Deviations> fit_rejecting(
     if (rejected == 0) break;
     std::iota(order.begin(), order.end(), 0u);
     const auto error = [&](std::uint32_t i) { return std::abs(surface.distance(points[i])); };
-    // By index where distances are equal, so that the same points go on every run.
+    // By index if distances are equal, so that the same points are rejected in every run.
     std::nth_element(order.begin(), order.begin() + first_rejected, order.end(),
                      [&](std::uint32_t a, std::uint32_t b) {
                        const double da = error(a), db = error(b);

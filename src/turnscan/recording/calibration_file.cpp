@@ -16,7 +16,7 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 double radians_of(double degrees) { return degrees / kDegreesPerRadian; }
 
-/// Degrees that read back as exactly these radians, where there are any.
+/// Degrees that convert back to exactly these radians, if there are any.
 double degrees_of(double radians) {
   const double near = radians * kDegreesPerRadian;
   double up = near, down = near;
@@ -29,7 +29,7 @@ double degrees_of(double radians) {
   return near;
 }
 
-/// JSON has no NaN: not known is null.
+/// JSON has no NaN: unknown values are null.
 text::OrderedJson known(double value) {
   return std::isfinite(value) ? text::OrderedJson(value) : text::OrderedJson();
 }
@@ -117,7 +117,7 @@ Result<CameraCorrection> parse_camera(const text::JsonObject& object) {
   return camera;
 }
 
-/// Those that are there.
+/// Parses the corrections that exist.
 Result<> parse_corrections(const text::JsonObject& object, std::optional<DepthCorrection>& depth,
                            std::optional<CameraCorrection>& camera) {
   if (object.has("depth")) {
@@ -176,7 +176,7 @@ Result<TurntableInfo> parse_table(const text::JsonObject& object) {
                 "not positive");
   if (!(table.center_m.norm() < 1e6))
     return fail(ErrorCode::kFormat, "the centre lies beyond all measure");
-  // A unit vector stays as it is, to the last bit.
+  // A unit vector is preserved to the last bit.
   if (std::abs(table.axis.norm() - 1.0) > 1e-14) table.axis.normalize();
   return table;
 }

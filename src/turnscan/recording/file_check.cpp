@@ -66,7 +66,7 @@ class InputFile {
 
 struct PlyOutline {
   std::size_t bytes = 0;
-  std::uint64_t least_body = 0;  ///< the body cannot be shorter
+  std::uint64_t least_body = 0;  ///< minimum size of the body
 };
 
 std::uint64_t size_of_type(std::string_view type) {
@@ -76,13 +76,13 @@ std::uint64_t size_of_type(std::string_view type) {
   return 4;
 }
 
-/// The least number of bytes that a property adds to one element.
+/// Minimum number of bytes that a property adds to an element.
 std::uint64_t least_size(const std::vector<std::string_view>& words, bool ascii) {
   if (ascii) return 2;  // a digit and a separator
   return size_of_type(words[1] == "list" && words.size() > 2 ? words[2] : words[1]);
 }
 
-/// Counts are only added up here, never allocated for; 2^40 keeps the sum from wrapping.
+/// Counts are only summed here, never used for allocation; 2^40 keeps the sum from wrapping.
 std::optional<PlyOutline> ply_outline(std::string_view text) {
   if (!text.starts_with("ply")) return std::nullopt;
   bool ascii = false;
@@ -137,7 +137,7 @@ FileCheck unreadable(const char* what, int error) {
 
 FileCheck check_file(const fs::path& path) {
   InputFile file(path);
-  // A name beyond what the file system takes cannot have been written either.
+  // A name that exceeds the limits of the file system cannot have been written, either.
   if (file.error() == ENOENT || file.error() == ENOTDIR || file.error() == ENAMETOOLONG)
     return {FileState::kLost, "is missing"};
   if (file.error() != 0) return unreadable("cannot be opened", file.error());

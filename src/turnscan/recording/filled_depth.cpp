@@ -12,9 +12,10 @@ namespace {
 constexpr std::size_t kMaxSampledFrames = 12;
 constexpr std::uint64_t kMinRims = 200;
 constexpr float kMinStrip_px = 6.0f;
-constexpr float kRim_px = 0.7f;       // a step of disparity between neighbours that is a rim
-constexpr float kFarthest = 1.5f;     // widths of the strip within which the far surface begins
-constexpr float kStripMargin = 0.2f;  // of the strip, left out at both its ends
+constexpr float kRim_px = 0.7f;    // disparity step between neighbours that counts as a rim
+constexpr float kFarthest = 1.5f;  // maximum distance, in strip widths, of the beginning of the far
+                                   // surface
+constexpr float kStripMargin = 0.2f;  // share of the strip excluded at both its ends
 
 struct Strips {
   std::uint64_t rims = 0, pixels = 0, filled = 0;
@@ -26,8 +27,8 @@ struct Strips {
 };
 using BothSides = std::array<Strips, 2>;
 
-/// Disparities of a row, 0 where there is no return or one outside the crop. Reversed: the other
-/// side of what is near.
+/// Disparities of a row, 0 if there is no return or one outside the crop. Reversed: for the other
+/// side of the foreground.
 class Row {
  public:
   Row(const DepthImage& depth, int row, float scale, float bias_steps, bool reversed) {
@@ -88,7 +89,7 @@ BothSides strips_of(const DepthImage& depth, const SensorInfo& sensor, double ba
   return out;
 }
 
-/// Spread over the sequence.
+/// Evenly spread over the sequence.
 std::vector<std::size_t> chosen(const FrameSequence& sequence, std::uint32_t sensor) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < sequence.frames().size(); ++i)

@@ -15,7 +15,7 @@ constexpr std::uint32_t kMaxIndex = 4000000000;
 constexpr std::array<const char*, 7> kPoseColumns{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 
 /// Trailing zeros are dropped. Degrees get ten decimals: an angle of a few thousand degrees that is
-/// read and written again stays the same text although it goes through radians.
+/// read and written again keeps its text although it is converted to radians.
 std::string fixed_text(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   text.erase(text.find_last_not_of('0') + 1);
@@ -151,7 +151,7 @@ std::string frames_csv_line(const FrameInfo& info, const std::string& color_file
 
 Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count) {
   FrameTable table;
-  // A file system that lost power may leave zeros where the last lines should be.
+  // A file system that lost power may leave zeros in place of the last lines.
   const std::size_t whole = text.find_last_not_of('\0') + 1;
   if (whole < text.size())
     table.notes.emplace_back("frames.csv ends with zeros; they were ignored");

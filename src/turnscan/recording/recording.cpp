@@ -45,7 +45,7 @@ Result<FrameTable> read_table(const fs::path& folder, std::size_t sensor_count) 
   return table;
 }
 
-/// Gathers defects of one kind, so that a thousand lost frames are one note.
+/// Collects defects of one kind, so that a thousand lost frames are one note.
 class DefectNote {
  public:
   explicit DefectNote(std::string consequence) : consequence_(std::move(consequence)) {}
@@ -66,7 +66,7 @@ class DefectNote {
   std::size_t count_ = 0;
 };
 
-/// Fails when this program lacks what it needs to look: the frame is not to blame.
+/// Fails if this program lacks resources for the check, which is no defect of the frame.
 Result<> check_resources(const FileCheck& check, const fs::path& file) {
   if (check.state != FileState::kNoResources) return {};
   return fail_at(file.string(), ErrorCode::kResourceLimit,
@@ -99,7 +99,7 @@ Result<> check_files(const fs::path& folder, std::vector<FrameRow>& rows,
   return {};
 }
 
-/// A PLY with lists has no length that could be checked cheaply: the last one is read.
+/// The length of a PLY with lists cannot be checked cheaply: the last one is read.
 void check_last_scan(const fs::path& folder, const SequenceHeader& header,
                      std::vector<FrameRow>& rows, std::vector<std::string>& notes) {
   const auto last = std::find_if(rows.rbegin(), rows.rend(), [](const FrameRow& row) {

@@ -164,13 +164,13 @@ void put_source(const std::string& source, text::OrderedJson& out) {
   if (!notes.empty()) out["notes"] = notes;
 }
 
-/// Empty when the sensor is usable, else what is wrong with it.
+/// Empty if the sensor is usable, else its defect.
 std::string defect_of(const SensorInfo& s) {
   if (!s.viewpoint.value.allFinite() || s.viewpoint.value.norm() > kMaxDistance_m)
     return "its viewpoint is not within 1000 km";
   if (s.viewpoint.parallel && !(s.viewpoint.value.norm() > 1e-6))
     return "its parallel viewing direction has no length";
-  // As the reader has it: what is refused there must not be written.
+  // Same checks as the reader: what it rejects must not be written.
   if (s.T_table_sensor)
     if (const auto good = pose_from(s.T_table_sensor->matrix()); !good)
       return "its T_table_sensor: " + good.error().message;

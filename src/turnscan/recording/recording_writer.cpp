@@ -34,16 +34,16 @@ tl::unexpected<Error> system_error(const fs::path& path, std::string_view what, 
 
 constexpr const char* kDescriptionPart = ".recording.json.part";
 
-/// Renames, but never replaces. Returns errno, or 0.
+/// Renames without replacing. Returns errno, or 0.
 int rename_to_new(const fs::path& from, const fs::path& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  // A file system that cannot do that.
+  // For file systems that do not support this.
   if (::access(to.c_str(), F_OK) == 0) return EEXIST;
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-/// frames.csv while it grows: whole lines only, also when the disk is full.
+/// frames.csv while it grows: only complete lines, even if the disk is full.
 class LineFile {
  public:
   LineFile() = default;
@@ -59,12 +59,12 @@ class LineFile {
     path_ = path;
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) return system_error(path_, "cannot create", errno);
-    // A file system without locks only loses the protection against a repair at the same time.
+    // Without file locks, only the protection against a concurrent repair is lost.
     (void)::flock(descriptor_, LOCK_EX | LOCK_NB);
     return {};
   }
 
-  /// The file of a recording that is complete, to go on behind its last line.
+  /// Reopens the file of a complete recording, to append after its last line.
   Result<> reopen(const fs::path& path, std::uint64_t size) {
     path_ = path;
     size_ = size;
@@ -76,7 +76,8 @@ class LineFile {
     return {};
   }
 
-  /// One write(): the kernel has all of it, or the file is cut back to its last whole line.
+  /// A single write(): either all lines are written, or the file is truncated to its last complete
+  /// line.
   Result<> append(std::string_view lines) {
     std::size_t done = 0;
     while (done < lines.size()) {
@@ -93,7 +94,7 @@ class LineFile {
     return {};
   }
 
-  /// kSynced: everything that was written to this file system, the frames' files above all.
+  /// kSynced: everything that was written to this file system, in particular the frames' files.
   Result<> sync(Durability durability) {
     if (::fsync(descriptor_) != 0) return system_error(path_, "cannot write", errno);
     if (durability == Durability::kSynced && ::syncfs(descriptor_) != 0)
@@ -107,7 +108,7 @@ class LineFile {
   std::uint64_t size_ = 0;
 };
 
-/// Makes the folder with its parents; the ones that did not exist before are added to `made`.
+/// Creates the folder with its parents; the new ones are added to `made`.
 Result<> make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   std::error_code error;
   if (fs::exists(folder, error)) {
@@ -153,7 +154,7 @@ Result<> check_frame(const Frame& frame, const SequenceHeader& header) {
   if (const std::string why = implausible(info); !why.empty()) return misfit(frame, why);
   if (info.status == FrameStatus::kDropped) return {};
   const SensorInfo& sensor = header.sensors[info.sensor];
-  // A scan that saw nothing is a frame, too: a profile beside the object.
+  // A scan without returns is a frame, too: a profile beside the object.
   return sensor.kind == SensorKind::kDepthCamera ? check_pixels(frame, sensor) : Result<>();
 }
 
@@ -173,7 +174,7 @@ struct RecordingWriter::State {
   LineFile table;
   std::unordered_set<std::uint32_t> indices;
   std::vector<fs::path> made_folders;  ///< parents first
-  bool described = false;              ///< recording.json is ours
+  bool described = false;              ///< recording.json was written by this writer
   bool finished = false;
 
   Result<> create_files();
@@ -184,7 +185,7 @@ struct RecordingWriter::State {
   Result<> write_data(const Frame& frame, const fs::path& path) const;
   Result<> make_subfolder(const char* name) const;
   Result<> claim_index(const FrameInfo& info);
-  /// Removes what this writer made.
+  /// Removes everything that this writer created.
   void discard();
 };
 
@@ -238,8 +239,8 @@ Result<> RecordingWriter::State::claim_index(const FrameInfo& info) {
   return {};
 }
 
-/// recording.json first: a folder without it is no recording, one without frames.csv is an empty
-/// one. Its name is taken without replacing anything, so that of two writers one is refused.
+/// recording.json first: a folder without it is not a recording, one without frames.csv is an empty
+/// one. It is created without replacing anything, so that of two writers one is rejected.
 Result<> RecordingWriter::State::create_files() {
   const fs::path path = folder / "recording.json", part = folder / kDescriptionPart;
   const auto written = write_file_atomically(part, recording_json(description));
@@ -255,8 +256,8 @@ Result<> RecordingWriter::State::create_files() {
   return table.append(frames_csv_header());
 }
 
-/// It is marked incomplete with the number of frames that were complete before, by which a reader
-/// tells it from one that never was.
+/// The recording is marked incomplete with the number of frames that were complete before, which
+/// distinguishes it from one that never was complete.
 Result<> RecordingWriter::State::reopen_files() {
   const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
   TURNSCAN_ASSIGN(const std::string text, read_file(json, kMaxDescriptionBytes));
@@ -281,7 +282,7 @@ Result<> RecordingWriter::State::reopen_files() {
 
 void RecordingWriter::State::discard() {
   std::error_code ignored;
-  if (described) {  // else what is there is somebody else's
+  if (described) {  // otherwise the files belong to another writer
     for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
       fs::remove_all(folder / name, ignored);
   }

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Empty when there is no table.
+/// Empty if there is no table.
 Result<std::string> table_text(const fs::path& folder) {
   auto text = read_file(folder / "frames.csv", kMaxTableBytes);
   if (!text && text.error().code == ErrorCode::kNotFound) return std::string();
   return text;
 }
 
-/// What can be said of the frames now: the lost ones are marked dropped.
+/// The current state of the frames: lost ones are marked dropped.
 struct Inspection {
   std::vector<FrameRow> rows;
   std::set<std::string> named;  ///< files that a line names
@@ -47,7 +47,7 @@ Inspection inspect(const fs::path& folder, std::vector<FrameRow> rows, RepairRep
   return out;
 }
 
-/// The new frames.csv, and how many lines it has.
+/// The new frames.csv, and its number of lines.
 struct NewTable {
   std::string text;
   std::set<std::string> named;
@@ -69,7 +69,7 @@ Result<NewTable> new_table(const fs::path& folder, const std::string& text, std:
   return NewTable{std::move(mended), std::move(inspection.named), inspection.rows.size()};
 }
 
-/// recording.json with its two fields about completeness set, and all others as they are.
+/// recording.json with its two fields about completeness set, and all others unchanged.
 Result<std::string> completed_description(std::string text, std::size_t frames) {
   text = text::with_json_member(std::move(text), "complete", "true");
   text = text::with_json_member(std::move(text), "frame_count", fmt::format("{}", frames));
@@ -79,7 +79,7 @@ Result<std::string> completed_description(std::string text, std::size_t frames) 
               "recording.json cannot be marked complete; set its field \"complete\" by hand");
 }
 
-/// A name beside the file that is free, or holds the same already.
+/// A name beside the file that is free, or already has the same content.
 Result<fs::path> keep_old(const fs::path& path, const std::string& text) {
   for (int i = 1; i < 1000; ++i) {
     fs::path kept = path;
@@ -104,8 +104,8 @@ Result<> replace(const fs::path& path, const std::string& before, const std::str
   return write_file_verified(path, after);
 }
 
-/// The entries of a folder of this recording; none of one that a symbolic link leads to, whose
-/// files are somebody else's.
+/// The entries of a folder of this recording; none if a symbolic link leads to it, since its files
+/// belong to others.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> out;
@@ -172,7 +172,7 @@ namespace fs = std::filesystem;
 
 Result<RepairReport> repair_recording(const fs::path& folder) {
   const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
-  TURNSCAN_TRY(Recording::open(folder));  // its refusals are the right ones
+  TURNSCAN_TRY(Recording::open(folder));  // it rejects with the right errors
   const TableLock lock(csv);
   if (!lock.held())
     return fail_at(folder.string(), ErrorCode::kIo,

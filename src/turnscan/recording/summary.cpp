@@ -18,7 +18,7 @@ void extend(std::optional<ValueSpan>& span, double value) {
   span->max = std::max(span->max, value);
 }
 
-/// What one decoded frame contributes.
+/// Contribution of one decoded frame.
 struct FrameFigures {
   std::size_t returns = 0;
   std::size_t cells = 0;
@@ -45,7 +45,7 @@ FrameFigures figures_of(const Frame& frame, const SensorInfo& sensor) {
   return out;
 }
 
-/// At most kSamples of the positions, spread evenly.
+/// At most kSamples of the positions, evenly spread.
 std::vector<std::size_t> spread(const std::vector<std::size_t>& positions) {
   if (positions.size() <= kSamples) return positions;
   std::vector<std::size_t> out;
@@ -125,7 +125,7 @@ void find_turns(SequenceSummary& summary) {
   }
 }
 
-/// What would put frames into the table frame: a pose, or an angle and the table.
+/// Lists what would determine frames' poses in the table frame: a pose, or an angle and the table.
 void find_not_known(const FrameSequence& sequence, SequenceSummary& summary) {
   const SequenceHeader& header = sequence.header();
   const bool speed = header.turntable && header.turntable->speed_rad_s;

@@ -11,7 +11,7 @@ namespace turnscan::recording_format {
 
 namespace {
 
-/// Of a recording, which knows its values to no more digits.
+/// Value of a recording with its limited number of significant digits.
 std::string value_text(double value, Quantity quantity) {
   switch (quantity) {
     case Quantity::kLength:
@@ -48,7 +48,7 @@ std::string position_text(const SequenceSummary& s) {
   return text.empty() ? "nothing" : text;
 }
 
-/// Of a file of another program, which is looked at before it is imported.
+/// For a file of another program that is not imported yet.
 void put_file(const SequenceSummary& s, std::string& out) {
   if (!s.bytes) return;
   out += fmt::format("size:        {:.1f} MB\n", double(*s.bytes) * 1e-6);
@@ -59,7 +59,7 @@ void put_file(const SequenceSummary& s, std::string& out) {
                      format_quantity(seconds, Quantity::kTime), double(shots - 1) / seconds);
 }
 
-/// A name from a file must not begin a line that looks like ours.
+/// A name from a file must not start a line that resembles ours.
 std::string one_line(const std::string& name) {
   std::string out;
   for (const char c : name) out += c == '\n' ? "\\u000a" : std::string(1, c);

@@ -14,15 +14,16 @@ constexpr std::size_t kApart = 8;  ///< frames over the whole sequence
 constexpr std::size_t kMaxPixels = 40000;
 constexpr std::size_t kMinPixels = 500;
 constexpr std::array<std::size_t, 3> kLags{1, 2, 4};
-constexpr double kStillRange = 5.0;   ///< deviations; eight normal values spread over 2.8
-constexpr double kMinVariance = 0.5;  ///< steps of depth, squared: below it is mostly rounding
+constexpr double kStillRange = 5.0;   ///< standard deviations; eight normal values have a range of
+                                      ///< 2.8
+constexpr double kMinVariance = 0.5;  ///< squared depth steps: below it is mostly rounding
 constexpr double kMaxMiss = 0.12;     ///< of the ratios
-constexpr double kTold = 0.3;         ///< a correlation from which it is said
+constexpr double kTold = 0.3;         ///< minimum correlation for a note
 
-/// The same pixels of all frames that are looked at, frame by frame; empty where one is missing.
+/// The same pixels of all examined frames, frame by frame; empty if one is missing.
 using Samples = std::vector<std::vector<std::uint16_t>>;
 
-/// Frames of the sensor that are there and have no pose of their own.
+/// Existing frames of the sensor without a pose of their own.
 std::vector<std::size_t> usable(const FrameSequence& sequence, std::uint32_t sensor) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
@@ -33,7 +34,7 @@ std::vector<std::size_t> usable(const FrameSequence& sequence, std::uint32_t sen
   return out;
 }
 
-/// kInARow positions from a third on, then kApart over all.
+/// kInARow consecutive positions after the first third, then kApart over the whole sequence.
 std::vector<std::size_t> chosen(const std::vector<std::size_t>& frames) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < kInARow; ++i) out.push_back(frames[frames.size() / 3 + i]);
@@ -50,7 +51,7 @@ Result<Samples> read_samples(const FrameSequence& sequence,
     const auto frame = sequence.read(positions[i]);
     if (!frame) return;
     const auto& pixels = frame->depth.pixels;
-    // An odd step does not keep to the columns.
+    // An odd step does not stay in the same columns.
     const std::size_t step = pixels.size() / kMaxPixels | 1U;
     for (std::size_t p = 0; p < pixels.size(); p += step) samples[i].push_back(pixels[p]);
   });
@@ -64,7 +65,7 @@ bool all_there(const Samples& samples) {
   });
 }
 
-/// Depths of one pixel, in a row and apart; nothing where one is no return.
+/// Depths of one pixel, consecutive and spread; nullopt if one has no return.
 std::optional<std::array<double, kInARow + kApart>> depths_of(const Samples& samples,
                                                               std::size_t pixel) {
   std::array<double, kInARow + kApart> out{};
@@ -94,7 +95,7 @@ double second_differences(const std::array<double, kInARow + kApart>& x, std::si
   return sum / double(kInARow - 2 * lag);
 }
 
-/// The same of noise of variance 1 and correlation r.
+/// The expected value for noise of variance 1 and correlation r.
 double expected_square(double r, std::size_t lag) {
   const double rk = std::pow(r, double(lag));
   return 6.0 - 8.0 * rk + 2.0 * rk * rk;
@@ -106,7 +107,7 @@ double middle(std::vector<double>& values) {
   return *at;
 }
 
-/// The correlation whose ratios of lag 1 to 2 and 1 to 4 are nearest.
+/// The correlation whose ratios of lag 1 to 2 and 1 to 4 are closest.
 std::optional<double> fit(double one_to_two, double one_to_four) {
   double best = 0.0, least = 1e30;
   for (int step = 0; step < 98; ++step) {

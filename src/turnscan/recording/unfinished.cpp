@@ -40,7 +40,7 @@ bool is_unfinished_recording(const fs::path& folder) {
   const auto text = read_file(folder / kDescription, recording_format::kMaxDescriptionBytes);
   if (!text) return false;
   const auto description = recording_format::parse_recording_json(*text);
-  // With a number of frames it was complete before a pass was added: that is not to be removed.
+  // With a number of frames it was complete before a pass was added, and must not be removed.
   return description && !description->complete && !description->frame_count &&
          recording_format::TableLock(folder / "frames.csv").held();
 }

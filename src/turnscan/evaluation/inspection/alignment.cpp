@@ -12,7 +12,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kReach = 0.05;  // of the size of the reference
+constexpr double kReach = 0.05;  // relative to the size of the reference
 
 double rms_to(const MeshDistance& reference, std::span<const Vec3f> points, const Pose& pose) {
   std::vector<double> squares(points.size());

@@ -19,7 +19,7 @@ Result<SurfacePoint> surface_at(const MeasuredSurface& surface, const Vec3d& pla
   return fail(ErrorCode::kTooFewPoints, "measure: the model has no surface there");
 }
 
-/// The vertices that one reaches along edges from a place without leaving the patch.
+/// The vertices reachable along edges from a place without leaving the patch.
 std::vector<Vec3d> patch_of_mesh(const TriangleMesh& mesh, const SurfacePoint& at, double patch_m) {
   const mesh::VertexNeighbours neighbours(mesh);
   std::vector<std::uint8_t> known(mesh.vertices.size(), 0);
@@ -113,7 +113,7 @@ Result<> take_value(MeasurementKind kind, const MeasuredSurface& surface, Measur
   throw std::invalid_argument("measure: a deviation is measured by SignedDistance");
 }
 
-/// In quotes where the format of the table needs it.
+/// Quoted if the table's format requires it.
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";

@@ -12,7 +12,7 @@ namespace turnscan {
 namespace {
 
 /// Within a triangle, from the edge where its outline leaves the half space to the one where it
-/// comes back. Edges are named by their ends, the lower first.
+/// re-enters. Edges are identified by their ends, the lower first.
 struct CutSegment {
   std::uint64_t from = 0, to = 0;
 };
@@ -21,7 +21,7 @@ std::uint64_t edge_name(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t(std::min(a, b)) << 32) | std::max(a, b);
 }
 
-/// Cuts every triangle once, and joins the pieces at the edges that they share.
+/// Cuts every triangle once, and joins the segments at the edges that they share.
 class ContourTracer {
  public:
   ContourTracer(const TriangleMesh& mesh, const HalfSpace& plane) : mesh_(mesh) {
@@ -37,7 +37,8 @@ class ContourTracer {
   }
 
   std::vector<Contour> contours() {
-    // Those that begin at a hole of the mesh first: any other start would leave their beginning.
+    // Starts with those that begin at a hole of the mesh: any other start would omit their
+    // beginning.
     for (std::size_t i = 0; i < segments_.size(); ++i)
       if (!ends_.contains(segments_[i].from)) follow(i);
     for (std::size_t i = 0; i < segments_.size(); ++i) follow(i);
@@ -133,7 +134,7 @@ Result<Section> cross_section(const TriangleMesh& mesh, const HalfSpace& plane) 
   const auto [right, up] = drawing_axes(plane.normal);
   for (const Contour& contour : out.contours) {
     const std::size_t n = contour.points.size();
-    const Vec3d o = contour.points.front();  // near, so that nothing cancels
+    const Vec3d o = contour.points.front();  // nearby, which avoids cancellation
     out.open += contour.closed ? 0 : 1;
     for (std::size_t i = 0; i + (contour.closed ? 0 : 1) < n; ++i) {
       const Vec3d a = contour.points[i], b = contour.points[(i + 1) % n];

@@ -63,7 +63,7 @@ Result<std::string> section_svg(const Section& section) {
     std::string& path = contour.closed ? enclosed : open;
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
       const auto& p = contour.points[i];
-      // Down is positive there.
+      // Positive is downwards there.
       fmt::format_to(std::back_inserter(path), "{}{:.4f} {:.4f} ", i == 0 ? "M" : "L",
                      p.x() - low.x() + kMarginMm, high.y() - p.y() + kMarginMm);
     }

@@ -89,7 +89,7 @@ std::optional<double> wall_thickness(const TriangleMesh& mesh, const SurfacePoin
     const auto c = corners_of(mesh, t);
     const Vec3d n = (c[1] - c[0]).cross(c[2] - c[0]);
     const double toward = n.dot(way);
-    if (!(toward > 0.0)) continue;  // it comes in there, or runs along
+    if (!(toward > 0.0)) continue;  // the ray enters there, or is parallel
     const double s = n.dot(c[0] - at.point) / toward;
     if (!(s > 0.0) || s >= nearest) continue;
     if ((barycentric(c, at.point + s * way).array() >= -kEdge).all()) nearest = s;

@@ -22,7 +22,7 @@ constexpr float kBeyond = std::numeric_limits<float>::infinity();  // stands for
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// Edges run from a sample towards +x, +y, +z, their sums, and the sum of all: 7 directions, coded
-/// as bits x = 1, y = 2, z = 4. Cubes have the first three alone.
+/// as bits x = 1, y = 2, z = 4. Cubes use only the first three.
 constexpr std::size_t kDirections = 7;
 constexpr int kAllDirections[kDirections] = {1, 2, 3, 4, 5, 6, 7}, kAlongAxes[3] = {1, 2, 4};
 constexpr std::size_t kMaskWords = BrickGrid::kBrickSamples * kDirections / 64;
@@ -36,8 +36,8 @@ constexpr Tetrahedron kTetrahedra[6] = {{{0, 1, 3, 7}, false}, {{0, 2, 6, 7}, fa
                                         {{0, 4, 5, 7}, false}, {{0, 1, 5, 7}, true},
                                         {{0, 2, 3, 7}, true},  {{0, 4, 6, 7}, true}};
 
-/// Even permutations of a tetrahedron's corners that put those named by the sign mask first (all
-/// for masks of one corner and of two; masks of three go by their complement).
+/// Even permutations of a tetrahedron's corners that put those of the sign mask first (for masks of
+/// one corner and of two; masks of three use their complement).
 constexpr std::array<int, 4> kOrder[16] = {{},           {0, 1, 2, 3}, {1, 0, 3, 2}, {0, 1, 2, 3},
                                            {2, 0, 1, 3}, {0, 2, 3, 1}, {1, 2, 0, 3}, {3, 0, 2, 1},
                                            {3, 0, 2, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}, {2, 0, 1, 3},
@@ -51,7 +51,7 @@ struct SampleBlock {
   static std::size_t corner(int code) { return at(code & 1, code >> 1 & 1, code >> 2); }
 };
 
-/// One brick that the surface passes through. Bricks count from -1: the layer below the grid.
+/// One brick that the surface crosses. Bricks count from -1: the layer below the grid.
 struct MarchedBrick {
   GridCoords brick{};
   std::array<std::uint64_t, kMaskWords> crossed{};  // bit sample * 7 + direction - 1
@@ -112,7 +112,7 @@ class SurfaceMarcher {
     return piece_grid_.at({b[0] + 1, b[1] + 1, b[2] + 1});
   }
 
-  /// Whether a brick or one above it may have a sign change in or between them.
+  /// Whether a brick may have a sign change inside or towards an upper neighbour.
   bool may_cross(const GridCoords& b) const {
     bool positive = false, negative = false;
     for (int code = 0; code < 8; ++code) {
@@ -125,7 +125,7 @@ class SurfaceMarcher {
       if (grid_.samples(brick) != nullptr) return true;
       (grid_.uniform(brick) < 0.0f ? negative : positive) = true;
     }
-    // A negative brick at the upper end may reach beyond size(), where everything is positive.
+    // A negative brick at the upper end may extend beyond size(), where everything is positive.
     const auto& n = grid_.bricks();
     if (negative && (b[0] == n[0] - 1 || b[1] == n[1] - 1 || b[2] == n[2] - 1)) return true;
     return positive && negative;
@@ -265,7 +265,7 @@ class SurfaceMarcher {
     };
     const int count = std::popcount(mask);
     if (count == 2) {
-      // In this order the quadrilateral turns its front to the positive corners.
+      // In this order the quadrilateral faces the positive corners.
       const std::uint32_t quad[4] = {edge(0, 2), edge(0, 3), edge(1, 3), edge(1, 2)};
       add(piece, {quad[0], quad[1], quad[2]}, t.odd);
       add(piece, {quad[0], quad[2], quad[3]}, t.odd);
@@ -297,7 +297,7 @@ class SurfaceMarcher {
   MarchingCells cells_;
   const RunContext& context_;
   GridIndex piece_grid_;             // bricks from -1 on
-  std::vector<std::int32_t> table_;  // of these: number of the piece, or -1
+  std::vector<std::int32_t> table_;  // for these: index of the piece, or -1
   std::vector<MarchedBrick> pieces_;
   std::atomic<bool> finite_{true};
 };

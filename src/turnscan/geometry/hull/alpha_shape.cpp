@@ -10,7 +10,7 @@ using AlphaCorners = std::array<std::uint32_t, 3>;
 
 struct AlphaSphere {
   Vec3d centre;
-  double squared_radius;  ///< infinite where the points are degenerate
+  double squared_radius;  ///< infinite if the points are degenerate
 };
 
 AlphaSphere no_sphere() { return {Vec3d::Zero(), std::numeric_limits<double>::infinity()}; }
@@ -35,7 +35,7 @@ AlphaSphere circle_through(const Vec3d& a, const Vec3d& b) {
   return {centre, centre.squaredNorm()};
 }
 
-/// A triangle as one of its tetrahedra has it, facing away from it.
+/// A triangle as a face of one of its tetrahedra, facing away from it.
 struct AlphaSide {
   AlphaCorners sorted;
   AlphaCorners outward;
@@ -80,7 +80,7 @@ class AlphaShape {
     }
   }
 
-  /// One triangle with the one or two tetrahedra beside it.
+  /// Adds a triangle with one or two adjacent tetrahedra.
   void add_if_boundary(std::span<const AlphaSide> beside, std::vector<AlphaCorners>& boundary) {
     const auto kept = std::count_if(beside.begin(), beside.end(),
                                     [](const AlphaSide& side) { return side.kept; });

@@ -8,7 +8,7 @@ namespace turnscan {
 
 namespace {
 
-/// What is less than this share of the extent outside a face is taken to lie on it.
+/// Points less than this share of the extent outside a face count as being on it.
 constexpr double kOnFaceShare = 1e-6;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -95,7 +95,8 @@ class Quickhull {
     faces_.push_back(std::move(face));
   }
 
-  /// Gives each point to the first face from `first` on that it is outside of; others are inside.
+  /// Assigns each point to the first face, starting at `first`, that it is outside of; others are
+  /// inside.
   void share_out(const std::vector<std::uint32_t>& points, std::size_t first) {
     for (const std::uint32_t i : points) {
       for (std::size_t f = first; f < faces_.size(); ++f) {

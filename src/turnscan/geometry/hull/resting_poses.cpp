@@ -11,12 +11,12 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kWays = 120;  // places on a ring
+constexpr std::size_t kWays = 120;  // directions on a ring
 constexpr std::array<double, 4> kRings_deg{2.0, 4.0, 8.0, 15.0};
 constexpr double kFinest_rad = 0.002;
-constexpr std::size_t kMaxCandidates = 400;  // the lowest, of what is round
+constexpr std::size_t kMaxCandidates = 400;  // the lowest ones, for round bodies
 
-/// The corners of the hull, from the centre of mass.
+/// The corners of the hull relative to the centre of mass.
 class HullBody {
  public:
   HullBody(const TriangleMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& faces,
@@ -29,16 +29,16 @@ class HullBody {
       corners_.push_back(mesh.vertices[v].cast<double>() - center);
   }
 
-  /// Of the centre of mass above the plane that the body touches in this direction.
+  /// Height of the centre of mass above the plane that the body touches in this direction.
   double height(const Vec3d& down) const {
     double most = 0.0;
     for (const Vec3d& p : corners_) most = std::max(most, down.dot(p));
     return most;
   }
 
-  /// To roll away the body has to pass each ring of tilts about a pose, where that takes least: in
-  /// one direction alone, along a valley, for what rolls. 0 where all rings have a place that takes
-  /// less than `enough`.
+  /// To roll away, the body has to cross each ring of tilts about a pose at its lowest point: along
+  /// a valley in one direction for rolling bodies. 0 if all rings have a point that takes less than
+  /// `enough`.
   double lift(const Vec3d& down, double enough) const {
     double most = 0.0;
     for (const double deg : kRings_deg)
@@ -85,8 +85,8 @@ class HullBody {
   std::vector<Vec3d> corners_;
 };
 
-/// Whether the foot of the perpendicular from the origin lies in the triangle. Borders belong to
-/// it: what is flat consists of several.
+/// Whether the foot of the perpendicular from the origin is in the triangle, including its border,
+/// since flat faces consist of several triangles.
 bool holds_foot(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& normal) {
   const double tolerance = -1e-9;
   return normal.dot(a.cross(b)) >= tolerance * a.norm() * b.norm() &&
@@ -99,7 +99,7 @@ bool holds_foot(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& nor
 Vec3d center_of_mass(const TriangleMesh& mesh) {
   const Vec3d middle = bounds(mesh.vertices).center();
   Vec3d moment = Vec3d::Zero();
-  double volume = 0.0;  // six times
+  double volume = 0.0;  // times six
   for (const auto& t : mesh.triangles) {
     const Vec3d a = mesh.vertices[t[0]].cast<double>() - middle,
                 b = mesh.vertices[t[1]].cast<double>() - middle,

@@ -20,8 +20,8 @@ using mesh::Outline;
 using mesh::previous_in_triangle;
 using mesh::Triangle;
 
-/// Vertices nearer to the plane than this are taken to be this far inside: edges are cut beside
-/// their ends.
+/// Vertices nearer to the plane than this are treated as if at this distance inside: edges are cut
+/// beside their ends.
 constexpr double kNear_m = 1e-6;
 
 class Clipper {
@@ -52,7 +52,7 @@ class Clipper {
   }
   bool inside(std::uint32_t v) const { return height_[v] > 0.0; }
 
-  /// A vertex on each edge that passes through the plane.
+  /// Adds a vertex on each edge that crosses the plane.
   void cut_edges() {
     cut_.assign(3 * in_.triangles.size(), kNone);
     const mesh::EdgeTable edges(in_.triangles, in_.vertices.size());
@@ -104,7 +104,7 @@ class Clipper {
     cuts_.emplace_back(arrive, leave);
   }
 
-  /// The cut edges, each of which has the kept surface to its left, as outlines.
+  /// The cut edges, which have the kept surface to their left, as outlines.
   std::vector<Outline> outlines() const {
     std::vector<std::uint32_t> next(out_.mesh.vertices.size(), kNone);
     for (const auto& [from, to] : cuts_) next[from] = to;
@@ -172,7 +172,8 @@ class Clipper {
   const TriangleMesh& in_;
   const HalfSpace& plane_;
   std::vector<double> height_;      ///< per vertex, above the plane, m; never near 0
-  std::vector<std::uint32_t> cut_;  ///< per half edge: the vertex where it passes through, or kNone
+  std::vector<std::uint32_t> cut_;  ///< per half edge: the vertex where it crosses the plane, or
+                                    ///< kNone
   std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;  ///< edges in the plane
   ClippedMesh out_;
 };

@@ -16,14 +16,15 @@ using mesh::kNone;
 using mesh::next_in_triangle;
 using mesh::previous_in_triangle;
 
-constexpr double kSeedsApart = 0.25;  ///< of the longest loop
-constexpr int kShortenings = 4;       ///< of a loop that was found from a seed beside it
+constexpr double kSeedsApart = 0.25;  ///< relative to the longest loop
+constexpr int kShortenings = 4;       ///< of a loop found from a nearby seed
 constexpr int kMaxPasses = 16;
-constexpr float kRetreat = 0.25f;  ///< of the way to the neighbours: the two sides move apart
+constexpr float kRetreat = 0.25f;  ///< share of the distance to the neighbours by which the two
+                                   ///< sides move apart
 
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// How far along edges a vertex is from the middle of a ball, and the half edge by which it is
+/// Distance of a vertex along edges from the centre of a ball, and the half edge by which it is
 /// reached.
 struct Reached {
   float distance = kFar;
@@ -46,10 +47,10 @@ std::vector<std::uint32_t> opposites(const TriangleMesh& mesh) {
   return out;
 }
 
-/// One round of cuts, of loops that share no vertex.
+/// One round of cuts along loops that share no vertex.
 class HandleCutter {
  public:
-  /// searched: per vertex, 1 where none can be; takes what this round has searched.
+  /// searched: per vertex, 1 if no loop can be near; updated with the results of this round.
   HandleCutter(TriangleMesh& mesh, std::vector<std::uint8_t>& cuttable,
                std::vector<std::uint8_t>& searched, double longest_m)
       : mesh_(mesh),
@@ -66,7 +67,7 @@ class HandleCutter {
     for (std::uint32_t h = 0; h < opposite_.size(); ++h) leaving_[origin(h)] = h;
   }
 
-  /// Returns the number of cuts; at most `most` are made.
+  /// Returns the number of cuts; makes at most `most`.
   Result<std::size_t> run(std::size_t most, const RunContext& context) {
     std::vector<std::uint8_t> visited(free_.size(), 0);
     for (std::uint32_t seed = 0; seed < free_.size(); ++seed)
@@ -94,7 +95,7 @@ class HandleCutter {
   /// The next half edge that leaves the same vertex, counter-clockwise.
   std::uint32_t turned(std::uint32_t h) const { return opposite_[previous_in_triangle(h)]; }
 
-  /// No loop of a patch of free vertices needs a cut where the patch is a disc.
+  /// No loop in a disc-shaped patch of free vertices needs a cut.
   void leave_out_disc(std::uint32_t seed, std::vector<std::uint8_t>& visited) {
     std::vector<std::uint32_t> patch(1, seed);
     visited[seed] = 1;
@@ -114,7 +115,7 @@ class HandleCutter {
     for (const std::uint32_t v : patch) searched_[v] = 1;
   }
 
-  /// Other loops may cross one that is cut, or separate something now.
+  /// Other loops may cross one that was cut, or separate the surface now.
   void search_again_around(const Loop& loop) {
     for (const std::uint32_t h : loop) free_[origin(h)] = cuttable_[origin(h)];
     grow_ball(origin(loop[0]), longest_ + length(loop));
@@ -176,7 +177,7 @@ class HandleCutter {
   }
 
   /// The shortest loop through a vertex, up to a length, that does not separate the surface. Marks
-  /// what lies within `cover` of the vertex.
+  /// the vertices within `cover` of the vertex.
   Loop shortest_loop(std::uint32_t seed, double most, double cover) {
     grow_ball(seed, 0.5 * most);
     for (const std::uint32_t v : ball_)
@@ -189,9 +190,9 @@ class HandleCutter {
     return {};
   }
 
-  /// The edges of the ball that neither its tree nor the longest cotree contains, with the length
-  /// of the way from the middle of the ball along them and back, shortest first. All that is not in
-  /// the ball counts as one face.
+  /// The edges of the ball that are neither in its tree nor in the longest cotree, with the length
+  /// of the path from the centre of the ball along them and back, shortest first. Everything
+  /// outside the ball counts as one face.
   std::vector<std::pair<float, std::uint32_t>> loop_edges() {
     std::vector<std::pair<float, std::uint32_t>> edges, out;
     std::ptrdiff_t twice_edges = 0, thrice_faces = 0;
@@ -218,7 +219,7 @@ class HandleCutter {
     return out;
   }
 
-  /// By its Euler characteristic, of something connected: all loops can be contracted.
+  /// By the Euler characteristic of a connected patch: all loops are contractible.
   static bool is_disc(std::size_t vertices, std::ptrdiff_t twice_edges,
                       std::ptrdiff_t thrice_faces) {
     return std::ptrdiff_t(vertices) - twice_edges / 2 + thrice_faces / 3 == 1;
@@ -232,7 +233,8 @@ class HandleCutter {
     return in_ball(t[0]) && in_ball(t[1]) && in_ball(t[2]) ? h / 3 : outside();
   }
 
-  /// Along the tree to the start of a half edge, along it, and back, without what both ways share.
+  /// Along the tree to the start of a half edge, along it, and back, without the common part of
+  /// both paths.
   Loop close_loop(std::uint32_t h) const {
     const auto way = [&](std::uint32_t v) {
       Loop out;
@@ -250,8 +252,8 @@ class HandleCutter {
     return loop;
   }
 
-  /// Whether no way leads from one side of a loop to the other, along the surface and across no
-  /// loop. Both sides grow in turn, so that it costs no more than the smaller part.
+  /// Whether no path leads from one side of a loop to the other along the surface without crossing
+  /// a loop. Both sides grow in turn, so that the cost is that of the smaller part.
   bool separates(const Loop& loop) {
     for (const std::uint32_t h : loop) ++on_loop_[h], ++on_loop_[opposite_[h]];
     std::vector<std::uint32_t> parts[2];
@@ -279,7 +281,7 @@ class HandleCutter {
     return !meet;
   }
 
-  /// Parts the surface along a loop; what lies to its right gets copies of its vertices.
+  /// Cuts the surface along a loop; the side to its right gets copies of its vertices.
   void cut(const Loop& loop) {
     std::vector<std::uint32_t> left, right;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -314,7 +316,7 @@ class HandleCutter {
     }
   }
 
-  /// A vertex of a cut, towards its neighbours on one side of it. first: the half edge that leaves
+  /// A vertex of a cut, moved towards its neighbours on one side. first: the half edge that leaves
   /// it with that side to its left; last: the one that arrives, likewise.
   Vec3f drawn_back(std::uint32_t first, std::uint32_t last, std::uint32_t v) const {
     Vec3f sum = Vec3f::Zero();
@@ -327,7 +329,7 @@ class HandleCutter {
     return count > 0.0f ? Vec3f(p + kRetreat * (sum / count - p)) : p;
   }
 
-  /// A fan over a cut's vertices, which run along its surface's border, or against it.
+  /// Adds a fan over a cut's vertices, which run along its surface's border, or against it.
   void close(const std::vector<std::uint32_t>& rim, bool along) {
     const std::uint32_t middle = mesh::add_mean_vertex(mesh_, rim);
     cuttable_.push_back(1);
@@ -341,7 +343,7 @@ class HandleCutter {
 
   TriangleMesh& mesh_;
   std::vector<std::uint8_t>& cuttable_;
-  std::vector<std::uint8_t> free_;  ///< cuttable, and on no loop yet
+  std::vector<std::uint8_t> free_;  ///< cuttable, and not on a loop yet
   double longest_;
   std::vector<std::uint32_t> opposite_;
   std::vector<std::uint8_t> on_loop_;    ///< per half edge
@@ -349,12 +351,12 @@ class HandleCutter {
   std::vector<std::uint8_t>& searched_;  ///< no loop is near
   std::vector<Reached> reached_;         ///< in the ball
   std::vector<std::uint32_t> ball_;
-  DisjointSets faces_;              ///< triangles and the outside, as the cotree joins them
-  std::vector<std::uint8_t> side_;  ///< per triangle, while a loop is tried
+  DisjointSets faces_;              ///< triangles and the outside, as joined by the cotree
+  std::vector<std::uint8_t> side_;  ///< per triangle, while a loop is tested
   std::vector<Loop> loops_;
 };
 
-/// Of a closed, 2-manifold surface in one piece whose vertices are all named.
+/// Of a closed, 2-manifold, connected surface without unreferenced vertices.
 std::size_t genus(const TriangleMesh& mesh) {
   const auto euler =
       std::ptrdiff_t(mesh.vertices.size()) - std::ptrdiff_t(mesh.triangles.size() / 2);

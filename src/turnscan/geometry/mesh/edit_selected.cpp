@@ -26,7 +26,7 @@ TriangleMesh untextured(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Of a mesh with a texture, that of the triangles that stay.
+/// The texture of the remaining triangles, if the mesh has one.
 std::shared_ptr<const MeshTexture> texture_of_rest(const TriangleMesh& mesh,
                                                    const Selection& dropped) {
   if (!has_texture(mesh)) return nullptr;
@@ -37,8 +37,8 @@ std::shared_ptr<const MeshTexture> texture_of_rest(const TriangleMesh& mesh,
   return out;
 }
 
-/// Deleting leaves surfaces that touch at a vertex: cut apart there, each has holes of its own. The
-/// triangles stay in their order, or the mesh as it is.
+/// Deletion leaves surfaces that touch at a vertex: separated there, each has holes of its own. The
+/// order of the triangles is preserved; otherwise the mesh is returned unchanged.
 Result<TriangleMesh> cut_where_touching(const TriangleMesh& mesh) {
   TriangleMesh plain = untextured(mesh);
   if (check_mesh(plain).manifold) return plain;
@@ -65,11 +65,11 @@ Result<HolesFilled> fill_selected_holes(const TriangleMesh& mesh, const Selectio
   TURNSCAN_ASSIGN(const TriangleMesh apart, cut_where_touching(mesh));
   TURNSCAN_ASSIGN(FilledMesh made, fill_holes(apart, {}, context));
   if (selection.empty()) return HolesFilled{std::move(made.mesh), made.holes};
-  // A patch is what hangs together by edges; it stays when one of its edges is a selected
-  // triangle's. fill_holes() keeps the triangles that there were, in front.
+  // A patch is an edge-connected component; it is kept if one of its edges belongs to a selected
+  // triangle. fill_holes() keeps the original triangles at the front.
   const auto count = std::uint32_t(made.mesh.triangles.size());
   DisjointSets patches(count);
-  std::vector<std::array<std::uint32_t, 2>> rims;  // of the patch, and of the mesh around it
+  std::vector<std::array<std::uint32_t, 2>> rims;  // of the patch, and of the surrounding mesh
   const mesh::EdgeTable edges(made.mesh.triangles, made.mesh.vertices.size());
   for (std::size_t e = 0; e < edges.edge_count(); ++e) {
     const auto half_edges = edges.half_edges(e);
@@ -119,7 +119,7 @@ Result<TriangleMesh> smooth_selected(const TriangleMesh& mesh, const Selection& 
   TURNSCAN_ASSIGN(const TriangleMesh part,
                   low_pass(mesh::extract(mesh, triangles), wavelength_m, context));
   TriangleMesh out = mesh;
-  // The part has its vertices in the order of the mesh.
+  // The vertices of the part are in the order of the mesh.
   for (std::size_t v = 0, next = 0; v < used.size(); ++v)
     if (used[v] != 0) out.vertices[v] = part.vertices[next++];
   if (!out.normals.empty()) out.normals = vertex_normals(out);

@@ -17,7 +17,7 @@ using mesh::next_in_triangle;
 using mesh::origin;
 using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// What filling needs to know about the border of a mesh.
+/// Border of a mesh as required for filling.
 struct Border {
   std::vector<std::vector<std::uint32_t>> loops;  ///< vertices, in the direction of the patches
   std::vector<VertexPair> edges;  ///< (smaller, larger) with both ends on a border, sorted
@@ -32,7 +32,7 @@ std::uint32_t target(const TriangleMesh& mesh, std::uint32_t h) {
   return origin(mesh, next_in_triangle(h));
 }
 
-/// In a manifold each border vertex is left by one open half edge, so that loops are simple.
+/// In a manifold one open half edge leaves each border vertex, so that loops are simple.
 std::vector<std::vector<std::uint32_t>> trace_loops(const TriangleMesh& mesh,
                                                     const EdgeTable& edges) {
   std::vector<std::uint32_t> leaving(mesh.vertices.size(), kNone);
@@ -54,7 +54,8 @@ std::vector<std::vector<std::uint32_t>> trace_loops(const TriangleMesh& mesh,
       loop.push_back(v);
       v = target(mesh, h);
     }
-    std::reverse(loop.begin(), loop.end());  // the patch runs along its edges the other way
+    std::reverse(loop.begin(), loop.end());  // the patch traverses its edges in the opposite
+                                             // direction
     loops.push_back(std::move(loop));
   }
   return loops;
@@ -117,7 +118,7 @@ void add_patch(TriangleMesh& mesh, const std::vector<std::uint32_t>& loop, const
   }
 }
 
-/// Pieces that enclose next to nothing: two sheets face to face.
+/// Drops pieces with hardly any volume: two sheets face to face.
 Result<TriangleMesh> drop_flat_pieces(const TriangleMesh& mesh) {
   TURNSCAN_ASSIGN(std::vector<TriangleMesh> pieces, split_components(mesh));
   std::erase_if(pieces, [](const TriangleMesh& piece) {

@@ -9,8 +9,7 @@ constexpr double kMaxTriangles = 300000.0;
 constexpr int kMaxInsertionRounds = 40;
 constexpr int kMaxFlipPasses = 12;
 
-/// Triangles that know their neighbours: twin[h] is the half edge on the other side, kNone along
-/// the loop.
+/// Triangles with adjacency: twin[h] is the half edge on the other side, kNone along the loop.
 class PatchRefiner {
  public:
   PatchRefiner(HolePatch& patch, std::vector<double> scale, const EdgeTaken& taken)
@@ -70,7 +69,7 @@ class PatchRefiner {
     for (double& s : scale_) s *= larger;
   }
 
-  /// Splits triangles whose middle is far from their corners, measured by the wanted edge length
+  /// Splits triangles whose centre is far from their corners, relative to the desired edge length
   /// there (Liepa 2003, section 4, with alpha = sqrt 2).
   bool insert_points() {
     bool any = false;
@@ -124,7 +123,7 @@ class PatchRefiner {
     }
   }
 
-  /// cot of the angle of h's triangle that lies opposite to h.
+  /// Cotangent of the angle of h's triangle opposite to h.
   double opposite_cotangent(std::uint32_t h) const {
     const Vec3d& o = point(previous_in_triangle(h));
     const Vec3d u = point(h) - o, v = point(next_in_triangle(h)) - o;

@@ -10,7 +10,7 @@ constexpr std::uint32_t kLargestExact = 200;  // cubic time, quadratic memory
 constexpr double kInwardPenalty = 100.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Area; short edges decide between triangulations of the same area.
+/// Area; short edges decide between triangulations of equal area.
 double cost(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const double lengths = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
   return 0.5 * (b - a).cross(c - a).norm() + 1e-3 * lengths;
@@ -26,7 +26,7 @@ class ExactTriangulation {
     middle_.assign(n_ * n_, 0);
   }
 
-  /// False when every triangulation needs an edge that is taken.
+  /// False if every triangulation needs an edge that is taken.
   bool run(std::vector<Triangle>& triangles) {
     for (std::size_t span = 2; span < n_; ++span) {
       for (std::size_t i = 0; i + span < n_; ++i) fill_entry(i, i + span);
@@ -71,7 +71,7 @@ class ExactTriangulation {
   std::vector<std::uint16_t> middle_;
 };
 
-/// Cuts off the cheapest corners of a polygon until it is small enough for the exact way.
+/// Cuts off the cheapest corners of a polygon until it is small enough for the exact method.
 class CornerCutter {
  public:
   CornerCutter(const std::vector<Vec3d>& points, const EdgeTaken& taken)
@@ -118,7 +118,8 @@ class CornerCutter {
   struct Corner {
     double cost;
     std::uint32_t at, version;
-    bool operator<(const Corner& o) const {  // the queue's top is the cheapest, then lowest
+    bool operator<(const Corner& o) const {  // the top of the queue is the cheapest, then the
+                                             // lowest
       return cost > o.cost || (cost == o.cost && at > o.at);
     }
   };
@@ -127,7 +128,7 @@ class CornerCutter {
     ++version_[i];
     const std::uint32_t a = previous_[i], b = next_[i];
     if (taken_(a, b)) return;
-    // A corner that bends the wrong way lies outside a flat hole.
+    // A corner that bends the wrong way is outside a flat hole.
     const Vec3d normal = (points_[i] - points_[a]).cross(points_[b] - points_[i]);
     const double factor = normal.dot(facing_) > 0.0 ? 1.0 : kInwardPenalty;
     corners_.push({factor * (points_[b] - points_[a]).squaredNorm(), i, version_[i]});
@@ -159,7 +160,7 @@ HolePatch triangulate_loop(std::vector<Vec3d> loop, const EdgeTaken& taken) {
   patch.loop_size = std::uint32_t(loop.size());
   patch.points = std::move(loop);
   const std::vector<std::uint32_t> polygon = CornerCutter(patch.points, taken).run(patch.triangles);
-  // So many taken edges that no corner can be cut: the rest may still be large.
+  // There are so many taken edges that no corner can be cut: the rest may still be large.
   const bool small = polygon.size() <= kLargestExact;
   if (!small || !ExactTriangulation(patch.points, polygon, taken).run(patch.triangles)) {
     fan_around_mean(patch, polygon);

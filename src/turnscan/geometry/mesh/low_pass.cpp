@@ -11,15 +11,15 @@
 namespace turnscan {
 namespace {
 
-/// Of the right side's norm.
+/// Relative to the norm of the right side.
 constexpr double kTolerance = 1e-3;
 constexpr int kMaxIterations = 20000;
-/// Edges shorter than this share of the mean count as this long.
+/// Edges shorter than this share of the mean are treated as this long.
 constexpr double kShortestEdge = 0.5;
 
 using Rows = std::vector<Vec3d>;
 
-/// Edges of one triangle: their ends stay.
+/// The ends of boundary edges, which are fixed.
 std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
   std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
   const mesh::EdgeTable edges(mesh.triangles, mesh.vertices.size());
@@ -33,8 +33,8 @@ std::vector<std::uint8_t> boundary_vertices(const TriangleMesh& mesh) {
 }
 
 /// (D + L C D^-1 L) u = -L C D^-1 L x, where D holds the number of neighbours, L = D minus the
-/// adjacency, x the places and u how far they move. On an even mesh of edges e L / D takes a wave
-/// of length w to (pi e / w)^2 of itself, so C is the inverse square of that.
+/// adjacency, x the positions and u their displacements. On an even mesh with edges e, L / D scales
+/// a wave of length w by (pi e / w)^2, so C is the inverse square of that.
 class LowPass {
  public:
   LowPass(const TriangleMesh& mesh, double wavelength_m)
@@ -54,7 +54,7 @@ class LowPass {
         return fail(ErrorCode::kLibrary, "smooth: no solution was found; choose a shorter length");
       const Rows image = apply(direction);
       const Vec3d along = dot(direction, image);
-      // The three coordinates are solved side by side; one may be done before the others.
+      // The three coordinates are solved in parallel; one may converge before the others.
       const Vec3d step = ratio(product, along);
       parallel_for(size(), 4096, [&](std::size_t v) {
         moved[v] += step.cwiseProduct(direction[v]);
@@ -111,7 +111,7 @@ class LowPass {
     });
   }
 
-  /// L rows, with the sum over neighbours of what `value` gives.
+  /// L rows, with the sum of `value` over the neighbours.
   template <class Value>
   Vec3d laplacian(std::size_t v, const Value& value) const {
     Vec3d sum = double(around(v).size()) * value(v);
@@ -155,7 +155,7 @@ class LowPass {
     return out;
   }
 
-  /// In the order of the vertices, so that the sums are the same for any number of threads.
+  /// In the order of the vertices, so that the sums do not depend on the number of threads.
   static Vec3d dot(const Rows& a, const Rows& b) {
     Vec3d sum = Vec3d::Zero();
     for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].cwiseProduct(b[v]);

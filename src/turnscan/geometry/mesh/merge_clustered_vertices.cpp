@@ -66,7 +66,7 @@ class EdgeCollapser {
     last_[v] = h;
   }
 
-  /// Corners of the living triangles at v.
+  /// Corners of the remaining triangles at v.
   bool corners(std::uint32_t v, std::vector<std::uint32_t>& out) const {
     out.clear();
     for (std::uint32_t h = first_[v]; h != kNone; h = next_[h]) {
@@ -75,7 +75,7 @@ class EdgeCollapser {
     return out.size() <= kMaxAround;
   }
 
-  /// In a closed 2-manifold every neighbour follows v in one triangle.
+  /// In a closed 2-manifold every neighbour follows v in exactly one triangle.
   void ring(const std::vector<std::uint32_t>& at, std::vector<std::uint32_t>& out) const {
     out.clear();
     for (const std::uint32_t h : at) out.push_back(t_[h / 3][(h % 3 + 1) % 3]);
@@ -97,7 +97,7 @@ class EdgeCollapser {
     return mean;
   }
 
-  /// Whether no triangle at v turns too far when v moves; those that have `gone` vanish.
+  /// Whether no triangle at v rotates too far if v moves; those that contain `gone` vanish.
   bool keeps_facing(const std::vector<std::uint32_t>& at, std::uint32_t gone,
                     const Vec3f& to) const {
     return std::all_of(at.begin(), at.end(), [&](std::uint32_t h) {
@@ -141,7 +141,7 @@ class EdgeCollapser {
   std::vector<std::array<std::uint32_t, 3>> t_;
   std::optional<float> flat_;
   std::vector<std::array<int, 3>> sample_;
-  std::vector<std::uint32_t> count_;                // vertices that became this one
+  std::vector<std::uint32_t> count_;                // number of vertices merged into this one
   std::vector<std::uint32_t> first_, last_, next_;  // corners at a vertex, as lists
   std::vector<std::uint32_t> at_a_, at_b_, ring_a_, ring_b_, common_;
 };

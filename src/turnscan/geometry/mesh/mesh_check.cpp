@@ -110,7 +110,7 @@ class MeshChecker {
         anchors_.push_back(corner(t, 0));
       }
       piece_[t] = piece;
-      const Vec3d& o = anchors_[piece];  // near the piece: far from the origin nothing cancels
+      const Vec3d& o = anchors_[piece];  // near the piece: avoids cancellation far from the origin
       volumes_[piece] += (corner(t, 0) - o).dot((corner(t, 1) - o).cross(corner(t, 2) - o)) / 6.0;
     }
     report_.components = int(volumes_.size());
@@ -145,7 +145,7 @@ class MeshChecker {
 
   const TriangleMesh& mesh_;
   MeshReport report_;
-  std::vector<std::uint8_t> use_;  // per triangle: takes part in edges
+  std::vector<std::uint8_t> use_;  // per triangle: used for edges
   std::vector<std::uint32_t> piece_;
   std::vector<double> volumes_;
   std::vector<Vec3d> anchors_;  // a vertex of each piece

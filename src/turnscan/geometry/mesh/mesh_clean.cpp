@@ -23,7 +23,7 @@ std::uint64_t hash_of(const Vec3f& p) {
   return mix64(mix64(bits(p.x()) << 32 | bits(p.y())) ^ bits(p.z()));
 }
 
-/// For each vertex the first one at the same place (-0 is 0), by an open hash table.
+/// For each vertex the first one at the same position (-0 equals 0), by an open hash table.
 std::vector<std::uint32_t> first_at_same_place(const std::vector<Vec3f>& points) {
   constexpr std::uint32_t kFree = ~0u;
   const std::size_t capacity = std::bit_ceil(2 * points.size() + 2);
@@ -39,8 +39,7 @@ std::vector<std::uint32_t> first_at_same_place(const std::vector<Vec3f>& points)
   return first;
 }
 
-/// Joins the chains of vertices within a distance of each other; `first` is idempotent and stays
-/// so.
+/// Joins chains of vertices within a distance of each other; `first` is idempotent and stays so.
 void join_near(const std::vector<Vec3f>& points, double distance_m,
                std::vector<std::uint32_t>& first) {
   std::vector<Vec3f> distinct;
@@ -175,7 +174,7 @@ std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
       const Vec3d at = mesh.vertices[v[c]].cast<double>();
       const Vec3d u = mesh.vertices[v[(c + 1) % 3]].cast<double>() - at;
       const Vec3d w = mesh.vertices[v[(c + 2) % 3]].cast<double>() - at;
-      // A weight: seven digits are enough, and cost a third.
+      // A weight: seven digits suffice, at a third of the cost.
       shares[t].angle[c] = double(std::atan2(float(u.cross(w).norm()), float(u.dot(w))));
     }
   });

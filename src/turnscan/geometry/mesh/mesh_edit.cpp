@@ -6,7 +6,8 @@ namespace turnscan::mesh {
 
 namespace {
 
-/// Gives the vertices that triangles use numbers from 0, in their order; take(v) for each of them.
+/// Renumbers the vertices that triangles use from 0, in their order; calls take(v) for each of
+/// them.
 template <class Triangles, class Take>
 void number_used(Triangles& triangles, std::size_t vertices, const Take& take) {
   std::vector<std::uint32_t> place(vertices, 0);
@@ -92,7 +93,7 @@ TriangleMesh extract(const TriangleMesh& mesh, std::span<const std::uint32_t> tr
     if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[v]);
     if (!mesh.colors.empty()) part.colors.push_back(mesh.colors[v]);
   };
-  // A table of all vertices is quicker than sorting, but not for each of many crumbs.
+  // A table of all vertices is faster than sorting, but not for each of many crumbs.
   if (triangles.size() >= mesh.vertices.size() / 16) {
     number_used(part.triangles, mesh.vertices.size(), take);
     return part;

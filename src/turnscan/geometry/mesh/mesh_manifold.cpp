@@ -1,4 +1,4 @@
-// Orientation by flood, and cutting a surface apart where it is not a 2-manifold.
+// Orientation by flood fill, and cutting a surface apart where it is not a 2-manifold.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ void turn(TriangleMesh& mesh, std::size_t t) {
   std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
 }
 
-/// Per half edge the other one of a two-triangle edge, kNone elsewhere.
+/// Per half edge its partner on a two-triangle edge, kNone elsewhere.
 std::vector<std::uint32_t> partners(const TriangleMesh& mesh) {
   const EdgeTable edges(mesh.triangles, mesh.vertices.size());
   std::vector<std::uint32_t> partner(3 * mesh.triangles.size(), kNone);
@@ -38,8 +38,8 @@ std::vector<std::uint32_t> partners(const TriangleMesh& mesh) {
   return partner;
 }
 
-/// Piece of each triangle under two-triangle edges; `turned` says which triangles to turn so that
-/// all agree with the piece's first.
+/// Piece of each triangle, connected by two-triangle edges; `turned` marks the triangles to be
+/// flipped so that all agree with the piece's first.
 std::size_t flood_orientation(const TriangleMesh& mesh, std::vector<std::uint32_t>& piece,
                               std::vector<std::uint8_t>& turned) {
   const std::vector<std::uint32_t> partner = partners(mesh);
@@ -70,7 +70,7 @@ class ManifoldCutter {
  public:
   explicit ManifoldCutter(TriangleMesh& mesh) : mesh_(mesh) {}
 
-  /// One round; true when nothing had to be done.
+  /// One round; true if there was nothing to do.
   bool round() {
     glue();
     const bool split = separate_fans();
@@ -96,7 +96,7 @@ class ManifoldCutter {
 
   Vec3d position(std::uint32_t v) const { return mesh_.vertices[v].cast<double>(); }
 
-  /// Unit vector in the triangle of h, away from h and at right angles to it.
+  /// Unit vector in the triangle of h, away from h and perpendicular to it.
   Vec3d into_triangle(std::uint32_t h) const {
     const Vec3d a = position(origin(mesh_, h)), b = position(origin(mesh_, next_in_triangle(h)));
     const Vec3d c = position(origin(mesh_, previous_in_triangle(h)));
@@ -104,7 +104,7 @@ class ManifoldCutter {
     return (c - a - along * along.dot(c - a)).normalized();
   }
 
-  /// Decides which half edges stay together: of each edge the opposite pairs that continue each
+  /// Decides which half edges stay together: for each edge the opposite pairs that continue each
   /// other most smoothly.
   void glue() {
     const EdgeTable edges(mesh_.triangles, mesh_.vertices.size());
@@ -133,7 +133,7 @@ class ManifoldCutter {
         return std::tie(bend, g, h) < std::tie(o.bend, o.g, o.h);
       }
     };
-    // So many triangles on one edge are no surface; pairing them all would take forever.
+    // With more triangles on one edge it is not a surface; pairing them all would take too long.
     constexpr std::size_t kMaxCompared = 64;
     if (around.size() > kMaxCompared) around = around.first(kMaxCompared);
     std::vector<Pair> pairs;
@@ -178,9 +178,9 @@ class ManifoldCutter {
     return split;
   }
 
-  /// Two glued pairs (or open half edges) can still run between the same two vertices. All but the
-  /// first are split at their middle, which makes their edges distinct. A triangle takes part in
-  /// one split a round.
+  /// Two glued pairs (or open half edges) may still connect the same two vertices. All but the
+  /// first are split at their middle, which makes their edges distinct. A triangle is split at most
+  /// once per round.
   bool split_crowded_edges() {
     const EdgeTable edges(mesh_.triangles, mesh_.vertices.size());
     std::vector<std::uint8_t> busy(mesh_.triangles.size(), 0);
@@ -273,7 +273,7 @@ Result<TriangleMesh> make_manifold(const TriangleMesh& mesh) {
   for (int round = 0;; ++round) {
     ManifoldCutter cutter(cut);
     if (cutter.round()) break;
-    // Triangles stacked on each other many times over can need many rounds; they end here.
+    // Triangles stacked many times over may need too many rounds; these end here.
     if (round >= kMaxCutRounds) cutter.drop_at_crowded_edges();
   }
   mesh::compact_vertices(cut);

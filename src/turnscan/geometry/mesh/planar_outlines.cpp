@@ -25,7 +25,7 @@ class Geos {
   Geos& operator=(const Geos&) = delete;
   ~Geos() { GEOS_finish_r(context_); }
 
-  /// nullptr when the library cannot.
+  /// nullptr if the library fails.
   Geometry own(GEOSGeometry* g) const { return {g, Delete{context_}}; }
 
   Geometry closed_line(std::span<const Eigen::Vector2d> points, const Outline& outline) const {
@@ -39,7 +39,7 @@ class Geos {
     return own(GEOSGeom_createLineString_r(context_, places));
   }
 
-  /// What the lines enclose.
+  /// The area that the lines enclose.
   Geometry area(std::vector<Geometry> lines) const {
     std::vector<GEOSGeometry*> parts;
     for (Geometry& line : lines) {
@@ -56,7 +56,7 @@ class Geos {
                                : GEOSConstrainedDelaunayTriangulation_r(context_, area.get()));
   }
 
-  /// The corners of each triangle of a triangulation; no more once a part is none.
+  /// The corners of each triangle of a triangulation; stops at a part that is not a triangle.
   std::vector<std::array<Eigen::Vector2d, 3>> corners(const Geometry& triangles) const {
     std::vector<std::array<Eigen::Vector2d, 3>> out;
     const int count = triangles == nullptr ? 0 : GEOSGetNumGeometries_r(context_, triangles.get());
@@ -80,7 +80,7 @@ class Geos {
   GEOSContextHandle_t context_;
 };
 
-/// The outlines' points, to be found by their exact place.
+/// The outlines' points, indexed by their exact position.
 class PlaceTable {
  public:
   PlaceTable(std::span<const Eigen::Vector2d> points, std::span<const Outline> outlines) {
@@ -88,7 +88,7 @@ class PlaceTable {
       for (const std::uint32_t v : outline) table_.emplace_back(key(points[v]), v);
     std::sort(table_.begin(), table_.end());
   }
-  /// kNone where there is none.
+  /// kNone if there is no such point.
   std::uint32_t at(const Eigen::Vector2d& place) const {
     const auto found =
         std::lower_bound(table_.begin(), table_.end(), std::pair(key(place), std::uint32_t(0)));
@@ -101,8 +101,8 @@ class PlaceTable {
   std::vector<std::pair<Key, std::uint32_t>> table_;
 };
 
-/// Whether the triangles' edges are those of the outlines, each once and in the other direction,
-/// and others that two triangles share.
+/// Whether the triangles' edges are those of the outlines, each once and in the opposite direction,
+/// and edges that two triangles share.
 bool spans(const std::vector<Triangle>& triangles, std::span<const Outline> outlines) {
   std::vector<DirectedEdge> wanted, found;
   for (const Outline& outline : outlines) {

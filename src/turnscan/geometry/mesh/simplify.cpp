@@ -34,8 +34,8 @@ TriangleMesh collapse(const TriangleMesh& mesh, const std::vector<std::uint8_t>&
   return out;
 }
 
-/// Collapses do not look whether edges fold together: parts the surface there and closes the cuts.
-/// Nothing when that does not give as many pieces as there were.
+/// Collapses do not check whether edges fold together: cuts the surface there and closes the cuts.
+/// nullopt if that does not give the original number of pieces.
 Result<TriangleMesh> mend(const TriangleMesh& mesh, std::size_t pieces) {
   FillHolesOptions options;
   options.refine = false;
@@ -71,7 +71,7 @@ Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal
     TriangleMesh out = collapse(mesh, goal.keep, target, error);
     if (!out.empty() && (!watertight || check_mesh(out).watertight())) return out;
     if (auto mended = mend(out, pieces); mended) return *mended;
-    // Collapses are made in order of error: fewer of them end before the one that did harm.
+    // Collapses are made in order of error: fewer of them stop before the harmful one.
     target = std::max(target, out.triangles.size());
     target += (n - target) / 2;
   }

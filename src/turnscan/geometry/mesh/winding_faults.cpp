@@ -6,14 +6,14 @@ namespace turnscan {
 
 namespace {
 
-/// Rays pass between vertices that lie on a regular grid.
+/// Offsets by which rays pass between vertices on a regular grid.
 constexpr double kOffsetX = 0.31830988618, kOffsetZ = 0.36787944117;
 
 struct RayHit {
   std::int64_t ray;
   double y;
   std::uint32_t triangle;
-  int turn;  ///< of the winding number as the ray goes up
+  int turn;  ///< change of the winding number as the ray goes upwards
 
   bool operator<(const RayHit& other) const {
     if (ray != other.ray) return ray < other.ray;
@@ -22,8 +22,8 @@ struct RayHit {
   }
 };
 
-/// Twice the area of a, b and the ray, seen along y; the same to the last bit, but for its sign,
-/// for both triangles at an edge.
+/// Twice the area of a, b and the ray, seen along y; identical to the last bit, except for its
+/// sign, for both triangles at an edge.
 double turned_area(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double x, double z) {
   if (a > b) return -turned_area(mesh, b, a, x, z);
   const Vec3d p = mesh.vertices[a].cast<double>(), q = mesh.vertices[b].cast<double>();

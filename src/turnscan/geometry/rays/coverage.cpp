@@ -36,8 +36,8 @@ std::vector<std::uint32_t> order_in_space(std::span<const Vec3f> points) {
   return order;
 }
 
-/// Order of views in which neighbours lie far apart (golden ratio steps): a point that is seen at
-/// all has soon been seen enough.
+/// Order of views in which neighbours are far apart (golden ratio steps), so that a visible point
+/// soon has enough views.
 std::vector<std::size_t> scattered(std::size_t n) {
   std::size_t step = std::max<std::size_t>(1, std::size_t(0.6180339887498949 * double(n)));
   while (std::gcd(step, n) != 1) ++step;
@@ -79,7 +79,7 @@ class ViewCounter {
         options_(options),
         least_cosine_(std::cos(options.max_incidence_rad)) {}
 
-  /// Counts the views of up to kGroup points that lie near each other.
+  /// Counts the views of up to kGroup neighbouring points.
   void count(std::span<const std::uint32_t> group, std::span<std::uint32_t> counts) const {
     std::array<Ray, kGroup> rays;
     std::array<std::uint32_t, kGroup> who{};
@@ -101,7 +101,7 @@ class ViewCounter {
  private:
   bool done(std::uint32_t count) const { return options_.enough > 0 && count >= options_.enough; }
 
-  /// Whether nothing but an occluder can keep the view from seeing the point; ray: towards it.
+  /// Whether only an occluder can prevent the view from seeing the point; ray: towards it.
   bool faces(const TableView& view, std::uint32_t i, Ray& ray) const {
     const Vec3d p = points_[i].cast<double>(), normal = normals_[i].cast<double>();
     const Vec3d to_sensor = view.viewpoint.direction_from(p);

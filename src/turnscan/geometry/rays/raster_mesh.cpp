@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kCellBits = 10;  // along each axis: cells of a thousandth
 
-/// Position along a Hilbert curve of kCellBits: unlike Morton's it never jumps, so that what
-/// follows each other along it is compact (Skilling 2004, Programming the Hilbert curve).
+/// Position along a Hilbert curve of kCellBits: unlike Morton's it has no jumps, so that
+/// consecutive elements are compact (Skilling 2004, Programming the Hilbert curve).
 std::uint32_t hilbert_code(std::array<std::uint32_t, 3> x) {
   constexpr std::uint32_t kTop = 1u << (kCellBits - 1);
   for (std::uint32_t bit = kTop; bit > 1; bit >>= 1) {
@@ -60,7 +60,7 @@ struct Bounds {
   }
 };
 
-/// Blocks of kLanes boxes, as GroupBoxes has them.
+/// Blocks of kLanes boxes, in the layout of GroupBoxes.
 std::vector<float> blocks_of(const std::vector<Bounds>& boxes) {
   constexpr std::size_t kWidth = kLanes;
   std::vector<float> blocks((boxes.size() + kWidth - 1) / kWidth * kWidth * 6);
@@ -109,7 +109,7 @@ std::vector<Place> places_of(const std::vector<ObjectView>& objects) {
       for (std::size_t k = 0; k < 3; ++k) {
         const float middle = (a[k] + b[k] + c[k]) * (1.0f / 3.0f);
         const float place = (middle - all.low[k]) * cells[k];
-        // Coordinates near the ends of float overflow here: they go to the first cell.
+        // Coordinates near the limits of float overflow here: they are assigned to the first cell.
         cell[k] = place > 0.0f ? static_cast<std::uint32_t>(std::min(place, kCells)) : 0;
       }
       places.push_back({hilbert_code(cell), {o, t}});
@@ -118,7 +118,7 @@ std::vector<Place> places_of(const std::vector<ObjectView>& objects) {
   return places;
 }
 
-/// By code, and where that is the same in the order given.
+/// By code; equal codes keep the given order.
 void sort_places(std::vector<Place>& places) {
   constexpr int kDigit = 10;
   constexpr std::size_t kValues = std::size_t{1} << kDigit;

@@ -25,7 +25,7 @@ Result<> check_mesh_indices(const TriangleMesh& mesh, std::size_t object) {
   return {};
 }
 
-/// Lanes without a ray get the first one: where 16 lanes are emulated, Embree looks at them too.
+/// Lanes without a ray get the first one: where 16 lanes are emulated, Embree processes them, too.
 template <class Packet>
 void load(Packet& packet, std::span<const Ray> rays) {
   for (std::size_t i = 0; i < kPacket; ++i) {
@@ -162,8 +162,9 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
     for (const auto& t : objects[i].triangles)
       for (const std::uint32_t v : t) impl->object_box.add(objects[i].vertices[v].cast<double>());
   }
-  // One thread: the tree, and with it who wins where two triangles tie, never depends on how many
-  // there are. Not by the device's setting: that would hold for all of the process.
+  // Single-threaded: the tree, and thus the winner if two triangles tie, must not depend on the
+  // number of threads. The device's setting is not used because it would apply to the whole
+  // process.
   run_on_this_thread([&] { rtcCommitScene(impl->scene.get()); });
   const RTCError error = rtcGetDeviceError(impl->device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY)

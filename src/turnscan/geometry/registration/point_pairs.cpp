@@ -30,7 +30,7 @@ Result<> check_spread(const Eigen::Matrix3Xd& points, double min_spread_m) {
     return fail(ErrorCode::kInvalidOption, "point pairs: a point is not finite");
   const Eigen::Matrix3d scatter = points * points.transpose() / double(points.cols());
   const Vec3d spread = scatter.jacobiSvd().singularValues().cwiseSqrt();
-  // Written so that points in one place fail without a limit, too.
+  // Written such that coincident points fail even without a limit.
   if (!(spread[0] > min_spread_m))
     return fail(ErrorCode::kTooFewPoints,
                 "point pairs: the points lie too near to each other; choose places farther apart");

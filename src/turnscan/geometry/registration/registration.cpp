@@ -14,7 +14,7 @@ namespace turnscan {
 namespace {
 
 constexpr std::size_t kMinPairs = 6;
-constexpr double kHeldEigenvalue = 1e-3;  // of the largest
+constexpr double kHeldEigenvalue = 1e-3;  // relative to the largest
 
 struct Pair {
   Vec3d p, normal;  // target frame

@@ -34,7 +34,7 @@ Vec3d closest_point_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, 
   const Vec3d cp = p - c;
   const double d5 = ab.dot(cp), d6 = ac.dot(cp);
   if (d6 >= 0.0 && d5 <= d6) return c;
-  // Slivers leave no digits for the region test between edges and face.
+  // For slivers the region test between edges and face has no precision left.
   const double normal2 = ab.cross(ac).squaredNorm();
   if (!(normal2 > 1e-12 * ab.squaredNorm() * ac.squaredNorm())) {
     return closest_point_on_edges(p, a, b, c);
@@ -75,8 +75,8 @@ struct Corners {
   Vec3f a, b, c;
 };
 
-/// Both children with their boxes. A child is an inner node, or with kLeafBit the position of its
-/// first triangle and, in count, how many there are.
+/// Both children with their boxes. A child is an inner node, or with kLeafBit the index of its
+/// first triangle and, in count, their number.
 struct Node {
   FloatBox box[2];
   std::uint32_t child[2] = {0, 0};
@@ -88,7 +88,7 @@ struct Item {
   std::uint32_t triangle;
 };
 
-/// Of a subtree of so many triangles; 0 for a leaf.
+/// Number of nodes of a subtree with this many triangles; 0 for a leaf.
 std::size_t nodes_below(std::size_t triangles) {
   if (triangles <= kLeafSize) return 0;
   const std::size_t half = triangles / 2;
@@ -101,7 +101,7 @@ struct MeshDistance::Impl {
   std::vector<Node> nodes;         // nodes[0] is the root; empty for an empty mesh
   std::vector<Corners> corners;    // in the order of leaves
   std::vector<std::uint32_t> ids;  // position -> triangle of the mesh
-  double rounding_m = 0.0;         // more than what rounding can do to a distance
+  double rounding_m = 0.0;         // upper bound of the rounding error of a distance
 
   explicit Impl(const TriangleMesh& mesh);
   FloatBox build_node(std::uint32_t node, std::vector<Item>& items, std::size_t begin,
@@ -151,7 +151,7 @@ FloatBox MeshDistance::Impl::build_node(std::uint32_t node, std::vector<Item>& i
     return a.centroid[axis] < b.centroid[axis] ||
            (a.centroid[axis] == b.centroid[axis] && a.triangle < b.triangle);
   });
-  // Nodes lie in the order of a walk that takes the first child first.
+  // Nodes are stored in depth-first order, first child first.
   const std::uint32_t child[2] = {node + 1, node + 1 + std::uint32_t(nodes_below(middle - begin))};
   FloatBox box[2];
   parallel_for(2, end - begin > kBuiltAtOnce ? 1 : 2, [&](std::size_t side) {

@@ -10,13 +10,13 @@
 namespace turnscan {
 namespace {
 
-// nanoflann sums its lower bound of a branch in another order than the distance itself, so that a
-// branch that holds an equal distance can seem farther by some rounding steps.
+// nanoflann sums its lower bound of a branch in a different order than the distance itself, so that
+// a branch with an equal distance can appear farther by some rounding steps.
 constexpr float kBoundSlack = 1.0f + 1e-5f;
 
 struct PointStore {
   std::vector<Vec3f> points;       // along a space-filling curve: neighbours share cache lines
-  std::vector<std::uint32_t> ids;  // position here -> index outside
+  std::vector<std::uint32_t> ids;  // index here -> index outside
 
   std::size_t kdtree_get_point_count() const { return points.size(); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const {
@@ -35,8 +35,7 @@ float loosened(float squared_distance) {
   return std::max(squared_distance * kBoundSlack, std::numeric_limits<float>::min());
 }
 
-/// The k smallest (distance, id) seen so far that are within reach, in order, in the caller's
-/// arrays.
+/// The k smallest (distance, id) within reach so far, in order, in the caller's arrays.
 class NearestSet {
  public:
   using DistanceType = float;
@@ -46,7 +45,7 @@ class NearestSet {
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == k_; }
-  void sort() {}  // nanoflann 1.5 and later ask for it; it is in order
+  void sort() {}  // required by nanoflann 1.5 and later; already in order
   float worstDist() const { return loosened(full() ? distance_[k_ - 1] : squared_reach_); }
   bool addPoint(float distance, std::uint32_t position) {
     if (!(distance <= squared_reach_)) return true;
@@ -82,7 +81,7 @@ class WithinRadius {
 
   std::size_t size() const { return out_.size(); }
   bool full() const { return true; }
-  void sort() {}  // the caller does
+  void sort() {}  // done by the caller
   float worstDist() const { return loosened(squared_radius_); }
   bool addPoint(float distance, std::uint32_t position) {
     if (distance <= squared_radius_) out_.emplace_back(store_.ids[position], distance);

@@ -11,7 +11,7 @@ namespace turnscan {
 
 namespace {
 
-/// An edge by its higher vertex, with the triangle and the corner it starts at.
+/// An edge by its higher vertex, with the triangle and the corner at which it starts.
 struct SidedEdge {
   std::uint32_t high, triangle, corner;
   auto operator<=>(const SidedEdge&) const = default;
@@ -52,7 +52,7 @@ PseudoNormals::PseudoNormals(const TriangleMesh& mesh)
 }
 
 void PseudoNormals::set_edges() {
-  // Counted by their lower vertex, so that only those of one vertex remain to be sorted.
+  // Bucketed by their lower vertex, so that only those of one vertex remain to be sorted.
   std::vector<std::uint32_t> end(vertices_.size() + 1, 0);
   const auto for_each_edge = [&](const auto& take) {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)

@@ -44,7 +44,7 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::size_t coun
   if (!(total > 0.0)) {
     return fail(ErrorCode::kTooFewPoints, "sample a surface: the mesh has no area; check the mesh");
   }
-  // The first triangle that reaches the whole area: the place for a position that rounds up to it.
+  // The first triangle that reaches the total area: used for a position that rounds up to it.
   const std::size_t last =
       std::size_t(std::lower_bound(area.begin(), area.end(), total) - area.begin());
   SurfaceSamples samples;

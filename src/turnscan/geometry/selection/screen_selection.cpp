@@ -11,7 +11,7 @@ namespace turnscan {
 
 namespace {
 
-/// A place on the screen and its distance from the camera; w <= 0: behind it.
+/// A point on the screen and its distance from the camera; w <= 0: behind it.
 struct Seen {
   double x = 0.0, y = 0.0, w = 0.0;
 };
@@ -29,21 +29,21 @@ std::vector<Seen> see_all(const ScreenView& view, std::span<const Vec3f> points)
   return out;
 }
 
-/// Metres that a pixel spans one metre from the camera.
+/// Size in metres of a pixel at one metre from the camera.
 double metres_per_pixel(const ScreenView& view) {
   const Vec3d forward = view.to_pixels.block<1, 3>(3, 0).transpose().normalized();
   const Vec3d row = view.to_pixels.block<1, 3>(0, 0).transpose();
   return 1.0 / std::max(1e-9, (row - row.dot(forward) * forward).norm());
 }
 
-/// The pixel of a place, or -1 outside the screen.
+/// The pixel of a point, or -1 outside the screen.
 std::ptrdiff_t pixel_of(const Seen& at, int width, int height) {
   if (!(at.w > 0.0) || !(at.x >= 0.0) || !(at.y >= 0.0) || !(at.x < width) || !(at.y < height))
     return -1;
   return std::ptrdiff_t(at.y) * width + std::ptrdiff_t(at.x);
 }
 
-/// Which triangle is the first to be seen in each pixel, and how far away it is.
+/// The nearest triangle in each pixel, and its distance.
 class SeenTriangles {
  public:
   SeenTriangles(const TriangleMesh& mesh, const ScreenView& view)
@@ -70,15 +70,16 @@ class SeenTriangles {
     return corner(t, 0).w > 0.0 && corner(t, 1).w > 0.0 && corner(t, 2).w > 0.0;
   }
 
-  /// Whether nothing lies before a place on triangle t.
+  /// Whether nothing occludes a point on triangle t.
   bool in_sight(std::size_t t, const Seen& place) const {
     const std::ptrdiff_t pixel = drawn_pixel(pixel_of(place, width_, height_));
     if (pixel < 0) return pixel_of(place, width_, height_) >= 0;
     const std::uint32_t front = first_[std::size_t(pixel)];
     if (front == t) return true;
-    // Neighbours in one surface face the same way; a thin wall has its other side behind it.
+    // Neighbours in one surface have the same orientation; a thin wall has its other side behind
+    // it.
     if ((doubled_area(front) < 0.0) != (doubled_area(t) < 0.0)) return false;
-    // Both at the centre of the pixel: on slopes the distance changes within it.
+    // Both at the centre of the pixel: on slopes the distance varies within it.
     constexpr double kSlackPixels = 1.5;
     const double x = double(pixel % width_) + 0.5, y = double(pixel / width_) + 0.5;
     return distance_at(t, x, y) <=
@@ -93,8 +94,8 @@ class SeenTriangles {
  private:
   static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 
-  /// The pixel, or where its centre is beside everything that is drawn, the nearest of its
-  /// neighbours where it is not; -1: none.
+  /// The pixel, or if its centre is beside everything that is drawn, the nearest of its drawn
+  /// neighbours; -1: none.
   std::ptrdiff_t drawn_pixel(std::ptrdiff_t pixel) const {
     if (pixel < 0 || first_[std::size_t(pixel)] != kNobody) return pixel;
     const std::ptrdiff_t x = pixel % width_, y = pixel / width_;
@@ -112,7 +113,7 @@ class SeenTriangles {
     return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   }
 
-  /// Of the plane of the triangle there. 1 / w is linear on the screen.
+  /// Distance of the plane of the triangle there. 1 / w is linear on the screen.
   double distance_at(std::size_t t, double x, double y) const {
     const Seen &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     const double area = doubled_area(t);
@@ -131,7 +132,7 @@ class SeenTriangles {
     const auto clamped = [](double value, int most) {
       return int(std::clamp(value, 0.0, double(most)));
     };
-    // A pixel is drawn when its centre is inside.
+    // A pixel is drawn if its centre is inside.
     const int x0 = clamped(std::ceil(left - 0.5), width_),
               y0 = clamped(std::ceil(top - 0.5), height_);
     const int x1 = clamped(std::floor(right - 0.5) + 1.0, width_);
@@ -247,7 +248,7 @@ Result<Selection> select_on_screen(const TriangleMesh& mesh, const ScreenRegion&
 Result<Selection> select_on_screen(std::span<const Vec3f> points, const ScreenRegion& region,
                                    const ScreenView& view, bool visible_only,
                                    const RunContext& context) {
-  // Between the points of a cloud one looks through: each hides what lies behind its surroundings.
+  // A cloud has gaps between its points: each occludes what is behind its surroundings.
   constexpr int kCellPixels = 6;
   constexpr double kSlackCells = 4.0;
   const auto mask = region_mask(region, view.width, view.height);

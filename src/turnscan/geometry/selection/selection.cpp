@@ -18,7 +18,7 @@ void must_fit(const Selection& selection, std::size_t count) {
     throw std::invalid_argument("a selection has one flag a triangle or point");
 }
 
-/// Of parts that are each in the piece `piece_of` and count as `weight_of`.
+/// For elements that belong to the piece `piece_of` and have the weight `weight_of`.
 SmallPieces small_pieces(const std::vector<std::uint32_t>& piece_of,
                          const std::vector<double>& weight_of, double share) {
   std::unordered_map<std::uint32_t, double> weights;
@@ -112,7 +112,7 @@ SmallPieces small_pieces(const TriangleMesh& mesh, double share) {
 Selection grown(std::span<const Vec3f> points, const Selection& selection, double reach_m) {
   must_fit(selection, points.size());
   const KdTree tree(points);
-  // Each point asks for a selected one near it: nobody writes to another's flag.
+  // Each point searches for a selected neighbour, so that no thread writes another's flag.
   Selection out(selection.size());
   parallel_for(out.size(), 1024, [&](std::size_t i) {
     out[i] = selection[i] != 0 ? 1 : 0;
