@@ -44,7 +44,7 @@ Result<ScannerEntry> read_scanner_entry(const fs::path& file, const toml::table&
   if (entry.model.empty())
     return scene::fail_in_toml(file, table, "a [[scanner]] needs its model: a preset or a file");
   if (is_path(entry.model)) entry.model = beside(file, entry.model);
-  // Looked at here, where the line is known; used when all is read.
+  // Checked here, where the line is known; used once everything is read.
   ScannerPlacement trial;
   TURNSCAN_TRY(scene::set_from_toml(file, table, describe(trial), {"model"}));
   for (const auto& [key, node] : table) {
@@ -74,7 +74,7 @@ Result<> read_passes(const fs::path& file, const toml::node& node, SceneDescript
                                "passes are tables: [[pass]], once for each after the first");
   scene.next_passes.clear();
   for (const toml::node& item : *list) {
-    // Looked at here, where the line is known.
+    // Checked here, where the line is known.
     ObjectPlacement trial;
     TURNSCAN_TRY(scene::set_from_toml(file, *item.as_table(), describe(trial), {}));
     PassEntry& pass = scene.next_passes.emplace_back();
@@ -118,7 +118,7 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f) {  // TOML has no control characters within a text
+    if (code < 0x20 || code == 0x7f) {  // TOML does not allow control characters in a string
       out += fmt::format("\\u{:04x}", code);
       continue;
     }
@@ -128,7 +128,7 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-/// So that the file may lie anywhere.
+/// Makes the path independent of the file's location.
 std::string absolute(const std::string& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error);

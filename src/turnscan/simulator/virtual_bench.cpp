@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kAboveObject_m = 0.04;  // the hand
 
-/// Half the height that the objects reach above the platter.
+/// Half the height of the objects above the platter.
 double middle_of(const std::vector<TriangleMesh>& objects) {
   double top = 0.0;
   for (const TriangleMesh& mesh : objects)

@@ -41,14 +41,14 @@ struct Tally {
   void add(const SampleGrid& grid, const MeasuredGrid& measured) {
     std::array<std::uint64_t, kMissCount> here{};
     for (const Miss miss : measured.miss) ++here[static_cast<std::size_t>(miss)];
-    // Around the rect nothing is seen.
+    // Pixels outside the rect see nothing.
     here[static_cast<std::size_t>(Miss::kNothing)] +=
         std::uint64_t(grid.width) * std::uint64_t(grid.height) - measured.miss.size();
     for (std::size_t k = 0; k < here.size(); ++k) counts[k] += here[k];
   }
 };
 
-/// Memory of one frame that the next one uses again.
+/// Memory of one frame that is reused for the next one.
 struct Workspace {
   SampleGrid exact;
   MeasuredGrid measured;
@@ -63,8 +63,8 @@ struct VirtualScan::Impl {
   VirtualBench bench;
   std::vector<SampleTracer> tracers;
   std::vector<SensorNoise> noises;
-  std::optional<sampling::ColorCamera> color_camera;  ///< with an image of its own
-  Albedo albedo;                                      ///< none where no noise asks for it
+  std::optional<sampling::ColorCamera> color_camera;  ///< if it takes images of its own
+  Albedo albedo;                                      ///< empty if the noise does not need it
   mutable std::vector<Tally> tallies;
   TurntableInfo turntable;
   SequenceHeader header;
@@ -81,7 +81,7 @@ struct VirtualScan::Impl {
   const PlatterState& state_of(std::size_t position) const {
     return states[position / scanner_count()];
   }
-  /// For the random numbers.
+  /// Instant used for the random numbers.
   std::uint32_t instant_of(std::size_t position) const {
     return options.first_instant + static_cast<std::uint32_t>(position / scanner_count());
   }
@@ -128,7 +128,7 @@ struct VirtualScan::Impl {
     return sensor;
   }
 
-  /// Where the table is, as the recording has it.
+  /// Pose of the table as recorded.
   Pose recorded_table() const {
     return options.record.calibration == RecordedCalibration::kTrue ? bench.T_world_table()
                                                                     : bench.T_world_meant_table();
@@ -170,10 +170,10 @@ struct VirtualScan::Impl {
       frame.sensor = static_cast<std::uint32_t>(k);
       frame.pass = static_cast<std::uint32_t>(options.record.pass);
       if (options.record.angles) frame.angle_rad = state.angle_rad;
-      // The margin keeps rounding from calling the end of a turn the turn before.
+      // The margin keeps rounding from assigning the end of a turn to the previous turn.
       const double turns = std::abs(state.angle_rad) / kTurn + 1e-9;
       frame.turn = static_cast<std::uint32_t>(std::min(turns, 4e9));
-      // A scanner that travels has a pose of its own in each frame.
+      // A travelling scanner has a pose of its own in each frame.
       if (options.scanners[k].placement.travel_m != 0.0 &&
           options.record.calibration != RecordedCalibration::kNone)
         frame.T_table_sensor = rotation_about_y(-state.angle_rad) * T_table_world *
@@ -197,14 +197,14 @@ struct VirtualScan::Impl {
     spare.push_back(std::move(space));
   }
 
-  /// By how much a scanner that is not warm yet measures too far.
+  /// Depth offset of a scanner that is not warm yet.
   double too_far_m(std::size_t position) const {
     const MeasureOptions& measure = options.measure;
     if (measure.warm_up_m == 0.0) return 0.0;
     return measure.warm_up_m * std::exp(-state_of(position).time_s / measure.warm_up_time_s);
   }
 
-  /// None without an exposure.
+  /// Empty without an exposure.
   std::vector<SensorMoment> moments_of(std::size_t position) const {
     const double exposure_s = options.measure.exposure_s;
     std::vector<SensorMoment> moments(exposure_s > 0.0 ? kExposureMoments : 0);
@@ -231,7 +231,7 @@ struct VirtualScan::Impl {
     return sampling::mean_image(images);
   }
 
-  /// Of a camera of its own; over the exposure.
+  /// From a separate colour camera; over the exposure.
   ColorImage own_color_image(std::size_t position) const {
     const std::size_t k = scanner_of(position);
     const auto seed = static_cast<std::uint64_t>(options.measure.seed);

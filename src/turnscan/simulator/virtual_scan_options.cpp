@@ -6,7 +6,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr std::size_t kMaxScanners = 64;  // that a recording holds
+constexpr std::size_t kMaxScanners = 64;  // maximum in a recording
 
 template <class Options>
 Result<> check_fields(const Options& options) {

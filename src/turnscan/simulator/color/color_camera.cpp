@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-/// Pans to its right after it has tilted up; then it stands at `eye` in the sensor's frame.
+/// Pans to its right after it has tilted up; then it is translated to `eye` in the sensor's frame.
 Pose color_pose(const Vec3d& eye, double pan_rad, double tilt_rad) {
   Pose T_sensor_color = Pose::Identity();
   T_sensor_color.linear() =
@@ -89,7 +89,7 @@ double late_s(const ColorCameraOptions& o, std::uint64_t key) {
 }
 
 Pose given_T_color_sensor(const ColorCameraOptions& o) {
-  // As a person who measures it badly: some of the error along each axis.
+  // A typical measurement error with a component along each axis.
   const Vec3d axis = Vec3d(0.6, 0.64, 0.48);
   const Vec3d shift = o.given_shift_m * Vec3d(0.64, -0.6, 0.48);
   Pose error = Pose::Identity();

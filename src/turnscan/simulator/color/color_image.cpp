@@ -10,12 +10,12 @@ namespace turnscan::sampling {
 
 namespace {
 
-constexpr int kSide = 2;  // samples a pixel, each way
+constexpr int kSide = 2;  // samples per pixel along each axis
 constexpr float kMirrorExponent = 40.0f;
 const Vec3f kPlatterSrgb(140.0f, 142.0f, 146.0f), kPlainSrgb(190.0f, 190.0f, 190.0f);
 const Vec3f kNothingThere(28.0f, 30.0f, 34.0f);
 
-/// Between -1 and 1.
+/// Random number between -1 and 1.
 double wander(std::uint64_t key) { return 2.0 * uniform01(mix64(key)) - 1.0; }
 
 }  // namespace
@@ -36,7 +36,7 @@ Vec3f surface_color(const TriangleMesh& mesh, std::uint32_t triangle, float u, f
 ColorCamera::ColorCamera(const ColorCameraOptions& options, SampleTracer tracer,
                          std::vector<std::span<const TriangleMesh>> meshes)
     : options_(options), tracer_(std::move(tracer)), meshes_(std::move(meshes)) {
-  // A scanner of azimuth 0 stands on the side of -Z.
+  // A scanner of azimuth 0 is on the side of -Z.
   const Vec3d level = rotation_about_y(options.lamp_azimuth_rad) * Vec3d(0.0, 0.0, -1.0);
   const double up = options.lamp_elevation_rad;
   to_lamp_ = (std::cos(up) * level + std::sin(up) * Vec3d::UnitY()).cast<float>();
@@ -50,7 +50,7 @@ Result<ColorCamera> ColorCamera::create(const ColorCameraOptions& options,
   model.far_m = 100.0;
   model.max_incidence_rad = 0.5 * std::numbers::pi;
   CameraIntrinsics camera = intrinsics_of(options);
-  // The centres of the samples of a pixel lie evenly about its own.
+  // The sample centres are evenly spaced about that of their pixel.
   camera.width *= kSide, camera.height *= kSide;
   camera.fx *= kSide, camera.fy *= kSide;
   camera.cx = kSide * camera.cx + 0.5 * (kSide - 1);
@@ -60,7 +60,7 @@ Result<ColorCamera> ColorCamera::create(const ColorCameraOptions& options,
   return ColorCamera(options, std::move(tracer), std::move(meshes));
 }
 
-/// A body as the camera sees it.
+/// A body in the camera's view.
 struct ColorCamera::SeenBody {
   Eigen::Matrix3d rotation;  ///< body <- camera
   Vec3d eye;                 ///< body's frame
@@ -69,7 +69,7 @@ struct ColorCamera::SeenBody {
   Vec3f world_translation;
 };
 
-/// A sample on a surface that the lamp may shine on, world.
+/// A sample on a surface that the lamp may illuminate, world.
 struct ColorCamera::LampSample {
   int column;  ///< of its pixel
   Vec3f albedo, position, normal;

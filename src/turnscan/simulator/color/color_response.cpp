@@ -30,10 +30,10 @@ const NoiseTable& NoiseTable::instance() {
 }
 
 NoiseTable::NoiseTable() {
-  // The quantiles in the middle of each share, by Newton's method from the one before.
+  // The quantiles at the middle of each share, by Newton's method starting at the previous one.
   double x = 0.0;
   for (std::size_t i = 0; i < kValues / 2; ++i) {
-    const double upper = 0.5 - (double(i) + 0.5) / double(kValues);  // of the probability beyond x
+    const double upper = 0.5 - (double(i) + 0.5) / double(kValues);  // probability beyond x
     for (int step = 0; step < 6; ++step) {
       const double density = std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
       x += (0.5 * std::erfc(x / std::numbers::sqrt2) - upper) / density;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Predicted sigma of one scanner at steps of distance, incidence and albedo.
+/// Predicted sigma of one scanner, tabulated over distance, incidence and albedo.
 class SigmaTable {
  public:
   explicit SigmaTable(const ScannerModel& model)
@@ -44,8 +44,8 @@ class SigmaTable {
   std::vector<float> values_;
 };
 
-/// Counts that several threads add to. Sums and extremes of integers do not depend on the order;
-/// floats that are not negative are ordered as their bits.
+/// Counts updated by several threads. Sums and extremes of integers do not depend on the order;
+/// non-negative floats are ordered like their bits.
 struct Counts {
   explicit Counts(const CoveragePatches& surface)
       : patch_samples(surface.patches.size()),
@@ -167,7 +167,7 @@ void store(const Counts& counts, CoveragePatches& surface) {
 
 }  // namespace
 
-/// Runs of frames go to the threads, neighbours together.
+/// Runs of consecutive frames are distributed to the threads.
 Result<std::uint64_t> count_samples(const CoverageJob& job, CoveragePatches& surface,
                                     const RunContext& context) {
   constexpr std::size_t kRuns = 64;

@@ -37,7 +37,7 @@ bool empty(const CoverageCell& cell) {
   return cell.state == CoverageState::kMissed || cell.state == CoverageState::kUnreachable;
 }
 
-/// Sets of cells that touch, joined one by one.
+/// Disjoint sets of adjacent cells.
 class Sets {
  public:
   explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -45,7 +45,7 @@ class Sets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  /// The smaller index stays the root.
+  /// The smaller index remains the root.
   void join(std::uint32_t a, std::uint32_t b) {
     a = root(a), b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
@@ -55,7 +55,7 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Empty cells whose patches share a corner are of one hole.
+/// Empty cells whose patches share a corner belong to one hole.
 Sets joined(const CoverageMap& map) {
   struct Hash {
     std::size_t operator()(const std::array<float, 3>& p) const {
@@ -132,7 +132,7 @@ void find_holes(CoverageMap& map, int most) {
   }
 }
 
-/// Colours at equal steps between these.
+/// Interpolates between colours at equal steps.
 Rgb ramp(double x) {
   constexpr std::array<Rgb, 4> kStops{
       {{49, 84, 170}, {38, 150, 150}, {80, 180, 70}, {240, 220, 60}}};

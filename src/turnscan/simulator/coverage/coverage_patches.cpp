@@ -11,7 +11,7 @@ constexpr std::size_t kMaxPatches = 4'000'000;
 constexpr double kPlainAlbedo = 0.8;
 constexpr double kSliver = 0.4;  // of a cell's face
 
-/// Its first corner; the longest of equal ones is the first.
+/// Its first corner; the first among equally long ones.
 int longest_edge(const std::array<Vec3f, 3>& c) {
   int longest = 0;
   float length = -1.0f;
@@ -26,8 +26,8 @@ double edge_length(const std::array<Vec3f, 3>& c, int edge) {
   return double((c[std::size_t(edge)] - c[std::size_t((edge + 1) % 3)]).norm());
 }
 
-/// Edges far from the origin that are not much longer than floats lie apart are not halved:
-/// rounding would move their middle as much as halving does, and the cutting would not end.
+/// Edges far from the origin that are not much longer than the float spacing there are not halved:
+/// rounding would move their middle as much as halving does, and the subdivision would not end.
 double float_step(const std::array<Vec3f, 3>& c) {
   float farthest = 0.0f;
   for (const Vec3f& p : c) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
@@ -54,7 +54,7 @@ std::array<Vec3f, 3> corners_of(const TriangleMesh& mesh, std::size_t face) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// Mean of the corners' brightness (weights of Rec. 709), as a step.
+/// Mean of the corners' luminance (weights of Rec. 709), as a step.
 std::uint8_t albedo_of(const TriangleMesh& mesh, std::size_t face) {
   double albedo = kPlainAlbedo;
   if (mesh.colors.size() == mesh.vertices.size()) {
@@ -84,8 +84,8 @@ CellKey key_of(const CoveragePatch& patch, const Vec3f& normal, double cell_m) {
   return key;
 }
 
-/// The largest of the cells that touch the one with this key and face the same way; `self` if none
-/// is larger than least.
+/// The largest of the cells that are adjacent to the one with this key and face the same direction;
+/// `self` if none is larger than least.
 std::uint32_t largest_neighbour(std::span<const CellKey> keys, std::span<const double> areas,
                                 std::uint32_t self, double least) {
   std::uint32_t best = self;
@@ -102,7 +102,7 @@ std::uint32_t largest_neighbour(std::span<const CellKey> keys, std::span<const d
   return best;
 }
 
-/// For each cell the one that takes its place: itself unless it is smaller than least.
+/// The replacement of each cell: itself unless it is smaller than least.
 std::vector<std::uint32_t> absorb_slivers(std::span<const CellKey> keys,
                                           std::span<const double> areas, double least) {
   std::vector<std::uint32_t> kept(keys.size());
@@ -117,7 +117,7 @@ CoveragePatches::CoveragePatches(std::span<const TriangleMesh> objects, double s
     : cell_m(size), objects_(objects) {
   while (count(objects, cell_m) > kMaxPatches) {
     const std::size_t faces = count(objects, 1e9);
-    if (faces >= kMaxPatches) break;  // nothing is cut any more
+    if (faces >= kMaxPatches) break;  // no further subdivision
     cell_m *= 1.5;
   }
   for (std::uint32_t o = 0; o < objects.size(); ++o) {
@@ -128,8 +128,8 @@ CoveragePatches::CoveragePatches(std::span<const TriangleMesh> objects, double s
   gather();
 }
 
-/// An upper bound of the patches, without cutting: halving leaves no part smaller than a quarter of
-/// a cell's half square, nor a sliver shorter than half a cell.
+/// Upper bound of the number of patches without subdividing: halving leaves no part smaller than a
+/// quarter of a cell's half square, and no sliver shorter than half a cell.
 std::size_t CoveragePatches::count(std::span<const TriangleMesh> objects, double size) const {
   double sum = 0.0;
   for (const TriangleMesh& mesh : objects) {
@@ -172,8 +172,8 @@ std::int32_t CoveragePatches::cut(const std::array<Vec3f, 3>& corners, std::uint
   return ~static_cast<std::int32_t>(node);
 }
 
-/// Cells in the order of their cubes, so that neighbours lie together. What a cube's border cuts
-/// off as a sliver goes to the largest cell next to it, so that cells have enough samples to tell a
+/// Cells in the order of their cubes, so that neighbours are stored together. Slivers at a cube's
+/// border are assigned to the largest adjacent cell, so that cells have enough samples for a
 /// density.
 void CoveragePatches::gather() {
   std::vector<CellKey> keys;
@@ -200,7 +200,7 @@ void CoveragePatches::gather() {
     if (cell.area_m2 > 0.0) cell.center /= cell.area_m2;
 }
 
-/// The position of each patch's key in the sorted keys, and the area of each.
+/// The index of each patch's key in the sorted keys, and the area of each.
 std::vector<std::uint32_t> CoveragePatches::place_by_key(std::vector<CellKey>& keys,
                                                          std::vector<double>& areas) const {
   std::vector<std::pair<CellKey, std::uint32_t>> sorted(patches.size());
@@ -237,7 +237,7 @@ std::uint32_t CoveragePatches::patch_at(std::uint32_t object, std::uint32_t tria
     double& first = w[std::size_t(node.edge)];
     double& second = w[std::size_t((node.edge + 1) % 3)];
     const bool in_first = first >= second;
-    // The middle of the edge takes the place of the corner that is cut off.
+    // The middle of the edge replaces the corner that is cut off.
     if (in_first)
       first -= second, second *= 2.0;
     else

@@ -12,10 +12,10 @@ constexpr std::size_t kTestedPoses = 64;  // of a matrix scanner
 constexpr int kDirections = 48;           // around the table
 constexpr double kHeightStep_m = 0.05;
 constexpr int kMaxHeights = 9;
-constexpr double kLift_m = 20e-6;  // rays start so far outside the surface
+constexpr double kLift_m = 20e-6;  // rays start at this distance outside the surface
 constexpr std::size_t kCellsPerTask = 64;
 
-/// A point that is looked at, with its normal. Frame: the table of the first pass.
+/// A point to be tested, with its normal. Frame: the table of the first pass.
 struct CellPoint {
   std::uint32_t cell;
   Vec3d p, normal;
@@ -38,8 +38,8 @@ struct Outcome {
   }
 };
 
-/// A frame that cells are looked at from, with the table of the first pass. For a line scanner the
-/// frame before it, too: its line has passed over what lies between the two.
+/// A frame from which cells are tested, with the table of the first pass. For a line scanner also
+/// the previous frame: its line has passed over the space between the two.
 struct TestedView {
   const ScannerModel* model;
   Pose T_sensor_table, T_sensor_table_before;
@@ -99,8 +99,7 @@ Ray ray_to(const CellPoint& spot, const Vec3d& eye) {
   return ray;
 }
 
-/// Spots that something is asked about, and whether anything of a pass lies between each and a
-/// point.
+/// Points to be tested, and whether anything of a pass is between each and another point.
 class Blocked {
  public:
   explicit Blocked(const CoverageJob& job) : job_(job) {}
@@ -111,7 +110,7 @@ class Blocked {
     blocked.resize(rays_.size());
     job_.passes[pass].scene->occluded(rays_, blocked, RayOrder::kCoherent);
   }
-  /// The room hides, too.
+  /// The room occludes, too.
   void answer(std::uint32_t pass, const Pose& T_room_pass) {
     answer(pass);
     if (job_.room == nullptr) return;
@@ -136,10 +135,10 @@ class Blocked {
   std::vector<std::uint8_t> by_room_;
 };
 
-/// Raises the outcomes to what this look gives.
+/// Raises the outcomes to the result of this test.
 void test_from(const TestedView& view, std::span<const CellPoint> spots, Blocked& first,
                Blocked& second, std::span<Outcome> outcomes) {
-  // The eye that the rays start from is asked first.
+  // The eye from which the rays start is tested first.
   const bool line = view.model->kind == ScannerKind::kLine;
   const Miss own = line ? Miss::kEmitterBlocked : Miss::kReceiverBlocked;
   const Miss others = line ? Miss::kReceiverBlocked : Miss::kEmitterBlocked;
@@ -173,7 +172,7 @@ void test_from(const TestedView& view, std::span<const CellPoint> spots, Blocked
       outcomes[second.who[k]].raise(Outcome::kSeen, Miss::kNone);
 }
 
-/// Places around the table of a pass at the scanners' heights, in the frame of the first; none
+/// Points around the table of a pass at the scanners' heights, in the frame of the first; none
 /// without a pose.
 std::vector<Vec3d> places_around(const CoverageJob& job, std::uint32_t pass) {
   double low = 1e300, high = -1e300, radius = 0.0;
@@ -199,7 +198,7 @@ std::vector<Vec3d> places_around(const CoverageJob& job, std::uint32_t pass) {
   return places;
 }
 
-/// Marks in `reached` the spots that any of the places sees.
+/// Marks in `reached` the spots that are visible from any of the points.
 void reach(const CoverageJob& job, std::uint32_t pass, std::span<const Vec3d> places,
            double least_cosine, std::span<const CellPoint> spots, std::span<std::uint8_t> reached) {
   Blocked rays(job);
@@ -234,7 +233,7 @@ void judge(CoverageCell& cell, Miss reason, bool reached, bool noise) {
     cell.state = CoverageState::kThin;
   else
     cell.state = reached ? CoverageState::kMissed : CoverageState::kUnreachable;
-  // Seen by none of the frames on its side, or by none at all: the object itself is in the way.
+  // If none of the frames on its side sees it, or none at all, the object itself is in the way.
   if (cell.reason == Miss::kNothing) cell.reason = Miss::kReceiverBlocked;
 }
 

@@ -77,11 +77,10 @@ double correlation_sigma_m(const NoiseModel& m, double amplitude) {
   return kFilter * kMetresPerTurn / (2.0 * std::numbers::pi) * std::sqrt(phases);
 }
 
-/// The filter averages less what lies farther apart: by the square root of two at this sigma
-/// (measured).
+/// The filter averages dissimilar depths less: by the square root of two at this sigma (measured).
 constexpr double kApart_m = 0.086;
 
-/// What a white surface has beyond the noise of its correlations.
+/// The excess of a white surface over the noise of its correlations.
 double grazing_after_filter_m(const NoiseModel& m, double z_m, double incidence_rad) {
   const double more = axial_sigma_m(m, z_m, incidence_rad) - axial_sigma_m(m, z_m, 0.0);
   if (!(more > 0.0)) return 0.0;

@@ -9,7 +9,7 @@ namespace turnscan {
 
 namespace {
 
-/// Share of light that a byte of a colour stands for (sRGB, IEC 61966-2-1).
+/// Linear light of a colour byte (sRGB, IEC 61966-2-1).
 double linear(std::uint8_t value) {
   const double v = value / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);

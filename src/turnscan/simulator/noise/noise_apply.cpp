@@ -8,7 +8,7 @@ namespace turnscan::noise {
 
 namespace {
 
-/// Every pixel within radius of a set one, along a line of n pixels `stride` apart.
+/// Sets every pixel within radius of a set one, along a line of n pixels `stride` apart.
 void spread(std::uint8_t* line, int n, std::ptrdiff_t stride, int radius, Mask& scratch) {
   scratch.assign(static_cast<std::size_t>(n), 0);
   int last = -radius - 1;
@@ -24,7 +24,7 @@ void spread(std::uint8_t* line, int n, std::ptrdiff_t stride, int radius, Mask& 
   for (int i = 0; i < n; ++i) line[i * stride] = scratch[std::size_t(i)];
 }
 
-/// Whether a row or column bends at the middle one of three.
+/// Whether the depth of a row or column bends at the middle one of three.
 bool bends(const SampleGrid& exact, const Mask& counts, std::size_t before, std::size_t here,
            std::size_t after) {
   if (counts[before] != counts[here] || counts[after] != counts[here]) return true;
@@ -71,8 +71,8 @@ Mask steps_of(const SampleGrid& exact, const Mask& counts, int radius) {
   const int w = exact.rect.width(), h = exact.rect.height();
   const auto stride = static_cast<std::size_t>(w);
   Mask steps(exact.size(), 0);
-  // What lies outside of the rectangle sees nothing; within it the outermost pixels see nothing
-  // either, unless it ends with the image.
+  // Pixels outside the rectangle see nothing, and so do its outermost pixels, unless it ends with
+  // the image.
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       const std::size_t i = std::size_t(y) * stride + std::size_t(x);
@@ -92,7 +92,7 @@ void SubSamples::add(const Setup& setup, int column, int row, std::size_t index_
                      double footprint_px, double du, double dv) {
   index.push_back(static_cast<std::uint32_t>(index_in_grid));
   each = std::size_t(side) * std::size_t(side);
-  // Directions change evenly within a few pixels.
+  // Directions change linearly within a few pixels.
   const CameraIntrinsics& camera = setup.model.camera;
   const int left = std::clamp(column, 0, std::max(camera.width - 2, 0));
   const int top = std::clamp(row, 0, std::max(camera.height - 2, 0));
@@ -100,7 +100,7 @@ void SubSamples::add(const Setup& setup, int column, int row, std::size_t index_
   const std::size_t here = setup.pixel(column, row), corner = setup.pixel(left, top);
   const std::size_t right = setup.pixel(std::min(left + 1, camera.width - 1), top);
   const std::size_t below = setup.pixel(left, std::min(top + 1, camera.height - 1));
-  // A line scanner has one column: what a step across it would be, its focal length says.
+  // A line scanner has one column: its focal length gives the step across it.
   const double xu = right != corner ? double(rx[right]) - rx[corner] : 1.0 / camera.fx;
   const double yv = below != corner ? double(ry[below]) - ry[corner] : 1.0 / camera.fy;
   const double yu = right != corner ? double(ry[right]) - ry[corner] : 0.0;

@@ -6,9 +6,9 @@ namespace turnscan::noise {
 
 namespace {
 
-constexpr double kSameSurface_m = 0.01;  // between moments
+constexpr double kSameSurface_m = 0.01;  // maximum difference between moments
 
-/// What passes a pixel during the exposure.
+/// The surfaces that pass a pixel during the exposure.
 struct Passing {
   double sum = 0.0, low = 1e9, high = 0.0;
   std::size_t count = 0;
@@ -22,7 +22,7 @@ struct Passing {
   double mean() const { return sum / double(count); }
 };
 
-/// The depths of a pixel at the moments when it counts, of all that lie within `apart` of z.
+/// The depths of a pixel at the moments when it counts that are within `apart` of z.
 Passing passing(std::span<const SensorMoment> moments, int u, int v, double z, double apart) {
   Passing there;
   for (const SensorMoment& moment : moments) {
@@ -34,8 +34,8 @@ Passing passing(std::span<const SensorMoment> moments, int u, int v, double z, d
   return there;
 }
 
-/// A matcher needs the pattern of one surface for most of the time. Where light adds up, what lies
-/// between two surfaces is dropped as a mixed pixel is.
+/// A matcher needs the pattern of one surface for most of the time. If light is integrated, depths
+/// between two surfaces are dropped like mixed pixels.
 bool found(const Job& job, const Passing& there, bool adds_up) {
   if (!adds_up) return 2 * there.count > job.view.moments.size();
   const double limit = job.setup.model.noise.mixed_rejection_m, z = there.mean();

@@ -8,10 +8,10 @@ namespace turnscan::noise {
 
 namespace {
 
-constexpr double kSteepestSlope = 4.0;  // along which depth is carried at most
-constexpr int kMaxRadius = 8;           // pixels about a step that its lateral noise reaches
+constexpr double kSteepestSlope = 4.0;  // maximum slope along which depth is extrapolated
+constexpr int kMaxRadius = 8;           // pixels around a step within reach of its lateral noise
 
-/// What a pixel sees, mixed or not.
+/// The surface that a pixel sees, mixed or not.
 struct Seen {
   double z = 0.0;
   double facing = 1.0;  ///< cosine of the incidence
@@ -63,7 +63,7 @@ class Formulae {
   }
   bool mixes() const { return noise_.footprint_px > 0.0 || lateral(1.0) > 0.0; }
 
-  /// Out to three sigma of the nearest thing.
+  /// Up to three sigma of the nearest surface.
   int radius() const {
     float nearest = 1e9f;
     for (std::size_t i = 0; i < counts_.size(); ++i)
@@ -78,7 +78,7 @@ class Formulae {
     return job_.setup.pixel(r.left + int(i % w), r.top + int(i / w));
   }
 
-  /// Standard normals of a row, of each purpose that is wanted.
+  /// Standard normals of a row, for each required purpose.
   void draw_row(int v) {
     const PixelRect& r = job_.exact.rect;
     const auto n = static_cast<std::size_t>(r.width());
@@ -97,7 +97,7 @@ class Formulae {
     draw(kDark, noise_.dark_jitter > 0.0 && noise_.dark_signal_per_m2 > 0.0);
   }
 
-  /// The same numbers for a pixel by itself.
+  /// The same numbers for a single pixel.
   double normal_of(std::uint64_t purpose, std::size_t pixel) const {
     float out = 0.0f;
     NoiseKernels::current().normals(job_.key_of(purpose), static_cast<std::uint32_t>(pixel), 1, 1,
@@ -109,9 +109,9 @@ class Formulae {
     return seen_in_line(samples, i, Vec3d(x, y, 1.0), Vec3d(x, y, 1.0));
   }
 
-  /// What a ray `there` sees, its depth carried along the surface to the line of sight `here`:
-  /// lateral noise decides which surface is seen; what it does on a slope is part of the axial
-  /// formula.
+  /// The surface seen by a ray `there`, with its depth extrapolated along the surface to the line
+  /// of sight `here`: lateral noise determines which surface is seen; its effect on a slope is part
+  /// of the axial formula.
   Seen seen_in_line(const Samples& samples, std::size_t i, const Vec3d& there,
                     const Vec3d& here) const {
     const Vec3d n = surfaces_.normal(samples, i);
@@ -134,15 +134,15 @@ class Formulae {
     return seen(job_.exact, i, job_.setup.rays.x()[pixel], job_.setup.rays.y()[pixel]);
   }
 
-  /// A pixel within reach of a step looks where lateral noise sends it; rays are traced only if its
-  /// footprint there meets the step.
+  /// A pixel within reach of a step is displaced by lateral noise; rays are traced only if its
+  /// footprint there intersects the step.
   void look_aside(int u, int v, std::size_t i) {
     if (job_.exact.miss[i] == Miss::kOutOfView) return;
     const std::size_t pixel = job_.setup.pixel(u, v);
     const double z = job_.exact.hit(i) ? double(job_.exact.z[i]) : nearest_around(u, v);
     if (!(z > 0.0)) return;
     const double facing = counts_[i] != 0 ? seen_alone(u, v, i).facing : 1.0;
-    // The formula's steep end would throw the ray anywhere.
+    // The formula's steep end would displace the ray arbitrarily.
     const double sigma =
         std::min(lateral_sigma_px(noise_, job_.setup.model.camera.fx, z, std::acos(facing)),
                  2.0 * lateral(z));
@@ -152,7 +152,7 @@ class Formulae {
                 noise_.footprint_px, du, dv);
       return;
     }
-    // Beyond the image's border things go on as at the border.
+    // Beyond the image's border the border pixels are continued.
     const int x = std::clamp(int(std::lround(u + du)), 0, job_.exact.width - 1);
     const int y = std::clamp(int(std::lround(v + dv)), 0, job_.exact.height - 1);
     if (!job_.exact.contains(x, y)) return lose(i, Miss::kNothing);
@@ -173,7 +173,7 @@ class Formulae {
     return false;
   }
 
-  /// Of what lies within reach of the noise.
+  /// Nearest depth within reach of the noise.
   double nearest_around(int u, int v) const {
     double nearest = 0.0;
     for (int y = v - radius_ - 1; y <= v + radius_ + 1; ++y) {
@@ -199,8 +199,8 @@ class Formulae {
     }
   }
 
-  /// The mean of all that returns, each weighed by its light; z = 0 when nothing does or the sensor
-  /// sees through it.
+  /// The mean of all returns, each weighted by its light; z = 0 if there are none or the sensor
+  /// sees through the surface.
   Seen mixed(std::size_t p, std::size_t i) {
     double light = 0.0, z = 0.0, facing = 0.0, nearest = 1e9, farthest = 0.0;
     Miss miss = rays_.samples.miss[p * rays_.each];
@@ -239,7 +239,7 @@ class Formulae {
     return uniform01(mix64(drop_seed_ ^ pixel)) < chance;
   }
 
-  /// `at`: place of its normals in their rows.
+  /// `at`: index of its normals in their rows.
   void measure(std::size_t i, std::size_t pixel, int at, const Seen& s) {
     if (!(s.z > 0.0)) {
       if (job_.out.miss[i] == Miss::kNone) job_.out.miss[i] = Miss::kTooDark;
@@ -263,7 +263,7 @@ class Formulae {
                        ? turnscan::predicted_sigma_m(noise_, fb, z, incidence, albedo)
                        : axial_sigma_m(noise_, z, incidence);
     if (!std::isfinite(sigma)) return 0.0;
-    // The steps have their share of the measured sigma already.
+    // The measured sigma already includes the steps.
     const double step = disparity_step_m(noise_, fb, z);
     sigma = std::sqrt(std::max(sigma * sigma - step * step / 12.0, 0.0));
     double noisy = z + sigma * normals_[kAxial][k];
@@ -278,9 +278,10 @@ class Formulae {
   Mask counts_;
   Mask steps_;  ///< pixels at a step
   std::uint64_t drop_seed_;
-  int radius_ = 0;                             ///< pixels about a step that are looked into
+  int radius_ = 0;                             ///< pixels around a step that are examined
   std::array<std::vector<float>, 4> normals_;  ///< by purpose
-  std::array<std::vector<float>, 4> alike_;    ///< by purpose and place; empty: each by itself
+  std::array<std::vector<float>, 4> alike_;    ///< by purpose and position; empty: each computed
+                                               ///< separately
   SubSamples rays_;
 };
 

@@ -10,8 +10,8 @@ namespace {
 // Purposes of random numbers.
 constexpr std::uint64_t kAxialPurpose = 1, kChoicePurpose = 2, kReachPurpose = 3;
 
-/// How far behind the pixel the deepest of its neighbours lies, 0 if it is no silhouette pixel.
-/// Two neighbours on the platter never are: seen flat, it is no edge.
+/// Distance of the deepest neighbour behind the pixel, 0 if it is not a silhouette pixel. Two
+/// neighbours on the platter never are: at grazing incidence it is no edge.
 float silhouette_step(const SampleGrid& exact, int u, int v) {
   constexpr float kEndless = std::numeric_limits<float>::infinity();
   const std::size_t here = exact.index(u, v);
@@ -50,7 +50,7 @@ void mix_silhouette(Job& job) {
   }
 }
 
-/// Without sigma nothing is drawn.
+/// Does nothing without sigma.
 void add_noise(Job& job, float sigma) {
   const PixelRect& r = job.exact.rect;
   const Key key = job.key_of(kAxialPurpose);

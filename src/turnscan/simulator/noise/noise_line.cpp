@@ -17,7 +17,7 @@ class LaserLine {
         strips_(line_strips_m(noise_)),
         // Towards the camera.
         side_(job.setup.model.receiver_m.x() < 0.0 ? -1.0 : 1.0),
-        // Of the surface, not of the frame.
+        // Fixed to the surface rather than to the frame.
         speckle_seed_(hash_key(job.setup.seed, job.setup.scanner, kSpeckle)) {}
 
   void run() {
@@ -33,7 +33,8 @@ class LaserLine {
   }
 
  private:
-  /// The width of the line is a length; where the sample itself hits nothing, at the last depth.
+  /// The width of the line is a length; if the sample itself hits nothing, it is taken at the last
+  /// depth.
   void add_rays() {
     const SampleGrid& exact = job_.exact;
     double z = job_.setup.model.far_m;
@@ -99,7 +100,7 @@ class LaserLine {
   double side_;
   std::uint64_t speckle_seed_;
   std::vector<std::size_t> index_, pixel_;
-  std::vector<float> x_, y_;  ///< strips_.size() for each of index_
+  std::vector<float> x_, y_;  ///< strips_.size() per entry of index_
   Samples samples_;
 };
 

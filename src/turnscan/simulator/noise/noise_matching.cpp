@@ -1,5 +1,4 @@
-// What a matcher of windows does to its depth image: neighbours share errors, and the foreground
-// grows.
+// Effects of window matching on a depth image: neighbours share errors, and the foreground grows.
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,10 @@ namespace turnscan::noise {
 namespace {
 
 constexpr std::uint64_t kWindowPurpose = 0x77696e;
-constexpr int kMargin = 64;        // so that no place beside the image is negative
-constexpr double kSteepest = 4.0;  // slope of a surface that is no edge
+constexpr int kMargin = 64;        // so that no position beside the image is negative
+constexpr double kSteepest = 4.0;  // maximum slope of a surface that is not an edge
 
-/// The nearest pixel within reach that lies clearly before this one.
+/// The nearest pixel within reach that is clearly in front of this one.
 class Foreground {
  public:
   Foreground(const Job& job, const std::vector<float>& z) : job_(job), z_(z) {
@@ -78,7 +77,7 @@ std::vector<float> window_normals(const Job& job, std::uint64_t purpose) {
   const int n = job.setup.options.window_px, w = r.width(), h = r.height();
   const std::uint64_t seed = job.seed_of(kWindowPurpose + purpose);
   const auto wide = static_cast<std::size_t>(w);
-  // Sums along the rows, of as many rows more as the window is high.
+  // Sums along the rows, with additional rows for the height of the window.
   std::vector<float> rows(wide * std::size_t(h + n - 1)), white(wide + std::size_t(n) - 1);
   for (int y = 0; y < h + n - 1; ++y) {
     for (int x = 0; x < w + n - 1; ++x)

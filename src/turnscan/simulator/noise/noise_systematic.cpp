@@ -6,7 +6,7 @@ namespace turnscan::noise {
 
 namespace {
 
-/// What wiggling adds to the depth z on the line of sight d (with z = 1).
+/// Change of the depth z by wiggling on the line of sight d (with z = 1).
 double wiggling(const Setup& setup, const Vec3d& d, double z) {
   const Vec3d p = z * d;
   const double half_path = 0.5 * (p.norm() + (p - setup.model.emitter_m).norm());

@@ -7,9 +7,9 @@ namespace turnscan::noise {
 namespace {
 
 constexpr std::uint64_t kCorrelations = 1, kGrazing = 2;
-constexpr double kFarthest_m = 1e4;  // no light comes back from there
+constexpr double kFarthest_m = 1e4;  // no light returns from there
 
-/// Light comes back from what is out of range, too.
+/// Surface that is out of range returns light, too.
 bool lit(const Samples& samples, std::size_t i) {
   const Miss miss = samples.miss[i];
   return samples.hit(i) && (miss == Miss::kNone || miss == Miss::kTooNear ||
@@ -31,7 +31,7 @@ Miss miss_of(std::uint8_t verdict) {
   }
 }
 
-/// The light that falls on the pixels of a rectangle at one moment.
+/// The light on the pixels of a rectangle at one moment.
 class Illumination {
  public:
   Illumination(const Setup& setup, const SensorView& view, const SampleGrid& exact,
@@ -62,7 +62,7 @@ class Illumination {
     float half_path, amplitude;
   };
 
-  /// pixel: the one that measures it, for its random number.
+  /// pixel: the measuring one, for its random number.
   Return returned(const Samples& samples, std::size_t i, double x, double y,
                   std::size_t pixel) const {
     const NoiseModel& model = setup_.model.noise;
@@ -169,7 +169,7 @@ class TimeOfFlight {
   }
 
  private:
-  /// All nine images of one moment.
+  /// Exposes all nine images of one moment.
   void expose(const SensorView& view, const SampleGrid& exact, kinect_v2::Raw& raw) {
     const PixelRect& r = job_.exact.rect;
     Illumination(job_.setup, view, exact, r, job_.seed_of(kGrazing), light_).fill();
@@ -178,7 +178,7 @@ class TimeOfFlight {
                       std::uint32_t(job_.setup.model.camera.width), raw);
   }
 
-  /// One image of each moment: frequency by frequency, phase by phase.
+  /// Exposes one image per moment: frequency by frequency, phase by phase.
   void expose_in_turn(kinect_v2::Raw& raw) {
     kinect_v2::Raw all;
     raw.layout = layout_;

@@ -6,9 +6,10 @@ namespace turnscan::noise {
 
 namespace {
 
-constexpr std::uint64_t kPattern = 0x646f7473;  // of every scanner and frame: it is one slide
+constexpr std::uint64_t kPattern = 0x646f7473;  // the same for every scanner and frame, since it is
+                                                // one slide
 
-/// The projector's dots, and what the camera sees of them.
+/// The projector's dots, and those visible to the camera.
 class Dots {
  public:
   explicit Dots(const Job& job)
@@ -27,7 +28,7 @@ class Dots {
     }
   }
 
-  /// Whether enough of the dots are there that a matcher expects about the pixel.
+  /// Whether enough of the dots that a matcher expects around the pixel are visible.
   bool found(int u, int v, double disparity) const {
     const int half = noise_.window_px / 2;
     int expected = 0, there = 0;
@@ -48,7 +49,7 @@ class Dots {
   }
 
  private:
-  /// Whether the pixel, at a disparity, is lit by a dot.
+  /// Whether a dot illuminates the pixel at a disparity.
   bool on_slide(int u, int v, double disparity) const {
     const auto column = static_cast<std::int64_t>(std::floor(u - disparity));
     return uniform01(hash_key(kPattern, static_cast<std::uint64_t>(column),
@@ -57,7 +58,7 @@ class Dots {
 
   const Job& job_;
   const NoiseModel& noise_;
-  std::vector<float> disparity_;  ///< exact; 0 where no sample counts
+  std::vector<float> disparity_;  ///< exact; 0 if no sample counts
   Mask dot_;                      ///< lit by a dot
 };
 

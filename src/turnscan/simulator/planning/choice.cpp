@@ -11,7 +11,7 @@ namespace {
 
 using Set = std::vector<std::uint32_t>;
 
-/// The best worth at each point of a set's candidates.
+/// The best worth of a set's candidates at each point.
 std::vector<std::uint16_t> best_of(const WorthTable& table, const Set& set) {
   std::vector<std::uint16_t> best(table.points, 0);
   for (const std::uint32_t c : set) {
@@ -49,13 +49,13 @@ std::size_t candidates_of(const std::vector<ChoiceGroup>& groups) {
   return n;
 }
 
-/// What a set can become with more candidates, at most.
+/// Upper bound for extensions of a set.
 struct Outlook {
   std::uint64_t bound = 0;
-  Set order;  ///< candidates allowed, those with the largest gains first
+  Set order;  ///< allowed candidates, those with the largest gains first
 };
 
-/// allowed: candidates that may be added, up to `more` of them.
+/// allowed: candidates that may be added, at most `more` of them.
 Outlook outlook(const std::vector<ChoiceGroup>& groups, const Set& set, const Set& allowed,
                 std::size_t more) {
   Outlook out;
@@ -87,7 +87,7 @@ Outlook outlook(const std::vector<ChoiceGroup>& groups, const Set& set, const Se
   return out;
 }
 
-/// Whether b is worth at least what a is everywhere, and more somewhere or its place is earlier.
+/// Whether b is worth at least as much as a everywhere, and more somewhere or is earlier.
 bool dominates(const std::vector<ChoiceGroup>& groups, std::uint32_t b, std::uint32_t a) {
   bool more = b < a;
   for (const ChoiceGroup& group : groups) {
@@ -102,7 +102,7 @@ bool dominates(const std::vector<ChoiceGroup>& groups, std::uint32_t b, std::uin
   return more;
 }
 
-/// Candidates that no other dominates: the best set is among them.
+/// Candidates that no other dominates: the best set consists of some of them.
 Set undominated(const std::vector<ChoiceGroup>& groups, std::size_t n) {
   std::vector<std::uint8_t> kept(n, 1);
   parallel_for(n, 1, [&](std::size_t a) {
@@ -139,13 +139,13 @@ class Chooser {
     return value_of(groups_, set);
   }
 
-  /// Gains of earlier rounds bound those of later ones from above only for one alternative each;
-  /// with several the maximum over them need not be submodular, and all are looked at again.
+  /// Gains of earlier rounds are upper bounds of later ones only with a single alternative each;
+  /// with several, the maximum over them need not be submodular, and all are evaluated again.
   Result<> greedy(const RunContext& context) {
     const bool lazy = std::all_of(groups_.begin(), groups_.end(), [](const ChoiceGroup& group) {
       return group.alternatives.size() == 1;
     });
-    std::vector<std::uint64_t> gain(n_, ~std::uint64_t(0));  // by place in allowed_
+    std::vector<std::uint64_t> gain(n_, ~std::uint64_t(0));  // indexed as allowed_
     while (out_.candidates.size() < std::min(options_.most, n_)) {
       TURNSCAN_TRY(context.check());
       std::vector<std::uint32_t> order(n_);
@@ -169,7 +169,7 @@ class Chooser {
     return {};
   }
 
-  /// One candidate for another, as long as that gains.
+  /// Exchanges one candidate for another as long as that increases the value.
   Result<> exchange(const RunContext& context) {
     for (bool better = true; better;) {
       better = false;
@@ -192,7 +192,7 @@ class Chooser {
     return {};
   }
 
-  /// What adds nothing beside the others goes.
+  /// Removes candidates that add nothing to the others.
   void drop_idle() {
     for (std::size_t k = out_.candidates.size(); k-- > 0;) {
       Set without = out_.candidates;
@@ -201,10 +201,10 @@ class Chooser {
     }
   }
 
-  /// A set, and what may still join it.
+  /// A set, and the candidates that may still be added.
   struct Node {
     std::uint64_t bound = 0;
-    std::uint64_t number = 0;  ///< in which it was made
+    std::uint64_t number = 0;  ///< order of creation
     Set set, allowed;
     bool operator<(const Node& o) const {
       return bound != o.bound ? bound < o.bound : number > o.number;
@@ -229,7 +229,7 @@ class Chooser {
         take(node.set, look.order.front());
         continue;
       }
-      // With the first of the order, or without it.
+      // Branches: with the first of the order, or without it.
       Set rest(look.order.begin() + 1, look.order.end());
       Set with = node.set;
       with.push_back(look.order.front());

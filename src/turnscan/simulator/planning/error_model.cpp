@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kUsualNoise_m = 0.0004;  // averaged over frames
 
-/// Below the radii that it is known for it falls with the square of the radius, as that of a bend;
-/// beyond them it is as at the last.
+/// Below the known radii it falls with the square of the radius, like that of a curved surface;
+/// beyond them the last value is used.
 double relief_within(const Spot& spot, double radius_m) {
   const auto& radii = kReliefRadii_m;
   if (radius_m <= radii[0]) return double(spot.relief_m[0]) * std::pow(radius_m / radii[0], 2.0);

@@ -27,8 +27,8 @@ double area_of_patch(const CoveragePatch& patch) {
                           .norm());
 }
 
-/// Cells in which spots lie: one at each step of the area, in the cells' order. A cell that is
-/// larger than a step has several.
+/// Cells of the spots: one at each step of the area, in the cells' order. A cell larger than a step
+/// has several.
 std::vector<std::uint32_t> drawn_cells(const CoveragePatches& surface, std::size_t most) {
   double area = 0.0;
   for (const CoverageCell& cell : surface.cells) area += cell.area_m2;
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> drawn_cells(const CoveragePatches& surface, std::size
   return cells;
 }
 
-/// Patches by the cube of a grid that they lie in.
+/// Patches indexed by the cube of a grid that contains them.
 class PatchGrid {
  public:
   PatchGrid(const CoveragePatches& surface, double step_m) : surface_(surface), step_m_(step_m) {

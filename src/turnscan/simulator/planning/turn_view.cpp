@@ -8,13 +8,13 @@ namespace turnscan::planning {
 
 namespace {
 
-constexpr float kLifted_m = 20e-6f;  // rays start so far outside the surface
+constexpr float kLifted_m = 20e-6f;  // rays start at this distance outside the surface
 
 /// A point of a spot in the table's frame.
 struct TriedPoint {
   Vec3f p, normal;
   std::uint32_t spot;
-  float cell_m2;  ///< that it stands for
+  float cell_m2;  ///< area that it represents
 };
 
 std::vector<TriedPoint> middles(const PlanSurface& surface, const Pose& T) {
@@ -44,7 +44,7 @@ std::vector<TriedPoint> further_points(const PlanSurface& surface, const Pose& T
   return out;
 }
 
-/// One direction of a turn after the other.
+/// Evaluates one direction of a turn after the other.
 class TurnLook {
  public:
   TurnLook(const PlanSurface& surface, const TurnView& view, std::vector<SpotSight>& sights)
@@ -120,7 +120,7 @@ class TurnLook {
   void add(const TriedPoint& at, const Candidate& one) {
     const CameraIntrinsics& camera = model_.camera;
     const auto frames = float(view_.frames_per_direction);
-    // Pixels that a square of the surface takes up at its distance.
+    // Number of pixels that a square of the surface covers at its distance.
     const float per_m2 = float(camera.fx * camera.fy) / (one.z * one.z);
     SpotSight& sight = sights_[at.spot];
     const float none = std::max(0.0f, 1.0f - at.cell_m2 * one.cosine * per_m2);

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
-constexpr std::size_t kKeyRays = 2;    // of each sample
+constexpr std::size_t kKeyRays = 2;    // per sample
 constexpr float kLightRadius = 0.05f;  // of the key light's disc at distance 1: soft shadows
-constexpr float kGroundBounce = 0.6f;  // light that comes from below, as part of the sky's
+constexpr float kGroundBounce = 0.6f;  // light from below, relative to the sky's
 const Vec3f kKeyColor(0.80f, 0.77f, 0.72f);
 const Vec3f kFillColor(0.20f, 0.22f, 0.25f);
 const Vec3f kSkyColor(0.44f, 0.46f, 0.48f);
@@ -32,7 +32,7 @@ std::vector<Vec3f> used_vertices(std::span<const TriangleMesh> meshes) {
   return points;
 }
 
-/// Two vectors that are at right angles to n and to each other.
+/// Two vectors perpendicular to n and to each other.
 std::pair<Vec3f, Vec3f> tangents(const Vec3f& n) {
   const Vec3f helper = std::abs(n.y()) < 0.9f ? Vec3f::UnitY() : Vec3f::UnitX();
   const Vec3f a = n.cross(helper).normalized();
@@ -45,19 +45,19 @@ Eigen::Vector2f disc_point(double u, double v) {
   return {static_cast<float>(r * std::cos(angle)), static_cast<float>(r * std::sin(angle))};
 }
 
-/// A place that light is to be found for.
+/// A point to be lit.
 struct Spot {
   std::size_t pixel = 0;
-  Vec3f position;  ///< a little off the surface
+  Vec3f position;  ///< slightly off the surface
   Vec3f normal;
   Vec3f albedo;
   bool ground = false;
   std::uint64_t key = 0;   ///< of the pixel's random numbers
-  std::size_t sample = 0;  ///< which of the pixel's samples it is
+  std::size_t sample = 0;  ///< index among the pixel's samples
 };
 
 /// Point k of n of a spot on the unit disc. The points of all samples of a pixel together are
-/// evenly spread: strata for the radius, golden ratio steps for the angle.
+/// evenly distributed: strata for the radius, golden ratio steps for the angle.
 Eigen::Vector2f spread_point(const Spot& spot, std::size_t k, std::size_t n, std::uint64_t salt) {
   const std::size_t index = k * kSamples + spot.sample;
   const std::uint64_t key = mix64(spot.key ^ salt);
@@ -168,13 +168,13 @@ class Painter {
     return lights;
   }
 
-  /// Rays spread by the cosine, stratified; what goes down unhindered meets the ground.
+  /// Cosine-distributed, stratified rays; downward rays without a hit reach the ground.
   void add_sky(const std::vector<Spot>& spots, std::vector<Light>& lights) const {
     const auto all = static_cast<std::size_t>(options_.ambient_samples);
     std::vector<Ray> rays(all);
     std::vector<std::uint8_t> blocked(all);
     for (std::size_t i = 0; i < spots.size(); ++i) {
-      // The floor is most of the picture and has little to show.
+      // The floor covers most of the picture and has little detail.
       const std::size_t n = spots[i].ground ? (all + 1) / 2 : all;
       const auto [a, b] = tangents(spots[i].normal);
       float sum = 0.0f;
@@ -192,7 +192,7 @@ class Painter {
 
   Vec3f shade(const Spot& spot, const Light& light, const Vec3f& to_light) const {
     if (spot.ground) {
-      // Only the shadow shows, so that the floor and the background are one.
+      // Only the shadow is visible, so that the floor merges with the background.
       const float lit = 0.45f * light.key + 0.55f * light.sky;
       return spot.albedo * (0.35f + 0.65f * lit);
     }

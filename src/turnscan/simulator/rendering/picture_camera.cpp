@@ -10,8 +10,9 @@ namespace {
 constexpr double kMargin = 1.08;
 
 struct Framing {
-  double distance = 0.0;    ///< of the eye from the point aimed at, so that all is in the picture
-  double x = 0.0, y = 0.0;  ///< middle of what is seen, as slopes
+  double distance = 0.0;    ///< of the eye from the point aimed at, for which everything is in the
+                            ///< picture
+  double x = 0.0, y = 0.0;  ///< centre of the visible part, as slopes
 };
 
 Framing frame_of(std::span<const Vec3f> points, const PictureCamera& camera, const Vec3d& aim) {

@@ -6,7 +6,7 @@ namespace turnscan {
 
 namespace {
 
-/// The camera goes round clockwise where the object turns counter-clockwise.
+/// The camera moves clockwise where the object turns counter-clockwise.
 std::vector<rendering::ViewSetup> views_of_turn(const std::vector<Vec3f>& points,
                                                 const PictureOptions& o, int frames) {
   Box box;
@@ -47,7 +47,7 @@ Result<> render_turn(std::span<const TriangleMesh> meshes, const PictureOptions&
   context.begin_phase("render turn", std::uint64_t(options.height) * views.size());
   for (const rendering::ViewSetup& view : views) {
     ColorImage image(options.width, options.height, options.background);
-    // The same random numbers for each: what stands still on the floor does not flicker.
+    // The same random numbers for each picture, so that static parts of the floor do not flicker.
     if (!subject.scene.object_box().empty())
       rendering::paint_view(subject, options, view, 0, 0, image, context);
     TURNSCAN_TRY(context.check());

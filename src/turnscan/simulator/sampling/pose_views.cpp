@@ -9,10 +9,10 @@ namespace turnscan::sampling {
 
 namespace {
 
-constexpr double kNearest_m = 1e-3;  // a corner nearer than this may be anywhere in the image
+constexpr double kNearest_m = 1e-3;  // a nearer corner may be anywhere in the image
 
-/// Outside of it no pixel of `all` sees anything of the box; it has a border of a pixel. `all` if
-/// a part of the box is behind the eye.
+/// Rect outside of which no pixel of `all` sees anything of the box, with a border of one pixel.
+/// `all` if a part of the box is behind the eye.
 PixelRect rect_of(const CameraIntrinsics& camera, const PixelRect& all, const Box& box,
                   const Pose& T_sensor_box) {
   if (box.empty()) return {};
@@ -30,7 +30,7 @@ PixelRect rect_of(const CameraIntrinsics& camera, const PixelRect& all, const Bo
     high = high.cwiseMax(camera.project(q));
   }
   if (behind == 8) return {};
-  // Distortion may bulge between the corners.
+  // Distorted edges may bulge between the corners.
   if (behind > 0 || camera.distorted()) return all;
   const auto pixel = [](double v, int first, int end) {
     return static_cast<int>(std::clamp(v, double(first), double(end)));
@@ -65,7 +65,7 @@ BodyView view_of(const Body& body, std::size_t position, const ScannerModel& mod
   return view;
 }
 
-/// Depth of the nearest corner of what the body holds.
+/// Depth of the nearest corner of the body's bounding box.
 double nearest_of(const Body& body, const Pose& T_world_sensor) {
   const Pose T = T_world_sensor.inverse() * body.T_world_body;
   const Box box = body.scene->box();
@@ -78,7 +78,7 @@ double nearest_of(const Body& body, const Pose& T_world_sensor) {
   return nearest;
 }
 
-/// The image and as much beside it on the side of the other eye.
+/// The image, extended by its own size on the side of the other eye.
 PixelRect widened(const PixelRect& image, const View& view) {
   PixelRect wide = image;
   const int width = image.width(), height = image.height();
@@ -89,15 +89,16 @@ PixelRect widened(const PixelRect& image, const View& view) {
   return wide;
 }
 
-/// Whether the rect ends at the border on the side of the other eye: the body may go on beyond it.
+/// Whether the rect ends at the border on the side of the other eye, so that the body may extend
+/// beyond it.
 bool cut_off(const PixelRect& rect, const View& view, const PixelRect& border) {
   if (view.baseline_along_rows)
     return view.baseline > 0.0f ? rect.right >= border.right : rect.left <= border.left;
   return view.baseline > 0.0f ? rect.bottom >= border.bottom : rect.top <= border.top;
 }
 
-/// Whether any triangle of a small body reaches, by its box, into a box of the sensor's frame; of a
-/// large body it is taken to.
+/// Whether the bounding box of any triangle of a small body intersects a box of the sensor's frame;
+/// assumed for large bodies.
 bool reaches_into(const Body& body, const Pose& T_sensor_body, const Box& where) {
   constexpr std::size_t kMaxTriangles = 20000;
   const Scene::Impl& scene = body.scene->impl();
@@ -122,8 +123,8 @@ bool reaches_into(const Body& body, const Pose& T_sensor_body, const Box& where)
   return meets(box);
 }
 
-/// Where something beyond the border may lie that hides a sample of the image from the other eye at
-/// b: between the two, and so no deeper than b / (direction of the border - the sample's).
+/// Space beyond the border in which something may occlude a sample of the image from the other eye
+/// at b: between the two, and so no deeper than b / (direction of the border - the sample's).
 Box hideout(const CameraIntrinsics& camera, const View& view, const PixelRect& border) {
   const bool rows = view.baseline_along_rows;
   const double f = rows ? camera.fx : camera.fy, c = rows ? camera.cx : camera.cy;
@@ -163,7 +164,7 @@ PoseViews::PoseViews(std::span<const Body> all, const ScannerModel& model,
       int(model.kind == ScannerKind::kLine ? Miss::kReceiverBlocked : Miss::kEmitterBlocked);
   view.near_m = static_cast<float>(model.near_m);
   view.far_m = static_cast<float>(model.far_m);
-  // At a right angle nothing is too flat, whatever the rounding.
+  // With a maximum of a right angle nothing is too oblique, whatever the rounding.
   view.least_cosine = model.max_incidence_rad < kTurn / 4
                           ? static_cast<float>(std::cos(model.max_incidence_rad))
                           : 0.0f;

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, kMissCount> kMissNames{
     "out-of-view", "emitter-blocked", "receiver-blocked", "grazing",
     "too-dark",    "rejected"};
 
-/// Memory for drawing that the next image uses again.
+/// Memory for drawing that is reused for the next image.
 struct Sheet {
   std::vector<float> nearness, tiles;
   std::vector<std::uint32_t> slot, order;
@@ -47,8 +47,8 @@ struct Sheet {
   }
 };
 
-/// Drawing costs by the triangle, rays by the pixel: up to so many of the one for the other it pays
-/// to draw (measured, docs/performance.md).
+/// The cost of drawing is per triangle, that of rays per pixel: drawing pays up to this ratio
+/// (measured, docs/performance.md).
 constexpr double kTrianglesPerPixel = 30.0;
 constexpr std::uint64_t kMaxSlots = 0xffffff00u;
 
@@ -84,7 +84,7 @@ void Samples::resize(std::size_t n) {
 struct SampleTracer::Impl {
   ScannerModel model;
   TraceMethods methods;
-  int tile_width;           ///< of a packet: a square, or as near to it as the image allows
+  int tile_width;           ///< of a packet: a square, or as close to it as the image allows
   std::vector<float> x, y;  ///< per column and row, or with distortion per pixel
   sampling::Directions directions;
   mutable std::mutex mutex;
@@ -106,7 +106,7 @@ struct SampleTracer::Impl {
   }
 
   bool draws(std::span<const Body> bodies, const PixelRect& rect) const {
-    // Of one column rays are as fast.
+    // For a single column rays are as fast.
     if (methods.hits == HitMethod::kCheapest && model.kind == ScannerKind::kLine) return false;
     if (methods.hits == HitMethod::kRays || model.camera.distorted() || !slots_suffice(bodies))
       return false;

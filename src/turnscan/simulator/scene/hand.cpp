@@ -11,13 +11,13 @@ namespace {
 
 constexpr Rgb kSkinColor{206, 160, 132};
 constexpr Rgb kSleeveColor{58, 74, 110};
-constexpr double kReach_m = 1.2;        // from beside the view to above the platter
+constexpr double kReach_m = 1.2;        // from outside the view to above the platter
 constexpr double kRise_m = 0.15;        // on the way out
 constexpr double kSway_m = 0.015;       // to each side
-constexpr double kShareOfWay = 0.3;     // of the time, for each way
+constexpr double kShareOfWay = 0.3;     // of the time, in each direction
 constexpr double kDefaultHeight = 0.1;  // above the platter, without an object
 
-/// A capsule from a to b whose radius goes from ra to rb.
+/// A capsule from a to b whose radius changes from ra to rb.
 void add_capsule(TriangleMesh& mesh, const Vec3d& a, const Vec3d& b, double ra, double rb,
                  Rgb color) {
   constexpr std::uint32_t kRings = 6, kAround = 24;  // of each cap
@@ -46,7 +46,7 @@ void add_capsule(TriangleMesh& mesh, const Vec3d& a, const Vec3d& b, double ra, 
 
 double smooth(double x) { return x * x * (3.0 - 2.0 * x); }
 
-/// How far it is away as a share of its reach, at a share of its time.
+/// Its distance relative to its reach, at a fraction of its time.
 double away(double share) {
   return smooth(std::clamp(std::max(kShareOfWay - share, share - (1.0 - kShareOfWay)) / kShareOfWay,
                            0.0, 1.0));

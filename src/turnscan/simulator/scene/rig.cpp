@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRightAngle = kTurn / 4;
 
-/// Of the scanner's table, which lists placement and knock.
+/// Adds to the scanner's table, which lists placement and knock.
 void add_knock(OptionTable& table, ScannerKnock& k) {
   table
       .number(
@@ -104,7 +104,7 @@ Pose table_pose(const TablePlacement& p) {
   Pose T = Pose::Identity();
   T.translation() = Vec3d(p.x_m, p.y_m, p.z_m);
   if (p.tilt_rad == 0.0) return T;
-  // Azimuth 0 is -Z; leaning there is a turn about -X.
+  // Azimuth 0 is -Z; tilting in that direction is a rotation about -X.
   const Vec3d about = rotation_about_y(p.tilt_direction_rad) * Vec3d(-1.0, 0.0, 0.0);
   T.linear() = Eigen::AngleAxisd(p.tilt_rad, about).toRotationMatrix();
   return T;
@@ -114,7 +114,7 @@ double canonical_yaw(const Pose& T_world_table, const Pose& T_world_sensor) {
   constexpr double kOnAxis_m = 1e-9;
   const Vec3d p_table = T_world_table.inverse() * T_world_sensor.translation();
   if (std::hypot(p_table.x(), p_table.z()) < kOnAxis_m) return 0.0;
-  // In the frame wanted the scanner is at x = 0, z < 0.
+  // In the desired frame the scanner is at x = 0, z < 0.
   return std::atan2(-p_table.x(), -p_table.z());
 }
 

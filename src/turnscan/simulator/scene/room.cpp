@@ -19,8 +19,8 @@ constexpr Rgb kPlatterSideColor{120, 122, 126};
 constexpr std::array<Rgb, 6> kThingColors{
     {{186, 58, 48}, {64, 104, 168}, {224, 182, 70}, {92, 142, 84}, {205, 205, 205}, {96, 80, 120}}};
 constexpr double kDeskThickness_m = 0.03;
-constexpr double kDeskReach_m = 0.7;  // beside and before the platter's centre
-constexpr double kWallGap_m = 0.25;   // behind what is farthest back
+constexpr double kDeskReach_m = 0.7;  // beside and in front of the platter's centre
+constexpr double kWallGap_m = 0.25;   // behind the rearmost element
 constexpr double kWallHalfWidth_m = 2.5;
 constexpr double kWallHeight_m = 2.0;
 constexpr std::uint64_t kThingSalt = 0x726f6f6dULL;
@@ -31,7 +31,7 @@ void add_quad(TriangleMesh& mesh, const std::array<Vec3d, 4>& corners, Rgb color
     mesh.vertices.push_back(p.cast<float>());
     mesh.colors.push_back(color);
   }
-  // At a pole two corners are one.
+  // At a pole two corners coincide.
   if (corners[0] != corners[1]) mesh.triangles.push_back({first, first + 1, first + 2});
   if (corners[2] != corners[3]) mesh.triangles.push_back({first, first + 2, first + 3});
 }
@@ -55,7 +55,8 @@ void add_box(TriangleMesh& mesh, const Pose& T, const Vec3d& half, Rgb color) {
   }
 }
 
-/// Between two radii at two heights about the y axis; with both heights equal a ring or a disc.
+/// A surface between two radii at two heights about the y axis; a ring or a disc if both heights
+/// are equal.
 void add_band(TriangleMesh& mesh, const Vec3d& base, double r0, double y0, double r1, double y1,
               Rgb color) {
   const auto at = [&](double r, double y, int i) {
@@ -90,7 +91,7 @@ Pose at_place(const Vec3d& p, double yaw) {
 /// Azimuth of p about the centre: 0 on -Z.
 double azimuth_of(const Vec3d& p) { return std::atan2(-p.x(), -p.z()); }
 
-/// The room in a frame whose origin is the platter's centre and whose +Z leads to the wall.
+/// The room in a frame whose origin is the platter's centre and whose +Z points to the wall.
 class RoomBuilder {
  public:
   RoomBuilder(const RoomOptions& options, double radius, double thickness,
@@ -134,7 +135,7 @@ class RoomBuilder {
              kWallColor);
   }
 
-  /// Whether a thing there could come between a scanner and the platter.
+  /// Whether an object there could come between a scanner and the platter.
   bool in_view(const Vec3d& place, double size) const {
     return std::any_of(scanners_.begin(), scanners_.end(), [&](const Vec3d& p) {
       const Vec3d way = Vec3d(p.x(), 0.0, p.z()).normalized();
@@ -147,7 +148,7 @@ class RoomBuilder {
     return uniform01(hash_key(seed_ ^ kThingSalt, thing, what));
   }
 
-  /// A free place on the desk; none after many tries: scanners all around, or a small desk.
+  /// A free place on the desk; nullopt after many tries: scanners all around, or a small desk.
   std::optional<Vec3d> free_place(std::uint64_t thing, double size) const {
     const double near = 1.1 * radius_ + 1.8 * size, far = desk_reach() - size;
     for (std::uint64_t attempt = 0; attempt < 64; ++attempt) {
@@ -203,7 +204,7 @@ TriangleMesh make_room(const RoomOptions& options, const Vec3d& centre, double p
                        double platter_thickness_m, std::span<const Vec3d> scanners,
                        std::uint64_t seed) {
   if (options.kind == RoomKind::kNone) return {};
-  // The first scanner is before the wall, whatever its azimuth.
+  // The first scanner is in front of the wall, whatever its azimuth.
   const double yaw = scanners.empty() ? 0.0 : azimuth_of(scanners[0] - centre);
   const Pose T_world_room = at_place(centre, yaw);
   std::vector<Vec3d> placed;

@@ -13,8 +13,8 @@ constexpr double kMaxFrames = 1e6;
 constexpr double kNever = 1e300;
 constexpr std::uint64_t kDropSalt = 0x64726f70ULL;
 
-/// Speed over time as a share of the full one: 0, up, 1, down to 0 at the end. Its time leaves the
-/// halt out.
+/// Speed over time relative to the full one: 0, rising, 1, falling to 0 at the end. Its time
+/// excludes the halt.
 struct SpeedProfile {
   double delay_s, up_s, down_s, end_s, halt_at_s, halt_s;
 
@@ -25,7 +25,7 @@ struct SpeedProfile {
     return rising + std::max(0.0, t - begin - length);
   }
 
-  /// Turned by the time t at a full speed of 1.
+  /// Rotation until the time t at a full speed of 1.
   double turned(double t) const {
     if (t > halt_at_s) t = std::max(halt_at_s, t - halt_s);
     return ramp_area(t, delay_s, up_s) - ramp_area(t, end_s - down_s, down_s);
@@ -68,7 +68,7 @@ Result<double> full_speed(const MotionOptions& o, const SpeedProfile& profile) {
   return o.turns * kTurn / turned;
 }
 
-/// Where the platter is at a time.
+/// The platter's angle as a function of time.
 struct Course {
   int count;  ///< of frames
   SpeedProfile profile;
