@@ -83,7 +83,7 @@ class VirtualScan : public FrameSequence {
   const TurntableInfo& turntable() const;
   /// Static surroundings, in the world's frame; nullptr without a room.
   const Scene* room() const;
-  /// Maps the world's frame to that of T_table_sensor.
+  /// Maps the world's frame to the table's, which follows the objects as in T_table_sensor.
   Pose T_table_world(std::size_t position) const;
   /// Height of the point at which scanners without an aim height of their own look; world.
   double aim_height_m() const;

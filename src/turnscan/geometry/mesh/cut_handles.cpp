@@ -219,7 +219,8 @@ class HandleCutter {
     return out;
   }
 
-  /// By the Euler characteristic of a connected patch: all loops are contractible.
+  /// Tests by the Euler characteristic whether a connected patch is a disc, on which all loops are
+  /// contractible.
   static bool is_disc(std::size_t vertices, std::ptrdiff_t twice_edges,
                       std::ptrdiff_t thrice_faces) {
     return std::ptrdiff_t(vertices) - twice_edges / 2 + thrice_faces / 3 == 1;
@@ -356,7 +357,7 @@ class HandleCutter {
   std::vector<Loop> loops_;
 };
 
-/// Of a closed, 2-manifold, connected surface without unreferenced vertices.
+/// Genus of a closed, 2-manifold, connected surface without unreferenced vertices.
 std::size_t genus(const TriangleMesh& mesh) {
   const auto euler =
       std::ptrdiff_t(mesh.vertices.size()) - std::ptrdiff_t(mesh.triangles.size() / 2);

@@ -118,7 +118,7 @@ std::vector<Place> places_of(const std::vector<ObjectView>& objects) {
   return places;
 }
 
-/// By code; equal codes keep the given order.
+/// Sorts by code; equal codes keep the given order.
 void sort_places(std::vector<Place>& places) {
   constexpr int kDigit = 10;
   constexpr std::size_t kValues = std::size_t{1} << kDigit;

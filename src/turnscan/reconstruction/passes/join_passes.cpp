@@ -106,7 +106,7 @@ class ObjectJoin {
     return out;
   }
 
-  /// Of the rejected pairs the one with the most evidence.
+  /// The pair with the most evidence among the rejected ones.
   const PairVerdict* verdict_of(std::size_t object) const {
     for (const JudgedPair& judged : verdicts_)
       if ((judged.a == object || judged.b == object) && !judged.verdict.reason.empty())

@@ -17,8 +17,9 @@ struct PassMotion {
   std::string reason;                    ///< why it was not joined: one clause, for display
   bool open = false;                     ///< not joined, although several motions would fit
   Pose T_first_pass = Pose::Identity();  ///< from this pass's table frame to the first one's
-  /// Of a rotation vector (rad) and a translation (m) that follow the motion, in the first pass's
-  /// frame, about `center`: T = exp(error about center) * T_first_pass. Zero for the first.
+  /// Covariance of a rotation vector (rad) and a translation (m) that follow the motion, in the
+  /// first pass's frame, about `center`: T = exp(error about center) * T_first_pass. Zero for the
+  /// first.
   Matrix6 covariance = Matrix6::Zero();
   Vec3d center = Vec3d::Zero();
   double sigma_m = 0.0;     ///< stated standard deviation of the motion, root mean square over the

@@ -14,11 +14,11 @@ struct SurfaceLevel {
   Samples samples;
   double reach_m;  ///< maximum distance of points found by nearest()
   NearestGrid nearest;
-  /// Of each channel (row) by position, along the surface; empty without colours.
+  /// Gradients of each channel (row) by position, along the surface; empty without colours.
   std::vector<Eigen::Matrix3f> color_gradients;
 };
 
-/// From the nearest neighbours of each point; 0 if too few of them have a colour.
+/// Gradients from the nearest neighbours of each point; 0 if too few of them have a colour.
 std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
                                              std::span<const Vec3f> normals,
                                              std::span<const Vec3f> colors);

@@ -32,7 +32,7 @@ Vec3f color_of(const Rgb& c) {
           (r + g - 2.0f * b) / std::sqrt(6.0f)};
 }
 
-/// Of degrees 1 and 2, without their factors.
+/// Spherical harmonics of degrees 1 and 2, without their factors.
 Basis harmonics(const Vec3f& n) {
   const double x = n.x(), y = n.y(), z = n.z();
   Basis out;

@@ -50,7 +50,7 @@ bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
   return std::abs(depth - at.z) * at.along * at.cosine <= tolerance_m;
 }
 
-/// Of the sectors in all bands, that of a view as seen from a point.
+/// The sector, over all bands, of a view as seen from a point.
 int sector_of(const Viewpoint& viewpoint, const Vec3f& p) {
   const Vec3f to = viewpoint.direction_from(p.cast<double>()).cast<float>();
   const float turn = std::atan2(to.z(), to.x()) / float(kTurn) + 0.5f;

@@ -14,8 +14,8 @@ inline constexpr std::uint16_t kNoView = 0xffff;
 /// Views chosen per block and slot.
 struct ChosenViews {
   std::vector<std::array<std::uint16_t, kSlots>> view;  ///< kNoView: no further one sees it
-  /// By resolution and incidence; falls to 0 for views that are barely chosen, so that the weights
-  /// of neighbouring blocks are similar.
+  /// Weight by resolution and incidence; falls to 0 for views that are barely chosen, so that the
+  /// weights of neighbouring blocks are similar.
   std::vector<std::array<float, kSlots>> weight;
   double pixels_per_m = 0.0;  ///< of the best views, median
 };

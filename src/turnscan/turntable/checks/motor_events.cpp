@@ -173,7 +173,7 @@ class MotorEventFinder {
     return event;
   }
 
-  /// Of all moments at which the event can have begun, the one with which the frames fit best.
+  /// The moment, among all at which the event can have begun, with which the frames fit best.
   double moment(std::size_t first, std::size_t last, const MotorEvent& event) const {
     const std::size_t step = 1 + (last - first) / 60;
     double least = 0.0, best = time(first);

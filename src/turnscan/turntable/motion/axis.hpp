@@ -10,7 +10,8 @@ namespace turnscan::motion {
 /// Two unit directions perpendicular to n and to each other.
 std::pair<Vec3d, Vec3d> tangent_basis(const Vec3d& n);
 
-/// Moves axis and centre by tilts and shifts along tangent_basis(axis). Returns the size of both.
+/// Moves axis and centre by tilts about and shifts along tangent_basis(axis). Returns the size of
+/// both.
 std::pair<double, double> move_axis(const Eigen::Vector4d& step, Vec3d& axis, Vec3d& center);
 
 /// Accuracy of the axis and centre of rotation as given by a platter (standard deviations in each
@@ -19,7 +20,7 @@ double platter_axis_sigma_rad(const DetectedPlatter& platter);
 double platter_center_sigma_m(const DetectedPlatter& platter);
 
 /// Prior of the axis from the platter; nullptr: roughly in front of the sensor. Adds to the normal
-/// equations of two tilts and two shifts along tangent_basis(axis); unit: weight of one.
+/// equations of two tilts about and two shifts along tangent_basis(axis); unit: weight of one.
 void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec3d& center,
                     double unit, Eigen::Ref<Eigen::Matrix4d> normal,
                     Eigen::Ref<Eigen::Vector4d> right);
@@ -27,7 +28,7 @@ void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec
 struct AxisEstimate {
   Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
   Vec3d center = Vec3d::Zero();  ///< a point on it, metres
-  /// Of two tilts and two shifts along tangent_basis(axis), radians and metres.
+  /// Covariance of two tilts about and two shifts along tangent_basis(axis), radians and metres.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 };
 

@@ -60,7 +60,7 @@ class BundleSystem {
 
   std::size_t residuals() const { return residuals_; }
   double rms_m() const { return rms_m_; }
-  /// Of a residual, inflated for correlated errors.
+  /// Variance of a residual, inflated for correlated errors.
   double variance_m2() const { return variance_; }
 
  private:

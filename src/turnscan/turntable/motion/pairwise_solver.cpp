@@ -15,7 +15,8 @@ namespace turnscan::motion {
 
 namespace {
 
-/// Of a single pair, relative to the rotation between its views (standard deviation).
+/// Standard deviation of a single pair's rotation error, relative to the rotation between its
+/// views.
 constexpr double kPairRotationSlack = 0.005;
 /// Standard deviation of MotionState::rotation_bias.
 constexpr double kRotationBiasSigma = 0.003;

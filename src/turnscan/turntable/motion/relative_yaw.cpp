@@ -18,7 +18,7 @@ constexpr double kSeparate = 20.0 * kRadiansPerDegree;  // yaws this far apart a
 constexpr double kAmbiguousRatio = 1.1;  // of costs, below which two yaws are equally good
 /// Number of nearby samples that count as one, since they share their errors from frame to frame.
 constexpr double kCorrelatedSamples = 30.0;
-/// Of normals, relative to the effect of their noise alone: less does not determine the rotation.
+/// Minimum ratio of the normals' information about the rotation to the effect of their noise alone.
 constexpr double kMinSignal = 2.0;
 
 Vec3d point_of(const SurfaceSample& s) { return s.p.cast<double>(); }

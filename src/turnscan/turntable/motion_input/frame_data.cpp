@@ -10,7 +10,7 @@ namespace turnscan::motion {
 namespace {
 
 constexpr std::uint64_t kSamplingSeed = 0x6d6f74696f6eULL;
-/// Of a scan: more take time to search without improving its pose.
+/// Maximum number of points of a scan: more take time to search without improving its pose.
 constexpr std::size_t kMaxScanPoints = 150000;
 
 /// A random subset of about `most` points: every n-th of a grid would select its columns.

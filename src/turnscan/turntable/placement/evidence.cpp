@@ -17,11 +17,12 @@ namespace {
 /// depth.
 constexpr double kShiftFloor_m = 1e-4, kTurnFloor = 0.03 * kRadiansPerDegree;
 constexpr double kTurnPerApart = 0.004;
-/// Of the apparent additional rotation between two views from different sides, relative to it.
+/// Standard deviation of the apparent additional rotation between two views from different sides,
+/// relative to their rotation.
 constexpr double kBiasSigma = 0.003;
 /// Median of a chi square over its number of unknowns, for three to six of them.
 constexpr double kMedianPerUnknown = 0.87;
-/// Of a model's unknowns, metres: only unobserved ones stay at zero.
+/// Prior standard deviations of a model's unknowns, metres: only unobserved ones stay at zero.
 constexpr double kValueSigma_m = 0.1, kCalibrationSigma_m = 0.002, kHeldSigma_m = 1e-7;
 
 /// Biases independent of the models: two of rotations, and for the platter's axis two in the
