@@ -78,10 +78,10 @@ struct ToleranceShares {
 };
 
 struct Evaluation {
-  /// From mesh to reference over the part of the mesh whose nearest reference point was seen (and,
-  /// with Border::kLeaveOut, is not on an open edge).
+  /// Distances from the mesh to the reference over the part of the mesh whose nearest reference
+  /// point was seen (and, with Border::kLeaveOut, is not on an open edge).
   ErrorStatistics accuracy;
-  /// From the seen part of the reference to the mesh.
+  /// Distances from the seen part of the reference to the mesh.
   ErrorStatistics completeness;
   /// Mean offset of the samples of accuracy from the reference, along its normal: positive if the
   /// mesh is outside the reference.

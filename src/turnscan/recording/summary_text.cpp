@@ -48,7 +48,7 @@ std::string position_text(const SequenceSummary& s) {
   return text.empty() ? "nothing" : text;
 }
 
-/// For a file of another program that is not imported yet.
+/// Appends the lines for a file of another program that is not imported yet.
 void put_file(const SequenceSummary& s, std::string& out) {
   if (!s.bytes) return;
   out += fmt::format("size:        {:.1f} MB\n", double(*s.bytes) * 1e-6);

@@ -234,8 +234,8 @@ class HandleCutter {
     return in_ball(t[0]) && in_ball(t[1]) && in_ball(t[2]) ? h / 3 : outside();
   }
 
-  /// Along the tree to the start of a half edge, along it, and back, without the common part of
-  /// both paths.
+  /// The loop along the tree to the start of a half edge, along it, and back, without the common
+  /// part of both paths.
   Loop close_loop(std::uint32_t h) const {
     const auto way = [&](std::uint32_t v) {
       Loop out;

@@ -11,7 +11,7 @@
 namespace turnscan {
 namespace {
 
-/// Relative to the norm of the right side.
+/// Tolerance of the residual relative to the norm of the right side.
 constexpr double kTolerance = 1e-3;
 constexpr int kMaxIterations = 20000;
 /// Edges shorter than this share of the mean are treated as this long.

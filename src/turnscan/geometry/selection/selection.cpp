@@ -18,7 +18,7 @@ void must_fit(const Selection& selection, std::size_t count) {
     throw std::invalid_argument("a selection has one flag a triangle or point");
 }
 
-/// For elements that belong to the piece `piece_of` and have the weight `weight_of`.
+/// Small pieces of elements that belong to the piece `piece_of` and have the weight `weight_of`.
 SmallPieces small_pieces(const std::vector<std::uint32_t>& piece_of,
                          const std::vector<double>& weight_of, double share) {
   std::unordered_map<std::uint32_t, double> weights;

@@ -29,7 +29,7 @@ std::size_t frames_for_estimate(const SequenceHeader& header, const CropOptions&
 Result<std::vector<std::optional<views::LightSheet>>> find_sheets(
     std::span<const Frame> frames, const SequenceHeader& header, const std::vector<RayTable>& rays);
 
-/// From up to 12 of the frames, evenly spread. poses: T_table_sensor of each; rays: per sensor.
+/// Uses up to 12 of the frames, evenly spread. poses: T_table_sensor of each; rays: per sensor.
 /// Fails with kTooFewPoints if no frame shows 10 points on the object, and as points_of does.
 Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<const Pose> poses,
                                    const SequenceHeader& header, const std::vector<RayTable>& rays,

@@ -139,7 +139,7 @@ class GridBends {
     }
   }
 
-  /// From all differences: on a small object most may cross steps.
+  /// Noise from all differences: on a small object most may cross steps.
   double raw_noise() const {
     std::vector<double> bends;
     for (std::size_t i = 0; i < bend_.size(); ++i) {
@@ -148,8 +148,8 @@ class GridBends {
     return noise_of(bends);
   }
 
-  /// From those whose points, with both neighbours, are within a surface; nullopt if there are too
-  /// few.
+  /// Noise from the differences whose points, with both neighbours, are within a surface; nullopt
+  /// if there are too few.
   std::optional<double> noise_within(double jump_m) const {
     std::vector<double> bends;
     std::size_t all = 0;

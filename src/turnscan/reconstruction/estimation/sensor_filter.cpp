@@ -81,7 +81,7 @@ Differences differences(const views::DepthView& a, const views::DepthView& b) {
   return out;
 }
 
-/// Between a view and the mesh rendered from it, in units of the view.
+/// Differences between a view and the mesh rendered from it, in units of the view.
 Differences differences(const views::DepthView& view, const TriangleMesh& mesh, double noise_m) {
   Differences out;
   const views::ViewDrawing drawing(view, mesh);

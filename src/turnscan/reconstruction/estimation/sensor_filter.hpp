@@ -10,12 +10,12 @@
 
 namespace turnscan::estimation {
 
-/// From differences between consecutive views with nearly the same viewpoint: their noise has the
-/// filter's correlation. nullopt if too few views are that close, as with few frames per turn, and
-/// if the differences are mostly rounding or show the rotation of the surface.
+/// Estimates the share from differences between consecutive views with nearly the same viewpoint:
+/// their noise has the filter's correlation. nullopt if too few views are that close, as with few
+/// frames per turn, and if the differences are mostly rounding or show the rotation of the surface.
 std::optional<double> share_of_neighbours(std::span<const views::DepthView> views, double noise_m);
 
-/// From differences between views and the mesh reconstructed from them.
+/// Estimates the share from differences between views and the mesh reconstructed from them.
 double share_of_neighbours(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                            double noise_m);
 

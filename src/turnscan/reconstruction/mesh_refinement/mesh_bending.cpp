@@ -183,7 +183,7 @@ class OffsetSolver {
     return out;
   }
 
-  /// In chunks whose length does not depend on the number of threads.
+  /// Sums in chunks whose length does not depend on the number of threads.
   static double dot(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0.0;
     for (const double part :

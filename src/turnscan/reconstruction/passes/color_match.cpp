@@ -11,7 +11,7 @@ namespace {
 
 /// A pattern of lower contrast is noise, or residual shading.
 constexpr double kMinDeviation = 0.05;
-/// Relative to the standard deviation of all colours: a label that is small compared to the object
+/// Ratio to the standard deviation of all colours: a label that is small compared to the object
 /// differs by more.
 constexpr double kSpread = 2.5;
 /// Stride of a permutation of the samples; coprime to most counts.
@@ -66,12 +66,12 @@ class MatchedColors {
 
   std::size_t size() const { return pairs_.size(); }
   float area(std::size_t j) const { return pairs_[j].weight; }
-  /// Between the colour of b at j and that of a at k.
+  /// Mismatch between the colour of b at j and that of a at k.
   float mismatch(std::size_t j, std::size_t k) const {
     const Vec3f difference = first_[k] - second_[j] - light_.at(pairs_[k].up_a, pairs_[j].up_b);
     return std::min(1.0f, difference.squaredNorm() / (spread_ * spread_));
   }
-  /// Per sample of b; -1 if it coincides with none.
+  /// Mismatch per sample of b; -1 if it coincides with none.
   std::vector<float> of_samples() const {
     std::vector<float> out(samples_, -1.0f);
     for (std::size_t j = 0; j < size(); ++j) out[from_[j]] = mismatch(j, j);

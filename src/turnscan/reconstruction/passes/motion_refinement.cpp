@@ -10,7 +10,7 @@ namespace turnscan::passes {
 
 namespace {
 
-/// Relative to the object's extent.
+/// Reach in each step, relative to the object's extent.
 constexpr std::array<double, 8> kFirstReach{0.08, 0.08, 0.07, 0.06, 0.06, 0.05, 0.04, 0.03};
 constexpr std::array<double, 8> kFinalReach{0.03, 0.03, 0.025, 0.02, 0.02, 0.015, 0.015, 0.015};
 /// Reverting undetermined directions is linear; the second round starts near the end.

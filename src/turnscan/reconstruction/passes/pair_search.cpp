@@ -13,7 +13,8 @@ constexpr std::size_t kVoted = 800, kRefined = 40, kKept = 12;
 /// If the shape leaves the motion undetermined, many motions fit equally, and colours choose among
 /// them.
 constexpr std::size_t kColored = 2;
-/// Relative to the object's extent. A rotation of the grid is wrong by up to 10 degrees.
+/// Reach in each step, relative to the object's extent. A rotation of the grid is wrong by up to 10
+/// degrees.
 constexpr std::array<double, 12> kCoarseReach{0.11, 0.10, 0.09, 0.08, 0.07, 0.06,
                                               0.05, 0.05, 0.04, 0.04, 0.03, 0.03};
 constexpr std::array<double, 8> kMediumReach{0.03, 0.03, 0.025, 0.02, 0.02, 0.015, 0.015, 0.015};

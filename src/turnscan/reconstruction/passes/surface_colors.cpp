@@ -97,7 +97,8 @@ class ColorsOfPass {
     Sums() { matrix.setZero(), vector.setZero(); }
   };
 
-  /// From the variation of each point while it turns, independent of its own colour.
+  /// Estimates the light from the variation of each point while it turns, independent of its own
+  /// colour.
   Eigen::Matrix<double, kHarmonics, 3> light_of_pass() const {
     const auto parts = parallel_chunks<Sums>(surface_.points.size(), kPointsAtOnce,
                                              [&](std::size_t begin, std::size_t end) {

@@ -117,7 +117,7 @@ struct Shift {
   bool explains = false;  ///< it explains the difference of the two views
 };
 
-/// Along the directions in which the pattern is strong enough.
+/// Shift along the directions in which the pattern is strong enough.
 Shift shift_of(const ShiftSums& s) {
   Shift out;
   if (!(s.n >= 24.0f)) return out;
@@ -320,7 +320,7 @@ class Blender {
     }
   }
 
-  /// Over the block and those around it with the same two views.
+  /// Sums over the block and those around it with the same two views.
   ShiftSums sum_around(std::size_t b, std::size_t k) const {
     ShiftSums sum;
     for (int dy = -1; dy <= 1; ++dy) {

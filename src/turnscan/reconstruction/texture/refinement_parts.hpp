@@ -58,13 +58,13 @@ struct OutlineEquations : MotionEquations {
   void add(const OutlineEquations& other);
 };
 
-/// For one view: matches the outline to edges of the image, up to reach_px away.
+/// Equations of one view: matches the outline to edges of the image, up to reach_px away.
 OutlineEquations outline_equations(const ColorView& view, const std::vector<OutlinePoint>& outline,
                                    const GreyWindow& grey, const HeightBands& bands,
                                    double reach_px);
 
-/// For all views: points that several see. error: variance of the colours of a point, levels
-/// squared.
+/// Equations of all views for points that several see. error: variance of the colours of a point,
+/// levels squared.
 MotionEquations pattern_equations(const std::vector<ColorView>& views,
                                   const std::vector<DrawnMesh>& drawn,
                                   const std::vector<GreyWindow>& grey,

@@ -18,9 +18,9 @@ struct RationalReach {
   double radius = 0.0;   ///< the undistorted one
 };
 
-/// Up to the undistorted radius, or if `distorted` is given to that one. Sampled: the factor is a
-/// fraction of polynomials of r^2 without poles up to the lens's largest radius, and constant
-/// beyond.
+/// Computes the bounds up to the undistorted radius, or if `distorted` is given to that one.
+/// Sampled: the factor is a fraction of polynomials of r^2 without poles up to the lens's largest
+/// radius, and constant beyond.
 RationalReach rational_reach(const BrownConrady<float>& lens, double radius,
                              std::optional<double> distorted = std::nullopt) {
   constexpr int kSamples = 256;
@@ -216,7 +216,7 @@ Visibility RangeBounds::visibility(const float first[3], std::size_t brick) cons
                                                      : Visibility::kUnobserved;
 }
 
-/// Over the pixels around the image of a brick's centre, as in the bounds.
+/// Depth range over the pixels around the image of a brick's centre, as in the bounds.
 RangeBounds::DepthRange RangeBounds::depth_range_around(float x, float y, float z) const {
   const BrickKernelView& f = view_;
   const BoundsLevel& level = f.brick_bounds;

@@ -46,7 +46,7 @@ class LowestSurfaceSearch {
     return s >= 0 && volume_.weight[std::size_t(s)] > 0.0f;
   }
 
-  /// From the gradient of the field between two samples of which one is inside.
+  /// Adds the surface between two samples of which one is inside, with the gradient of the field.
   void add_crossing(const GridCoords& a, const GridCoords& b) {
     const float from = samples_.value(a[0], a[1], a[2]), to = samples_.value(b[0], b[1], b[2]);
     if ((from < 0.0f) == (to < 0.0f)) return;

@@ -299,7 +299,7 @@ std::size_t PointSums::bytes() const {
 
 namespace {
 
-/// In the order of the coarse voxels of `joined` voxels along each side.
+/// Sorts the voxels in the order of the coarse voxels of `joined` voxels along each side.
 Result<std::vector<VoxelRef>> in_order(std::vector<VoxelRef> refs, int joined,
                                        const RunContext& context) {
   VoxelIndex low = VoxelIndex::Constant(1 << 30), high = -low;

@@ -125,7 +125,7 @@ std::vector<RimMode> modes(const RimData& data, const RimState& start) {
   return out;
 }
 
-/// From blurred to sharp, as long as that explains more.
+/// Tries spreads from blurred to sharp, as long as the likelihood increases.
 RimState best_spread(const RimData& data, const RimState& start) {
   RimState best = start;
   double best_likelihood = -std::numeric_limits<double>::infinity();

@@ -11,7 +11,7 @@ namespace {
 
 /// A less accurate axis is rejected.
 constexpr double kLargestAxisSigma = 1.0 * kRadiansPerDegree;
-/// For a platter that is verified by the object's own rotation (DetectOptions).
+/// Lower limits for a platter that is verified by the object's own rotation (DetectOptions).
 constexpr double kMinAgreement = 0.65, kMinConfidence = 0.5;
 
 struct Attempt {
@@ -35,7 +35,8 @@ Result<Attempt> attempt(const FrameSequence& sequence, const FromMotionOptions& 
   return out;
 }
 
-/// With the platter; without it if nothing turns above the supposed platter.
+/// Attempts the calibration with the platter, or without it if nothing turns above the supposed
+/// platter.
 Result<Attempt> first_attempt(const FrameSequence& sequence, const FromMotionOptions& options,
                               MotionDataOptions& loading, const RunContext& context) {
   bool started = false;

@@ -50,7 +50,8 @@ class MotionContinuation {
     return frames_[i].status == FrameStatus::kOk && frames_[i].sensor == 0;
   }
 
-  /// From the speed of the last stretch and the frames' times, or from their own angles.
+  /// Predicts the angles from the speed of the last stretch and the frames' times, or from their
+  /// own angles.
   Result<> predict() {
     angle_ = first_.angles_rad;
     const std::size_t last = known_ - 1;

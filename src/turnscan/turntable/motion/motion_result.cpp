@@ -167,7 +167,7 @@ class Publication {
           data_.frames[unjoined->frame].time_s, std::abs(unjoined->turn_rad) * kDegreesPerRadian));
   }
 
-  /// As for the axis: the shift by silhouettes, a few hundredths of a pixel.
+  /// Includes the shift by silhouettes, a few hundredths of a pixel, as for the axis.
   double angle_sigma(std::size_t i) const {
     const auto& unjoined = motion_.prior.unjoined;
     const double apart = unjoined && i >= unjoined->frame ? unjoined->turn_rad : 0.0;

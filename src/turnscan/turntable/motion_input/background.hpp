@@ -31,12 +31,12 @@ Result<SpatialNoise> spatial_noise(const FrameSequence& sequence,
                                    const std::vector<std::size_t>& positions,
                                    const RunContext& context);
 
-/// From these frames (positions) of a depth camera. A pixel is moving if its depth changes by more
-/// than noise, or comes and goes. The static background behind it is the farthest depth that it
-/// shows more than once; if frames were cropped to the object, wide patches that are visible now
-/// and then, and what continues them. Isolated flickering pixels and small patches are ignored.
-/// noise_m: approximate standard deviation of a depth value. Fails with kTooFewPoints if nothing
-/// moves, with kCancelled, and with the errors of reading.
+/// Separates moving from static pixels in these frames (positions) of a depth camera. A pixel is
+/// moving if its depth changes by more than noise, or comes and goes. The static background behind
+/// it is the farthest depth that it shows more than once; if frames were cropped to the object,
+/// wide patches that are visible now and then, and what continues them. Isolated flickering pixels
+/// and small patches are ignored. noise_m: approximate standard deviation of a depth value. Fails
+/// with kTooFewPoints if nothing moves, with kCancelled, and with the errors of reading.
 Result<Background> find_background(const FrameSequence& sequence,
                                    const std::vector<std::size_t>& positions, double noise_m,
                                    const RunContext& context);

@@ -14,7 +14,7 @@ constexpr double kMovingNoise = 3.0;
 constexpr double kCarried = 0.8;
 constexpr int kRimPixels = 2;
 
-/// For a platter of which only the axis is known.
+/// Radius assumed for a platter of which only the axis is known.
 constexpr double kUnknownRadius_m = 0.3;
 
 class ForegroundSearch {

@@ -22,10 +22,10 @@ struct Foreground {
   bool beside(const Vec3f& p) const;
 };
 
-/// From the mean of up to 36 frames spread over the recording: the platter, else options.hint, else
-/// what moves. Also sets the platter and the noise in data, and adds a note if neither platter nor
-/// hint is used. Fails with kTooFewPoints if nothing moves, with kCancelled, and with the errors of
-/// reading.
+/// Determines the foreground from the mean of up to 36 frames spread over the recording: above the
+/// platter, else above that of options.hint, else what moves. Also sets the platter and the noise
+/// in data, and adds a note if neither platter nor hint is used. Fails with kTooFewPoints if
+/// nothing moves, with kCancelled, and with the errors of reading.
 Result<Foreground> find_foreground(const FrameSequence& sequence, const MotionDataOptions& options,
                                    MotionData& data, const RunContext& context);
 

@@ -71,7 +71,7 @@ Vec3d unit_normal(const Vec3d& scaled, const Vec3d& ray, const Vec3d& p) {
   return n.dot(p) > 0.0 ? Vec3d(-n) : n;
 }
 
-/// For scans whose point spacing is below their noise.
+/// Maximum for scans whose point spacing is below their noise.
 constexpr std::size_t kMaxNeighbours = 100;
 
 std::size_t place_of(std::uint64_t key, std::size_t count) {

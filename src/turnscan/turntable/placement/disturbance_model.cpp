@@ -51,7 +51,7 @@ Basis wobble_basis(double cycles, const ModelFrame& frame, const ModelScene& sce
   return out;
 }
 
-/// From 0 before the frames of the model to 1 after them.
+/// Degree to which a frame is affected: 0 before the frames of the model, 1 after them.
 double ramp_of(const DisturbanceModel& model, std::size_t position) {
   if (position >= model.first) return 1.0;
   if (model.kind != ModelKind::kHalt || position <= model.last) return 0.0;

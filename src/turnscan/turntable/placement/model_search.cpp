@@ -295,7 +295,7 @@ class ModelSearch {
     models_ = std::move(best.models);
   }
 
-  /// At the poses of the models; whole: of everything that they explain rather than of the
+  /// Evidence at the poses of the models; whole: of everything that they explain rather than of the
   /// residuals.
   Evidence evidence_here(const PairWeighting& weighting, bool whole) const {
     PoseGraph graph;

@@ -19,8 +19,8 @@ motion::PairMotion motion_between(const std::vector<Pose>& poses, const FramePai
   return {T.linear(), Vec3d::Zero(), T.translation()};
 }
 
-/// Relative to the mean square of the points' motion along their normals: multiple of the effect of
-/// the normals' noise on a direction, and minimum.
+/// Limits relative to the mean square of the points' motion along their normals: multiple of the
+/// effect of the normals' noise on a direction, and minimum.
 constexpr double kNoiseShare = 0.3, kMinShare = 0.02;
 
 void add_both(std::vector<FramePair>& pairs, const Keyframes& frames, std::size_t a,
