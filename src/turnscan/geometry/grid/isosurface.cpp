@@ -112,7 +112,7 @@ class SurfaceMarcher {
     return piece_grid_.at({b[0] + 1, b[1] + 1, b[2] + 1});
   }
 
-  /// Whether a brick may have a sign change inside or towards an upper neighbour.
+  /// Whether there may be a sign change in or between a brick and its upper neighbours.
   bool may_cross(const GridCoords& b) const {
     bool positive = false, negative = false;
     for (int code = 0; code < 8; ++code) {

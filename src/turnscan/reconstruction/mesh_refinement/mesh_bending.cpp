@@ -21,7 +21,7 @@ constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMaxStifferInCom
 /// high stiffness, since they grow with the square root of the condition number.
 constexpr double kTolerance = 1e-4;
 constexpr int kMaxRounds = 80;
-constexpr double kRoundsSufficeFor = 8.0;  // times
+constexpr double kRoundsSufficeFor = 8.0;  // times the usual stiffness
 /// Weight with which each vertex stays in place, in measurements: hardly measured surface is also
 /// known from the volume.
 constexpr float kStay = 0.3f;
