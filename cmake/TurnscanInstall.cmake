@@ -1,4 +1,5 @@
-# CMake package: find_package(turnscan) gives turnscan::core, turnscan::reconstruction, ...
+# CMake package: find_package(turnscan) gives turnscan::turnscan. The libraries of the floors come along
+# as its parts.
 include(CMakePackageConfigHelpers)
 
 get_property(floors GLOBAL PROPERTY TURNSCAN_FLOORS)

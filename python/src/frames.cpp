@@ -3,8 +3,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <turnscan/api/recording.hpp>
 #include <turnscan/recording/recording.hpp>
-#include <turnscan/workflow/input.hpp>
 
 #include "arrays.hpp"
 #include "call.hpp"
@@ -39,28 +39,18 @@ Vec3d vector_of(const std::array<double, 3>& values) { return {values[0], values
 std::array<double, 3> array_of(const Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct RecordingObject : SequenceObject {
-  RecordingObject(std::string named, Input opened)
-      : path(std::move(named)), input(std::move(opened)) {}
-  const FrameSequence& sequence() const override { return *input.frames; }
+  RecordingObject(std::string named, OpenedFrames frames)
+      : path(std::move(named)), opened(std::move(frames)) {}
+  const FrameSequence& sequence() const override { return *opened.frames; }
   std::string title() const override { return path; }
-  /// Files of other programs have no mark; where one was cut off, a note says so.
-  bool complete() const {
-    const auto* recording = dynamic_cast<const Recording*>(input.frames.get());
-    return recording == nullptr || recording->complete();
-  }
   std::string path;
-  Input input;
+  OpenedFrames opened;
 };
 
 std::shared_ptr<RecordingObject> open_recording(const std::string& path, const py::kwargs& given) {
-  ImportOptions options;
-  set_options(describe(options), given);
-  Input input = call(py::none(), [&](const RunContext&) { return open_input(path, options); });
-  if (!input.imported && !given.empty())
-    raise({ErrorCode::kInvalidOption,
-           "options of an import are for files of other programs, and this is a recording already",
-           path});
-  return std::make_shared<RecordingObject>(path, std::move(input));
+  const Options options = options_from(import_options(), given);
+  return std::make_shared<RecordingObject>(
+      path, call(py::none(), [&](const RunContext&) { return open_frames(path, options); }));
 }
 
 /// Frames that a program hands over one after the other.
@@ -239,10 +229,7 @@ void set_images(Frame& frame, const py::object& depth, const py::object& color) 
 }
 
 void bind_frames(py::module_& module) {
-  module.def("_import_options", [] {
-    ImportOptions options;
-    return described(describe(options));
-  });
+  module.def("_import_options", [] { return described(import_options()); });
   bind_camera(module);
   bind_frame(module);
   py::class_<SequenceObject, std::shared_ptr<SequenceObject>>(module, "Sequence")
@@ -256,8 +243,9 @@ void bind_frames(py::module_& module) {
   py::class_<RecordingObject, SequenceObject, std::shared_ptr<RecordingObject>>(module, "Recording")
       .def(py::init(&open_recording), py::arg("path"))
       .def_property_readonly("path", &RecordingObject::title)
-      .def_property_readonly("notes", [](const RecordingObject& r) { return r.input.notes; })
-      .def_property_readonly("complete", &RecordingObject::complete);
+      .def_property_readonly("notes", [](const RecordingObject& r) { return r.opened.notes; })
+      .def_property_readonly("complete",
+                             [](const RecordingObject& r) { return r.opened.complete; });
   py::class_<FramesObject, SequenceObject, std::shared_ptr<FramesObject>>(module, "_Frames")
       .def(py::init([](std::vector<SensorInfo> sensors, std::optional<TurntableInfo> turntable) {
              auto made = std::make_shared<FramesObject>();

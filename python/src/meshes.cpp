@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/api/evaluate.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 
 #include "arrays.hpp"
@@ -50,10 +50,9 @@ MeshObject load_mesh(const std::string& path, const std::optional<std::string>& 
 
 py::object evaluate_mesh(const MeshObject& mesh, const MeshObject& reference,
                          const py::object& progress, const py::kwargs& options) {
-  EvaluateOptions chosen;
-  set_options(describe(chosen), options);
+  const Options chosen = options_from(evaluate_options(), options);
   const Evaluation result = call(progress, [&](const RunContext& context) {
-    return evaluate(*mesh.mesh, *reference.mesh, chosen, {}, context);
+    return evaluate(*mesh.mesh, *reference.mesh, chosen, context);
   });
   return py::module_::import("json").attr("loads")(to_json(result));
 }
@@ -105,10 +104,7 @@ void bind_meshes(py::module_& module) {
       });
   module.def("evaluate", &evaluate_mesh, py::arg("mesh"), py::arg("reference"),
              py::arg("progress") = py::none());
-  module.def("_evaluate_options", [] {
-    EvaluateOptions options;
-    return described(describe(options));
-  });
+  module.def("_evaluate_options", [] { return described(evaluate_options()); });
 }
 
 }  // namespace turnscan::python

@@ -11,11 +11,13 @@ PYBIND11_MODULE(_turnscan, module) {
   using namespace turnscan::python;
   pybind11::module_ errors = pybind11::module_::import("turnscan.errors");
   bind_errors(errors);
+  bind_batch(module);
   bind_meshes(module);
   bind_frames(module);
   bind_reconstruct(module);
   bind_plan(module);
   bind_simulate(module);
+  bind_source(module);
   bind_stream(module);
   module.attr("__version__") = turnscan::version();
   module.def(

@@ -1,5 +1,7 @@
 #include "option_arguments.hpp"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 
 namespace turnscan::python {
@@ -22,50 +24,53 @@ std::string unit_of(Quantity quantity) {
   return {};
 }
 
-std::string text_of(const OptionField* field, const py::handle& value) {
+std::string text_of(const std::string& name, Quantity quantity, const py::handle& value) {
   if (value.is_none()) return "auto";
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  // Whole numbers and floats, numpy's among them. A field without a unit may be whole.
-  const double number = value.cast<double>();
-  const std::string unit = field != nullptr ? unit_of(field->quantity) : "";
-  return fmt::format("{}{}", number, unit);
+  try {
+    // Whole numbers and floats, numpy's among them. An option without a unit may be whole.
+    return fmt::format("{}{}", value.cast<double>(), unit_of(quantity));
+  } catch (const py::cast_error&) {
+    raise({ErrorCode::kInvalidOption,
+           fmt::format("{}: a value is a text, a number, True, False or None", name), ""});
+  }
 }
 
 }  // namespace
 
-void set_options(const OptionTable& table, const py::dict& options) {
-  for (const auto& [key, value] : options) {
+Options options_from(const std::vector<OptionDescription>& known, const py::dict& arguments) {
+  Options options;
+  for (const auto& [key, value] : arguments) {
     std::string name = key.cast<std::string>();
     std::replace(name.begin(), name.end(), '_', '-');
-    const OptionField* field = table.find(name);
-    std::string text;
-    try {
-      text = text_of(field, value);
-    } catch (const py::cast_error&) {
-      raise({ErrorCode::kInvalidOption,
-             fmt::format("{}: a value is a text, a number, True, False or None", name), ""});
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const OptionDescription& o) { return o.name == name; });
+    const bool there = found != known.end();
+    const Quantity quantity = there ? found->quantity : Quantity::kNone;
+    if (there && found->repeatable && !py::isinstance<py::str>(value)) {
+      for (const py::handle& one : value) options.emplace_back(name, text_of(name, quantity, one));
+    } else {
+      options.emplace_back(name, text_of(name, quantity, value));
     }
-    unwrap(table.set(name, text));
   }
+  return options;
 }
 
-py::list described(const OptionTable& table) {
+py::list described(const std::vector<OptionDescription>& options) {
   py::list list;
-  for (const OptionField& field : table.fields()) {
-    std::string name = field.name;
+  for (const OptionDescription& option : options) {
+    std::string name = option.name;
     std::replace(name.begin(), name.end(), '-', '_');
     py::dict entry;
     entry["name"] = name;
-    entry["help"] = field.help;
-    entry["default"] = field.get();
-    entry["unit"] = unit_of(field.quantity);
-    py::list choices;
-    for (const std::string& choice : field.choices) choices.append(choice);
-    entry["choices"] = choices;
-    entry["minimum"] = field.range ? py::object(py::float_(field.range->min)) : py::none();
-    entry["maximum"] = field.range ? py::object(py::float_(field.range->max)) : py::none();
-    entry["flag"] = field.is_flag;
+    entry["help"] = option.help;
+    entry["default"] = option.default_value;
+    entry["unit"] = unit_of(option.quantity);
+    entry["choices"] = py::cast(option.choices);
+    entry["minimum"] = option.range ? py::object(py::float_(option.range->min)) : py::none();
+    entry["maximum"] = option.range ? py::object(py::float_(option.range->max)) : py::none();
+    entry["flag"] = option.is_flag;
     list.append(entry);
   }
   return list;

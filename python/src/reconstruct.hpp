@@ -1,6 +1,7 @@
 #pragma once
 
-#include <turnscan/reconstruction/result.hpp>
+#include <memory>
+#include <turnscan/api/reconstruct.hpp>
 #include <vector>
 
 #include "errors.hpp"
@@ -10,7 +11,7 @@ namespace turnscan::python {
 
 void bind_reconstruct(py::module_& module);
 
-/// Copies.
-std::vector<MeshObject> meshes_of(const Reconstruction& reconstruction);
+/// They share the scan.
+std::vector<MeshObject> meshes_of(const std::shared_ptr<ReconstructedScan>& scan);
 
 }  // namespace turnscan::python

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
-#include <turnscan/workflow/simulation/simulate.hpp>
+#include <turnscan/api/evaluate.hpp>
+#include <turnscan/api/simulate.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -13,56 +14,52 @@ namespace turnscan::python {
 namespace {
 
 struct SimulationObject : SequenceObject {
-  explicit SimulationObject(Simulation made) : simulation(std::move(made)) {}
-  const FrameSequence& sequence() const override { return simulation.scan; }
-  std::string title() const override { return simulation.scene.object; }
-  Simulation simulation;
+  SimulationObject(std::string object, SimulatedScan made)
+      : name(std::move(object)), scan(std::move(made)) {}
+  const FrameSequence& sequence() const override { return scan.frames(); }
+  std::string title() const override { return name; }
+  std::string name;
+  SimulatedScan scan;
 };
 
-OptionTable table_of(SceneDescription& scene) {
-  OptionTable all;
-  for (SceneTable& table : describe(scene)) all.append(std::move(table.options));
-  return all;
+using SimulationPointer = std::shared_ptr<SimulationObject>;
+
+SimulationPointer simulate_object(const std::string& object, const std::optional<std::string>& out,
+                                  const py::object& progress, const py::kwargs& arguments) {
+  const Options options = options_from(simulate_options(), arguments);
+  auto made = std::make_shared<SimulationObject>(
+      object, call(progress,
+                   [&](const RunContext& context) { return simulate(object, options, context); }));
+  if (out)
+    call(progress, [&](const RunContext& context) { return made->scan.record(*out, context); });
+  return made;
 }
 
-std::shared_ptr<SimulationObject> simulate_scene(const std::string& object,
-                                                 const std::vector<std::string>& scanners,
-                                                 const std::optional<std::string>& out,
-                                                 const py::object& progress,
-                                                 const py::kwargs& options) {
-  SceneDescription scene;
-  scene.object = object;
-  for (const std::string& scanner : scanners)
-    scene.scanners.push_back(unwrap(parse_scanner_entry(scanner)));
-  set_options(table_of(scene), options);
-  auto made = std::make_shared<SimulationObject>(call(
-      progress, [&](const RunContext& context) { return prepare_simulation(scene, context); }));
-  if (out) {
-    call(progress, [&](const RunContext& context) {
-      return record_simulation(made->simulation, *out, false, {}, context);
-    });
-  }
-  return made;
+std::vector<MeshObject> truth_of(const SimulationPointer& self) {
+  std::vector<MeshObject> meshes;
+  for (std::size_t pass = 0; pass < self->scan.passes(); ++pass)
+    meshes.push_back({std::shared_ptr<const TriangleMesh>(self, &self->scan.truth(pass))});
+  return meshes;
+}
+
+py::object evaluate_mesh_of(const SimulationPointer& self, const MeshObject& mesh,
+                            const py::object& progress, const py::kwargs& arguments) {
+  const Options options = options_from(evaluate_options(), arguments);
+  const Evaluation result = call(progress, [&](const RunContext& context) {
+    return self->scan.evaluate(*mesh.mesh, options, context);
+  });
+  return py::module_::import("json").attr("loads")(to_json(result));
 }
 
 }  // namespace
 
 void bind_simulate(py::module_& module) {
-  py::class_<SimulationObject, SequenceObject, std::shared_ptr<SimulationObject>>(module,
-                                                                                  "Simulation")
-      .def_property_readonly("truth", [](const SimulationObject& self) {
-        std::vector<MeshObject> meshes;
-        for (const PlacedObject& placed : self.simulation.placed)
-          meshes.push_back({std::make_shared<TriangleMesh>(placed.mesh)});
-        return meshes;
-      });
-  module.def("simulate", &simulate_scene, py::arg("object"),
-             py::arg("scanners") = std::vector<std::string>(), py::arg("out") = py::none(),
+  py::class_<SimulationObject, SequenceObject, SimulationPointer>(module, "Simulation")
+      .def_property_readonly("truth", &truth_of)
+      .def("evaluate", &evaluate_mesh_of, py::arg("mesh"), py::arg("progress") = py::none());
+  module.def("simulate", &simulate_object, py::arg("object"), py::arg("out") = py::none(),
              py::arg("progress") = py::none());
-  module.def("_simulate_options", [] {
-    SceneDescription scene;
-    return described(table_of(scene));
-  });
+  module.def("_simulate_options", [] { return described(simulate_options()); });
 }
 
 }  // namespace turnscan::python

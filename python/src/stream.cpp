@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include <turnscan/reconstruction/stream.hpp>
+#include <turnscan/api/stream.hpp>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -22,7 +22,7 @@ class StreamObject {
     header_.turntable = std::move(turntable);
     sensor_.depth_unit_m = depth_unit;
     sensor_.T_table_sensor = pose_of(pose);
-    set_options(describe(options_), options);
+    options_ = options_from(reconstruct_options(), options);
   }
 
   void add(const py::object& depth, const CameraIntrinsics& intrinsics, std::optional<double> angle,
@@ -35,8 +35,7 @@ class StreamObject {
     frame.info.angle_rad = angle;
     if (time) frame.info.time_s = *time;
     frame.info.T_table_sensor = pose_of(pose);
-    const std::vector<Frame> frames{std::move(frame)};
-    call(py::none(), [&](const RunContext& context) { return stream_->add(frames, context); });
+    call(py::none(), [&](const RunContext& context) { return stream_->add(frame, context); });
     ++count_;
   }
 
@@ -50,11 +49,11 @@ class StreamObject {
   std::vector<MeshObject> finish(const py::object& progress) {
     if (!stream_)
       raise({ErrorCode::kTooFewPoints, "finish: no frame was added; add some first", ""});
-    ReconstructionStream stream = std::move(*stream_);
+    Stream stream = std::move(*stream_);
     stream_.reset();
     count_ = 0;
-    return meshes_of(
-        call(progress, [&](const RunContext& context) { return stream.finish({}, context); }));
+    return meshes_of(std::make_shared<ReconstructedScan>(
+        call(progress, [&](const RunContext& context) { return stream.finish(context); })));
   }
 
   std::uint32_t count() const { return count_; }
@@ -63,7 +62,7 @@ class StreamObject {
   void begin(const CameraIntrinsics& intrinsics) {
     sensor_.intrinsics = intrinsics;
     header_.sensors = {sensor_};
-    stream_.emplace(unwrap(ReconstructionStream::create(header_, options_)));
+    stream_.emplace(unwrap(Stream::create(header_, options_)));
   }
 
   void check_camera(const CameraIntrinsics& given) const {
@@ -78,8 +77,8 @@ class StreamObject {
 
   SequenceHeader header_;
   SensorInfo sensor_;
-  ReconstructOptions options_;
-  std::optional<ReconstructionStream> stream_;
+  Options options_;
+  std::optional<Stream> stream_;
   std::uint32_t count_ = 0;
 };
 

@@ -27,13 +27,13 @@ _name_folders()
 
 from . import _turnscan  # noqa: E402
 from ._turnscan import (Calibration, Frame, Intrinsics, Mesh, Reconstruction, Recording, Sensor,
-                        Sequence, Simulation, Turntable, set_threads, __version__)
+                        Sequence, Simulation, Source, Turntable, set_threads, __version__)
 from .errors import Error, OptionError
 
 __all__ = ["Calibration", "Error", "Frame", "Frames", "Intrinsics", "Mesh", "OptionError",
-           "Reconstruction", "Recording", "Sensor", "Sequence", "Simulation", "Stream",
-           "Turntable", "calibrate", "evaluate", "options", "plan", "reconstruct", "set_threads",
-           "simulate"]
+           "Reconstruction", "Recording", "Sensor", "Sequence", "Simulation", "Source", "Stream",
+           "Turntable", "batch", "calibrate", "evaluate", "options", "plan", "reconstruct",
+           "set_threads", "simulate"]
 
 _NO_RETURN, _LARGEST = 0, 65534  # 65535 means a return outside the crop
 
@@ -90,20 +90,27 @@ def reconstruct(recordings, *, calibration="auto", turntable="", allow_open=Fals
     progress(phase, fraction) may raise to cancel."""
     if isinstance(recordings, (str, _os.PathLike, Sequence)):
         recordings = [recordings]
-    return _turnscan._reconstruct([_sequence(r) for r in recordings], calibration,
-                                  _os.fspath(turntable), allow_open, progress, **options)
+    return _turnscan._reconstruct([_sequence(r) for r in recordings], progress,
+                                  calibration=calibration, turntable=_os.fspath(turntable),
+                                  allow_open=allow_open, **options)
 
 
 def calibrate(recording, *, way="auto", progress=None, **options):
-    """Where the turntable stands and how it turns: as `turnscan calibrate`."""
-    return _turnscan.calibrate(_sequence(recording), way, progress, **options)
+    """Where the turntable stands and how it turns: as `turnscan calibrate`.
+
+    way: "auto", "motion" (of the object), "platter" (its surface and rim)."""
+    ways = {"auto": {}, "motion": {"from_motion": True}, "platter": {"detect": True}}
+    if way not in ways:
+        raise OptionError(f"way: there is no '{way}'; use auto, platter or motion",
+                          "invalid-option")
+    return _turnscan.calibrate(_sequence(recording), progress, **ways[way], **options)
 
 
 def simulate(object, *, scanners=(), out=None, progress=None, **options):
     """A virtual scan of a mesh file or "builtin:NAME": a sequence of frames that are rendered when
     they are read. out: folder of a recording to write as well."""
-    return _turnscan.simulate(_os.fspath(object), list(scanners),
-                              None if out is None else _os.fspath(out), progress, **options)
+    return _turnscan.simulate(_os.fspath(object), None if out is None else _os.fspath(out),
+                              progress, scanner=list(scanners), **options)
 
 
 def plan(objects, *, scanners, out=None, unit="", progress=None, **options):
@@ -113,8 +120,8 @@ def plan(objects, *, scanners, out=None, unit="", progress=None, **options):
     None: none are written. Trials run in this process."""
     if isinstance(objects, (str, _os.PathLike)):
         objects = [objects]
-    return _turnscan.plan([_os.fspath(o) for o in objects], list(scanners),
-                          "" if out is None else _os.fspath(out), unit, progress, **options)
+    return _turnscan.plan([_os.fspath(o) for o in objects], progress, scanner=list(scanners),
+                          out="" if out is None else _os.fspath(out), unit=unit, **options)
 
 
 def evaluate(mesh, reference, *, progress=None, **options):
@@ -122,6 +129,24 @@ def evaluate(mesh, reference, *, progress=None, **options):
     return _turnscan.evaluate(mesh, reference, progress, **options)
 
 
+def batch(inputs, out, *, command="", sweep=(), engine=(), program="turnscan", progress=None,
+          **options):
+    """Many recordings with the same options, or one with many: as `turnscan batch run`.
+
+    inputs: recordings, folders of recordings, or a table; out: the folder of the results. sweep:
+    {option: values}, engine: {"jobs": 2, ...}; program: the turnscan program, which runs the tasks.
+    Values of options are texts, as on the command line. Returns counts and the summary's files."""
+    if isinstance(inputs, (str, _os.PathLike)):
+        inputs = [inputs]
+    pairs = [[(name.replace("_", "-"), value) for name, value in dict(given).items()]
+             for given in (options, sweep, engine)]
+    text = [[(name, str(value)) for name, value in given] for given in (pairs[0], pairs[2])]
+    swept = [(name, [str(value) for value in values]) for name, values in pairs[1]]
+    return _turnscan._batch([_os.fspath(i) for i in inputs], _os.fspath(out), command, text[0],
+                            swept, text[1], _os.fspath(program), progress)
+
+
 def options(command):
-    """Names, defaults, ranges and help of the options of "reconstruct", "simulate", "plan", "evaluate", "import"."""
+    """Names, defaults, ranges and help of the options of "reconstruct", "calibrate", "simulate",
+    "plan", "evaluate", "import"."""
     return getattr(_turnscan, f"_{command}_options")()

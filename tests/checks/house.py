@@ -20,11 +20,13 @@ FLOORS = {
     "planning": {"core", "geometry", "simulator", "evaluation"},
 }
 FLOORS["workflow"] = set(FLOORS)
+FLOORS["api"] = set(FLOORS)
 
-# Programs include public headers of every floor, and project headers of the workflow floor; the
-# helper programs, which are parts of a floor in a process of their own, also those of these floors.
-HELPER_PROGRAMS = {"apps/turnscan-mesh-convert": {"core", "io"},
-                   "apps/turnscan-concave-hull": {"core", "geometry", "reconstruction"}}
+# The one header beside the floors: it includes all that a user may want.
+UMBRELLA = FLOORS_FOLDER + "turnscan.hpp"
+
+# What is written as a user of the library would write it.
+USERS = ("plugins/", "python/", "examples/", "tests/consumer/")
 
 # What a folder holds at most. More sources are two ideas.
 MAX_SOURCES = 20
@@ -33,7 +35,7 @@ MAX_SOURCES = 20
 def upward_includes(tree):
     """A floor includes itself and the floors that FLOORS names."""
     for path in tree.code("src/"):
-        floor = floor_of(path)
+        floor = "api" if path == UMBRELLA else floor_of(path)
         if floor not in FLOORS:
             yield path, 1, f"src/turnscan/{floor} is not a floor" if floor else "not on a floor"
             continue
@@ -141,13 +143,12 @@ def private_headers_used_elsewhere(tree):
                 yield path, number, f"{target} is private to its room"
 
 
-def project_headers_of_programs(tree):
-    """A program calls what a user of the library can call, and the workflow floor."""
-    for path in tree.code("apps/", "plugins/"):
-        floors = {None, "workflow"} | HELPER_PROGRAMS.get("/".join(path.split("/")[:2]), set())
+def users_include_installed_headers(tree):
+    """Drivers, the Python module and the examples get by with what is installed."""
+    for path in tree.code(*USERS):
         for number, target in tree.own_includes(path):
-            if floor_of(target) not in floors and tree.kind(target) != "PUBLIC_HEADERS":
-                yield path, number, f"{target} is not installed: programs use public headers"
+            if target.startswith("src/") and tree.kind(target) != "PUBLIC_HEADERS":
+                yield path, number, f"{target} is not installed"
 
 
 def programs_in_each_other(tree):
@@ -237,6 +238,6 @@ def headers_without_guard(tree):
 
 
 RULES = [upward_includes, links_upward, quoted_includes, file_circles, room_circles,
-         private_headers_used_elsewhere, project_headers_of_programs, programs_in_each_other,
+         private_headers_used_elsewhere, users_include_installed_headers, programs_in_each_other,
          needless_project_headers, internal_installed_headers, unlisted_headers, shared_detail,
          crowded_rooms, tests_elsewhere, headers_without_guard]

@@ -123,19 +123,19 @@ class Headers(RuleTest):
         self.speaks(rule, GEOMETRY + "mesh/a.cpp", text, files=HOUSE)
         self.speaks(rule, "apps/turnscan/main.cpp", text, files=HOUSE)
 
-    def test_programs_use_public_headers_and_the_workflow(self):
-        rule = house.project_headers_of_programs
-        io, workflow = "src/turnscan/io/", "src/turnscan/workflow/"
-        files = {**HOUSE, io + "CMakeLists.txt": "turnscan_floor(io PROJECT_HEADERS text/a.hpp)\n",
-                 io + "text/a.hpp": "", workflow + "open.hpp": "",
-                 workflow + "CMakeLists.txt": "turnscan_floor(workflow PROJECT_HEADERS open.hpp)\n"}
-        main = "apps/turnscan/main.cpp"
-        self.quiet(rule, main, include("geometry/search/knn.hpp"), files)
-        self.quiet(rule, main, include("workflow/open.hpp"), files)
-        self.quiet(rule, "apps/turnscan-mesh-convert/main.cpp", include("io/text/a.hpp"), files)
-        self.speaks(rule, main, include("geometry/search/cells.hpp"), files=files)
-        self.speaks(rule, main, include("io/text/a.hpp"), files=files)
-        self.speaks(rule, "plugins/k4a/k4a.cpp", include("io/text/a.hpp"), files=files)
+    def test_what_is_written_as_users_write_includes_installed_headers(self):
+        rule = house.users_include_installed_headers
+        main = "examples/main.cpp"
+        self.quiet(rule, main, include("geometry/search/knn.hpp"), HOUSE)
+        self.quiet(rule, "apps/turnscan/main.cpp", include("geometry/search/cells.hpp"), HOUSE)
+        self.speaks(rule, main, include("geometry/search/cells.hpp"), files=HOUSE)
+        for folder in house.USERS:
+            self.speaks(rule, folder + "a/a.cpp", include("geometry/search/cells.hpp"), files=HOUSE)
+
+    def test_the_umbrella_header_is_on_the_highest_floor(self):
+        rule = house.upward_includes
+        self.quiet(rule, house.UMBRELLA, include("workflow/open.hpp"))
+        self.speaks(rule, "src/turnscan/other.hpp", include("workflow/open.hpp"))
 
     def test_programs_do_not_use_each_others_files(self):
         rule = house.programs_in_each_other

@@ -74,7 +74,7 @@ class Tree:
                         if re.fullmatch(r"[A-Z][A-Z_]+|[()]", word):
                             kind = word
                         elif kind in HEADER_KINDS:
-                            header = posixpath.join(posixpath.dirname(path), word)
+                            header = posixpath.normpath(posixpath.join(posixpath.dirname(path), word))
                             found.setdefault(header, []).append((path, number, kind))
         return found
 

@@ -22,7 +22,7 @@ import numpy as np
 import turnscan
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-EXAMPLES = ROOT / "python" / "examples"
+EXAMPLES = ROOT / "examples" / "python"
 BIN = os.environ.get("TURNSCAN_BIN", "turnscan")
 FAST = {"voxel_size": "6mm", "method": "volumetric"}
 
@@ -275,7 +275,7 @@ class Meshes(unittest.TestCase):
 class Options(unittest.TestCase):
     def test_come_from_the_tables_of_the_command_line(self):
         reference = (ROOT / "docs" / "reference.md").read_text()
-        for command in ("reconstruct", "simulate", "plan", "evaluate"):
+        for command in ("reconstruct", "calibrate", "simulate", "plan", "evaluate"):
             listed = turnscan.options(command)
             self.assertGreater(len(listed), 5)
             section = reference.split(f"## turnscan {command}\n")[1].split("\n## ")[0]
@@ -284,7 +284,7 @@ class Options(unittest.TestCase):
 
 
 class Examples(unittest.TestCase):
-    """python/examples, as they stand there."""
+    """examples/python, as they stand there; tests/consumer runs the others."""
 
     def test_the_sweep_on_dask_runs(self):
         try:
@@ -373,8 +373,10 @@ class Documentation(unittest.TestCase):
         text = (ROOT / "docs" / "python.md").read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
         self.assertGreater(len(blocks), 3)
+        path = os.pathsep.join((os.path.dirname(BIN), os.environ.get("PATH", "")))
         with tempfile.TemporaryDirectory() as folder:
             result = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=folder,
+                                    env={**os.environ, "PATH": path},
                                     text=True, capture_output=True, timeout=300)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
