@@ -19,6 +19,6 @@ for angle in np.linspace(0, 2 * np.pi, 36, endpoint=False):
     frames.add(depth, angle)
 
 made = turnscan.reconstruct(frames, calibration="recorded")
-share = made.report["objects"][0]["mesh"]["volume_m3"] / (4 / 3 * np.pi * RADIUS**3)
+share = made.report["objects"][0]["mesh"]["volume_cm3"] / (4e6 / 3 * np.pi * RADIUS**3)
 print(made.meshes[0], f"with {share:.3f} of the ball's volume")
 assert abs(share - 1) < 0.1  # the underside, which no image shows, is closed flat

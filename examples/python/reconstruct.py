@@ -16,5 +16,5 @@ made = turnscan.reconstruct(recording, progress=show)
 print(file=sys.stderr)
 for verdict, report in zip(made.verdicts, made.report["objects"]):
     mesh = report["mesh"]
-    print(f"{verdict}: watertight {mesh['watertight']}, {mesh['volume_m3'] * 1e6:.1f} cm3")
+    print(f"{verdict}: watertight {mesh['watertight']}, {mesh['volume_cm3']:.1f} cm3")
 print("Wrote", *made.save(sys.argv[2], report=sys.argv[2] + ".json"))
