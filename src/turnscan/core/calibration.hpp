@@ -1,6 +1,6 @@
 #pragma once
-// What calibration found out about a turntable, each figure with its standard deviation and with
-// how it was found.
+// The result of a calibration: each figure with its standard deviation, and with a text that says
+// how it was determined.
 
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ enum class CalibrationMethod { kPicked, kDetected, kMotion };
 /// "picked points", "detected platter", "motion".
 std::string_view name_of(CalibrationMethod method);
 
-/// How far a depth camera's raw depth is off: depth = scale * (raw * unit) + bias.
+/// Correction of a depth camera's raw depth: depth = scale * (raw * unit) + bias.
 struct DepthCorrection {
   double bias_m = 0.0;
   double scale = 1.0;
@@ -27,7 +27,7 @@ struct DepthCorrection {
   std::string found;  ///< how
 };
 
-/// A depth camera as somebody calibrated it, in place of what the recording says of it.
+/// The calibration of a depth camera, which replaces what the recording says.
 struct CameraCorrection {
   CameraIntrinsics intrinsics;
   std::optional<CameraIntrinsics> color_intrinsics;  ///< of colour that is not registered to depth
@@ -35,7 +35,7 @@ struct CameraCorrection {
   std::string found;                                 ///< how
 };
 
-/// Where a further sensor stands.
+/// The pose of a sensor other than sensor 0.
 struct SensorPlace {
   Pose T_table_sensor = Pose::Identity();  ///< with the platter at angle 0; table of sensor 0
   double heading_sigma_rad = std::numeric_limits<double>::quiet_NaN();  ///< about the axis
@@ -45,14 +45,14 @@ struct SensorPlace {
   std::optional<CameraCorrection> camera;
 };
 
-/// A table that slipped at one moment of a recording.
+/// A slip of the turntable during a recording.
 struct TableSlip {
   std::size_t first_frame = 0;  ///< position of the first frame after it
-  double turn_rad = 0.0;        ///< beside its even turn, signed as the angles
+  double turn_rad = 0.0;        ///< beyond its even rotation; sign as of the angles
 };
 
 /// The turntable in the frame of sensor 0. A standard deviation that is not known is NaN. The
-/// texts `..._found` say for people how the figure was found; empty: it is not known.
+/// texts `..._found` say how the figure was determined; empty: not known.
 struct Calibration {
   CalibrationMethod method = CalibrationMethod::kDetected;
   std::string made_at;  ///< when its frames were taken, as utc_text(); empty: not known
@@ -67,14 +67,14 @@ struct Calibration {
   /// One per frame of the recording, in order; empty where only the place is known.
   std::vector<double> angles_rad;
   std::vector<double> angle_sigma_rad;
-  std::vector<TableSlip> slips;   ///< which the angles follow; they are not saved
+  std::vector<TableSlip> slips;   ///< contained in the angles; not saved
   std::optional<double> start_s;  ///< when the table began to turn, in the frames' time
 
   double residual_rms_m = std::numeric_limits<double>::quiet_NaN();
   double residual_mean_abs_m = std::numeric_limits<double>::quiet_NaN();
   double rim_share = std::numeric_limits<double>::quiet_NaN();   ///< of the platter's rim seen
   double confidence = std::numeric_limits<double>::quiet_NaN();  ///< 0 to 1
-  /// What the data could not determine and a prior carried instead: "speed", "angles", "axis".
+  /// What the data did not determine, so that a prior was used: "speed", "angles", "axis".
   std::vector<std::string> undetermined;
   std::vector<std::string> notes;
 
@@ -83,15 +83,15 @@ struct Calibration {
   std::vector<SensorPlace> others;         ///< sensors 1, 2, ...; empty: nothing is known of them
 };
 
-/// Depth and camera of each sensor as the calibration has them; colour where the recording has
-/// colour of that size that is not registered. Sensors of which the calibration says nothing stay
-/// as they are. Fails with kInvalidOption, and changes nothing, when the images of one have another
-/// size than its calibrated camera.
+/// Applies the calibration of depth and cameras to each sensor; that of a colour camera only where
+/// the recording has unregistered colour of that size. Sensors that the calibration omits are
+/// unchanged. Fails with kInvalidOption, and changes nothing, when images of a sensor differ in
+/// size from its calibrated camera.
 Result<> correct_sensors(const Calibration& calibration, std::vector<SensorInfo>& sensors);
 
-/// The sequence as it looks with the calibration: its turntable, its angles in place of those of
-/// the frames, its camera and depth, the places of its other sensors. Frames with poses of their
-/// own lose them, except with a calibration without angles and speed. `sequence` must outlive the
+/// The sequence with the calibration applied: its turntable, its angles in place of those of the
+/// frames, its cameras and depth, the poses of its other sensors. Frames with poses of their own
+/// lose them, unless the calibration has neither angles nor speed. `sequence` must outlive the
 /// result. Fails with kInvalidOption when the number of angles is not that of the frames, when it
 /// knows more sensors than the sequence has, and as correct_sensors() does.
 Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& sequence,

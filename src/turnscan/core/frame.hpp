@@ -1,6 +1,6 @@
 #pragma once
-// What a sensor delivers, and a sequence of it. A recording, a foreign data set, the simulator and
-// a device are all sequences of frames.
+// Frames of depth sensors, and sequences of them. A recording, a data set of another program, the
+// simulator and a device all offer sequences of frames.
 
 #include <cmath>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace turnscan {
 
-/// Where a frame was seen from, in the sensor frame: a point, or a direction at infinity for
-/// scanners whose rays are parallel.
+/// The position of the sensor, in the sensor frame; for scanners whose rays are parallel, the
+/// direction towards it.
 struct Viewpoint {
   Vec3d value =
       Vec3d::Zero();  ///< position in metres, or unit vector from the surface to the sensor
@@ -31,13 +31,13 @@ enum class SensorKind { kDepthCamera, kPointScanner };
 
 struct SensorInfo {
   SensorKind kind = SensorKind::kDepthCamera;
-  std::string model;                   ///< for people, e.g. "kinect-v2"; may be empty
+  std::string model;                   ///< a name to show, e.g. "kinect-v2"; may be empty
   CameraIntrinsics intrinsics;         ///< depth cameras only
   double depth_unit_m = 1e-4;          ///< metres per step of the raw depth
   double depth_bias_m = 0.0;           ///< added to each depth after scaling
   std::optional<Pose> T_table_sensor;  ///< with the platter at angle 0
   Viewpoint viewpoint;                 ///< sensor frame; depth cameras: the origin
-  /// Colour images that are not registered to depth: their own camera; then T_color_sensor holds.
+  /// The colour camera, if colour images are not registered to depth; T_color_sensor is its pose.
   std::optional<CameraIntrinsics> color_intrinsics;
   Pose T_color_sensor = Pose::Identity();
 };
@@ -48,7 +48,7 @@ struct TurntableInfo {
   Vec3d center_m = Vec3d::Zero();     ///< on the platter's surface
   std::optional<double> radius_m;     ///< of the platter
   std::optional<double> speed_rad_s;  ///< signed, counter-clockwise seen from above is positive
-  /// Where no platter was seen: the largest distance from the axis at which something turned.
+  /// If no platter was seen: the largest distance from the axis at which something rotated.
   std::optional<double> reach_m;
 };
 
@@ -58,7 +58,7 @@ struct FrameInfo {
   std::uint32_t index = 0;                                   ///< unique in a sequence
   double time_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
   std::uint32_t sensor = 0;
-  std::uint32_t pass = 0;  ///< which way the object lies
+  std::uint32_t pass = 0;  ///< counts the poses in which the object was laid
   std::uint32_t turn = 0;
   std::optional<double> angle_rad;     ///< how far the platter has turned since the first frame
   std::optional<Pose> T_table_sensor;  ///< pose of this very frame; takes precedence over the angle
@@ -66,8 +66,8 @@ struct FrameInfo {
   FrameStatus status = FrameStatus::kOk;
 };
 
-/// Why no frame has this time, angle or pose: not finite, or beyond 1e13 s, a million turns,
-/// kMaxDistance_m. Empty when they are plausible.
+/// What is implausible about the time, angle or pose: not finite, or beyond 1e13 s, a million turns
+/// or kMaxDistance_m. Empty when all are plausible.
 std::string implausible(const FrameInfo& info);
 
 /// A depth image, or points (then depth is empty).
@@ -84,7 +84,7 @@ struct Frame {
   std::string color_jpeg;
 };
 
-/// The one view that both kinds of frames offer. Sensor frame, metres.
+/// The points of a frame of either kind. Sensor frame, metres.
 struct FramePoints {
   PointCloud cloud;  ///< colours if there are any
   int width = 0;     ///< 0 where there is no grid
@@ -93,9 +93,9 @@ struct FramePoints {
   Viewpoint viewpoint;
 };
 
-/// Valid returns of a frame as points, in the order of cells. Takes colour where it is registered
-/// (same size as depth), or projects each point into the colour camera; black where that does not
-/// see it. Pixels kNoReturn and kOutsideCrop and points that are not finite or not in front of a
+/// Valid returns of a frame as points, ordered by cell. Registered colour (of depth's size) is
+/// taken from the pixel; else points are projected into the colour camera, and black outside its
+/// image. Pixels kNoReturn and kOutsideCrop and points that are not finite or not in front of a
 /// depth camera are left out. rays must fit the intrinsics.
 /// Fails with kFormat when sizes do not fit.
 Result<FramePoints> points_of(const Frame& frame, const SensorInfo& sensor, const RayTable& rays);
@@ -104,8 +104,8 @@ struct SequenceHeader {
   std::vector<SensorInfo> sensors;
   std::optional<TurntableInfo> turntable;
   std::string software;  ///< what wrote it
-  std::string source;    ///< for people: where the data come from; may be empty
-  /// Frames' own poses bring together the frames of a pass only; else those of all passes.
+  std::string source;    ///< where the data come from, to show; may be empty
+  /// Whether the frames' own poses are consistent within a pass only, and not across passes.
   bool poses_within_pass = false;
 };
 

@@ -22,9 +22,9 @@ struct SourceInfo {
   std::vector<std::string> identities;
   /// Sensors, and the turntable where the source knows it (replay; virtual on request).
   SequenceHeader header;
-  /// Where the source knows that, too (virtual on request): takes points from a frame that does not
-  /// turn, and that it has in common with other sources, to that of its turntable. What the axis
-  /// shows leaves open in which direction a sensor stands from another one.
+  /// For sources that know it (virtual sensors on request): from a fixed frame that several sources
+  /// share to the frame of the turntable. The axis alone does not determine the azimuth of one
+  /// sensor relative to another.
   std::optional<Pose> T_table_common;
   CaptureSettings settings;  ///< of the driver: mode, firmware, exposure; for recording.json
   double fps = 0.0;          ///< of each sensor, nominal; 0: unknown
@@ -32,15 +32,15 @@ struct SourceInfo {
   /// come as fast as they are taken, and none is lost.
   bool live = true;
   std::optional<std::uint64_t> frame_count;  ///< of a source that ends by itself
-  bool lays_object = false;                  ///< lay_object() works: nobody has to do it by hand
+  bool lays_object = false;                  ///< lay_object() is supported
 };
 
-/// What next() brings.
+/// What next() returns.
 struct Delivery {
   enum class Kind {
     kFrame,    ///< a frame; FrameStatus::kDropped: one was lost here, and there is only its info
     kNothing,  ///< no frame came within the timeout
-    kEnd       ///< the source has ended or was stopped, and all that was waiting has been taken
+    kEnd       ///< the source has ended or was stopped, and no frame is waiting
   };
   Kind kind = Kind::kNothing;
   Frame frame;
@@ -66,9 +66,9 @@ struct SourceStatistics {
 ///
 /// Of a frame, index counts all frames of the source (lost ones included, later than the first
 /// start), time_s is the sensor's clock, sensor the position in header.sensors. Depth is in steps
-/// of the sensor's depth_unit_m, whatever the driver delivers: what is shown, used and recorded is
-/// the same. Pixels without a return are kNoReturn; a driver's 65535 becomes kNoReturn.
-/// Colour, where there is any, is as the header's sensor says.
+/// of the sensor's depth_unit_m, whatever the driver delivers, so that live and recorded frames are
+/// equal. Pixels without a return are kNoReturn; a driver's 65535 becomes kNoReturn.
+/// Colour, if there is any, is registered or not as the header's sensor says.
 ///
 /// Of each sensor time never runs back, and sizes are those of the header: frames for which this
 /// does not hold are refused (counted, delivered as kDropped); after kMaxRefused in a row next()
@@ -91,9 +91,9 @@ class FrameSource {
   /// No more frames come in; what waits can still be taken. Also without start().
   virtual void stop() = 0;
   virtual SourceStatistics statistics() const = 0;
-  /// Lays the object another way for the next pass: turned, from how it lay when the frame with the
-  /// time `time_s` was taken, by a rotation in the frame of sensor 0, then set down in the middle
-  /// of the platter. Frames that were waiting are gone; the next start() begins anew, time goes on.
+  /// Lays the object differently for the next pass: it is rotated, relative to its pose at the time
+  /// `time_s` of a frame, by a rotation in the frame of sensor 0, and then set down at the centre
+  /// of the platter. Waiting frames are discarded; the next start() begins a turn; time goes on.
   /// To be called while the source is stopped. Fails with kUnsupported unless info().lays_object,
   /// and with kNotFound when there was no such frame.
   virtual Result<> lay_object(const Eigen::Matrix3d& rotation, double time_s);
