@@ -40,8 +40,10 @@ class Cancel(harness.TestCase):
         self.assertIn("cancelled", err.splitlines()[-1])
         return time.monotonic() - begin
 
-    def every_phase(self, args, made=()):
+    def every_phase(self, args, made=(), kept=()):
+        """kept: files that may be there already; then they are whole."""
         done = self.ok(*args)
+        whole = {name: (self.dir / name).read_bytes() for name in kept}
         for name in made:
             target = self.dir / name
             harness.remove(target) if target.is_dir() else target.unlink()
@@ -58,16 +60,23 @@ class Cancel(harness.TestCase):
                 continue
             slowest = max(slowest, seconds)
             self.assertLess(seconds, STOP_S, phase)
+            for name in kept:
+                target = self.dir / name
+                if target.exists():
+                    self.assertEqual(target.read_bytes(), whole[name], f"stopped in '{phase}'")
+                    target.unlink()
             self.assertEqual(self.files(), before, f"left behind when stopped in '{phase}'")
         print(f"{args[0]}: stopped in {len(phases)} phases, slowest {slowest:.2f} s", flush=True)
 
     def test_reconstruct(self):
         self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--report", "r.json",
-                          *COARSE, "--save-stage", "fitted"), made=["m.3mf", "r.json", "m-fitted.ply"])
+                          *COARSE, "--save-stage", "fitted"), made=["m.3mf", "r.json", "m-fitted.ply"],
+                         kept=["m.3mf"])
 
     def test_reconstruct_from_points(self):
         self.every_phase(("reconstruct", shared_recording(), "-o", "m.3mf", "--method", "poisson",
-                          *FAST, "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"])
+                          *FAST, "--save-stage", "merged"), made=["m.3mf", "m-merged.ply"],
+                         kept=["m.3mf"])
 
     def test_demo(self):
         self.every_phase(("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out", "d"),
