@@ -6,12 +6,12 @@
 
 namespace turnscan {
 
-/// Sets fields from a TOML file. Keys are field names, at the top or under a table with the name of
-/// their group. Values are strings as on the command line ("1.5mm", "auto"), plain numbers where a
-/// field has no unit, and true or false. Fields that came before an error are set. Fails with
-/// kInvalidOption naming file and line for an unknown key (with the nearest one that exists), a key
-/// in the wrong table, a value that does not fit or text that is not TOML; with kNotFound when
-/// there is no such file.
+/// Sets fields from a TOML file. Keys are field names, at the top level or in a table with the name
+/// of their group. Values are strings as on the command line ("1.5mm", "auto"), plain numbers where
+/// a field has no unit, and true or false. On an error, fields before it stay set. Fails with
+/// kInvalidOption, naming file and line, for an unknown key (suggesting the nearest existing one),
+/// a key in the wrong table, an invalid value or text that is not TOML; with kNotFound if there is
+/// no such file.
 Result<> read_config_file(const std::string& path, const std::deque<OptionGroup>& groups);
 
 }  // namespace turnscan

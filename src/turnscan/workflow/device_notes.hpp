@@ -1,5 +1,5 @@
 #pragma once
-// What a device did to its depth before anybody got it, told from the frames.
+// Detects from the frames what a device did to its depth before delivering it.
 
 #include <string>
 #include <turnscan/core/frame.hpp>
@@ -8,13 +8,13 @@
 
 namespace turnscan {
 
-/// A sentence where a sensor smooths over time (temporal_filter_note()), and one for each sensor
-/// whose model is that of a preset that triangulates and that fills what one of its two eyes cannot
-/// have seen (filled_share() of 0.7 or more). Fails only with kCancelled.
+/// One sentence if a sensor smooths over time (temporal_filter_note()), and one for each sensor
+/// whose model is that of a triangulating preset and which fills areas that one of its two cameras
+/// cannot have seen (filled_share() of 0.7 or more). Fails only with kCancelled.
 Result<std::vector<std::string>> device_notes(const FrameSequence& sequence,
                                               const RunContext& context);
 
-/// Only the latter.
+/// Only the notes on filled depth.
 Result<std::vector<std::string>> filled_depth_notes(const FrameSequence& sequence,
                                                     const RunContext& context);
 

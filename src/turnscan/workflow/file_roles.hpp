@@ -1,5 +1,5 @@
 #pragma once
-// No output takes the place of an input: asked before the work begins, for every command.
+// Makes sure that no output overwrites an input; checked for every command before the work begins.
 
 #include <string>
 #include <turnscan/core/result.hpp>
@@ -7,18 +7,19 @@
 
 namespace turnscan {
 
-/// The files and folders that a run reads, and the files that it writes. Names of what is no file
-/// ("builtin:cube", a device, empty) may be among them.
+/// Files and folders that a run reads, and files that it writes. Names that are not files
+/// ("builtin:cube", a device, empty) are allowed.
 struct FileRoles {
   std::vector<std::string> inputs;   ///< a folder stands for every file in it
-  std::vector<std::string> outputs;  ///< none is a folder
-  std::string numbered{};  ///< one of the outputs, of which several objects make OUT-1, OUT-2, ...,
-                           ///< and passes that do not fit OUT-pass2, ...; may be empty
-  std::string removed{};   ///< a folder that is emptied before the work; may be empty
+  std::vector<std::string> outputs;  ///< none of them is a folder
+  std::string
+      numbered{};  ///< one of the outputs, which is written as OUT-1, OUT-2, ... for several
+                   ///< objects, and as OUT-pass2, ... for passes that do not fit; may be empty
+  std::string removed{};  ///< a folder that is emptied before the work begins; may be empty
 };
 
-/// Fails with kInvalidOption when an output is an input, two outputs are one file, by whatever
-/// names (links, device and inode; those of several objects included), or an input lies in the
+/// Fails with kInvalidOption if an output is an input, if two outputs are the same file under any
+/// names (links, device and inode; including the numbered files), or if an input is inside the
 /// folder that is emptied.
 Result<> check_file_roles(const FileRoles& roles);
 

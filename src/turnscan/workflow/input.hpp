@@ -1,5 +1,5 @@
 #pragma once
-// Opens what a reconstruction reads.
+// Opens the input of a reconstruction.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,42 +15,42 @@ namespace turnscan {
 
 struct Input {
   std::unique_ptr<FrameSequence> frames;  ///< files are read when frames are read
-  /// What is missing or out of order in a recording, or was assumed of a data set of another
-  /// program, a sentence each.
+  /// What is missing or inconsistent in a recording, or was assumed for a data set of another
+  /// program; one sentence each.
   std::vector<std::string> notes;
-  bool imported = false;    ///< of another program
-  std::uint64_t bytes = 0;  ///< of the files of another program
+  bool imported = false;    ///< from another program
+  std::uint64_t bytes = 0;  ///< size of the other program's files
 };
 
 /// path: a recording's folder or its recording.json (see Recording::open), or a data set of another
-/// program (see open_foreign; options are for these alone). Fails as Recording::open() where there
+/// program (see open_foreign; the options apply to these only). Fails as Recording::open() if there
 /// is a recording, else as open_foreign().
 Result<Input> open_input(const std::filesystem::path& path,
                          const ImportOptions& options = ImportOptions());
 
-/// Options of an import as NAME=VALUE, the names and values of `turnscan import`. Fails with
-/// kInvalidOption.
+/// Parses import options given as NAME=VALUE, with names and values of `turnscan import`. Fails
+/// with kInvalidOption.
 Result<ImportOptions> parse_import_options(const std::vector<std::string>& texts);
 
-/// As open_input(). Where the data set of another program needs an option, the error says that it
-/// is given as `--import NAME=VALUE`.
+/// As open_input(). If another program's data set needs an option, the error explains that it is
+/// given as `--import NAME=VALUE`.
 Result<Input> open_input_asking(const std::filesystem::path& path, const ImportOptions& options);
 
 inline constexpr const char* kImportOptionsHelp =
     "Option of turnscan import, without its dashes, for files of another program, e.g. "
     "depth-unit=1mm; may be given for several";
 
-/// As open_input_asking(), with options as parse_import_options() reads them. Fails as these do,
-/// and with kInvalidOption where there are options and path is a recording.
+/// As open_input_asking(), with options parsed by parse_import_options(). Fails as these do, and
+/// with kInvalidOption if options are given and path is a recording.
 Result<Input> open_input_asking(const std::filesystem::path& path,
                                 const std::vector<std::string>& import_options);
 
-/// Writes what was imported to a recording's folder, and goes on with that. Fails with
-/// kInvalidOption for a recording, as write_recording() and as open_input().
+/// Writes imported data to a recording's folder, and opens that. Fails with kInvalidOption for a
+/// recording, as write_recording() and as open_input().
 Result<Input> keep_input(const std::filesystem::path& path, const Input& input,
                          const std::filesystem::path& folder, const RunContext& context);
 
-/// What `turnscan info` says about it. Fails only with kCancelled.
+/// The summary that `turnscan info` shows. Fails only with kCancelled.
 Result<SequenceSummary> summarize(const Input& input, const RunContext& context);
 
 }  // namespace turnscan

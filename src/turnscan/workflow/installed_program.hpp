@@ -1,5 +1,5 @@
 #pragma once
-// Programs that turnscan uses where they are installed.
+// Optional external programs.
 
 #include <string>
 #include <string_view>
@@ -9,9 +9,9 @@
 
 namespace turnscan {
 
-/// Runs a program that is on the path, and returns what it wrote. Fails with kMissingData and the
-/// text `missing` where there is none of that name, with kLibrary and its own words when it fails,
-/// and as process::run_child().
+/// Runs a program found on the path, and returns its output. Fails with kMissingData and the text
+/// `missing` if there is no such program, with kLibrary and the program's message if it fails, and
+/// as process::run_child().
 Result<std::string> run_installed(const std::string& program,
                                   const std::vector<std::string>& arguments,
                                   std::string_view missing, double seconds,

@@ -1,6 +1,6 @@
 #pragma once
-// The folder of a batch: batch.json names the tasks, tasks/NAME holds each one's task.json (what is
-// to be done), state.json (what became of it), log.txt and result/.
+// The folder of a batch: batch.json lists the tasks; tasks/NAME holds each task's task.json (what
+// to do), state.json (its state and outcome), log.txt and result/.
 
 #include <filesystem>
 #include <string>
@@ -32,17 +32,18 @@ class BatchFolder {
     return task_folder(name) / "lock";
   }
 
-  /// Whether a batch was planned there.
+  /// Whether the folder holds a planned batch.
   bool planned() const;
-  /// Makes the folders, and writes the tasks that are not as they lie there, then the list. Fails
+  /// Creates the folders and writes the tasks that differ from those on disk, then the list. Fails
   /// with kAlreadyExists in a folder with other content, and with kIo.
   Result<> save_plan(const std::vector<BatchTask>& tasks) const;
-  /// In the order of the list. Fails with kNotFound without a batch, else as reading its files.
+  /// The tasks in the order of the list. Fails with kNotFound if there is no batch, else as reading
+  /// its files does.
   Result<std::vector<BatchTask>> load_plan() const;
   Result<BatchTask> load_task(const std::string& name) const;
 
-  /// A task that has no state, or a damaged one, is waiting. A running one that nobody holds the
-  /// lock of was killed: waiting.
+  /// The state of a task. A task without a state, or with a damaged one, is waiting. A running task
+  /// whose lock nobody holds was killed and counts as waiting.
   TaskRecord record(const std::string& name) const;
   Result<> save_record(const std::string& name, const TaskRecord& record) const;
 
@@ -50,11 +51,11 @@ class BatchFolder {
   std::filesystem::path folder_;
 };
 
-/// What a task amounts to now: as record(), and waiting where what is done or failed is no longer
-/// what the task asks for.
+/// The current state of a task: as record(), but waiting if a done or failed task has changed
+/// since.
 TaskRecord current_record(const BatchFolder& folder, const BatchTask& task);
 
-/// Succeeds when text can name a task's folder. Fails with kInvalidOption.
+/// Succeeds if the text can be the name of a task's folder. Fails with kInvalidOption.
 Result<> check_task_name(const std::string& name);
 
 }  // namespace turnscan::batch

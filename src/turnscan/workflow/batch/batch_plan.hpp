@@ -1,5 +1,5 @@
 #pragma once
-// Which tasks a batch consists of.
+// Plans the tasks of a batch.
 
 #include <string>
 #include <turnscan/core/result.hpp>
@@ -9,20 +9,19 @@
 namespace turnscan {
 
 struct BatchSource {
-  /// One table (.csv, .toml), or recordings, folders with recordings below them and batches whose
-  /// results are recordings; of command simulate objects.
+  /// One table (.csv, .toml); or recordings, folders that contain recordings, and batches whose
+  /// results are recordings; for the command simulate, objects.
   std::vector<std::string> inputs;
-  std::string command;             ///< empty: the table's, else reconstruct
-  std::vector<std::string> set;    ///< NAME=VALUE, an option of every task
-  std::vector<std::string> sweep;  ///< NAME=VALUE,VALUE,...: every task once with each
+  std::string command;             ///< empty: from the table, or reconstruct
+  std::vector<std::string> set;    ///< NAME=VALUE, an option for every task
+  std::vector<std::string> sweep;  ///< NAME=VALUE,VALUE,...: runs every task once with each value
 };
 
-/// A task for every recording and combination of swept values. Options: a task's own take
-/// precedence over those of all tasks in the table, `set` over both, a sweep over all. Paths in a
-/// table are seen from its folder. Names come from the table or the paths, behind them the swept
-/// values.
-/// Fails with kInvalidOption (naming the task or line: an option that does not exist, two tasks of
-/// one name), with kNotFound where there is no recording, and as read_batch_table().
+/// One task for every recording and combination of swept values. Options of a task override those
+/// of all tasks in the table, `set` overrides both, and a sweep overrides all. Paths in a table are
+/// relative to its folder. Names come from the table or the paths, followed by the swept values.
+/// Fails with kInvalidOption (naming the task or line: an unknown option, or two tasks of the same
+/// name), with kNotFound if there is no recording, and as read_batch_table().
 Result<std::vector<BatchTask>> plan_batch(const BatchSource& source);
 
 }  // namespace turnscan

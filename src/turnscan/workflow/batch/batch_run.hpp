@@ -1,5 +1,5 @@
 #pragma once
-// A batch from its folder to its summary, by an engine.
+// Runs a batch, from its folder to its summary, on an engine.
 //
 //   TURNSCAN_ASSIGN(const auto tasks, plan_batch({{"scans"}, {}, {}, {}}));
 //   TURNSCAN_TRY(save_batch("results", tasks));
@@ -21,10 +21,10 @@ enum class BatchEngine { kLocal, kSlurm };
 
 struct BatchRunOptions {
   BatchEngine engine = BatchEngine::kLocal;
-  std::string engine_options;       ///< of sbatch
-  std::optional<int> jobs;          ///< at once, local; nullopt: as cores and memory allow
-  std::optional<int> task_threads;  ///< nullopt: 1, or the cores that too few tasks leave over
-  int tasks_per_job = 1;            ///< Slurm: tasks that one element of an array runs
+  std::string engine_options;  ///< for sbatch
+  std::optional<int> jobs;  ///< concurrent local jobs; nullopt: as many as cores and memory allow
+  std::optional<int> task_threads;  ///< nullopt: 1, or more if there are fewer tasks than cores
+  int tasks_per_job = 1;            ///< Slurm: number of tasks that one array element runs
   int restarts = 2;                 ///< of a task whose process or node was lost
 };
 
@@ -33,35 +33,35 @@ OptionTable describe(BatchRunOptions& options);
 struct BatchRequest {
   std::string folder;
   BatchRunOptions options;
-  std::filesystem::path program;   ///< turnscan, which runs each task
-  bool retry_failed = false;       ///< failed tasks are run again
-  std::vector<std::string> retry;  ///< these only, done or not; empty: all that failed
-  bool detach = false;             ///< Slurm: hand the tasks over and do not wait for them
-  /// Told about every change: "12 of 200 done, 1 failed; 2 running".
+  std::filesystem::path program;   ///< the turnscan executable that runs each task
+  bool retry_failed = false;       ///< run failed tasks again
+  std::vector<std::string> retry;  ///< only these, done or not; empty: all that failed
+  bool detach = false;             ///< Slurm: submit the tasks and do not wait for them
+  /// Called on every change, e.g. with "12 of 200 done, 1 failed; 2 running".
   std::function<void(const std::string&)> on_status;
 };
 
 struct BatchOutcome {
   std::size_t tasks = 0, done = 0, failed = 0, waiting = 0;
-  std::size_t skipped = 0;  ///< of those done: that were done before
+  std::size_t skipped = 0;  ///< of the done tasks, those that were done before this run
   double seconds = 0.0;
-  std::vector<std::string> files;  ///< the summary
+  std::vector<std::string> files;  ///< of the summary
 };
 
-/// The program that this is.
+/// Path of the running executable.
 std::filesystem::path own_program();
 
-/// Makes the folder of a batch, or gives it these tasks in place of those that it has: results of
-/// tasks that stay the same are kept. Fails with kAlreadyExists in a folder with other content or
-/// while a run goes on in it, and with kIo.
+/// Creates the folder of a batch, or replaces the tasks of an existing one; results of unchanged
+/// tasks are kept. Fails with kAlreadyExists in a folder with other content or while a run is in
+/// progress in it, and with kIo.
 Result<> save_batch(const std::string& folder, const std::vector<BatchTask>& tasks);
 
-/// Runs what is not done, waits for it, and writes summary.csv, .json and .html. Failed tasks are
-/// left alone, unless they changed or are to be retried, and stop no other. Tasks that an earlier,
-/// killed run handed to Slurm are waited for, not handed over again.
-/// Fails with kAlreadyExists while another run goes on in the folder, with kNotFound without a
-/// batch, with kInvalidOption for options of another engine or names of no task, with kCancelled
-/// (what ran is waiting again), and as the engine does.
+/// Runs all tasks that are not done, waits for them, and writes summary.csv, .json and .html.
+/// Failed tasks are skipped unless they changed or are to be retried; a failure does not stop other
+/// tasks. Tasks that an earlier, killed run submitted to Slurm are waited for, not submitted again.
+/// Fails with kAlreadyExists while another run is in progress in the folder, with kNotFound if
+/// there is no batch, with kInvalidOption for options of another engine or unknown task names, with
+/// kCancelled (running tasks are set back to waiting), and as the engine does.
 Result<BatchOutcome> run_batch(const BatchRequest& request, const RunContext& context);
 
 }  // namespace turnscan

@@ -1,5 +1,5 @@
 #pragma once
-// How a batch stands: a row for each task.
+// Status of a batch, with one row for each task.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,12 +10,12 @@
 
 namespace turnscan::batch {
 
-/// What the report of a result says.
+/// Facts from the report of a result.
 struct ResultFacts {
-  std::string verdict;                 ///< the worst of its objects: green, amber, red; or empty
-  std::vector<std::string> sentences;  ///< of the verdict, those that are not good
+  std::string verdict;                 ///< the worst of all objects: green, amber, red; or empty
+  std::vector<std::string> sentences;  ///< of the verdict, only those that are not good
   std::uint64_t objects = 0, triangles = 0, frames = 0;
-  bool watertight = false;  ///< all objects
+  bool watertight = false;  ///< whether all objects are
 };
 
 struct SummaryRow {
@@ -26,18 +26,18 @@ struct SummaryRow {
 };
 
 struct BatchSummary {
-  std::vector<SummaryRow> rows;  ///< refer to the tasks
+  std::vector<SummaryRow> rows;  ///< they refer to the tasks
   std::size_t count(TaskState state) const;
 };
 
-/// Reads states and reports; looks at no input.
+/// Reads states and reports; does not check the inputs.
 BatchSummary summarize(const BatchFolder& folder, const std::vector<BatchTask>& tasks);
 
 std::string summary_csv(const BatchSummary& summary);
 std::string summary_json(const BatchSummary& summary);
 std::string summary_page(const BatchSummary& summary, const std::string& title);
 
-/// summary.csv, .json and .html in the batch's folder; returns their names.
+/// Writes summary.csv, .json and .html into the batch's folder; returns their names.
 Result<std::vector<std::string>> write_summary(const BatchSummary& summary,
                                                const std::filesystem::path& folder);
 

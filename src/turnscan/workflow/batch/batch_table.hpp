@@ -1,5 +1,5 @@
 #pragma once
-// Tables of tasks as people write them.
+// Task tables written by users.
 
 #include <filesystem>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace turnscan::batch {
 
-/// A name of an option and the values that it takes one after the other.
+/// Name of an option and the values to sweep.
 using SweepAxis = std::pair<std::string, std::vector<std::string>>;
 
 struct TableRow {
   std::string where;                ///< for errors: "shelf.csv:7"
   std::string name;                 ///< empty: none given
-  std::vector<std::string> inputs;  ///< as they were written
+  std::vector<std::string> inputs;  ///< as written
   BatchOptions options;
 };
 
@@ -27,20 +27,20 @@ struct BatchTable {
   std::vector<TableRow> rows;
 };
 
-/// Whether the name of a file says that it is a table: .csv or .toml.
+/// Whether the file name has the extension of a table: .csv or .toml.
 bool is_table(const std::filesystem::path& path);
 
-/// CSV: a line of column names, then a line a task. "name" and "recording" (or "object"; several
-/// recordings of an object stand between semicolons) are no options, every other column is one; an
-/// empty field leaves its option out.
+/// CSV: a line of column names, then one line per task. Every column is an option except "name" and
+/// "recording" (or "object"; several recordings of an object are separated by semicolons); an empty
+/// field leaves its option unset.
 /// TOML: command, [options], [sweep] with lists, [[task]] with the same keys.
 /// Fails with kNotFound, kIo, and with kFormat, naming file and line.
 Result<BatchTable> read_batch_table(const std::filesystem::path& path);
 
-/// "NAME=VALUE". Fails with kInvalidOption.
+/// Parses "NAME=VALUE". Fails with kInvalidOption.
 Result<std::pair<std::string, std::string>> parse_setting(const std::string& text);
-/// "NAME=V1,V2,..."; with a semicolon in it, values stand between semicolons. Fails as
-/// parse_setting().
+/// Parses "NAME=V1,V2,..."; if the text contains a semicolon, semicolons separate the values. Fails
+/// as parse_setting().
 Result<SweepAxis> parse_sweep(const std::string& text);
 
 }  // namespace turnscan::batch

@@ -7,16 +7,16 @@
 namespace turnscan::batch {
 
 struct FoundRecording {
-  std::string name;  ///< from its path below the folder
+  std::string name;  ///< from its path relative to the folder
   std::string path;
 };
 
-/// The folder itself where it is a recording, else those below it, up to four folders deep, in the
-/// order of their names; of a batch the recordings among its results, named after their tasks.
-/// Recordings of other programs count where they are files (.bag, .mkv, .r3d, .sens), and the file
-/// or folder itself where it is one; folders of other programs below it do not. Batches below the
-/// folder and what lies in a recording are left out. Fails with kNotFound when there is none, or no
-/// such folder, and with kIo.
+/// The folder itself if it is a recording; else the recordings below it, up to four levels deep,
+/// sorted by name; for a batch, the recordings among its results, named after their tasks.
+/// Recordings of other programs count if they are files (.bag, .mkv, .r3d, .sens) or if they are
+/// the given path itself; other programs' recording folders below it do not count. Batches below
+/// the folder and the contents of a recording are skipped. Fails with kNotFound if there is no
+/// recording or no such folder, and with kIo.
 Result<std::vector<FoundRecording>> find_recordings(const std::string& folder);
 
 }  // namespace turnscan::batch

@@ -1,5 +1,5 @@
 #pragma once
-// What a result depends on, as a hash.
+// Hashes of everything that a result depends on.
 
 #include <string>
 #include <turnscan/core/result.hpp>
@@ -8,26 +8,27 @@
 
 namespace turnscan::batch {
 
-/// An input as it was when a task read it.
+/// Fingerprint of an input at the time a task read it.
 struct InputPrint {
   std::string path;
-  std::string stamp;   ///< hash of names, sizes and times of its files: cheap to compare
+  std::string stamp;   ///< hash of its files' names, sizes and times: cheap to compare
   std::string sha256;  ///< hash of names and contents
 };
 
-/// Of a file, a folder with all files below it, or of what is no path (builtin:cube) its name.
-/// Fails with kNotFound or kIo.
+/// Fingerprint of a file, of a folder with all files below it, or of the name itself if it is not a
+/// path (builtin:cube). Fails with kNotFound or kIo.
 Result<std::string> stamp_of(const std::string& path);
 Result<InputPrint> print_of(const std::string& path);
 
-/// Of all files of a task.
+/// Fingerprints of all files of a task.
 Result<std::vector<InputPrint>> prints_of(const BatchTask& task);
 
-/// What stands beside a result: hash of command, options, version and contents of the inputs.
+/// Digest that is stored with a result: hash of command, options, version and contents of the
+/// inputs.
 std::string digest_of(const BatchTask& task, const std::vector<InputPrint>& inputs);
 
-/// Whether a result with this digest, made of these inputs, is the task's: contents are read only
-/// where a stamp differs. False where an input is missing.
+/// Whether a result with this digest, made from these inputs, is up to date for the task. Contents
+/// are read only if a stamp differs. False if an input is missing.
 bool is_current(const BatchTask& task, const std::string& digest,
                 const std::vector<InputPrint>& inputs);
 

@@ -1,5 +1,5 @@
 #pragma once
-// One task from its folder to its result: what an engine starts, on whichever machine.
+// Runs one task from its folder to its result; this is what an engine starts, on any machine.
 
 #include <filesystem>
 #include <string>
@@ -9,16 +9,16 @@
 namespace turnscan {
 
 struct TaskRunSettings {
-  std::filesystem::path program;  ///< turnscan
-  int threads = 1;                ///< of the command
+  std::filesystem::path program;  ///< the turnscan executable
+  int threads = 1;                ///< used by the command
 };
 
-/// Runs a task of a batch in a child process and keeps the result, or the reason why there is none,
-/// beside the hash of what it was made of. Waits while another process runs the task, and does
-/// nothing when it is done then. The result takes its place in one step: a kill at any moment
-/// leaves the old one, none, or the new one. A task that fails is no failure of this. Fails with
-/// kNotFound or kFormat where there is no such task, with kCancelled (the task is waiting again)
-/// and with kIo.
+/// Runs a task of a batch in a child process and stores the result, or the reason why there is
+/// none, together with the hash of its inputs. Waits while another process runs the task, and does
+/// nothing if the task is done afterwards. The result is replaced atomically: a kill at any moment
+/// leaves the old one, none, or the new one. A failing task is not an error of this function. Fails
+/// with kNotFound or kFormat if there is no such task, with kCancelled (the task is set back to
+/// waiting) and with kIo.
 Result<> run_task(const std::filesystem::path& folder, const std::string& name,
                   const TaskRunSettings& settings, const RunContext& context);
 

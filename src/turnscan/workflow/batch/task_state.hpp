@@ -1,5 +1,5 @@
 #pragma once
-// What has become of a task.
+// State and outcome of a task.
 
 #include <cstdint>
 #include <optional>
@@ -19,18 +19,18 @@ enum class TaskState {
 
 std::string name_of(TaskState state);
 
-/// What state.json holds.
+/// Content of state.json.
 struct TaskRecord {
   TaskState state = TaskState::kWaiting;
-  std::string digest;              ///< what the result was made of; see digest_of()
-  std::vector<InputPrint> inputs;  ///< as they were read
-  int attempts = 0;                ///< how often it was begun
-  std::string host;                ///< where it ran last
-  double started_s = 0.0;          ///< seconds since 1970
-  double seconds = 0.0;            ///< from its beginning to its end
-  double command_seconds = 0.0;    ///< of that the command itself
+  std::string digest;              ///< digest of the result's inputs; see digest_of()
+  std::vector<InputPrint> inputs;  ///< as they were when they were read
+  int attempts = 0;                ///< number of times it was started
+  std::string host;                ///< on which it ran last
+  double started_s = 0.0;          ///< start, seconds since 1970
+  double seconds = 0.0;            ///< wall time from start to end
+  double command_seconds = 0.0;    ///< wall time of the command alone
   double cpu_seconds = 0.0;        ///< processor time
-  std::uint64_t peak_bytes = 0;    ///< of memory
+  std::uint64_t peak_bytes = 0;    ///< peak memory
   int threads = 0;
   std::string reason;  ///< why it failed
 };

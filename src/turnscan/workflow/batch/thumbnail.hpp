@@ -4,8 +4,8 @@
 
 namespace turnscan::batch {
 
-/// Draws what a task has made, if that has a shape, as thumbnail.png beside it. Nobody's result
-/// depends on it: what cannot be drawn is left out.
+/// Draws the result of a task, if it has a shape, as thumbnail.png next to it. No result depends on
+/// it: errors are ignored.
 void draw_thumbnail(const std::filesystem::path& result);
 
 }  // namespace turnscan::batch

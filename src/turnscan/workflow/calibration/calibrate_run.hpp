@@ -1,6 +1,6 @@
 #pragma once
-// A calibration as a command, a window or a script runs it: first the sensors' cameras and depth,
-// where something is known of them, then the turntable.
+// Calibration as run by a command, a window or a script: first the sensors' cameras and depth, if
+// something is known about them, then the turntable.
 
 #include <string>
 #include <turnscan/core/calibration.hpp>
@@ -14,20 +14,20 @@
 namespace turnscan {
 
 enum class CalibrationWay {
-  kAuto,     ///< from motion; where nothing can be seen of a turn, from the platter
-  kPoints,   ///< from points that somebody picked on the platter's rim
-  kPlatter,  ///< from the platter in the averaged frames; no speed but a stated one
-  kMotion    ///< from the motion of what stands on the platter
+  kAuto,     ///< from motion; if no rotation can be observed, from the platter
+  kPoints,   ///< from points picked on the platter's rim
+  kPlatter,  ///< from the platter in the averaged frames; the speed only if stated
+  kMotion    ///< from the motion of the object on the platter
 };
 
 struct CalibrateRequest {
   CalibrationWay way = CalibrationWay::kAuto;
   std::string points;  ///< CSV file of the picked points, see docs/calibration.md
-  /// Folders of iai_kinect2 calibrations (see read_iai_kinect2), of sensors 0, 1, ...
+  /// Folders with iai_kinect2 calibrations (see read_iai_kinect2) for sensors 0, 1, ...
   std::vector<std::string> iai_folders;
-  /// Find the offset of each sensor's depth from ball.diameter_m, or else from detect.radius_m.
+  /// Estimate the offset of each sensor's depth from ball.diameter_m, or else from detect.radius_m.
   bool depth_bias = false;
-  std::string depth_also;  ///< recording of the same at another distance: tells the scale, too
+  std::string depth_also;  ///< recording of the same object at another distance: adds the scale
   AverageOptions average;
   DetectOptions detect;
   BallOptions ball;
@@ -35,10 +35,10 @@ struct CalibrateRequest {
   std::string made_at;  ///< when the frames were taken; empty: as the recording says
 };
 
-/// The calibration as its file gives it back (see write_calibration()). Fails with kInvalidOption
-/// (depth_bias without a known size, more folders than sensors, a depth_also of other sensors),
-/// kFormat (the file of points), kMissingData (no way finds the turntable), kCancelled, and as the
-/// frames do.
+/// Returns the calibration as it is read back from its file (see write_calibration()). Fails with
+/// kInvalidOption (depth_bias without a known size, more folders than sensors, a depth_also of
+/// other sensors), kFormat (the file of points), kMissingData (no method finds the turntable),
+/// kCancelled, and as the frames do.
 Result<Calibration> run_calibration(const FrameSequence& sequence, const CalibrateRequest& request,
                                     const RunContext& context);
 

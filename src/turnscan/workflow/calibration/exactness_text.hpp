@@ -1,5 +1,5 @@
 #pragma once
-// How exactly a turntable is known, in sentences.
+// Accuracy of a turntable calibration as text.
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #pragma once
-// What runs the tasks of a batch: this machine, or a cluster's scheduler. An engine knows names and
-// how much memory each may need; whether a task succeeded stands in the task's folder.
+// Runs the tasks of a batch on this machine or by a cluster's scheduler. An engine knows the tasks'
+// names and how much memory each may need; whether a task succeeded is recorded in the task's
+// folder.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,38 +13,38 @@
 namespace turnscan::engine {
 
 struct Job {
-  std::string name;  ///< of a task; without spaces
+  std::string name;  ///< of a task; contains no spaces
   std::uint64_t peak_bytes = 0;
 };
 
-/// A job that has left the engine, however that came.
+/// A job that has left the engine, for whatever reason.
 struct Ended {
   std::string name;
-  std::string reason;  ///< what the engine says of an end that was not in order; may be empty
-  bool lost = false;   ///< the machine failed, not the task: it is to be run again
+  std::string reason;  ///< the engine's explanation of an abnormal end; may be empty
+  bool lost = false;   ///< the machine failed, not the task: it has to be run again
 };
 
-/// The program and arguments that run the task NAME: PROGRAM ARGUMENTS... NAME.
+/// Program and arguments that run the task NAME: PROGRAM ARGUMENTS... NAME.
 struct JobCommand {
   std::filesystem::path program;
   std::vector<std::string> arguments;
   int threads = 1;
 };
 
-/// Not for several threads at once.
+/// Not thread-safe.
 class Engine {
  public:
   virtual ~Engine() = default;
-  /// Jobs that an earlier run handed over and that have not ended; poll() will tell of them.
+  /// Jobs that an earlier run submitted and that have not ended; poll() will report them.
   virtual Result<std::vector<std::string>> adopt() = 0;
-  /// Takes jobs over, in the order in which they are to begin.
+  /// Submits jobs, in the order in which they should start.
   virtual Result<> submit(const std::vector<Job>& jobs) = 0;
-  /// Those that have ended since the last call; waits a little if there are none. Fails only when
-  /// the engine is lost for good.
+  /// Jobs that have ended since the last call; waits a little if there are none. Fails only if the
+  /// engine is permanently lost.
   virtual Result<std::vector<Ended>> poll() = 0;
-  /// Ends all jobs, and waits for that.
+  /// Terminates all jobs and waits until they have ended.
   virtual void cancel() = 0;
-  /// What it is doing, for people: "4 at once".
+  /// Human-readable status: "4 at once".
   virtual std::string status() const = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace turnscan::engine {
 
-/// The last line of a job's output that is not empty, or the name of the file where there is none.
+/// The last non-empty line of a job's output, or the name of the file if there is none.
 std::string last_line_of(const std::filesystem::path& log);
 
 }  // namespace turnscan::engine

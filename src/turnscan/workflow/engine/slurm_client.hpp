@@ -1,5 +1,5 @@
 #pragma once
-// Calls of Slurm's programs.
+// Wrapper of Slurm's command-line programs.
 
 #include <map>
 #include <string>
@@ -15,21 +15,21 @@ class SlurmClient {
  public:
   explicit SlurmClient(RunContext context) : context_(std::move(context)) {}
 
-  /// Output of a program. Fails with kMissingData where it is not installed, with kLibrary and its
-  /// own words when it fails, with kCancelled.
+  /// Output of a program. Fails with kMissingData if it is not installed, with kLibrary and the
+  /// program's message if it fails, with kCancelled.
   Result<std::string> call(const std::string& program, const std::vector<std::string>& arguments,
                            std::string_view input = {}) const;
 
-  /// Elements of these jobs that squeue knows, ended ones for some minutes (MinJobAge), too. Fails
-  /// when the controller does not answer.
+  /// Elements of these jobs that squeue knows, including those that ended within some minutes
+  /// (MinJobAge). Fails if the controller does not answer.
   Result<std::map<SlurmElement, SlurmState>> states(const std::vector<std::string>& jobs) const;
-  /// Of elements that squeue has forgotten; none where the cluster keeps no accounts.
+  /// States of elements that squeue no longer lists; empty if the cluster has no accounting.
   std::map<SlurmElement, SlurmState> accounted(const std::vector<std::string>& jobs) const;
-  /// Numbers of the jobs of this user with this name that have not ended.
+  /// Numbers of this user's jobs with this name that have not ended.
   Result<std::vector<std::string>> live_jobs(const std::string& name) const;
-  /// Elements that one array may have.
+  /// Maximum number of elements in one array.
   int largest_array() const;
-  /// Of the largest node, as far as Slurm was told; 1 where it was not.
+  /// Memory of the largest node, as configured in Slurm; 1 if not configured.
   std::uint64_t node_megabytes() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Tasks as elements of Slurm's job arrays. The folder must lie where all nodes see it by the same
-// path, and so must the program.
+// Runs tasks as elements of Slurm's job arrays. The folder and the program must be reachable by the
+// same path on all nodes.
 
 #include <memory>
 #include <turnscan/workflow/engine/engine.hpp>
@@ -9,14 +9,14 @@ namespace turnscan::engine {
 
 struct SlurmSettings {
   std::string
-      options;  ///< further options of sbatch, as in a shell: "--partition=main --time=1:00"
-  int tasks_per_job = 1;  ///< one element of an array runs so many, one after the other
-  double poll_s = 2.0;    ///< squeue is asked at most that often
+      options;  ///< further options of sbatch, in shell syntax: "--partition=main --time=1:00"
+  int tasks_per_job = 1;  ///< number of tasks that one array element runs in sequence
+  double poll_s = 2.0;    ///< minimum interval between calls of squeue
 };
 
-/// Job arrays through sbatch, states through squeue and sacct. Elements whose node fails go back
-/// into the queue. Jobs go on without this object: the next one adopts them. Fails with
-/// kInvalidOption when the options cannot be read, with kMissingData where there is no sbatch.
+/// Submits job arrays through sbatch and gets their states through squeue and sacct. Elements whose
+/// node fails are queued again. Jobs outlive this object: the next one adopts them. Fails with
+/// kInvalidOption if the options cannot be parsed, with kMissingData if there is no sbatch.
 Result<std::unique_ptr<Engine>> make_slurm_engine(const JobCommand& command,
                                                   const SlurmSettings& settings,
                                                   const std::filesystem::path& folder,

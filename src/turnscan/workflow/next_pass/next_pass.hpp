@@ -1,5 +1,5 @@
 #pragma once
-// What a scan did not see, and how the object is to be laid so that the next pass sees most of it.
+// Finds what a scan did not see, and how to place the object so that the next pass sees most of it.
 
 #include <optional>
 #include <string>
@@ -10,71 +10,72 @@
 
 namespace turnscan {
 
-/// From where a pass was seen.
+/// The viewpoints of a pass.
 struct PassViews {
   static constexpr std::size_t kMaxViews = 24;
 
-  std::string name;  ///< of the pass, for people; empty: there is but one
-  /// Up to kMaxViews of its frames, evenly spread; in its table's frame, with the turn taken back.
-  /// The first is that of its first frame.
+  std::string name;  ///< human-readable, of the pass; empty: it is the only one
+  /// Up to kMaxViews of its frames, evenly spaced, in the frame of its table with the rotation
+  /// removed. The first view is that of the first frame.
   std::vector<CoverageView> views;
-  double first_time_s = 0.0;             ///< of its first frame; NaN: unknown
+  double first_time_s = 0.0;             ///< of its first frame; NaN: not known
   Pose T_mesh_table = Pose::Identity();  ///< from its table's frame to that of the mesh
 };
 
-/// Of the frames that were not dropped, and of this pass if one is given. Fails as frame_poses()
-/// does, and with kMissingData without such a frame.
+/// Viewpoints of the frames that were not dropped; of this pass only, if one is given. Fails as
+/// frame_poses() does, and with kMissingData if there is no such frame.
 Result<PassViews> pass_views(const FrameSequence& sequence, std::optional<std::uint32_t> pass,
                              std::optional<double> speed_rad_s);
 
-/// Areas of the mesh's surface that no view measured, by the side to which they face as the object
-/// lay in the pass.
+/// Areas of the mesh's surface that no view measured, by the direction they face in the pose of the
+/// pass.
 struct UnseenSurface {
   double surface_m2 = 0.0;    ///< of the whole mesh
   double base_m2 = 0.0;       ///< closed flat on the platter
-  double underside_m2 = 0.0;  ///< faces down by more than 30 degrees
+  double underside_m2 = 0.0;  ///< facing down by more than 30 degrees
   double sides_m2 = 0.0;
-  double top_m2 = 0.0;  ///< faces up by more than 30 degrees
+  double top_m2 = 0.0;  ///< facing up by more than 30 degrees
 
   double unseen_m2() const { return base_m2 + underside_m2 + sides_m2 + top_m2; }
 };
 
-/// A way to lay the object.
+/// A pose in which to place the object for the next pass.
 struct NextPose {
-  /// How far it is tipped from how it lay in the pass, and to which side its top goes: seen from
-  /// above counter-clockwise from the sensor, as that stood at the pass's first frame (90 degrees:
-  /// to the right, seen from the sensor).
+  /// Tilt relative to the pose in the pass, and the azimuth towards which the top is tilted: seen
+  /// from above, counter-clockwise from the sensor's position at the pass's first frame (90
+  /// degrees: to the right, seen from the sensor).
   double tip_rad = 0.0, towards_rad = 0.0;
-  Pose T_table_mesh = Pose::Identity();  ///< then; table frame of the pass, middle above the axis
-  double shows_m2 = 0.0;                 ///< of the unseen surface that a turn then sees
-  double overlap_m2 = 0.0;               ///< of the measured surface that it sees again
-  bool stands = true;                    ///< by itself; false: it has to be propped up
-  double lift_m = 0.0;                   ///< see RestingPose
+  Pose T_table_mesh =
+      Pose::Identity();     ///< the resulting pose; table frame of the pass, centre above the axis
+  double shows_m2 = 0.0;    ///< area of unseen surface that becomes visible in one turn
+  double overlap_m2 = 0.0;  ///< area of already measured surface that is seen again
+  bool stands = true;       ///< stable without support; false: it has to be propped up
+  double lift_m = 0.0;      ///< see RestingPose
 };
 
 struct NextPassAdvice {
   UnseenSurface unseen;
-  std::string pass;             ///< PassViews::name of the pass that poses are counted from
+  std::string pass;             ///< PassViews::name of the pass that the poses are relative to
   std::vector<NextPose> poses;  ///< best first; empty: none shows more
 };
 
-/// The area by what its triangles rest on; up: unit, in the mesh's frame. Zero where the evidence
-/// is not known.
+/// Areas by the evidence of their triangles; up: unit, in the mesh's frame. Zero if the evidence is
+/// not known.
 UnseenSurface unseen_surface(const ObjectResult& object, const Vec3d& up);
 
-/// Of the poses in which the mesh stands by itself (resting_poses()), those that show unseen
-/// surface and see enough of what was measured to be joined with it. Whether a place is seen is
-/// found by rays from the pass's views: within 75 degrees of the normal, from two of them at least.
-/// Where hardly anything shows so, poses come instead in which the object has to be propped up.
-/// nullopt: there is nothing to advise, because the mesh is not closed, it is not known what it
-/// rests on, or less than 2 % of the surface were not seen. Fails with kResourceLimit as
-/// Scene::create() does, and with kCancelled. Begins the phase "advise".
+/// Selects stable poses of the mesh (resting_poses()) that show unseen surface and enough of the
+/// measured surface to register the passes. Visibility is determined by rays from the pass's views:
+/// within 75 degrees of the normal, from at least two views. If these poses show hardly anything
+/// new, poses in which the object has to be propped up are returned instead. nullopt: there is no
+/// advice, because the mesh is not closed, its evidence is not known, or less than 2 % of the
+/// surface is unseen. Fails with kResourceLimit as Scene::create() does, and with kCancelled.
+/// Begins the phase "advise".
 Result<std::optional<NextPassAdvice>> advise_next_pass(const ObjectResult& object,
                                                        const PassViews& pass,
                                                        const RunContext& context);
 
-/// How a pose turns the object, as it lay at the first frame of the pass, in the frame that the
-/// first view's sensor has.
+/// Rotation of the object to this pose from that at the pass's first frame, in the sensor frame of
+/// the first view.
 Eigen::Matrix3d turn_seen_by_sensor(const NextPose& pose, const PassViews& pass);
 
 }  // namespace turnscan

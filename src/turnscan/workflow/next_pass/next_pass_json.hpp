@@ -5,7 +5,7 @@
 
 namespace turnscan::workflow {
 
-/// For reports: areas, text and poses.
+/// Areas, text and poses for reports.
 nlohmann::ordered_json next_pass_json(const NextPassAdvice& advice);
 
 }  // namespace turnscan::workflow

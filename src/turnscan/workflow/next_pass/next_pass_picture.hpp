@@ -5,9 +5,9 @@
 
 namespace turnscan {
 
-/// Two pictures side by side from where the sensor stood at the pass's first frame: how the object
-/// lay, and how it lies in the first of the advised poses; what no view saw is magenta. Without a
-/// pose the first alone. Fails as render_picture().
+/// Two pictures side by side from the sensor's position at the pass's first frame: the object as it
+/// was, and in the first of the advised poses; unseen surface is magenta. Without a pose, only the
+/// first picture. Fails as render_picture().
 Result<ColorImage> next_pass_picture(const ObjectResult& object, const PassViews& pass,
                                      const NextPassAdvice& advice, const RunContext& context);
 

@@ -5,8 +5,8 @@
 
 namespace turnscan::page {
 
-/// JSON for web/viewer.js: vertices quantised to 16 bits a coordinate over the size of all objects
-/// (a 65,000th of it), what is known of each, and triangles, as base64 of PackedMesh.
+/// JSON for web/viewer.js: vertices quantised to 16 bits per coordinate over the extent of all
+/// objects (a 65,000th of it), the per-vertex fields, and triangles, as base64 of PackedMesh.
 std::string model_json(const std::vector<PageObject>& objects, const std::vector<Field>& fields);
 
 }  // namespace turnscan::page

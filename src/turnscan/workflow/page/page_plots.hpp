@@ -6,9 +6,8 @@
 
 namespace turnscan::page {
 
-/// Of expected error and deviation, as far as they are known: how they are distributed over the
-/// surface, and over height and direction; of the turn its speed; of each object how its frames
-/// fit.
+/// Plots of expected error and deviation, as far as they are known: distribution over the surface,
+/// and over height and direction; the speed over the turn; the fit of the frames of each object.
 std::vector<Plot> plots_of(const PageInput& input, const std::vector<Field>& fields,
                            const ReportFacts& facts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a page, as HTML. All texts are escaped here.
+// Sections of a page, as HTML. They escape all texts.
 
 #include <string>
 #include <turnscan/core/result.hpp>
@@ -9,17 +9,17 @@
 
 namespace turnscan::page {
 
-/// Empty where the report has none.
+/// Empty if the report has no verdict.
 std::string verdict_section(const PageInput& input, const ReportFacts& facts);
-/// The place of the 3D view, hidden until the viewer shows it.
+/// Container of the 3D view, hidden until the viewer shows it.
 std::string view_section();
-/// Six sides of all objects, as JPEG. Fails as render_picture().
+/// Pictures of all objects from six sides, as JPEG. Fails as render_picture().
 Result<std::string> pictures_section(const PageInput& input, const RunContext& context);
 std::string dimensions_section(const PageInput& input);
 /// Empty without a comparison.
 std::string comparison_section(const PageInput& input);
 std::string plots_section(const PageInput& input, const ReportFacts& facts);
-/// Figures of the scan, parameters with their reasons, notes. Empty where the report has none.
+/// Statistics of the scan, parameters with their reasons, notes. Empty if the report has none.
 std::string making_section(const ReportFacts& facts);
 
 }  // namespace turnscan::page

@@ -4,7 +4,7 @@
 
 namespace turnscan::page {
 
-/// The page's style sheet: on a screen of any width, and on paper.
+/// The page's style sheet, for screens of any width and for print.
 std::string_view style();
 
 }  // namespace turnscan::page

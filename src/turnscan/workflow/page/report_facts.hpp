@@ -1,5 +1,6 @@
 #pragma once
-// What a page takes from a report's JSON. Reports come from files: everything in them is checked.
+// The contents of a JSON report that a page shows. Reports come from files, so everything in them
+// is validated.
 
 #include <map>
 #include <optional>
@@ -18,7 +19,7 @@ struct Verdict {
   std::vector<VerdictSentence> sentences;
 };
 
-/// How frames fit the mesh, one value a frame in each column.
+/// Fit of the frames to the mesh; each column has one value per frame.
 struct FrameColumns {
   std::vector<double> frame, off_mm, spread_mm;
 };
@@ -26,7 +27,7 @@ struct FrameColumns {
 struct ReportedObject {
   std::optional<Verdict> verdict;
   std::vector<std::string> notes;
-  /// expected_error_m, seen_by, invented: one number a vertex.
+  /// expected_error_m, seen_by, invented: one number per vertex.
   std::map<std::string, std::vector<double>> per_vertex;
   std::optional<FrameColumns> frames;
 };
@@ -40,14 +41,14 @@ struct ReportFacts {
   std::vector<std::pair<std::string, std::string>> figures;  ///< name and value with unit
   std::vector<Parameter> parameters;
   std::vector<std::string> notes;
-  std::vector<std::pair<std::string, double>> seconds;  ///< of each stage, longest first
-  std::string options;  ///< all options as they were given, as JSON text; empty: not known
+  std::vector<std::pair<std::string, double>> seconds;  ///< per stage, longest first
+  std::string options;  ///< all options as given, as JSON text; empty: not known
   std::vector<ReportedObject> objects;
 };
 
-/// Of report_json() or of a scan's report; of an empty text nothing. Fields that are missing or of
-/// another type are left out. Fails with kFormat when the text is no JSON object, or nested deeper
-/// than text::kMaxJsonDepth.
+/// Parses the output of report_json() or a scan's report; an empty text gives an empty result.
+/// Fields that are missing or of another type are skipped. Fails with kFormat if the text is not a
+/// JSON object, or is nested deeper than text::kMaxJsonDepth.
 Result<ReportFacts> facts_of(const std::string& report);
 
 }  // namespace turnscan::page

@@ -1,5 +1,5 @@
 #pragma once
-// Plots as plain SVG, each with its figures as a table for those who cannot see it.
+// Plots as plain SVG, each with its values as an accessible table.
 
 #include <string>
 #include <vector>
@@ -8,25 +8,25 @@ namespace turnscan::page {
 
 struct Series {
   std::string name;
-  std::vector<double> y;  ///< as long as the plot's x; NaN: no value there
+  std::vector<double> y;  ///< as many as the plot's x; NaN: no value
 };
 
 struct Plot {
   enum class Kind { kBars, kLines };
   std::string title;
-  std::string description;  ///< a sentence: what it shows
+  std::string description;  ///< one sentence that describes the content
   std::string x_label, y_label;
   Kind kind = Kind::kLines;
-  std::vector<double> x;  ///< ascending; of bars their middles, evenly spaced
+  std::vector<double> x;  ///< ascending; for bars their centres, evenly spaced
   std::vector<Series> series;
 };
 
-/// Ticks at 1, 2 or 5 times a power of ten, about `count` of them from low to high; their ends lie
-/// at or beyond low and high. low < high.
+/// About `count` ticks at multiples of 1, 2 or 5 times a power of ten, from at or below low to at
+/// or above high. low < high.
 std::vector<double> ticks(double low, double high, int count);
 
-/// A <figure>: the drawing, its caption, and a table that can be opened. Empty when there is
-/// nothing to draw. Names and labels are escaped.
+/// A <figure>: the drawing, its caption, and an expandable table. Empty if there is nothing to
+/// draw. Names and labels are escaped.
 std::string svg_figure(const Plot& plot, const std::string& id);
 
 }  // namespace turnscan::page

@@ -1,5 +1,5 @@
 #pragma once
-// Passes of one or more recordings as one sequence, which reconstruct() fuses.
+// Presents passes of one or more recordings as one sequence, which reconstruct() fuses.
 
 #include <turnscan/reconstruction/pass_placement.hpp>
 #include <vector>
@@ -8,17 +8,17 @@ namespace turnscan {
 
 /// One pass of a sequence, which must outlive it.
 struct SequencePass {
-  const FrameSequence* frames = nullptr;  ///< placed on their table
-  std::uint32_t pass = 0;                 ///< FrameInfo::pass there
+  const FrameSequence* frames = nullptr;  ///< posed on their table
+  std::uint32_t pass = 0;                 ///< value of FrameInfo::pass in the sequence
   std::optional<double> speed_rad_s;      ///< stated; see frame_poses()
 };
 
-/// The passes of which a sequence has frames that were not dropped, ascending.
+/// The passes from which the sequence has frames that were not dropped, ascending.
 std::vector<std::uint32_t> passes_of(const FrameSequence& sequence);
 
-/// Pass after pass: frames are numbered anew if they come from several sequences, passes in any
-/// case, from 0 on; each frame has the pose that it has in its own sequence. The header has the
-/// sensors of all.
+/// Concatenates passes: passes are renumbered from 0, and so are frames if they come from several
+/// sequences; each frame keeps its pose of the original sequence. The header lists the sensors of
+/// all sequences.
 class JoinedFrames : public FrameSequence {
  public:
   /// Fails as frame_poses() does.

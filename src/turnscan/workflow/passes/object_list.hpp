@@ -1,16 +1,16 @@
 #pragma once
-// Objects that were reconstructed one by one, as one reconstruction of all.
+// Combines objects that were reconstructed one by one into one reconstruction.
 
 #include <turnscan/core/point_cloud.hpp>
 #include <turnscan/reconstruction/result.hpp>
 
 namespace turnscan {
 
-/// The largest object of each, largest first, with the choices, passes and notes that belong to it.
-/// At least one, and each with an object. Times and points are those of all together.
+/// Takes the largest object of each reconstruction, largest first, with its choices, passes and
+/// notes. Needs at least one reconstruction, and each with an object. Times and points are totals.
 Reconstruction list_objects(std::vector<Reconstruction> made);
 
-/// Adds the points, and of their attributes those that both have.
+/// Appends the points, and those attributes that both clouds have.
 void append_cloud(const PointCloud& cloud, PointCloud& all);
 
 }  // namespace turnscan

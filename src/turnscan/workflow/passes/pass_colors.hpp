@@ -1,5 +1,5 @@
 #pragma once
-// The colours of what was measured in a pass.
+// Colours of the surface measured in a pass.
 
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/reconstruction/passes/pass_surface.hpp>
@@ -7,8 +7,8 @@
 
 namespace turnscan {
 
-/// Gives the surfaces of a pass's objects their colours, from some of its frames, evenly spread.
-/// Without colours in the frames they stay as they are. Fails as the sequence's read() and
+/// Colours the surfaces of a pass's objects from an evenly spaced subset of its frames. If the
+/// frames have no colours, the surfaces are unchanged. Fails as the sequence's read() and
 /// passes::surface_colors().
 Result<> color_surfaces(const SequencePass& pass, std::vector<passes::PassSurface>& objects,
                         const RunContext& context);

@@ -1,5 +1,5 @@
 #pragma once
-// The choice among the candidates of a plan, by what rays and the error model predict.
+// Searches the candidates of a plan, using rays and the error model for prediction.
 
 #include <turnscan/simulator/planning/choice.hpp>
 #include <turnscan/simulator/planning/error_model.hpp>
@@ -7,10 +7,10 @@
 
 namespace turnscan::workflow {
 
-/// What is preferred among rigs that cover the same.
+/// Preference among rigs with the same coverage.
 enum class Prefer { kCovered, kError };
 
-/// Sensors in their places, and for each object the poses of all its passes (PlanObject::poses; the
+/// Placed sensors, and for each object its poses in all passes (indices into PlanObject::poses; the
 /// first is 0).
 struct Rig {
   std::vector<PlanPlace> places;
@@ -19,20 +19,20 @@ struct Rig {
 
 struct RigScore {
   double covered = 0.0, median_error_m = 0.0;
-  double value = 0.0;  ///< what is made as large as can be; about the share that is covered
+  double value = 0.0;  ///< objective to maximise; approximately the covered share
 };
 
 struct ChosenRig {
   Rig rig;
   RigScore score;
-  double most_covered = 0.0;  ///< bound of the score's covered, of all candidates
+  double most_covered = 0.0;  ///< upper bound of the score's covered, over all candidates
   bool error_first = false;
   std::size_t passes = 1;
 };
 
-/// Worth of a spot that is seen with this error, with this chance, of kFullWorth: near that
-/// whatever the error, unless the error is preferred. Falls with the error. 0 beyond the greatest
-/// error.
+/// Value of a spot that is seen with this error and with this probability, in units of kFullWorth:
+/// close to that for any error unless the error is preferred. Decreases with the error. 0 beyond
+/// max_error_m.
 std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer,
                        double chance = 1.0);
 inline constexpr double kFullWorth = 60000.0;
@@ -42,12 +42,12 @@ class PlanSearch {
   PlanSearch(const PlanRequest& request, const PlanField& field)
       : request_(request), field_(field) {}
 
-  /// Looks at all candidates: begins the phase "candidates".
+  /// Evaluates all candidates; begins the phase "candidates".
   Result<> look(const RunContext& context);
-  /// The best rig of each number of sensors and passes, both preferences; best first, none that
-  /// another beats in every respect. Begins the phase "choose".
+  /// The best rigs for each number of sensors and passes, for both preferences; best first, without
+  /// dominated ones. Begins the phase "choose".
   Result<std::vector<ChosenRig>> choose_all(const RunContext& context);
-  /// A rig with its places moved, between the candidates, to where the prediction is best.
+  /// The rig with its placements optimised continuously, between the candidates.
   Result<ChosenRig> refined(ChosenRig chosen, const RunContext& context);
   RigScore score(const Rig& rig, Prefer prefer);
 
@@ -65,19 +65,19 @@ class PlanSearch {
   const PlanRequest& request_;
   const PlanField& field_;
   planning::ErrorModel model_;
-  /// Of a spot from a place; chance as SpotSight::chance(), 0: not seen.
+  /// Observation of a spot from a placement; chance as in SpotSight::chance(), 0: not seen.
   struct Look {
     float error_m = 0.0f, chance = 0.0f;
   };
-  std::vector<std::vector<std::vector<Look>>> looks_;  ///< [object][pose], places x spots
+  std::vector<std::vector<std::vector<Look>>> looks_;  ///< [object][pose], placements x spots
   std::uint64_t turns_ = 0, sets_ = 0;
 };
 
-/// Those that none beats, of such as are alike the first; most covered first.
+/// The non-dominated rigs, the first of equal ones; most covered first.
 std::vector<ChosenRig> unbeaten(const std::vector<ChosenRig>& rigs);
 
-/// Whether a is at least as good as b in covered area, error, sensors and passes, and better in
-/// one.
+/// Whether a dominates b: at least as good in covered area, error, sensors and passes, and better
+/// in one.
 bool beats(const ChosenRig& a, const ChosenRig& b);
 
 }  // namespace turnscan::workflow

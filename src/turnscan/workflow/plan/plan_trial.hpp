@@ -1,5 +1,6 @@
 #pragma once
-// Plans tried with simulated scans and their reconstruction: here, or by the engine of a batch.
+// Tests plans with simulated scans and their reconstruction, in this process or by the engine of a
+// batch.
 
 #include <string>
 #include <turnscan/workflow/plan/plan.hpp>
@@ -7,16 +8,17 @@
 
 namespace turnscan::workflow {
 
-/// A scan that is to be simulated, reconstructed and judged.
+/// A scan to be simulated, reconstructed and evaluated.
 struct TrialScene {
-  std::string name;  ///< of its tasks; unique, and the same in a later run
+  std::string name;  ///< of its tasks; unique, and the same in later runs
   SceneDescription scene;
-  const TriangleMesh* object = nullptr;  ///< of read_object()
+  const TriangleMesh* object = nullptr;  ///< as returned by read_object()
 };
 
-/// One entry a scene. What fails of one scene stands in its trial. With a folder, the scans and
-/// meshes are tasks of the batches trials/scans and trials/meshes there, after those of earlier
-/// calls; what is done is not done again. Fails as save_batch(), run_batch() and with kCancelled.
+/// Returns one entry per scene. The failure of a scene is recorded in its trial. With a folder, the
+/// scans and meshes become tasks of the batches trials/scans and trials/meshes there, after those
+/// of earlier calls; finished tasks are not repeated. Fails as save_batch(), run_batch() and with
+/// kCancelled.
 class TrialRunner {
  public:
   TrialRunner(const PlanRequest& request) : request_(request) {}

@@ -1,6 +1,6 @@
 #pragma once
-// How far a whole command is. A RunContext counts each phase by itself; a plan says which phases a
-// command will come to, and what they usually cost beside each other.
+// Progress of a whole command. A RunContext reports each phase by itself; a plan lists the phases
+// of a command and their usual relative costs.
 
 #include <optional>
 #include <string>
@@ -10,33 +10,34 @@
 namespace turnscan {
 
 struct PlannedPhase {
-  std::string name;     ///< as RunContext::begin_phase() gets it
-  double weight = 1.0;  ///< share of the time beside the other phases; 0: a wait that may take long
+  std::string name;     ///< as passed to RunContext::begin_phase()
+  double weight = 1.0;  ///< relative share of the time; 0: a wait of unknown duration
 };
 
-/// In the order in which the phases come. A name may be there several times.
+/// In the order of the phases. A name may occur several times.
 using PhasePlan = std::vector<PlannedPhase>;
 
-/// The plans one after the other.
+/// Concatenates plans.
 PhasePlan joined(std::vector<PhasePlan> plans);
 
-/// The fraction of the whole that is done, and the time left. A planned phase that does not come
-/// leaves its share to those behind it; one that was not planned or comes again takes a share of
-/// what is left. Not for several threads at once. Times are seconds of any one clock.
+/// Fraction of the whole that is done, and remaining time. A planned phase that is skipped leaves
+/// its share to the later phases; one that was not planned or is repeated takes a share of the
+/// remainder. Not thread-safe. Times are seconds of any single clock.
 class OverallProgress {
  public:
-  /// What is still to come. May be called again when more is known; the fraction goes on from where
-  /// it is.
+  /// Sets the phases still to come. May be called again when more is known; the fraction continues
+  /// from its current value.
   void plan(PhasePlan plan);
 
-  /// To be called with whatever the context reports, and now and then in between.
+  /// Call with every report of the context, and now and then in between.
   void update(const Progress& progress, double now_s);
 
-  /// In [0, 1), never falls: that the run has ended, its caller knows. nullopt in a wait, and
-  /// without a plan.
+  /// In [0, 1), never decreases; only the caller knows when the run has ended. nullopt during a
+  /// wait, and without a plan.
   std::optional<double> fraction() const;
 
-  /// Counts down; grows only if the estimate is far above it. nullopt while too little is known.
+  /// Counts down; increases only if the estimate is far above it. nullopt while too little is
+  /// known.
   std::optional<double> seconds_left() const;
 
  private:
@@ -47,12 +48,12 @@ class OverallProgress {
   void count_down(double estimate_s, double now_s);
 
   PhasePlan plan_;
-  std::size_t next_ = 0;  // of the plan
+  std::size_t next_ = 0;  // index into the plan
   std::string name_;
   int number_ = 0;
   double weight_ = 0.0, begin_s_ = 0.0;            // of this phase
-  double slot_begin_ = 0.0, slot_end_ = 0.0;       // of this phase in the whole
-  double done_weight_ = 0.0, done_seconds_ = 0.0;  // of the phases before it
+  double slot_begin_ = 0.0, slot_end_ = 0.0;       // interval of this phase within the whole
+  double done_weight_ = 0.0, done_seconds_ = 0.0;  // totals of the phases before it
   double fraction_ = 0.0;
   std::optional<double> left_s_;
   double left_at_s_ = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-// The phases that runs come to. What a recording turns out to need (another calibration, a second
-// look) may add some, and leave some out.
+// Planned phases of runs. A recording may turn out to need additional ones (another calibration, a
+// second look) or fewer.
 
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/workflow/progress/overall_progress.hpp>
@@ -10,29 +10,29 @@
 
 namespace turnscan {
 
-/// Where the platter is found.
+/// Detection of the platter.
 PhasePlan platter_phases();
-/// Where axis, speed and angles are found from the object's motion.
+/// Estimation of axis, speed and angles from the object's motion.
 PhasePlan motion_phases();
 
-/// Of reconstruct() with so many frames.
+/// reconstruct() with this many frames.
 PhasePlan surface_phases(const ReconstructOptions& options, std::size_t frames);
 
-/// Of run_reconstruction() and what is written of it.
+/// run_reconstruction() and its outputs.
 PhasePlan reconstruct_phases(const std::vector<NamedSequence>& recordings,
                              const ReconstructRequest& request);
 
-/// Of simulate().
+/// simulate().
 PhasePlan simulate_phases(const SimulateRequest& request);
 
-/// Of run_scan(), up to and with its first pass where nobody knows how many there will be.
+/// run_scan(), up to and including its first pass if the number of passes is not known.
 PhasePlan scan_phases(const ScanRequest& request);
 
-/// Of evaluate(); seen_phases() come behind them where completeness is judged over what was seen.
+/// evaluate(); followed by seen_phases() if completeness is evaluated over the seen surface only.
 PhasePlan evaluate_phases(const EvaluateOptions& options);
 PhasePlan seen_phases();
 
-/// Of a reconstruction's page.
+/// The page of a reconstruction.
 PhasePlan page_phases();
 
 }  // namespace turnscan

@@ -5,7 +5,7 @@
 
 namespace turnscan::workflow {
 
-/// capture_report() without program and folder, for reports that hold it.
+/// capture_report() without program and folder, for embedding in other reports.
 nlohmann::ordered_json capture_json(const CaptureResult& result, const SourceInfo& source);
 
 }  // namespace turnscan::workflow

@@ -5,9 +5,9 @@
 
 namespace turnscan {
 
-/// Succeeds when the recording in `folder` came to its end. Else fails with what ended it too early
-/// (kCancelled when it was stopped), or kMissingData without any frame; the message says what the
-/// folder holds and whether it has to be repaired.
+/// Succeeds if the recording in `folder` is complete. Else fails with the error that ended it early
+/// (kCancelled if it was stopped), or kMissingData if there is no frame; the message says what the
+/// folder contains and whether it needs repair.
 Result<> capture_outcome(const CaptureResult& result, const std::string& folder);
 
 }  // namespace turnscan

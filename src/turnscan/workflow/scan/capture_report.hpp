@@ -5,7 +5,8 @@
 
 namespace turnscan {
 
-/// A JSON object of what was recorded into the folder and what was lost; it ends with a line break.
+/// A JSON object with what was recorded into the folder and what was lost; it ends with a line
+/// break.
 std::string capture_report(const CaptureResult& result, const SourceInfo& source,
                            const std::string& folder);
 

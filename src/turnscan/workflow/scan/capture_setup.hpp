@@ -1,5 +1,5 @@
 #pragma once
-// Sensors, turntable and motor of a recording: opened, and described for recording.json.
+// Opens the sensors, turntable and motor of a recording, and describes them for recording.json.
 
 #include <memory>
 #include <optional>
@@ -10,27 +10,28 @@
 
 namespace turnscan {
 
-/// Speed of a table that is turned by a motor, unless one is given: 10 degrees a second.
+/// Default speed of a motorised table: 10 degrees per second.
 inline constexpr double kMotorSpeed_rad_s = 0.17453293;
 
-/// What the source says of its settings, and which devices it consists of.
+/// The source's description of its settings, and its devices.
 CaptureSettings settings_of(const SourceInfo& source);
 
-/// That the turntable is the one of a calibration that was made then; empty: not known when.
+/// Notes that the turntable is that of a calibration made at this date; empty: date not known.
 void note_calibration_date(const std::string& made_at, CaptureSettings& settings);
 
-/// Connects the motor at a serial port and notes its board in the settings. Fails as Motor::open().
+/// Connects to the motor at a serial port and notes its board in the settings. Fails as
+/// Motor::open().
 Result<Motor> open_motor(const std::string& port, const MotorOptions& options,
                          CaptureSettings& settings, const RunContext& context);
 
-/// With a motor the speed is kMotorSpeed_rad_s unless it is given; the header's turntable, if any,
-/// turns with the speed that is given.
+/// With a motor, the speed defaults to kMotorSpeed_rad_s; a given speed is also set for the
+/// header's turntable, if any.
 void settle_speed(bool with_motor, CaptureOptions& options, SequenceHeader& header);
 
-/// What is to be recorded with, and what opening it found.
+/// Devices and options of a recording, and what opening them found.
 struct CaptureSetup {
-  std::vector<std::string> devices;  ///< URIs; their frames go into one recording
-  std::string turntable_file;        ///< that turnscan calibrate saved; empty: none
+  std::vector<std::string> devices;  ///< URIs; all frames go into one recording
+  std::string turntable_file;        ///< saved by turnscan calibrate; empty: none
   std::string motor_port;            ///< empty: none
   MotorOptions motor;
   CaptureOptions options;
@@ -39,13 +40,13 @@ struct CaptureSetup {
   SequenceHeader header;
   CaptureSettings settings;
 
-  /// Opens the sensors, makes header and settings and settles the speed. Fails as open_sources()
-  /// and read_calibration(); with kInvalidOption when the file's turntable is of another number of
-  /// sensors or another size of images.
+  /// Opens the sensors, creates header and settings and determines the speed. Fails as
+  /// open_sources() and read_calibration(); with kInvalidOption if the file's turntable is for
+  /// another number of sensors or another image size.
   Result<std::unique_ptr<FrameSource>> open(const RunContext& context);
-  /// nullopt without a port. Fails as Motor::open().
+  /// nullopt if there is no port. Fails as Motor::open().
   Result<std::optional<Motor>> open_motor(const RunContext& context);
-  /// Whether the place of every sensor is known, after open().
+  /// Whether the poses of all sensors are known, after open().
   bool places_known() const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace turnscan::workflow {
 
-/// Adds frames to a reconstruction on a thread of its own, so that the sensor is not held up.
+/// Adds frames to a reconstruction on a separate thread, so that the sensor is not delayed.
 class LiveReconstruction {
  public:
   explicit LiveReconstruction(ReconstructionStream stream);
@@ -16,11 +16,10 @@ class LiveReconstruction {
   LiveReconstruction(const LiveReconstruction&) = delete;
   LiveReconstruction& operator=(const LiveReconstruction&) = delete;
 
-  /// From any thread, before finish().
+  /// May be called from any thread, before finish().
   void add(const Frame& frame);
 
-  /// Waits for all frames that were added. Fails as ReconstructionStream::add() did and finish()
-  /// does.
+  /// Waits for all added frames. Fails as ReconstructionStream::add() did and finish() does.
   Result<Reconstruction> finish(const RunContext& context);
 
  private:
@@ -28,7 +27,7 @@ class LiveReconstruction {
   void run();
 
   ReconstructionStream stream_;
-  Result<> added_;  ///< of the thread, until it has ended
+  Result<> added_;  ///< set by the thread; valid once it has ended
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Frame> waiting_;

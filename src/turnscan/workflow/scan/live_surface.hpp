@@ -1,5 +1,5 @@
 #pragma once
-// The surface of an object as it grows while it is recorded.
+// The surface of an object, updated during recording.
 
 #include <condition_variable>
 #include <cstdint>
@@ -16,50 +16,50 @@
 
 namespace turnscan {
 
-/// How a table turns whose place is known.
+/// Rotation of a table whose axis is known.
 struct LiveMotion {
   TurntableInfo table;
   std::optional<double> speed_rad_s;  ///< nullopt: frames have angles
-  double start_s = 0.0;               ///< when it began to turn, in the frames' time
+  double start_s = 0.0;               ///< start of the rotation, in the frames' time
 
-  /// How far it had turned at a frame, radians; nullopt where nothing says that.
+  /// Angle of the table at a frame, radians; nullopt if it is not known.
   std::optional<double> turned_rad(const FrameInfo& info) const;
 };
 
-/// Of a table that stands where `known` says (nullptr: not known) and of what the motion has shown
-/// (nullptr: nothing yet); the place of the first takes precedence. first_s: time of the first
-/// frame. nullopt: that is not enough. Whoever knows the speed, or has angles, gives it in `speed`
-/// or by has_angles.
+/// Combines the table pose in `known` (nullptr: not known) with what the motion has shown (nullptr:
+/// nothing yet); the pose of the former takes precedence. first_s: time of the first frame.
+/// nullopt: not enough is known. A known speed or known angles are passed as `speed` or has_angles.
 std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibration* shown,
                                       std::optional<double> speed_rad_s, bool has_angles,
                                       double first_s);
 
-/// Adds some of the frames, evenly spread over the time so far, to a reconstruction on one thread
-/// of its own, and makes rough closed meshes of it. Nobody waits for it: what it has no time for
-/// comes with the next mesh.
+/// Adds an evenly spaced subset of the frames so far to a reconstruction on a separate thread, and
+/// makes coarse closed meshes from it. Callers never block: frames that it has no time for are
+/// included in the next mesh.
 class LiveSurface {
  public:
   static constexpr std::size_t kMaxFrames = 128;  ///< in memory
-  static constexpr double kMinPause_s = 0.4;      ///< from one mesh to the next
+  static constexpr double kMinPause_s = 0.4;      ///< between meshes
 
-  /// header: of the frames, whose sensor 0 is used.
+  /// header: of the frames; only sensor 0 is used.
   explicit LiveSurface(SequenceHeader header);
-  ~LiveSurface();  ///< waits for the mesh that is being made
+  ~LiveSurface();  ///< waits for the mesh in progress
   LiveSurface(const LiveSurface&) = delete;
   LiveSurface& operator=(const LiveSurface&) = delete;
 
-  /// In the order in which they were taken. Dropped frames and those of other sensors are left out.
+  /// Adds a frame; frames must be in order of time. Dropped frames and those of other sensors are
+  /// ignored.
   void add(const Frame& frame);
-  /// From now on: all frames so far are placed anew.
+  /// Changes the motion: all frames so far are posed anew.
   void set_motion(const LiveMotion& motion);
-  /// Those that are kept, oldest first.
+  /// The kept frames, oldest first.
   std::vector<std::shared_ptr<const Frame>> frames() const;
 
   struct Update {
-    TriangleMesh mesh;       ///< table frame, the platter turned back
-    std::size_t frames = 0;  ///< that it was made of
+    TriangleMesh mesh;       ///< table frame, with the rotation removed
+    std::size_t frames = 0;  ///< that it was made from
   };
-  /// The newest mesh that was not taken yet.
+  /// The newest mesh, if it was not taken yet.
   std::optional<Update> take();
 
  private:
@@ -68,22 +68,23 @@ class LiveSurface {
     std::shared_ptr<const Frame> frame;
   };
   void run();
-  /// What is to be added next; waits for it. False: it ends.
+  /// Waits for the next frames to add. False: the thread has to end.
   bool wait_for_work(std::vector<Kept>& batch, std::optional<LiveMotion>& anew);
   Result<> work(const std::vector<Kept>& batch, const std::optional<LiveMotion>& anew);
 
   const SequenceHeader header_;
   RunContext context_;
 
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
   std::vector<Kept> kept_;
-  std::uint64_t came_ = 0, every_ = 1, next_ = 0;  ///< next_: number of the first not yet added
+  std::uint64_t came_ = 0, every_ = 1,
+                next_ = 0;  ///< next_: number of the first frame not yet added
   std::optional<LiveMotion> motion_;
   bool anew_ = false, closing_ = false;
   std::optional<Update> update_;
 
-  // Of the thread.
+  // Used by the thread only.
   std::optional<ReconstructionStream> stream_;
   LiveMotion placed_;
   std::size_t added_ = 0;

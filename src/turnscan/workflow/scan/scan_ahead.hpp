@@ -1,5 +1,5 @@
 #pragma once
-// Calibrates and reconstructs a recording while it is being made.
+// Calibrates and reconstructs a recording while it is still in progress.
 
 #include <memory>
 #include <string>
@@ -8,38 +8,39 @@
 
 namespace turnscan {
 
-/// For a turntable of which nothing is known: its place and the frames' angles come from the
-/// object's motion. When most of the recording is there, a thread calibrates from the frames so far
-/// and begins to reconstruct them, read back from the recording. At the end the calibration is
-/// continued to the last frames. If the object then lies, one turn after its first views, where
-/// these show it (closure), the reconstruction is finished with the last frames; if not, nothing is
-/// kept and the caller begins anew with all frames.
-/// The outcome is a function of the recording and of the number of frames it began with.
+/// For a turntable of which nothing is known: its axis and the frames' angles are estimated from
+/// the object's motion. When most of the recording exists, a thread calibrates from the frames so
+/// far and begins to reconstruct them, reading them back from the recording. At the end the
+/// calibration is extended to the last frames. If the closure error (one turn after the first
+/// views, where frames show this) is small enough, the reconstruction is finished with the last
+/// frames; if not, nothing is kept and the caller restarts with all frames.
+/// The outcome is a deterministic function of the recording and of the number of frames it began
+/// with.
 class ScanAhead {
  public:
-  /// recording: the folder that is being written, of one sensor. Begins when this share of it,
-  /// in (0, 1), is there.
+  /// recording: the folder being written, of one sensor. Begins once this share of it, in (0, 1),
+  /// exists.
   ScanAhead(std::string recording, const ReconstructOptions& options, double share);
-  ~ScanAhead();  ///< cancels what is not finished
+  ~ScanAhead();  ///< cancels unfinished work
   ScanAhead(const ScanAhead&) = delete;
   ScanAhead& operator=(const ScanAhead&) = delete;
 
-  /// To be called for each frame that is recorded, in order, from the thread that records.
+  /// Call for each recorded frame, in order, from the recording thread.
   void frame_came();
-  /// How much of the recording, in [0, 1], is there after that frame.
+  /// Sets the share of the recording, in [0, 1], that exists after that frame.
   void progress(double fraction);
 
   struct Outcome {
-    std::size_t frames_ahead = 0;  ///< that the calibration began with; 0: it never began
-    bool kept = false;             ///< calibration and reconstruction are those of the whole scan
-    double closure_m = 0.0;        ///< see measure_closure(); 0 where it did not come to that
-    double closure_limit_m = 0.0;  ///< above which nothing is kept
-    std::string note;              ///< one sentence for people
+    std::size_t frames_ahead = 0;  ///< with which the calibration began; 0: it never began
+    bool kept = false;             ///< calibration and reconstruction cover the whole scan
+    double closure_m = 0.0;        ///< see measure_closure(); 0 if it was not measured
+    double closure_limit_m = 0.0;  ///< nothing is kept above it
+    std::string note;              ///< one sentence for the user
     Calibration calibration;
     Reconstruction reconstruction;
   };
-  /// The recording is complete. Fails with kCancelled, and as reconstruct() does; that the
-  /// calibration is not good is an outcome.
+  /// Call when the recording is complete. Fails with kCancelled, and as reconstruct() does; a
+  /// calibration that is not good enough is an outcome, not an error.
   Result<Outcome> finish(const RunContext& context);
 
  private:

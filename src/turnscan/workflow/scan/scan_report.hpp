@@ -5,7 +5,7 @@
 
 namespace turnscan::workflow {
 
-/// JSON of what was recorded and reconstructed; it ends with a line break.
+/// JSON report of what was recorded and reconstructed; it ends with a line break.
 std::string scan_report(const ScanRequest& request, const ScanOutcome& outcome,
                         const SourceInfo& source);
 

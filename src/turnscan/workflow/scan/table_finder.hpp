@@ -8,19 +8,19 @@
 
 namespace turnscan::workflow {
 
-/// Finds where the turntable stands before a scan begins: from the file that states it, from the
-/// calibration that was kept of this device, or from the platter.
+/// Determines the pose of the turntable before a scan begins: from the file that states it, from
+/// the stored calibration of this device, or from the platter.
 class TableFinder {
  public:
-  /// Puts what it finds into setup.header; both must outlive it. setup: opened. notes: gets
-  /// sentences for people.
+  /// Stores its findings in setup.header; setup and notes must outlive it. setup: opened. notes:
+  /// receives sentences for the user.
   TableFinder(CaptureSetup& setup, std::vector<std::string>& notes)
       : setup_(setup), notes_(notes) {}
 
-  /// The first frames of a started source are taken. Checks the places that a file states, and
-  /// fails with kMissingData when a sensor or the table has moved since. Whether the places of all
-  /// sensors are known is the result; a platter that was seen is good for finding the object, but
-  /// not known. Fails also with kCancelled and as the source does.
+  /// Consumes the first frames of a started source. Checks the poses stated by a file, and fails
+  /// with kMissingData if a sensor or the table has moved since. Returns whether the poses of all
+  /// sensors are known; a detected platter suffices to find the object but does not count as known.
+  /// Also fails with kCancelled and as the source does.
   Result<bool> find(FrameSource& source, const RunContext& context);
 
  private:

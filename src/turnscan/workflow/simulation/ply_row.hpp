@@ -10,7 +10,7 @@ namespace turnscan::workflow {
 
 static_assert(std::endian::native == std::endian::little, "rows are written as they lie");
 
-/// Little-endian bytes, one value after the other, without gaps. Holds 96 bytes.
+/// Little-endian bytes, one value after the other, without padding. Holds 96 bytes.
 class PlyRow {
  public:
   template <class... T>

@@ -4,7 +4,7 @@
 
 namespace turnscan::workflow {
 
-/// "0 none, 1 nothing, ...": the numbers of Miss, for the headers of files.
+/// "0 none, 1 nothing, ...": the numeric values of Miss, for file headers.
 std::string reason_list();
 
 }  // namespace turnscan::workflow

@@ -7,7 +7,7 @@
 
 namespace turnscan {
 
-/// For evaluate(): whether any frame of the sequence sees a point of the scene's surface
+/// Test for evaluate(): whether any frame of the sequence sees a point of the scene's surface
 /// (seen_mask()). It refers to its arguments, which must outlive it.
 SeenTest seen_by(const Scene& scene, const FrameSequence& sequence, const RunContext& context);
 

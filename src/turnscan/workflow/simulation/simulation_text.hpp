@@ -5,7 +5,7 @@
 
 namespace turnscan {
 
-/// What became of each scanner's samples, and how long it took, for people.
+/// Statistics of each scanner's samples, and times, human-readable.
 std::string simulation_text(const Simulation& simulation);
 
 }  // namespace turnscan

@@ -1,5 +1,5 @@
 #pragma once
-// Every sample of a virtual scan, with what was there to see.
+// Every sample of a virtual scan, with its ground truth.
 
 #include <filesystem>
 #include <turnscan/core/run_context.hpp>
@@ -8,8 +8,8 @@
 namespace turnscan {
 
 /// Writes folder/NNNNNN.ply for each frame that was not dropped (the number is the frame's index):
-/// a vertex for each sample whose ray hits something, whether it gave a return or not. The folder
-/// is made. Fails with kCancelled, kIo, and as write_file_atomically().
+/// one vertex for each sample whose ray hits something, with or without a return. Creates the
+/// folder. Fails with kCancelled, kIo, and as write_file_atomically().
 Result<> write_true_samples(const std::filesystem::path& folder, const VirtualPasses& scan,
                             const RunContext& context);
 

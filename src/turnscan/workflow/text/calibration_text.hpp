@@ -5,7 +5,7 @@
 
 namespace turnscan {
 
-/// Figures with their standard deviations and how they were found, for people.
+/// Parameters with their standard deviations and the method that found them, human-readable.
 std::string calibration_text(const Calibration& calibration);
 
 }  // namespace turnscan

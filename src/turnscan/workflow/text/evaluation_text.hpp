@@ -6,7 +6,7 @@
 
 namespace turnscan {
 
-/// The figures as tables for people, in mm and percent.
+/// Evaluation results as human-readable tables, in mm and percent.
 std::string evaluation_text(const Evaluation& evaluation);
 std::string artefact_text(const ArtefactFigures& figures);
 

@@ -6,11 +6,11 @@
 
 namespace turnscan {
 
-/// What was made, which parameters were used and why, and how long it took: a few tables for
-/// people, lines of ASCII.
+/// What was made, which parameters were used and why, and how long it took, as human-readable ASCII
+/// tables.
 std::string reconstruction_text(const Reconstruction& reconstruction);
 
-/// "Verdict: GREEN" and a line for each sentence.
+/// "Verdict: GREEN" and one line per sentence.
 std::string verdict_text(const Verdict& verdict);
 
 }  // namespace turnscan

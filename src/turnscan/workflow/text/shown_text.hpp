@@ -1,16 +1,16 @@
 #pragma once
-// Text that a terminal may be given, whatever the names in files say.
+// Sanitises text for a terminal; file names may contain anything.
 
 #include <string>
 #include <string_view>
 
 namespace turnscan {
 
-/// Control characters (C0 but line ends and tabs, DEL, C1) as \uXXXX: a terminal would obey them.
-/// In JSON texts these are the same characters.
+/// Escapes control characters (C0 except line ends and tabs, DEL, C1) as \uXXXX, so that the
+/// terminal does not interpret them. In JSON the escaped text is equivalent.
 std::string shown_text(std::string_view text);
 
-/// The same on one line of at most `most` bytes; the middle of a longer one is left out.
+/// The same on a single line of at most `most` bytes; the middle of a longer line is elided.
 std::string shown_line(std::string_view text, std::size_t most = 2000);
 
 }  // namespace turnscan

@@ -1,5 +1,5 @@
 #pragma once
-// How much of a surface lies how near to the truth, from the expected errors of its vertices.
+// Distribution of a surface's error, from the expected errors of its vertices.
 
 #include <optional>
 #include <vector>
@@ -8,15 +8,16 @@ namespace turnscan {
 
 class ErrorShares {
  public:
-  /// A piece of the surface. expected_error_m: standard deviation, 0 or more; area_m2: its weight.
+  /// Adds a piece of the surface. expected_error_m: standard deviation, 0 or more; area_m2: its
+  /// weight.
   void add(double expected_error_m, double area_m2);
 
-  /// Share of the surface, 0 to 1, expected within so much of the truth; 0 of no surface. The
-  /// errors of simulated scans (bench/expected_error) have the tails of Student's t with five
-  /// degrees of freedom, scaled to 0.683 within one expected error.
+  /// Share of the surface, 0 to 1, expected to be within this distance of the truth; 0 for an empty
+  /// surface. The errors of simulated scans (bench/expected_error) have the tails of Student's t
+  /// with five degrees of freedom, scaled to 0.683 within one expected error.
   double within(double distance_m) const;
 
-  /// Its inverse, by bisection; nullopt where it is a metre or more, or there is no surface.
+  /// Its inverse, by bisection; nullopt if it is a metre or more, or there is no surface.
   std::optional<double> error_of(double share) const;
 
  private:

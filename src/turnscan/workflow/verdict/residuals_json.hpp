@@ -1,5 +1,5 @@
 #pragma once
-// How frames fit their meshes, in a report's JSON.
+// The fit of frames to their meshes, in a report's JSON.
 
 #include <nlohmann/json_fwd.hpp>
 #include <turnscan/workflow/verdict/frame_residuals.hpp>
@@ -7,9 +7,8 @@
 
 namespace turnscan::workflow {
 
-/// Puts "frame_residuals" into each of report["objects"] of which something is known: columns
-/// frame, sensor, pass, time_s (null: not known), off_mm, spread_mm and outward_mm, a value a
-/// frame.
+/// Adds "frame_residuals" to each of report["objects"] that has residuals: columns frame, sensor,
+/// pass, time_s (null: not known), off_mm, spread_mm and outward_mm, one value per frame.
 void put_frame_residuals(const std::vector<std::vector<FrameResidual>>& residuals,
                          nlohmann::ordered_json& report);
 

@@ -1,5 +1,6 @@
 #pragma once
-// What a verdict says of the scan as a whole: its turn, its calibration, how its frames agree.
+// Sentences of a verdict on the scan as a whole: its turn, its calibration, the agreement of its
+// frames.
 
 #include <turnscan/core/angles.hpp>
 #include <turnscan/reconstruction/result.hpp>
@@ -12,29 +13,29 @@ namespace turnscan::workflow {
 
 using Findings = std::vector<VerdictSentence>;
 
-/// Of a turn, as TurnSeen::share: with more, no side is missing.
+/// Minimum TurnSeen::share of a complete turn, in which no side is missing.
 inline constexpr double kWholeTurn = 0.90;
-/// An upright side in the middle of a wider gap is seen at 60 degrees from its normal at best: what
-/// was closed there may be as deep as the object, and its area says nothing of that.
+/// An upright surface in the middle of a wider gap is seen at 60 degrees from its normal at best:
+/// what was filled there may be as deep as the object, which its area does not show.
 inline constexpr double kSideGap_rad = 120.0 * kRadiansPerDegree;
 
-/// Whether no gap between headings is wider.
+/// Whether no gap between viewing directions is wider than kSideGap_rad.
 bool looked_from_all_sides(const TurnSeen& turn);
 
-/// good: at least `good`; fair: at least `fair`.
+/// good: from `good` on; fair: from `fair` on.
 Level level_of(double value, double good, double fair);
 
 void add_turn(const ScanKnowledge& known, Findings& out);
 
-/// Where the table is, how old that knowledge is, whether the platter in this recording agrees, and
-/// whether the object lies a turn later where it lay.
+/// Adds sentences on the table's pose, the age of its calibration, whether the platter in this
+/// recording agrees with it, and on closure after one turn.
 void add_calibration(const ScanKnowledge& known, Findings& out);
 
-/// What was found to have disturbed the recording.
+/// Adds sentences on the disturbances found in the recording.
 void add_disturbances(const ScanKnowledge& known, Findings& out);
 
-/// How far frames lie off the mesh, next to each other, a turn apart, by sensor and pass; and which
-/// lie elsewhere than the rest. Empty: it is not known.
+/// Adds sentences on the offsets of frames from the mesh, between neighbours, one turn apart, by
+/// sensor and pass; and on displaced frames. Empty: not known.
 void add_agreement(const std::vector<FrameResidual>& residuals, Findings& out);
 
 void add_dropped(const Reconstruction& run, Findings& out);

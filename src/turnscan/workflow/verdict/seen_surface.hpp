@@ -5,16 +5,16 @@
 
 namespace turnscan {
 
-/// Some of a mesh's vertices, or all, spread over it.
+/// All vertices of a mesh, or a subset spread over it.
 struct SeenVertices {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint8_t> seen;  ///< 1: by views_needed() of the frames
+  std::vector<std::uint8_t> seen;  ///< 1: seen by at least views_needed() frames
 };
 
-/// By rays, as evaluate() tells what was seen of a reference (simulator/coverage): within 75
-/// degrees of the normal, and nothing of the mesh in between. Of more than 256 frames 256, evenly
-/// spread, stand for all. Empty for an empty mesh. Fails as frame_poses() and Scene::create() do,
-/// and with kCancelled.
+/// Determined by rays, as evaluate() determines the seen part of a reference (simulator/coverage):
+/// within 75 degrees of the normal, and not occluded by the mesh. Of more than 256 frames an evenly
+/// spaced subset of 256 is used. Empty for an empty mesh. Fails as frame_poses() and
+/// Scene::create() do, and with kCancelled.
 Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<MeshFrames>& sources,
                                    const RunContext& context);
 

@@ -1,5 +1,5 @@
 #pragma once
-// From which sides the frames of a scan look at the table.
+// Directions from which the frames of a scan view the table.
 
 #include <optional>
 #include <turnscan/core/frame.hpp>
@@ -7,12 +7,13 @@
 namespace turnscan {
 
 struct TurnSeen {
-  double share = 0.0;  ///< of a full turn, 0 to 1: headings less than 20 degrees from a frame's
-  double turns = 0.0;  ///< by which the table turned in all
-  double widest_gap_rad = 0.0;  ///< between neighbouring headings, whatever their reach
+  double share =
+      0.0;  ///< share of a full turn, 0 to 1: directions less than 20 degrees from a frame's
+  double turns = 0.0;           ///< total rotation of the table
+  double widest_gap_rad = 0.0;  ///< between neighbouring directions, regardless of the 20 degrees
 };
 
-/// Of the frames that were not dropped; nullopt where nothing says where they were.
+/// From the frames that were not dropped; nullopt if their poses are not known.
 std::optional<TurnSeen> turn_seen(const FrameSequence& frames, std::optional<double> speed_rad_s);
 
 }  // namespace turnscan

@@ -1,5 +1,5 @@
 #pragma once
-// A verdict on each object of a reconstruction, without a reference.
+// Judges each object of a reconstruction, without a reference.
 
 #include <turnscan/reconstruction/result.hpp>
 #include <turnscan/workflow/calibration/calibration_age.hpp>
@@ -10,31 +10,31 @@
 
 namespace turnscan {
 
-/// What is known of a scan besides its meshes.
+/// Information on a scan besides its meshes.
 struct ScanKnowledge {
-  std::optional<TurnSeen> turn;               ///< of the pass that shows most
-  const CalibrationChoice* choice = nullptr;  ///< outlives the judging; of the first recording
-  bool table_recorded = false;                ///< a calibration was there before; see choice
-  workflow::ScanDates dates;                  ///< of the first recording
-  std::optional<RigCheck> platter;            ///< see platter_against_calibration()
+  std::optional<TurnSeen> turn;               ///< of the pass that covers most
+  const CalibrationChoice* choice = nullptr;  ///< must outlive the judging; of the first recording
+  bool table_recorded = false;      ///< the recording already had a calibration; see choice
+  workflow::ScanDates dates;        ///< of the first recording
+  std::optional<RigCheck> platter;  ///< see platter_against_calibration()
   std::vector<std::vector<FrameResidual>> residuals;  ///< per object; see frame_residuals()
   std::vector<SeenVertices> seen;                     ///< per object; see seen_vertices()
   std::optional<NextPassAdvice> next_pass;            ///< for the first object
 };
 
-/// Adds to residuals and seen what holds for an object that these frames made. Fails as
+/// Adds to residuals and seen the results for an object made from these frames. Fails as
 /// frame_residuals() and seen_vertices().
 Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames>& frames,
                         double noise_m, const RunContext& context, ScanKnowledge& known);
 
-/// Gives every object its verdict, and its expected errors the part of the calibration.
+/// Gives every object its verdict, and adds the calibration's contribution to its expected errors.
 ///
-/// green: the share of the surface that frames could see which is expected within 1 mm of the truth
-/// is 0.96 or more, and hardly a frame could see at most 0.10 of the surface (the base on the
-/// platter apart). red: less than 0.84, or more than 0.25; or the mesh is not closed without having
-/// been asked for; or what disturbed the recording was not corrected. amber: else. Objects without
-/// expected errors (methods from points) are amber at best. docs/report.md has the sentences and
-/// how they were judged.
+/// green: the share of the visible surface that is expected within 1 mm of the truth is 0.96 or
+/// more, and at most 0.10 of the surface was visible in hardly any frame (apart from the base on
+/// the platter). red: less than 0.84, or more than 0.25; or the mesh is not closed although an open
+/// one was not requested; or a disturbance of the recording was not corrected. amber: else. Objects
+/// without expected errors (point-based methods) are amber at best. docs/report.md lists the
+/// sentences and how they were validated.
 void judge_objects(Reconstruction& reconstruction, const ScanKnowledge& known);
 
 }  // namespace turnscan
