@@ -1,5 +1,5 @@
 #pragma once
-// Lines over a serial port.
+// Line-based communication over a serial port.
 
 #include <chrono>
 #include <memory>
@@ -14,20 +14,20 @@ using Clock = std::chrono::steady_clock;
 
 class SerialPort {
  public:
-  /// 8 data bits, no parity, 1 stop bit, no flow control. What was waiting is thrown away. Fails
-  /// with kNotFound, kNoPermission, kDeviceBusy, kIo.
+  /// 8 data bits, no parity, 1 stop bit, no flow control. Pending input is discarded. Fails with
+  /// kNotFound, kNoPermission, kDeviceBusy, kIo.
   static Result<SerialPort> open(const std::string& name, int baud);
   SerialPort(SerialPort&&) noexcept;
   SerialPort& operator=(SerialPort&&) noexcept;
   ~SerialPort();
 
   const std::string& name() const;
-  /// Fails with kDeviceLost when the port is gone or takes nothing for half a second.
+  /// Fails with kDeviceLost if the port is gone or accepts nothing for half a second.
   Result<> write(std::string_view bytes);
-  /// The next line without its end ('\n' or '\r'); empty lines are left out. A line of more than
-  /// 240 bytes is cut into several. nullopt: none ended within the timeout. Fails with kDeviceLost.
+  /// The next line without its terminator ('\n' or '\r'); empty lines are skipped. A line of more
+  /// than 240 bytes is split. nullopt: no complete line within the timeout. Fails with kDeviceLost.
   Result<std::optional<std::string>> read_line(double timeout_s);
-  /// What came after the last line end.
+  /// Bytes received after the last line end.
   const std::string& half_line() const;
 
  private:

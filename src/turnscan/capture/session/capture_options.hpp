@@ -1,11 +1,11 @@
 #pragma once
-// What capture() is asked for.
+// Validates the options of capture().
 
 #include <turnscan/capture/session/capture.hpp>
 
 namespace turnscan::session {
 
-/// Fails with kInvalidOption where a value is out of range or options contradict each other.
+/// Fails with kInvalidOption if a value is out of range or options contradict each other.
 Result<> check_capture_options(const CaptureOptions& options, bool has_motor);
 
 }  // namespace turnscan::session

@@ -1,5 +1,5 @@
 #pragma once
-// How far the table has turned since the recording began.
+// Measures the rotation of the table since the recording began.
 
 #include <future>
 #include <memory>
@@ -10,28 +10,29 @@
 
 namespace turnscan::session {
 
-/// By the frames' own angles; by a known speed and the frames' times; or by the speed that is found
-/// from the motion of what the first seconds show (turntable/motion/motion.hpp, on a thread of its
-/// own), and once more after half a turn, which shows it ten times as well.
+/// Uses the frames' own angles; or a known speed and the frames' times; or the speed estimated from
+/// the motion seen in the first seconds (turntable/motion/motion.hpp, on a separate thread), and
+/// estimated again after half a turn, which is ten times as accurate.
 class TurnCounter {
  public:
-  /// wait: frames wait while the speed is looked for, so that the same frames give the same end.
+  /// wait: frames wait while the speed is estimated, so that the same frames always give the same
+  /// end.
   TurnCounter(const SequenceHeader& header, std::optional<double> speed_rad_s, bool find_speed,
               bool wait);
   ~TurnCounter();
   TurnCounter(const TurnCounter&) = delete;
   TurnCounter& operator=(const TurnCounter&) = delete;
 
-  /// A frame that belongs to the recording, in order.
+  /// Adds the next frame of the recording; frames must be in order.
   void add(const Frame& frame);
-  /// Turned since the first frame, radians, unsigned; nullopt: not known yet.
+  /// Rotation since the first frame, radians, unsigned; nullopt: not known yet.
   std::optional<double> turned_rad() const { return turned_; }
   /// "angles of the frames", "stated speed", "motion"; empty: not known yet.
   const std::string& found() const { return found_; }
   std::optional<double> speed_rad_s() const { return speed_; }
-  /// What the motion has shown so far, where found() is "motion"; else nullptr.
+  /// The motion estimated so far if found() is "motion"; else nullptr.
   const std::shared_ptr<const Calibration>& motion() const { return motion_; }
-  /// Why the speed was not found so far; empty: no attempt has failed.
+  /// Why the speed has not been found so far; empty: no attempt has failed.
   const std::string& trouble() const { return trouble_; }
 
  private:
@@ -42,7 +43,7 @@ class TurnCounter {
   SequenceHeader header_;
   std::optional<double> speed_;
   bool find_speed_, wait_;
-  bool found_well_ = false;  ///< from half a turn
+  bool found_well_ = false;  ///< estimated from half a turn
   std::optional<double> first_time_, last_time_, first_angle_, start_time_;
   std::optional<double> turned_;
   std::string found_, trouble_;

@@ -1,5 +1,5 @@
 #pragma once
-// How far the clock of a sensor is from that of this machine.
+// Offset between the clock of a sensor and that of this machine.
 
 #include <cmath>
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace turnscan::source {
 
-/// A frame is never here before it was taken: of all frames the one that travelled fastest tells
-/// the offset best (as in Cristian 1989, "Probabilistic clock synchronization"). What is left in it
-/// is the shortest way of a frame to here, a few milliseconds that sensors of one kind share.
+/// A frame cannot arrive before it was taken: the frame with the shortest delay determines the
+/// offset best (as in Cristian 1989, "Probabilistic clock synchronization"). The remaining error is
+/// that shortest delay, a few milliseconds that are common to sensors of one kind.
 class ClockOffset {
  public:
   void add(double sensor_time_s, double host_time_s) {
@@ -19,7 +19,7 @@ class ClockOffset {
     if (offset_s < least_s_) least_s_ = offset_s;
   }
   std::size_t count() const { return count_; }
-  /// To be added to the sensor's time; 0 without a frame.
+  /// To be added to sensor times; 0 without a frame.
   double to_host_s() const { return count_ > 0 ? least_s_ : 0.0; }
 
  private:

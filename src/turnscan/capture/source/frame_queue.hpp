@@ -1,5 +1,5 @@
 #pragma once
-// Frames on their way from the thread that grabs them to the one that uses them.
+// Queue of frames between the grabbing thread and the consumer.
 
 #include <condition_variable>
 #include <deque>
@@ -9,20 +9,20 @@
 
 namespace turnscan::source {
 
-/// Holds at most `capacity` frames with images. All members may be called from any thread.
+/// Holds at most `capacity` frames with images. All members are thread-safe.
 class FrameQueue {
  public:
-  /// drop_oldest: a full queue drops its oldest image and keeps its info; else push() waits.
+  /// drop_oldest: a full queue drops its oldest image but keeps the info; else push() waits.
   FrameQueue(std::size_t capacity, bool drop_oldest);
 
-  /// Moves the frame into the queue. False when the queue is closed, or was while it waited; the
-  /// frame stays where it was then.
+  /// Moves the frame into the queue. False if the queue is closed, or was closed during the wait;
+  /// the frame is not moved then.
   bool push(Delivery& delivery);
-  /// Nothing more comes in: because of an error, or of the end.
+  /// Ends the input: because of an error, or at the end of the source.
   void close(std::optional<Error> error);
   void reopen();
 
-  /// The oldest; kNothing after timeout_s; once closed and empty, the error or kEnd.
+  /// The oldest frame; kNothing after timeout_s; once closed and empty, the error or kEnd.
   Result<Delivery> pop(double timeout_s);
 
   std::uint64_t dropped() const;
@@ -36,7 +36,7 @@ class FrameQueue {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Delivery> waiting_;
-  std::size_t images_ = 0;  ///< of waiting_, those with a status of kOk
+  std::size_t images_ = 0;  ///< number of entries in waiting_ with status kOk
   std::size_t most_waiting_ = 0;
   std::uint64_t dropped_ = 0;
   bool closed_ = false;

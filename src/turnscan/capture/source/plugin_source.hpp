@@ -6,19 +6,20 @@
 
 namespace turnscan::source {
 
-/// Loads the driver for a scheme. What is loaded stays until the process ends. Fails with kNotFound
-/// when no folder has one, kLibrary when it cannot be loaded or was made for another version.
+/// Loads the driver for a scheme. A loaded driver stays until the process ends. Fails with
+/// kNotFound if no folder has one, kLibrary if it cannot be loaded or was built for another
+/// version.
 Result<const turnscan_plugin*> load_plugin(const std::string& scheme);
 
-/// The error of a driver's function that returned this status.
+/// Converts the status returned by a driver's function into an error.
 tl::unexpected<Error> plugin_failure(const turnscan_plugin& plugin, std::int32_t status,
                                      const turnscan_error& error);
 
-/// Fails as load_plugin, with kInvalidOption for parameters that the driver does not know, and as
-/// the driver says.
+/// Fails as load_plugin, with kInvalidOption for parameters that the driver does not know, and with
+/// the driver's own errors.
 Result<std::unique_ptr<Grabber>> open_plugin(const SourceUri& uri, const RunContext& context);
 
-/// The device of a driver that is there. Fails as open_plugin() then does.
+/// Opens the device with a loaded driver. Fails as open_plugin() does after loading.
 Result<std::unique_ptr<Grabber>> open_device(const turnscan_plugin& plugin, const SourceUri& uri);
 
 }  // namespace turnscan::source

@@ -1,6 +1,6 @@
 #pragma once
-// Drivers of real sensors: shared libraries that are looked for when the program runs
-// (capture/source/plugin.h is what they offer).
+// Drivers of real sensors: shared libraries that are searched for at run time
+// (capture/source/plugin.h defines their interface).
 
 #include <filesystem>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace turnscan {
 
-/// A device that a driver has found.
+/// A device found by a driver.
 struct FoundDevice {
-  std::string uri;  ///< that open_source takes
+  std::string uri;  ///< as accepted by open_source
   std::string model;
-  std::string serial;  ///< empty: unknown
+  std::string serial;  ///< empty: not known
 };
 
-/// A driver, and whether it works.
+/// A driver and its status.
 struct DriverState {
-  std::string name;         ///< scheme of its URIs
-  std::string description;  ///< empty where it could not be loaded
+  std::string name;         ///< URI scheme
+  std::string description;  ///< empty if it could not be loaded
   std::filesystem::path file;
-  std::string error;  ///< why it cannot be used, one sentence; empty: it can
+  std::string error;  ///< one sentence on why it cannot be used; empty: it works
   std::vector<FoundDevice> devices;
   struct Parameter {
     std::string name, help, default_value;
@@ -29,13 +29,12 @@ struct DriverState {
   std::vector<Parameter> parameters;
 };
 
-/// Folders in which drivers are looked for, the first one first: those of the variable
-/// TURNSCAN_PLUGINS (with ':' between them) and no others where it is set; else
-/// lib/turnscan/plugins beside the folder of the running program or one of the three above it; else
-/// where they were to be installed.
+/// Folders in which drivers are searched for, in order: those of the variable TURNSCAN_PLUGINS
+/// (separated by ':') and no others if it is set; else lib/turnscan/plugins next to the folder of
+/// the running program or one of the three above it; else the installation folder.
 std::vector<std::filesystem::path> plugin_folders();
 
-/// All drivers, sorted by name. Asks each for its devices, which takes a moment with some.
+/// All drivers, sorted by name. Asks each for its devices, which some take a moment to answer.
 std::vector<DriverState> list_drivers();
 
 }  // namespace turnscan

@@ -1,5 +1,6 @@
 #pragma once
-// A FrameSource of a Grabber: its thread, its queue, and the rules that every frame keeps.
+// Makes a FrameSource of a Grabber: runs its thread and queue, and enforces the invariants of
+// frames.
 
 #include <atomic>
 #include <thread>
@@ -32,12 +33,12 @@ class QueuedSource : public FrameSource {
   std::thread thread_;
   std::atomic<bool> stopping_ = false;
   std::optional<Error> failed_;
-  // Of the grabbing thread.
-  std::optional<Delivery> pending_;  ///< admitted, but there was no place for it when stop() came
+  // Used by the grabbing thread only.
+  std::optional<Delivery> pending_;  ///< admitted, but not queued before stop() was called
   std::uint32_t next_index_ = 0;
   int refused_in_a_row_ = 0;
   std::vector<double> last_time_s_;
-  // Counted.
+  // Counters.
   std::atomic<std::uint64_t> delivered_ = 0, dropped_by_sensor_ = 0, refused_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// How a source of frames is named: SCHEME:ADDRESS?NAME=VALUE&NAME=VALUE
+// URI of a source of frames: SCHEME:ADDRESS?NAME=VALUE&NAME=VALUE
 
 #include <string>
 #include <string_view>
@@ -16,19 +16,19 @@ struct SourceUri {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< in order, decoded
 };
 
-/// The scheme ends at the first ':', the address at the first '?'. %XX stands for a byte in address
-/// and values; everything else stands for itself ('+', too). Text is at most 4096 bytes long.
-/// Fails with kInvalidOption, in one line that says what is wrong: no scheme, a character that a
-/// scheme cannot have, a parameter without '=' or without a name, one given twice, a '%' without
-/// two hexadecimal digits, a byte 0.
+/// The scheme ends at the first ':', the address at the first '?'. %XX encodes a byte in address
+/// and values; all other characters are literal (including '+'). The text has at most 4096 bytes.
+/// Fails with kInvalidOption and a one-line message: no scheme, a character not allowed in a
+/// scheme, a parameter without '=' or without a name, a duplicate parameter, a '%' without two
+/// hexadecimal digits, a zero byte.
 Result<SourceUri> parse_source_uri(std::string_view text);
 
-/// Text that parse_source_uri reads back as the same.
+/// Formats the URI; parse_source_uri() reads the same back.
 std::string format_source_uri(const SourceUri& uri);
 
-/// Sets the fields of a table from the parameters. Flags may also be written 0 and 1. Fails with
-/// kInvalidOption for a name that the table does not have (with the nearest one) and for a value
-/// that does not fit or is out of range.
+/// Sets the fields of a table from the parameters. Flags may also be written as 0 and 1. Fails with
+/// kInvalidOption for a name that the table does not have (suggesting the nearest one) and for a
+/// value that is invalid or out of range.
 Result<> set_from_uri(const SourceUri& uri, const OptionTable& table);
 
 }  // namespace turnscan
