@@ -1,5 +1,5 @@
 #pragma once
-// Factors between turns, degrees and radians. Angles are in radians everywhere inside.
+// Conversion factors between turns, degrees and radians. Internally all angles are in radians.
 
 #include <numbers>
 

@@ -7,8 +7,8 @@
 
 namespace turnscan {
 
-/// Sets of numbers [0, n) that merge. A set's root is its smallest member, so that nothing depends
-/// on the order of the unions.
+/// Partition of the numbers [0, n) by union. The root of a set is its smallest member, so that
+/// results do not depend on the order of the unions.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) {
@@ -23,8 +23,8 @@ class DisjointSets {
     if (a < b) parent_[b] = a;
     if (b < a) parent_[a] = b;
   }
-  /// Makes a number a set of its own again; the sets it was in hold only when all of their members
-  /// are.
+  /// Makes a number a singleton again; the sets are only valid after all members of its former set
+  /// have been reset.
   void reset(std::uint32_t i) { parent_[i] = i; }
 
  private:

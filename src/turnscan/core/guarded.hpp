@@ -1,5 +1,5 @@
 #pragma once
-// The end of what threads throw.
+// Turns exceptions into errors at thread boundaries.
 
 #include <exception>
 #include <new>
@@ -8,8 +8,9 @@
 
 namespace turnscan {
 
-/// body(), whose exceptions become errors: one that left a thread would end the whole program. Too
-/// little memory and too few threads or descriptors are kResourceLimit, others kLibrary.
+/// Runs body() and turns its exceptions into errors: one that left a thread would terminate the
+/// whole program. Lack of memory, threads or descriptors becomes kResourceLimit, anything else
+/// kLibrary.
 template <class Body>
 Result<> guarded(const Body& body) {
   try {

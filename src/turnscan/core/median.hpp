@@ -7,7 +7,7 @@
 
 namespace turnscan {
 
-/// The upper one of an even number of values; if_empty when there are none. Reorders the values.
+/// The upper median of an even number of values; if_empty if there are none. Reorders the values.
 template <class T>
 double median(std::vector<T>& values, double if_empty = 0.0) {
   if (values.empty()) return if_empty;

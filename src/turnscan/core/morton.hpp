@@ -1,11 +1,11 @@
 #pragma once
-// Positions along a Morton curve: neighbours on it are neighbours in space.
+// Indices along a Morton curve: neighbours on it are neighbours in space.
 
 #include <cstdint>
 
 namespace turnscan {
 
-/// The low 21 bits of x moved apart, two zeros between each.
+/// Spreads the low 21 bits of x, with two zeros between consecutive bits.
 inline std::uint64_t spread_bits(std::uint64_t x) {
   x &= 0x1fffff;
   x = (x | x << 32) & 0x1f00000000ffffULL;
@@ -15,7 +15,7 @@ inline std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-/// Of a cell by its place along each axis, each below 2^21.
+/// Morton code of a cell from its index along each axis, each below 2^21.
 inline std::uint64_t morton_code(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
   return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
 }

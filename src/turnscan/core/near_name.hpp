@@ -1,5 +1,5 @@
 #pragma once
-// Which name somebody may have meant.
+// Suggests the name that a user may have meant.
 
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace turnscan {
 
-/// The nearest of the names of which at most a third of the letters differ, or which begin so.
+/// The nearest name in which at most a third of the letters differ, or of which `name` is a prefix.
 std::optional<std::string> near_name(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace turnscan

@@ -1,6 +1,6 @@
 #pragma once
-// Counter-based noise: a value is a pure function of (seed, stream, counter), so that it does not
-// depend on threads or on the order of evaluation.
+// Counter-based random numbers: a value is a pure function of (seed, stream, counter), so that it
+// does not depend on threads or on the order of evaluation.
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// Few of many.
+// Evenly spaced subset.
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace turnscan {
 
-/// At most so many of a list, in its order and evenly spread over it, the first among them.
+/// At most `most` elements of a list, in its order and evenly spaced, beginning with the first.
 template <class T>
 std::vector<T> evenly_spread(const std::vector<T>& list, std::size_t most) {
   const std::size_t n = std::min(most, list.size());

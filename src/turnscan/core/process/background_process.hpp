@@ -1,5 +1,5 @@
 #pragma once
-// A program that runs beside this one.
+// A program that runs in the background.
 
 #include <sys/types.h>
 #include <cstdint>
@@ -11,21 +11,22 @@
 
 namespace turnscan::process {
 
-/// How a program has ended.
+/// Exit status and resource use of a program.
 struct ProcessEnd {
   int exit_code = -1;  ///< -1 if a signal ended it
   int signal = 0;
-  std::uint64_t peak_bytes = 0;  ///< largest resident set, of it or of a child that it waited for
-  double cpu_seconds = 0.0;      ///< with the children that it waited for
+  std::uint64_t peak_bytes =
+      0;  ///< largest resident set of the program or of a child that it waited for
+  double cpu_seconds = 0.0;  ///< including the children that it waited for
 };
 
-/// The program is ended (SIGKILL) with the thread that started it or with this object, whichever
-/// comes first. In a process group of its own: Ctrl-C in a terminal does not reach it.
+/// The program is killed (SIGKILL) with the thread that started it or with this object, whichever
+/// ends first. It runs in a process group of its own: Ctrl-C in a terminal does not reach it.
 class BackgroundProcess {
  public:
-  /// In this folder (empty: this process's). Its standard input is empty; output and errors are
-  /// appended to log, which is made if need be. Fails with kIo when no process can be made; a
-  /// program that cannot be started exits with 127.
+  /// Starts the program in this folder (empty: this process's). Its standard input is empty; output
+  /// and errors are appended to log, which is created if necessary. Fails with kIo if no process
+  /// can be created; a program that cannot be started exits with 127.
   static Result<BackgroundProcess> start(const std::filesystem::path& program,
                                          std::span<const std::string> arguments,
                                          const std::filesystem::path& log,
@@ -34,9 +35,9 @@ class BackgroundProcess {
   BackgroundProcess& operator=(BackgroundProcess&& other) noexcept;
   ~BackgroundProcess();
 
-  /// nullopt while it runs. To be called until it gives the end, and not again.
+  /// nullopt while it runs. Must not be called again after it has returned a value.
   std::optional<ProcessEnd> poll();
-  /// Sends SIGTERM, or SIGKILL when now.
+  /// Sends SIGTERM, or SIGKILL if `now`.
   void stop(bool now) const;
 
  private:

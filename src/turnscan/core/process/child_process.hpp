@@ -1,5 +1,5 @@
 #pragma once
-// A program run to its end, or ended.
+// Runs a program to its end, with a time limit.
 
 #include <filesystem>
 #include <span>
@@ -18,8 +18,8 @@ struct ChildResult {
 };
 
 /// Runs `program` with `input` as its standard input and waits for it. It is killed, and this
-/// fails, when ctx is cancelled (kCancelled) or after seconds of wall time (kResourceLimit). Fails
-/// with kIo when it cannot be started or its input cannot be kept in memory. May be called from any
+/// fails, if ctx is cancelled (kCancelled) or after `seconds` of wall time (kResourceLimit). Fails
+/// with kIo if it cannot be started or its input cannot be kept in memory. May be called from any
 /// thread.
 Result<ChildResult> run_child(const std::filesystem::path& program,
                               std::span<const std::string> arguments, double seconds,

@@ -1,11 +1,11 @@
 #pragma once
-// What every program does before anything else.
+// Process-wide setup that every program does first.
 
 namespace turnscan::process {
 
-/// Opens /dev/null on those of the descriptors 0 to 2 that are closed: the first files that a
-/// program opened would else be its standard streams, and its messages would go into them. Takes
-/// SIGPIPE and SIGXFSZ for errors of write(), which programs report, in place of their silent end.
+/// Opens /dev/null on those of the descriptors 0 to 2 that are closed; otherwise the first files
+/// that a program opens would become its standard streams and receive its messages. Turns SIGPIPE
+/// and SIGXFSZ into errors of write(), which programs report, instead of terminating silently.
 void set_up_process();
 
 }  // namespace turnscan::process

@@ -1,5 +1,5 @@
 #pragma once
-// Where the code that a program starts or loads may come from.
+// Folders from which a program may start or load code.
 
 #include <filesystem>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace turnscan::process {
 
-/// PREFIX/relative for a program in PREFIX/bin, and the build tree's for a program in it; none
-/// for a program elsewhere. They need not exist.
+/// PREFIX/relative for a program in PREFIX/bin, and the build tree's folder for a program in it;
+/// none for a program elsewhere. They need not exist.
 std::vector<std::filesystem::path> own_folders(const std::filesystem::path& relative);
 
-/// The value of an environment variable that names folders, where it is set. Fails with
-/// kInvalidOption for one that is not absolute.
+/// Folders named by an environment variable, if it is set. Fails with kInvalidOption for one that
+/// is not absolute.
 Result<std::vector<std::filesystem::path>> folders_of_variable(const char* name);
 
-/// Succeeds when nobody but the superuser, this user and those who could replace this program can
-/// have put something else in the place of this file: it and all folders above it are theirs, and
-/// not writable by others (folders with the sticky bit may be), up to a folder in which the program
-/// lies, too. Fails with kNoPermission, naming what is not so.
+/// Succeeds if only the superuser, this user and those who could replace this program can have
+/// replaced this file: it and all folders above it are owned by them, and not writable by others
+/// (folders with the sticky bit may be), up to a folder that also contains the program. Fails with
+/// kNoPermission, naming the offending path.
 Result<> check_trusted(const std::filesystem::path& path);
 
 }  // namespace turnscan::process

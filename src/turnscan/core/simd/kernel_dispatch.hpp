@@ -1,5 +1,5 @@
 #pragma once
-// The members of KernelChoice, for the source that instantiates it. Not for bodies of kernels.
+// Members of KernelChoice, for the source that instantiates it; not for bodies of kernels.
 
 #include <array>
 #include <atomic>
@@ -11,7 +11,7 @@ namespace turnscan {
 
 template <class Kernel>
 struct KernelChoice<Kernel>::State {
-  /// By InstructionSet; null where it was not built.
+  /// Indexed by InstructionSet; null if it was not built.
   std::array<const Kernel*, 3> built{
       &built_kernel<Kernel, InstructionSet::kPortable>(),
 #ifdef __x86_64__
