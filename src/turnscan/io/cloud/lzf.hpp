@@ -5,7 +5,7 @@
 
 namespace turnscan::pcd {
 
-/// LZF (M. Lehmann's LibLZF) cannot pack more than this many bytes into one: 264 into 3.
+/// Maximum compression ratio of LZF (M. Lehmann's LibLZF): 264 bytes into 3.
 inline constexpr std::size_t kMaxLzfRatio = 88;
 
 /// Unpacks into exactly `size` bytes at `target`; false if the content is damaged.

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PCD file.
+// Parser for the header of a PCD file.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ struct PcdField {
   std::string name;
   std::uint64_t size = 4;   ///< 1, 2, 4 or 8 bytes
   char type = 'F';          ///< I, U or F
-  std::uint64_t count = 1;  ///< values a point
+  std::uint64_t count = 1;  ///< values per point
   std::uint64_t bytes() const { return size * count; }
 };
 
@@ -28,11 +28,11 @@ struct PcdHeader {
   std::uint64_t points = 0;
   std::optional<Viewpoint> viewpoint;
   PcdData data = PcdData::kAscii;
-  std::size_t body = 0;  ///< where the header ends
+  std::size_t body = 0;  ///< offset at which the header ends
 
   std::uint64_t point_bytes() const;
   std::uint64_t values_per_point() const;
-  /// Position of a field, or -1.
+  /// Index of a field, or -1.
   int find(std::string_view name) const;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Point Cloud Library's format (pointclouds.org, The PCD file format, versions .5 to .7).
+// Reader for the Point Cloud Library's format (pointclouds.org, The PCD file format, versions .5 to
+// .7).
 
 #include <string_view>
 #include <turnscan/core/result.hpp>
@@ -9,7 +10,7 @@ namespace turnscan::pcd {
 
 bool looks_like_pcd(std::string_view bytes);
 
-/// Points that are not finite are still in it.
+/// The result still contains points that are not finite.
 Result<CloudFile> parse_pcd(std::string_view bytes);
 
 }  // namespace turnscan::pcd

@@ -5,8 +5,8 @@
 
 namespace turnscan::file {
 
-/// The name of an object so that every format can hold it: one line of valid UTF-8, at most
-/// about 200 bytes; what does not fit becomes '?', control characters become spaces.
+/// Makes an object's name valid in every format: one line of valid UTF-8, at most about 200 bytes;
+/// invalid bytes become '?', control characters become spaces.
 std::string clean_name(std::string_view name);
 
 }  // namespace turnscan::file

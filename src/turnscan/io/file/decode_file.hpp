@@ -1,5 +1,5 @@
 #pragma once
-// Whole files through a decoder.
+// Decodes whole files.
 
 #include <filesystem>
 #include <new>
@@ -10,10 +10,10 @@
 
 namespace turnscan::file {
 
-/// Fails as read_file would for a file that is not there or cannot be opened.
+/// Fails as read_file() does if the file does not exist or cannot be opened.
 Result<> check_readable(const std::filesystem::path& path);
 
-/// Reads a file and decodes it; errors get the path, and running out of memory is one of them.
+/// Reads a file and decodes it; adds the path to errors, and reports lack of memory as an error.
 template <class Decode>
 auto decode_file(const std::filesystem::path& path, const Decode& decode)
     -> decltype(decode(std::string_view())) {

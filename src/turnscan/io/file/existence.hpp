@@ -1,5 +1,5 @@
 #pragma once
-// What is missing, and what only cannot be looked at.
+// Distinguishes missing paths from inaccessible ones.
 
 #include <filesystem>
 #include <string_view>
@@ -7,11 +7,11 @@
 
 namespace turnscan::file {
 
-/// Whether anything lies there, symbolic links followed. Fails with kIo, in the system's words,
-/// where that cannot be told: what may not be looked at is not missing.
+/// Whether the path exists, following symbolic links. Fails with kIo and the system's message if
+/// that cannot be determined: an inaccessible path is not a missing one.
 Result<bool> is_there(const std::filesystem::path& path);
 
-/// Fails with kNotFound where nothing lies, and as is_there(). what: "file", "folder".
+/// Fails with kNotFound if nothing exists there, and as is_there(). what: "file", "folder".
 Result<> check_exists(const std::filesystem::path& path, std::string_view what);
 
 }  // namespace turnscan::file

@@ -1,6 +1,6 @@
 #pragma once
-// A file that one process at a time may hold, on this machine or, where the file system passes
-// locks on (NFS, Lustre, GPFS), on any that mounts it.
+// A file lock that one process at a time may hold, on this machine or, if the file system
+// propagates locks (NFS, Lustre, GPFS), on any machine that mounts it.
 
 #include <filesystem>
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace turnscan::file {
 
-/// A lock of the open file (fcntl F_OFD_SETLK): it ends with this object or its process, however
-/// that ends, so that none is ever left behind. The file, empty, stays.
+/// A lock on the open file (fcntl F_OFD_SETLK): it ends with this object or its process, however
+/// that ends, so that no stale lock remains. The empty file is kept.
 class FileLock {
  public:
-  /// Makes the file if need be. nullopt: another holds it. Fails with kIo, also where the file
-  /// system has no locks.
+  /// Creates the file if necessary. nullopt: another process holds the lock. Fails with kIo, also
+  /// if the file system does not support locks.
   static Result<std::optional<FileLock>> try_lock(const std::filesystem::path& path);
-  /// Waits until no other holds it. Fails as try_lock(), and with kCancelled.
+  /// Waits until no other process holds the lock. Fails as try_lock(), and with kCancelled.
   static Result<FileLock> wait(const std::filesystem::path& path, const RunContext& context);
-  /// Whether somebody else holds it; does not take it.
+  /// Whether another process holds the lock; does not take it.
   static bool held(const std::filesystem::path& path);
 
   FileLock(FileLock&& other) noexcept;

@@ -6,7 +6,7 @@
 
 namespace turnscan::file {
 
-/// The ending of a file's name without the dot, in lower case: "scan.PLY" -> "ply".
+/// Lower-case extension of a file name without the dot: "scan.PLY" -> "ply".
 inline std::string lower_extension(const std::filesystem::path& path) {
   std::string text = path.extension().string();
   if (!text.empty()) text.erase(0, 1);

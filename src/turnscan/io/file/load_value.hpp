@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in the bytes of a file.
+// Reads numbers from the bytes of a file.
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,8 @@
 
 namespace turnscan::file {
 
-/// A value that may lie at any address. kSwap: in the other byte order than this machine's.
+/// Loads a value from any address, aligned or not. kSwap: from the opposite byte order of this
+/// machine.
 template <class T, bool kSwap>
 T load(const char* from) {
   std::array<char, sizeof(T)> bytes;

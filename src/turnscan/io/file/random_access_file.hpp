@@ -1,5 +1,5 @@
 #pragma once
-// A file of which parts are read, by several threads at once.
+// A file for random access from several threads at once.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,19 +11,19 @@ namespace turnscan::file {
 
 class RandomAccessFile {
  public:
-  /// Fails as read_file() does: kNotFound, or kIo for what is not a regular file or cannot be read.
+  /// Fails as read_file() does: kNotFound, or kIo if it is not a regular file or cannot be read.
   static Result<RandomAccessFile> open(const std::filesystem::path& path);
   RandomAccessFile(RandomAccessFile&& other) noexcept;
   RandomAccessFile& operator=(RandomAccessFile&& other) noexcept;
   ~RandomAccessFile();
 
   const std::filesystem::path& path() const { return path_; }
-  std::uint64_t size() const { return size_; }  ///< when it was opened
+  std::uint64_t size() const { return size_; }  ///< at the time of opening
 
-  /// Fills `bytes` from the offset on. Fails with kIo (the system's words), and with kFormat where
-  /// the file ends before.
+  /// Fills `bytes` starting at the offset. Fails with kIo (the system's message), and with kFormat
+  /// if the file ends earlier.
   Result<> read(std::uint64_t offset, std::span<char> bytes) const;
-  /// The same as a string; nothing is allocated for what lies beyond the file's end.
+  /// The same as a string; does not allocate memory for bytes beyond the file's end.
   Result<std::string> read(std::uint64_t offset, std::uint64_t size) const;
 
  private:

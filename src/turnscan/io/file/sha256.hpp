@@ -15,7 +15,7 @@ class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// The digest, 32 bytes. Nothing may be added behind it.
+  /// The digest, 32 bytes. add() must not be called afterwards.
   std::string finish();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// libjpeg behind plain arrays.
+// Wrapper of libjpeg for plain arrays.
 
 #include <string>
 #include <string_view>
@@ -9,8 +9,8 @@
 namespace turnscan::image {
 
 bool looks_like_jpeg(std::string_view bytes);
-/// Whether a JPEG image has its Huffman tables and its end, which streams of cameras leave out at
-/// times (ITU-T T.81, B.2): with them every program reads it.
+/// Whether a JPEG image contains its Huffman tables and its end marker, which camera streams may
+/// omit (ITU-T T.81, B.2); every program can read it if it does.
 bool is_jpeg_file(std::string_view bytes);
 Result<ColorImage> decode_jpeg(std::string_view bytes);
 Result<std::string> encode_jpeg(const ColorImage& image, int quality);

@@ -1,5 +1,5 @@
 #pragma once
-// libpng behind plain arrays.
+// Wrapper of libpng for plain arrays.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace turnscan::image {
 constexpr std::string_view kPngSignature("\x89PNG\r\n\x1a\n", 8);
 bool looks_like_png(std::string_view bytes);
 
-/// Four bytes as PNG orders them.
+/// Decodes four big-endian bytes.
 std::uint32_t big_endian_32(std::string_view bytes, std::size_t at);
 
-/// What the first chunk says.
+/// Content of the first chunk.
 struct PngInfo {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Colour images as PNG, two to three times as fast as libpng writes and reads them.
+// Colour PNG images, written and read two to three times as fast as with libpng.
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@ namespace turnscan::image {
 /// pixels: three bytes each, row by row. Throws std::bad_alloc.
 std::string encode_rgb(const unsigned char* pixels, std::uint32_t width, std::uint32_t height);
 
-/// Decodes an image of 8-bit RGB into three bytes a pixel. False where libpng has the word, as of
-/// decode_plain_depth(); what stands at `pixels` is undefined then.
+/// Decodes an 8-bit RGB image into three bytes per pixel. False if it has to be left to libpng, as
+/// for decode_plain_depth(); the contents of `pixels` are undefined then.
 bool decode_rgb(std::string_view bytes, const PngInfo& info, unsigned char* pixels);
 
 }  // namespace turnscan::image

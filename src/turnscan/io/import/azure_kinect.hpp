@@ -1,8 +1,9 @@
 #pragma once
-// The calibration.json of an Azure Kinect, which the Femto Bolt and Mega write as well. Its form
-// and what becomes of it in each mode: Azure-Kinect-Sensor-SDK (MIT licence), src/calibration and
-// src/transformation/mode_specific_calibration.c. Focal length and centre are in widths and heights
-// of the whole sensor, counted from the corner of its first pixel; a mode crops and bins it.
+// Parses the calibration.json of an Azure Kinect, which the Femto Bolt and Mega write as well. Its
+// layout and its conversion for each mode follow Azure-Kinect-Sensor-SDK (MIT licence),
+// src/calibration and src/transformation/mode_specific_calibration.c. Focal length and centre are
+// relative to the width and height of the whole sensor, measured from the corner of its first
+// pixel; a mode crops and bins the sensor.
 
 #include <optional>
 #include <string_view>
@@ -12,7 +13,8 @@ namespace turnscan::importers {
 
 struct AzureKinectCameras {
   CameraIntrinsics depth;
-  /// Distance from the axis at z = 1 up to which the depth camera's lens is known: about 60 deg.
+  /// Distance from the axis at z = 1 up to which the depth camera's lens model is valid: about 60
+  /// deg.
   double depth_radius = 0.0;
   std::optional<CameraIntrinsics> color;
   Pose T_color_depth = Pose::Identity();
@@ -22,14 +24,13 @@ struct ImageSize {
   int width = 0, height = 0;
 };
 
-/// Name of the depth mode with images of that size; empty: there is none.
+/// Name of the depth mode with images of that size; empty if there is none.
 std::string_view azure_kinect_depth_mode(const ImageSize& size);
 
-/// The cameras for images of these sizes; without `color` that one is left out, and also where no
+/// The cameras for images of these sizes; the colour camera is omitted without `color`, and if no
 /// mode has images of its size. json may end with zero bytes.
-/// Fails with kFormat when a value is missing or makes no sense, and with kUnsupported for sizes of
-/// depth that no mode has and for other lens models than
-/// CALIBRATION_LensDistortionModelBrownConrady.
+/// Fails with kFormat if a value is missing or implausible, and with kUnsupported for depth sizes
+/// that no mode has and for lens models other than CALIBRATION_LensDistortionModelBrownConrady.
 Result<AzureKinectCameras> parse_azure_kinect(std::string_view json, const ImageSize& depth,
                                               const std::optional<ImageSize>& color);
 

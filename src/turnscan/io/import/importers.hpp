@@ -1,7 +1,7 @@
 #pragma once
-// Foreign data sets as frame sequences. docs/importing.md describes the layouts. Units and depth
-// scales are taken from the format's definition or from the options; where neither gives them the
-// import fails with a sentence that asks.
+// Data sets of other programs as frame sequences. docs/importing.md describes the layouts. Units
+// and depth scales come from the format's definition or from the options; if neither gives them,
+// the import fails with a message that asks for them.
 
 #include <filesystem>
 #include <memory>
@@ -31,15 +31,15 @@ enum class ImportFormat {
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
-/// What becomes of poses that the device tracked itself. kAuto: used where it moved.
+/// Use of poses that the device tracked itself. kAuto: used if it moved.
 enum class DevicePoses { kAuto, kUse, kIgnore };
-/// Of a return, as the device rates it. kAuto: medium.
+/// Minimum confidence of a return, as rated by the device. kAuto: medium.
 enum class Confidence { kAuto, kLow, kMedium, kHigh };
 
 struct ImportOptions {
   ImportFormat format = ImportFormat::kAuto;
   std::string topic;                          ///< of a bag's depth images
-  std::string angles;                         ///< file of a cloud folder's angles or times
+  std::string angles;                         ///< file with a cloud folder's angles or times
   std::optional<double> depth_unit_m;         ///< per step of the depth images
   LengthUnit point_unit = LengthUnit::kAuto;  ///< of scans
   std::string intrinsics;                     ///< "fx,fy,cx,cy" or a file with a 3x3 matrix
@@ -48,23 +48,24 @@ struct ImportOptions {
   std::string sensor_direction;               ///< of scans: "x,y,z" from the surface to the sensor
   PoseDirection pose_direction = PoseDirection::kAuto;
   DevicePoses device_poses = DevicePoses::kAuto;
-  Confidence min_confidence = Confidence::kAuto;  ///< returns below are none
+  Confidence min_confidence = Confidence::kAuto;  ///< returns with less confidence are dropped
   std::string world_up;                           ///< "x,y,z" in the world of the poses; empty: +Y
-  bool clockwise = false;                         ///< angles and speed count clockwise from above
-  std::optional<double> fps;                      ///< frames a second, of layouts without times
-  std::string turntable_axis;                     ///< "x,y,z", up, frame of sensor 0
-  std::string turntable_center;                   ///< "x,y,z" with units, frame of sensor 0
+  bool clockwise = false;        ///< angles and speed are clockwise seen from above
+  std::optional<double> fps;     ///< frames per second, for layouts without times
+  std::string turntable_axis;    ///< "x,y,z", up, frame of sensor 0
+  std::string turntable_center;  ///< "x,y,z" with units, frame of sensor 0
   std::optional<double> turntable_radius_m;
-  std::optional<double> platter_height_m;  ///< of the platter above the given point of the axis
+  std::optional<double>
+      platter_height_m;  ///< height of the platter above the given point on the axis
   std::optional<double> speed_rad_s;
 
   Result<> check() const;
 };
 
-/// Names, ranges and help of the fields; refers to options.
+/// Names, ranges and help of the fields; keeps a reference to options.
 OptionTable describe(ImportOptions& options);
 
-/// One layout that can be imported.
+/// A layout that can be imported.
 struct ImporterInfo {
   ImportFormat format;
   std::string_view name;  ///< as in the option "format"
@@ -73,20 +74,20 @@ struct ImporterInfo {
 const std::vector<ImporterInfo>& importer_list();
 
 /// Opens a data set. path is a file (.conf, .json, .mkv, .bag, .r3d, .sens) or a folder. Files are
-/// read when frames are read; read() may be called from several threads. What was assumed stands in
+/// read when frames are read; read() may be called from several threads. Assumptions are listed in
 /// header().source, one line each after the first. Depth images: 65535 of a foreign image becomes
-/// kNoReturn. Fails with kNotFound (no such path or a named file is missing), kUnsupported (the
-/// layout is not recognised), kInvalidOption (an option is wrong or has no meaning for the layout),
-/// kMissingData (a unit, intrinsics or the like must be given) and kFormat.
+/// kNoReturn. Fails with kNotFound (no such path, or a referenced file is missing), kUnsupported
+/// (the layout is not recognised), kInvalidOption (an option is invalid or does not apply to the
+/// layout), kMissingData (a unit, intrinsics or the like must be given) and kFormat.
 Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
                                                     const ImportOptions& options);
 
 /// Whether path is a file or folder of a layout that open_foreign() recognises without options.
 bool is_foreign(const std::filesystem::path& path);
 
-/// One or more data sets as the passes of one object, counted through from 0 on. Where frames have
-/// poses, they hold within their pass. Fails as open_foreign() does, and with kInvalidOption when
-/// their sensors or turntables differ.
+/// One or more data sets as the passes of one object, numbered consecutively from 0. Poses of
+/// frames, if any, are valid within their pass. Fails as open_foreign() does, and with
+/// kInvalidOption if their sensors or turntables differ.
 Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
     const std::vector<std::filesystem::path>& paths, const ImportOptions& options);
 

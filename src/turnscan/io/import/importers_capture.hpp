@@ -1,6 +1,6 @@
 #pragma once
-// What recordings of phones and hand-held sensors have in common: poses of the device, confidence
-// beside depth, depth in metres, gaps in the times.
+// Common parts of importers for phones and hand-held sensors: device poses, confidence maps, depth
+// in metres, gaps in the times.
 
 #include <cstdint>
 #include <optional>
@@ -11,47 +11,47 @@
 
 namespace turnscan::importers {
 
-/// Decides by options.device_poses what becomes of the poses of the device (T_world_sensor, none
-/// where tracking was lost), and says so in a note. Ignored ones are removed.
-/// On auto they are ignored while the device stands still: 19 of 20 positions lie within 5 mm, and
-/// 19 of 20 rotations within 0.5 degrees, of their median (of coordinates). A sensor on a tripod is
-/// placed by the turntable's motion much better than by its own tracking.
-/// Fails with kMissingData when poses are to be used and there are none, and as placed_pose() does.
+/// Decides by options.device_poses whether to use the device's poses (T_world_sensor, nullopt where
+/// tracking was lost), and adds a note about it. Ignored ones are removed.
+/// On auto they are ignored if the device stood still: 19 of 20 positions are within 5 mm, and 19
+/// of 20 rotations within 0.5 degrees, of their median (of coordinates). The pose of a sensor on a
+/// tripod is determined much better by the turntable's motion than by its own tracking.
+/// Fails with kMissingData if poses are to be used and there are none, and as placed_pose() does.
 Result<> settle_device_poses(const ImportOptions& options, std::vector<std::optional<Pose>>& poses,
                              SequenceHeader& header);
 
-/// From what OpenGL and ARKit call a camera's frame (x right, y up, z backward) to ours.
+/// Converts from the camera frame of OpenGL and ARKit (x right, y up, z backward) to ours.
 Pose from_gl_camera(const Pose& T_world_gl);
 
-/// Values of a confidence map below the least one become no return. sizes must be equal.
+/// Clears depth values whose confidence is below `least`. sizes must be equal.
 void mask_unsure(std::span<const std::uint8_t> confidence, std::uint8_t least, DepthImage& depth);
 
-/// The least value of Apple's confidence maps (0 low, 1 medium, 2 high) that is kept.
+/// The minimum value of Apple's confidence maps (0 low, 1 medium, 2 high) that is kept.
 std::uint8_t least_confidence(const ImportOptions& options);
 
-/// Depth of floats in metres in steps of 0.1 mm; what is not finite, not positive or beyond 6.55 m
-/// is no return. bytes: width * height little-endian floats.
+/// Converts depth from floats in metres to steps of 0.1 mm; values that are not finite, not
+/// positive or beyond 6.55 m become no return. bytes: width * height little-endian floats.
 DepthImage depth_of_floats(std::string_view bytes, int width, int height);
 inline constexpr double kFloatDepthUnit = 1e-4;
 
-/// Said of every recording of Apple's LiDAR (the author of Record3D, its issue 43).
+/// Note for every recording of Apple's LiDAR (by the author of Record3D, its issue 43).
 inline constexpr const char* kLidarNote =
     "the device computes the depth of its LiDAR from a few hundred measured points and the colour "
     "image: small shapes are soft, and gaps are filled";
 
-/// A pinhole camera for an image of another size of the same view. The image coordinates of
-/// `camera` are measured from the corner of the image, as Apple's are.
+/// The pinhole camera scaled to an image of another size of the same view. Image coordinates of
+/// `camera` are measured from the corner of the image, as in Apple's convention.
 CameraIntrinsics from_corner_coordinates(const CameraIntrinsics& camera, int width, int height);
 
-/// Seconds since the first; nothing unless they increase.
+/// Makes times relative to the first; does nothing unless they increase.
 bool times_from_first(std::vector<double>& times_s);
 
-/// The number of frames that are missing before each frame: gaps of more than 1.6 times the median
-/// interval. None where all of them together would be more than the frames.
+/// The number of frames missing before each frame: gaps of more than 1.6 times the median interval.
+/// Zeros if the total would exceed the number of frames.
 std::vector<std::uint32_t> missing_before(std::span<const double> times_s);
 
-/// Numbers the frames through, with frames marked dropped in the gaps of their times. Frame has a
-/// member info and is made empty by default.
+/// Numbers the frames consecutively, inserting frames marked dropped into gaps of their times.
+/// Frame has a member info and is empty when default-constructed.
 template <class Frame>
 std::vector<Frame> with_dropped(std::vector<Frame> frames, SequenceHeader& header) {
   std::vector<double> times;
@@ -74,7 +74,7 @@ std::vector<Frame> with_dropped(std::vector<Frame> frames, SequenceHeader& heade
   return out;
 }
 
-/// Where some frames have poses, those without are marked dropped, with a note.
+/// If some frames have poses, marks those without as dropped and adds a note.
 template <class Frame>
 void drop_without_pose(std::vector<Frame>& frames, SequenceHeader& header) {
   std::size_t placed = 0, lost = 0;

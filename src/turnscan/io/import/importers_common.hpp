@@ -1,5 +1,5 @@
 #pragma once
-// What the importers share.
+// Common parts of the importers.
 
 #include <array>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace turnscan::importers {
 
-/// One frame of a foreign data set and the files that hold it; empty paths: none.
+/// One frame of an imported data set and its files; empty paths: none.
 struct ForeignFrame {
   FrameInfo info;
   std::filesystem::path data;
@@ -53,69 +53,70 @@ OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& opt
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
-/// "frame_00012.json", as 3D Scanner App names what it knows of a frame.
+/// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
 bool is_scanner_app_frame(std::string_view name);
-/// "depth" or "NAME_depth": the folder in which RTAB-Map's export puts depth images.
+/// "depth" or "NAME_depth": the folder in which RTAB-Map's export stores depth images.
 bool is_rtabmap_depth_folder(std::string_view name);
 OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options);
 
-/// Text files of data sets are refused beyond this.
+/// Larger text files of data sets are rejected.
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t(16) << 20;
 
 /// Names of the files and folders in a folder, sorted; at most a million.
 Result<std::vector<std::string>> names_in(const std::filesystem::path& folder);
 
-/// The last part of a path, for people; also for "dir/" and ".".
+/// The last component of a path, human-readable; also for "dir/" and ".".
 std::string display_name(const std::filesystem::path& path);
 
-/// folder / name, if name stays inside the folder and is a file. The error names what mentions it.
+/// folder / name, if name stays inside the folder and is a file. The error names what refers to it.
 Result<std::filesystem::path> existing_file(const std::filesystem::path& folder,
                                             std::string_view name, std::string_view mentioned_by);
 
 /// Adds a sentence about an assumption to header.source.
 void add_note(SequenceHeader& header, std::string_view note);
 
-/// Gives an error the path of the file that it is about.
+/// Sets the path of the file to which an error refers.
 tl::unexpected<Error> at_path(const std::filesystem::path& path, Error error);
 
-/// Metres per unit of scans: as stated, else `by_format`, else an error that asks.
+/// Metres per unit of scans: as stated, else `by_format`, else an error that asks for it.
 Result<double> point_scale(const ImportOptions& options, std::optional<double> by_format);
 
-/// Metres per step of depth images: as stated, else `by_format`, else an error that asks.
+/// Metres per step of depth images: as stated, else `by_format`, else an error that asks for it.
 Result<double> depth_scale(const ImportOptions& options, std::optional<double> by_format);
 
 /// From options.intrinsics ("fx,fy,cx,cy" or a file), without the image size.
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
-/// Those of the depth camera in options.iai_kinect2, if that folder is stated and holds them.
+/// Intrinsics of the depth camera in options.iai_kinect2, if that folder is given and contains
+/// them.
 Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options);
-/// The 3x3 matrix of a text file, without the image size.
+/// Intrinsics from the 3x3 matrix in a text file, without the image size.
 Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
 
 /// From options.sensor_position or options.sensor_direction, if either is given.
 Result<std::optional<Viewpoint>> stated_viewpoint(const ImportOptions& options);
 
-/// "x,y,z" without units; has a length.
+/// "x,y,z" without units; must not be zero.
 Result<Vec3d> parse_direction(std::string_view name, std::string_view text);
 /// "x,y,z" with units of length, in metres.
 Result<Vec3d> parse_position(std::string_view name, std::string_view text);
 
-/// T_world_sensor from a pose of the data set: as options.pose_direction says, camera to world by
-/// default, in a world turned so that options.world_up becomes +Y.
+/// T_world_sensor from a pose of the data set: in the direction options.pose_direction, camera to
+/// world by default, with the world rotated so that options.world_up becomes +Y.
 Result<Pose> placed_pose(const Pose& pose, const ImportOptions& options);
 
-/// Completes header.turntable from the options. on_platter: the centre that is there already lies
-/// on the platter's surface.
+/// Completes header.turntable from the options. on_platter: an existing centre is already on the
+/// platter's surface.
 Result<> apply_turntable_options(const ImportOptions& options, bool on_platter,
                                  SequenceHeader& header);
 
-/// Cameras and depth offset of sensor 0 from options.iai_kinect2, if that is given; its colour
-/// camera where the frames have colour images of its size. Fails as read_iai_kinect2 does, and
-/// with kInvalidOption when the depth images are of another size.
+/// Sets cameras and depth offset of sensor 0 from options.iai_kinect2, if given; the colour camera
+/// only if the frames have colour images of its size. Fails as read_iai_kinect2 does, and with
+/// kInvalidOption if the depth images are of another size.
 Result<> apply_iai_kinect2(const ImportOptions& options, const std::vector<ForeignFrame>& frames,
                            SequenceHeader& header);
 
-/// Reads the size of the first frame's images; sets the sensor's image size where it is 0, and
-/// drops the colour of all frames, with a note, when it is not registered and has no camera.
+/// Reads the size of the first frame's images; sets the sensor's image size if it is 0, and drops
+/// the colour of all frames, with a note, if it is not registered and has no camera.
 Result<> look_at_first_images(SequenceHeader& header, std::vector<ForeignFrame>& frames);
 
 }  // namespace turnscan::importers

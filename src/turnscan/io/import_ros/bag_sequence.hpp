@@ -1,5 +1,5 @@
 #pragma once
-// The frames of a ROS bag: when each was taken, which colours belong to it, which are missing.
+// The frames of a ROS bag: their times, the matching colour images, and missing frames.
 
 #include <memory>
 #include <turnscan/core/frame.hpp>
@@ -8,11 +8,12 @@
 
 namespace turnscan::importers {
 
-/// Times are those of the messages' headers, from the first frame on (where they run back or are
-/// zero, those of the recorder, with a note). A gap in the headers' numbers, or in the times where
-/// those do not count the frames, becomes frames marked dropped. Colours are those nearest in time,
-/// within three quarters of the time between two frames. Reads the header of each message, no
-/// pixels. Fails with kMissingData when there is no frame, and as Bag::read() for the first one.
+/// Times are those of the messages' headers, relative to the first frame (if they decrease or are
+/// zero, those of the recorder, with a note). A gap in the headers' sequence numbers, or in the
+/// times if the numbers do not count frames, becomes frames marked dropped. The colour image is the
+/// nearest in time, within three quarters of the frame interval. Reads the header of each message
+/// but no pixels. Fails with kMissingData if there is no frame, and as Bag::read() for the first
+/// one.
 Result<std::unique_ptr<FrameSequence>> make_bag_sequence(rosbag::Bag bag, BagStreams streams,
                                                          SequenceHeader header);
 

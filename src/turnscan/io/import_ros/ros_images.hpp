@@ -1,8 +1,8 @@
 #pragma once
-// The pixels of ROS's image messages as ours. Encodings after sensor_msgs/image_encodings.h and
-// REP 118 (https://www.ros.org/reps/rep-0118.html): depth is 16UC1 in millimetres or 32FC1 in
-// metres, not a number where there is no return; after librealsense also mono16. Compressed depth
-// after the package compressed_depth_image_transport.
+// Converts ROS's image messages. Encodings follow sensor_msgs/image_encodings.h and REP 118
+// (https://www.ros.org/reps/rep-0118.html): depth is 16UC1 in millimetres or 32FC1 in metres, NaN
+// if there is no return; following librealsense also mono16. Compressed depth follows the package
+// compressed_depth_image_transport.
 
 #include <string_view>
 #include <turnscan/core/image.hpp>
@@ -13,19 +13,19 @@ namespace turnscan::importers {
 
 bool is_integer_depth(std::string_view encoding);  ///< 16UC1, mono16
 bool is_float_depth(std::string_view encoding);    ///< 32FC1
-bool is_color(std::string_view encoding);          ///< that ros_color() reads
+bool is_color(std::string_view encoding);          ///< supported by ros_color()
 
-/// Integers as they are, but that 65535 becomes kNoReturn; floating point in steps of unit_m, and
-/// kNoReturn where it is none or beyond 65534 steps. Fails with kUnsupported for other encodings,
-/// kFormat when the data do not fit the size.
+/// Integers are unchanged, except that 65535 becomes kNoReturn; floating-point values are converted
+/// to steps of unit_m, and to kNoReturn if invalid or beyond 65534 steps. Fails with kUnsupported
+/// for other encodings, kFormat if the data do not match the size.
 Result<DepthImage> ros_depth(const rosbag::ImageMessage& image, double unit_m);
 
-/// Encoding of the depth in a compressed image: "16UC1", "32FC1"; empty: it is no depth.
+/// Encoding of the depth in a compressed image: "16UC1", "32FC1"; empty: not depth.
 std::string_view compressed_depth_encoding(std::string_view format);
 Result<DepthImage> ros_depth(const rosbag::CompressedImageMessage& image, double unit_m);
 
 Result<ColorImage> ros_color(const rosbag::ImageMessage& image);
-/// JPEG or PNG, into the frame's colour.
+/// Decodes JPEG or PNG into the frame's colour.
 Result<> take_ros_color(const rosbag::CompressedImageMessage& image, Frame& frame);
 
 }  // namespace turnscan::importers

@@ -1,9 +1,9 @@
 #pragma once
-// LZ4 in two wrappings: liblz4's frames
+// Decodes LZ4 in two containers: liblz4's frames
 // (https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md), and the blocks that Apple's
 // Compression library writes for COMPRESSION_LZ4: "bv41", two sizes (unpacked, packed; 32 bits,
-// little endian) and an LZ4 block, which may refer to what the blocks before it gave; "bv4-", a
-// size and that many bytes as they are; "bv4$" at the end (Apple, "COMPRESSION_LZ4").
+// little endian) and an LZ4 block, which may refer to the output of earlier blocks; "bv4-", a size
+// and that many stored bytes; "bv4$" at the end (Apple, "COMPRESSION_LZ4").
 
 #include <cstddef>
 #include <string>
@@ -12,13 +12,13 @@
 
 namespace turnscan::lz4 {
 
-/// Whether the bytes begin as one of the two does.
+/// Whether the bytes begin like either container.
 bool looks_like_lz4(std::string_view bytes);
 
-/// Decodes a frame or a stream of blocks to its end; what follows is ignored. Memory grows with
-/// what is decoded, never beyond twice that or with what sizes claim.
-/// Fails with kFormat where it is damaged, cut off, or neither of the two, with kResourceLimit when
-/// it holds more than max_bytes, and with kLibrary when liblz4 gives no context.
+/// Decodes a frame or a stream of blocks to its end; trailing bytes are ignored. Memory grows with
+/// the decoded data, never beyond twice its size or with the claimed sizes.
+/// Fails with kFormat if it is damaged, truncated, or neither of the two, with kResourceLimit if it
+/// holds more than max_bytes, and with kLibrary if liblz4 cannot create a context.
 Result<std::string> decode(std::string_view bytes, std::size_t max_bytes);
 
 }  // namespace turnscan::lz4

@@ -1,6 +1,6 @@
 #pragma once
-// Finite-state entropy coding, the decoder's side (J. Duda, "Asymmetric numeral systems", 2013;
-// the tables as LZFSE lays them out).
+// Decoder for finite-state entropy coding (J. Duda, "Asymmetric numeral systems", 2013; tables in
+// LZFSE's layout).
 
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace turnscan::lzfse {
 
-/// Bits that are read from the end of some bytes towards their beginning.
+/// Reads bits from the end of a byte range towards its beginning.
 class BackwardBits {
  public:
-  /// unused: of the last byte, 0 to 7 bits at its top.
+  /// unused: number of bits to skip at the top of the last byte, 0 to 7.
   BackwardBits(std::string_view bytes, unsigned unused)
       : bytes_(bytes), left_(std::int64_t(bytes.size()) * 8 - std::int64_t(unused)) {}
 
-  /// The next bits, at most 32. Beyond the beginning they are 0, and failed() holds.
+  /// The next bits, at most 32. Beyond the beginning they are 0, and failed() returns true.
   std::uint32_t take(unsigned count);
   bool failed() const { return left_ < 0; }
 
@@ -25,16 +25,15 @@ class BackwardBits {
   std::int64_t left_;
 };
 
-/// What one state of the decoder does.
+/// Transition of one decoder state.
 struct FseState {
   std::uint16_t symbol = 0;
   std::uint8_t bits = 0;   ///< to read for the next state
-  std::uint16_t base = 0;  ///< of the next state, to which the bits are added
+  std::uint16_t base = 0;  ///< base of the next state, to which the bits are added
 };
 
-/// Fills the table of states for normalised frequencies of the symbols, whose sum must not exceed
-/// the number of states, a power of 2. States that no symbol has lead to state 0.
-/// False when the sum is larger.
+/// Fills the state table for normalised symbol frequencies, whose sum must not exceed the number of
+/// states, a power of 2. States without a symbol lead to state 0. False if the sum is larger.
 bool make_states(std::span<const std::uint16_t> frequencies, std::span<FseState> states);
 
 }  // namespace turnscan::lzfse

@@ -5,7 +5,7 @@
 
 namespace turnscan::lzfse {
 
-/// Unpacks the payload of an LZVN block; false when it is damaged or does not fill the output.
+/// Unpacks the payload of an LZVN block; false if it is damaged or does not fill the output.
 bool unpack_lzvn(std::string_view payload, BlockOutput& output);
 
 }  // namespace turnscan::lzfse

@@ -1,6 +1,6 @@
 #pragma once
-// What the blocks of a stream write to: everything so far can be repeated, nothing beyond the
-// block's announced size is written.
+// Output of a stream's blocks: matches may refer to everything written so far, and nothing is
+// written beyond the block's announced size.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace turnscan::lzfse {
 
-/// The place of one block in the decoded bytes.
+/// The output range of one block.
 class BlockOutput {
  public:
   /// Appends `size` bytes to `all` and writes there. all must outlive this.
@@ -19,7 +19,7 @@ class BlockOutput {
 
   bool full() const { return at_ == all_.size(); }
 
-  /// False when they do not fit.
+  /// False if they do not fit.
   bool literals(const char* bytes, std::size_t count) {
     if (count > all_.size() - at_) return false;
     std::memcpy(all_.data() + at_, bytes, count);
@@ -27,8 +27,8 @@ class BlockOutput {
     return true;
   }
 
-  /// Repeats what stands `distance` bytes back; both may overlap. False when that lies before the
-  /// beginning, or when it does not fit.
+  /// Copies bytes from `distance` bytes back; source and target may overlap. False if the source is
+  /// before the beginning, or the target does not fit.
   bool match(std::size_t distance, std::size_t count) {
     if (count == 0) return true;
     if (distance == 0 || distance > at_ || count > all_.size() - at_) return false;
@@ -48,7 +48,7 @@ class BlockOutput {
   std::size_t at_;
 };
 
-/// Little-endian number of `count` bytes at `at`, which must be there.
+/// Little-endian number of `count` bytes at `at`, which must exist.
 template <class Bytes>
 std::uint64_t number_at(const Bytes& bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;

@@ -1,6 +1,5 @@
 #pragma once
-// The elements of which a Matroska file consists (EBML: RFC 8794): an identifier, a length, a
-// payload. And the file, read by position.
+// Parses the elements of a Matroska file (EBML: RFC 8794): an identifier, a length, a payload.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,15 +11,15 @@
 
 namespace turnscan::matroska {
 
-/// An open file. read() may be called from several threads at once.
+/// An open file for positioned reads. read() may be called from several threads at once.
 class PositionedFile {
  public:
-  /// Fails with kNotFound, kIo, and kFormat for what is not a regular file.
+  /// Fails with kNotFound, kIo, and kFormat if it is not a regular file.
   static Result<PositionedFile> open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size() const { return size_; }
-  /// `size` bytes from `at` on, fewer where the file ends earlier. Fails with kIo.
+  /// `size` bytes from `at` on, fewer if the file ends earlier. Fails with kIo.
   Result<std::string> read(std::uint64_t at, std::uint64_t size) const;
 
  private:
@@ -32,34 +31,34 @@ class PositionedFile {
 };
 
 struct Element {
-  std::uint32_t id = 0;     ///< with the bits that tell its length, as the specification writes it
-  std::uint64_t at = 0;     ///< of its first byte
-  std::uint64_t begin = 0;  ///< of its payload
-  std::uint64_t size = 0;   ///< of its payload; meaningless where it is not known
-  bool known_size = true;   ///< false: it lasts until something begins that cannot be inside
+  std::uint32_t id = 0;     ///< including its length bits, as written in the specification
+  std::uint64_t at = 0;     ///< offset of its first byte
+  std::uint64_t begin = 0;  ///< offset of its payload
+  std::uint64_t size = 0;   ///< of its payload; meaningless if not known
+  bool known_size = true;   ///< false: it ends where an element begins that cannot be its child
 };
 
-/// The longest identifier and length.
+/// Maximum length of identifier and length field together.
 inline constexpr std::size_t kMaxElementHeader = 12;
 
-/// The element that begins with the first of the bytes, which lies `at` that place. Nothing where
-/// these bytes begin none.
+/// Parses the element at the beginning of the bytes, which are at the file offset `at`. nullopt if
+/// they do not begin an element.
 std::optional<Element> parse_element(std::string_view bytes, std::uint64_t at);
 
-/// A whole number of 1 to 8 bytes whose first bits tell its length; those are left out. Nothing
-/// where there are too few bytes.
+/// A variable-length integer of 1 to 8 bytes whose leading bits encode its length; these bits are
+/// removed. nullopt if there are too few bytes.
 struct VariableNumber {
   std::uint64_t value = 0;
   std::size_t length = 0;
-  bool all_ones = false;  ///< "not known" where it is a length
+  bool all_ones = false;  ///< means "not known" for a length
 };
 std::optional<VariableNumber> parse_variable_number(std::string_view bytes);
 
-/// Payloads: whole numbers of up to 8 bytes, text up to its first zero byte.
+/// Decoded payloads: unsigned integers of up to 8 bytes, text up to its first zero byte.
 std::optional<std::uint64_t> unsigned_number(std::string_view payload);
 std::string text_of(std::string_view payload);
 
-/// The elements inside a payload, one after another.
+/// Iterates over the elements inside a payload.
 class ChildElements {
  public:
   explicit ChildElements(std::string_view payload) : rest_(payload) {}
@@ -68,7 +67,7 @@ class ChildElements {
     std::uint32_t id;
     std::string_view payload;
   };
-  /// Nothing at the end, and where what follows is damaged: see damaged().
+  /// nullopt at the end, and if the rest is damaged: see damaged().
   std::optional<Child> next();
   bool damaged() const { return damaged_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Goes once through a Matroska file.
+// Builds the index of a Matroska file in a single pass.
 
 #include <cstdint>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace turnscan::matroska {
 
-/// Of the elements that are read as a whole: tracks, tags, attachments.
+/// Size limit of elements that are read as a whole: tracks, tags, attachments.
 inline constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t(16) << 20;
 
 class Indexer {
@@ -28,9 +28,9 @@ class Indexer {
   Result<> read_block(const Element& element);
   Result<std::string> whole(const Element& element) const;
   Track* track_of(std::uint64_t number);
-  /// The bytes from there on, at least as many as an element's header takes if the file has them.
+  /// The bytes at this offset, at least as many as an element's header needs if the file has them.
   Result<std::string_view> peek(std::uint64_t at);
-  /// Ends the index there; an error when there is no frame yet.
+  /// Ends the index at this offset; an error if there is no frame yet.
   Result<> stop(std::uint64_t at, std::string_view reason);
 
   MatroskaFile& out_;

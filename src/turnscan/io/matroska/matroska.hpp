@@ -1,7 +1,7 @@
 #pragma once
-// Matroska files (RFC 9559): what they say about their tracks, and where the frames of each lie.
-// Only what recordings of depth sensors need: no lacing, no compression of whole tracks, no
-// encryption. Cues are not needed and not looked at.
+// Matroska files (RFC 9559): metadata of the tracks, and the positions of their frames. Supports
+// what recordings of depth sensors need: no lacing, no compression of whole tracks, no encryption.
+// Cues are not needed and are ignored.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace turnscan::matroska {
 
-/// Where the payload of one frame lies.
+/// Position of the payload of one frame.
 struct Block {
   std::int64_t time_ns = 0;
   std::uint64_t at = 0;
@@ -30,12 +30,12 @@ struct Track {
   std::string codec_private;        ///< e.g. a BITMAPINFOHEADER
   std::uint64_t frame_time_ns = 0;  ///< nominal; 0: not stated
   int width = 0, height = 0;        ///< pixels
-  bool encoded = false;             ///< compressed or encrypted as a whole: frames are not plain
-  std::vector<Block> blocks;        ///< of video tracks, in the order of the file
+  bool encoded = false;  ///< compressed or encrypted as a whole: frames are not readable directly
+  std::vector<Block> blocks;  ///< of video tracks, in the order of the file
 };
 
 struct Tag {
-  std::uint64_t track = 0;       ///< UID of the track that it is about; 0: of none
+  std::uint64_t track = 0;       ///< UID of the track that it describes; 0: none
   std::uint64_t attachment = 0;  ///< UID
   std::string name, value;
 };
@@ -47,13 +47,13 @@ struct Attachment {
 };
 
 /// An open file and its index; read() may be called from several threads at once. The index takes
-/// 24 bytes a frame.
+/// 24 bytes per frame.
 class MatroskaFile {
  public:
-  /// Goes through the file from element to element, skipping what frames hold. A file that ends in
-  /// the middle of something, or is damaged behind its first frame, is open as far as it is whole:
-  /// ended_early() says where and why. Frames are whole: they end within the file.
-  /// Fails with kNotFound and kIo; with kFormat when it is no Matroska file or damaged before its
+  /// Walks through the file from element to element, skipping frame data. A file that is truncated,
+  /// or damaged after its first frame, is opened up to there: ended_early() says where and why. All
+  /// frames are complete: they end within the file.
+  /// Fails with kNotFound and kIo; with kFormat if it is not a Matroska file or damaged before its
   /// first frame; with kUnsupported for lacing; with kResourceLimit beyond a million frames.
   static Result<MatroskaFile> open(const std::filesystem::path& path);
 
@@ -61,14 +61,14 @@ class MatroskaFile {
   const std::vector<Track>& tracks() const { return tracks_; }
   const std::vector<Tag>& tags() const { return tags_; }
   const std::vector<Attachment>& attachments() const { return attachments_; }
-  const std::string& ended_early() const { return ended_early_; }  ///< empty: it did not
+  const std::string& ended_early() const { return ended_early_; }  ///< empty: the file is complete
 
-  /// The value of the first tag of that name; empty: there is none.
+  /// The value of the first tag with this name; empty: there is none.
   std::string_view tag(std::string_view name) const;
 
-  /// Fails with kIo, and with kFormat when the file has become shorter.
+  /// Fails with kIo, and with kFormat if the file has become shorter.
   Result<std::string> read(const Block& block) const;
-  /// Fails with kResourceLimit beyond 16 MiB as well.
+  /// Also fails with kResourceLimit beyond 16 MiB.
   Result<std::string> read(const Attachment& attachment) const;
 
  private:
@@ -82,7 +82,7 @@ class MatroskaFile {
   std::string ended_early_;
 };
 
-/// Whether the file begins as a Matroska file does; false also where it cannot be read.
+/// Whether the file begins like a Matroska file; false also if it cannot be read.
 bool is_matroska_file(const std::filesystem::path& path);
 
 }  // namespace turnscan::matroska

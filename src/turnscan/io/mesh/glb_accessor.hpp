@@ -7,10 +7,10 @@
 
 namespace turnscan::mesh_io {
 
-/// An array that lies wholly within its buffer.
+/// An array that is entirely within its buffer.
 class GlbAccessor {
  public:
-  /// Nothing unless the accessor exists, refers to existing bytes, and is neither sparse nor
+  /// nullopt unless the accessor exists, refers to existing bytes, and is neither sparse nor
   /// without data.
   static std::optional<GlbAccessor> open(const tinygltf::Model& model, int index);
 
@@ -19,7 +19,7 @@ class GlbAccessor {
   bool is_floating() const { return component_type_ == TINYGLTF_COMPONENT_TYPE_FLOAT; }
   bool is_unsigned() const;
 
-  /// A component of an item; normalized integers as fractions.
+  /// A component of an item; normalized integers are returned as fractions.
   double at(std::size_t item, int component) const;
   /// The first component of an item of an unsigned type.
   std::uint32_t index_at(std::size_t item) const;

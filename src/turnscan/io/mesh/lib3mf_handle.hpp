@@ -10,11 +10,11 @@
 
 namespace turnscan::mesh_io {
 
-/// Metadata of a model that names the program which wrote it last, and of turnscan's the frame.
+/// Metadata entry that names the program which last wrote a model, and for turnscan also the frame.
 inline constexpr const char* kApplication = "Application";
 inline constexpr std::string_view kByTurnscan = "turnscan, ";
 
-/// Releases its object at the end.
+/// Owns an object of lib3mf and releases it.
 class Lib3mfHandle {
  public:
   Lib3mfHandle() = default;
@@ -27,19 +27,19 @@ class Lib3mfHandle {
   Lib3mfHandle& operator=(Lib3mfHandle&&) = delete;
 
   NMR::PLib3MFBase* get() const { return object_; }
-  /// For functions that return a new object.
+  /// Output argument for functions that return a new object.
   NMR::PLib3MFBase** out() { return &object_; }
 
  private:
   NMR::PLib3MFBase* object_ = nullptr;
 };
 
-/// Thrown and caught within one call of ours.
+/// Thrown and caught internally; never leaves our functions.
 struct Lib3mfFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws what lib3mf says about `object` unless the result is success.
+/// Throws the error message that lib3mf has for `object` unless the result is success.
 inline void require(LIB3MFRESULT result, const Lib3mfHandle& object) {
   if (result == LIB3MF_OK) return;
   DWORD code = 0;

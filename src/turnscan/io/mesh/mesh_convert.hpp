@@ -1,5 +1,5 @@
 #pragma once
-// Reading a mesh in a process of its own.
+// Reads a mesh in a separate process.
 
 #include <filesystem>
 #include <optional>
@@ -13,8 +13,8 @@ namespace turnscan::mesh_io {
 inline constexpr const char* kMeshConverter = "turnscan-mesh-convert";
 inline constexpr double kMaxConvertSeconds = 60.0;
 
-/// Meshes in metres, as the program turnscan-mesh-convert reads them: it may crash, hang or run
-/// out of memory, and then this fails with kFormat or kResourceLimit. Fails with kMissingData where
+/// Reads meshes in metres through the program turnscan-mesh-convert: if it crashes, hangs or runs
+/// out of memory, this fails with kFormat or kResourceLimit. Fails with kMissingData if
 /// find_helper_program() does not find the program.
 Result<std::vector<TriangleMesh>> read_in_child(const std::filesystem::path& path,
                                                 std::optional<double> metres_per_unit,

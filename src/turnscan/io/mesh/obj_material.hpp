@@ -1,5 +1,5 @@
 #pragma once
-// Material libraries (MTL) beside OBJ files, as far as they name pictures.
+// Material libraries (MTL) of OBJ files, limited to texture images.
 
 #include <filesystem>
 #include <map>
@@ -13,15 +13,15 @@
 
 namespace turnscan::mesh_io {
 
-/// Of each material the picture of its diffuse colour (map_Kd), by the material's name.
+/// The diffuse texture image (map_Kd) of each material, by the material's name.
 std::map<std::string, std::string> pictures_of_materials(std::string_view mtl);
 
-/// A file beside another one, by a name that this one gives: in the same folder or below it.
-/// Empty where the name leads elsewhere.
+/// Resolves a file name found in another file: must be in the same folder or below it. Empty if the
+/// name leads elsewhere.
 std::filesystem::path file_beside(const std::filesystem::path& file, const std::string& name);
 
-/// The names of the files that write_obj's meshes with textures need beside the OBJ file: the MTL,
-/// and a PNG of each texture. Empty without textures.
+/// Names of the additional files for an OBJ file with textures: the MTL, and a PNG of each texture.
+/// Empty without textures.
 std::vector<std::filesystem::path> files_beside_obj(const std::filesystem::path& obj,
                                                     std::span<const TriangleMesh> meshes);
 
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> files_beside_obj(const std::filesystem::path&
 Result<> write_files_beside_obj(const std::filesystem::path& obj,
                                 std::span<const TriangleMesh> meshes);
 
-/// In the MTL and the OBJ.
+/// As used in the MTL and the OBJ.
 std::string material_name(std::size_t mesh);
 
 }  // namespace turnscan::mesh_io

@@ -1,6 +1,6 @@
 #pragma once
-// sRGB (IEC 61966-2-1) and linear light. Colours in memory and in most files are sRGB; glTF's
-// COLOR_0 is linear.
+// Conversion between sRGB (IEC 61966-2-1) and linear light. Colours in memory and in most files are
+// sRGB; glTF's COLOR_0 is linear.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ inline double linear_from_srgb(std::uint8_t value) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-/// The inverse; values beyond [0, 1] are clamped, NaN is 0.
+/// The inverse; values outside [0, 1] are clamped, NaN becomes 0.
 inline std::uint8_t srgb_from_linear(double value) {
   if (!(value > 0.0)) return 0;
   const double v = std::min(value, 1.0);

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh's texture on its way from the process that reads foreign files.
+// Transfers a mesh's texture from the child process that reads files of other programs.
 
 #include <string_view>
 #include <turnscan/core/result.hpp>
@@ -8,11 +8,12 @@
 
 namespace turnscan::mesh_io {
 
-/// "texture WIDTH HEIGHT\n", the corners as floats, the pixels. Nothing of a mesh without texture.
+/// Writes "texture WIDTH HEIGHT\n", the corners as floats, and the pixels; nothing for a mesh
+/// without texture.
 Result<> write_texture_block(FileSink& sink, const TriangleMesh& mesh);
 
-/// Takes such a block from the beginning of bytes, if there is one, and gives it to the mesh. Fails
-/// with kFormat when the bytes do not hold it.
+/// Removes a texture block from the beginning of bytes, if there is one, and assigns it to the
+/// mesh. Fails with kFormat if the bytes are too few.
 Result<> take_texture_block(std::string_view& bytes, TriangleMesh& mesh);
 
 }  // namespace turnscan::mesh_io

@@ -1,5 +1,6 @@
 #pragma once
-// How much of pictures one file may ask for: it can name the same one any number of times.
+// Limits the total size of images that one file may request: it can refer to the same one any
+// number of times.
 
 #include <string_view>
 #include <turnscan/core/image.hpp>
@@ -9,8 +10,8 @@ namespace turnscan::mesh_io {
 
 class TextureBudget {
  public:
-  /// Decodes a picture. Fails as decode_color(), and with kResourceLimit when the pictures of the
-  /// file together have more than kMaxImagePixels pixels.
+  /// Decodes an image. Fails as decode_color(), and with kResourceLimit if the images of the file
+  /// together have more than kMaxImagePixels pixels.
   Result<ColorImage> decode(std::string_view bytes);
 
  private:

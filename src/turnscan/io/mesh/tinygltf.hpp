@@ -1,5 +1,5 @@
 #pragma once
-// tinygltf without images and without the file system. For the sources of GLB only.
+// tinygltf without image decoding and without file access. For the sources of GLB only.
 
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
@@ -9,12 +9,12 @@
 #include <fstream>
 #include <string>
 #include <string_view>
-// tinygltf needs the above.
+// tinygltf requires the includes above.
 #include <tiny_gltf.h>
 
 namespace turnscan::mesh_io {
 
-/// False, with what is wrong, where the bytes are no whole GLB file.
+/// False, with an error message, if the bytes are not a complete GLB file.
 bool load_glb(tinygltf::TinyGLTF& loader, std::string_view bytes, tinygltf::Model& model,
               std::string& error);
 

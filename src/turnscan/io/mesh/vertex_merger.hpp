@@ -8,10 +8,10 @@
 
 namespace turnscan::mesh_io {
 
-/// Gives equal points the same index, in the order of their first appearance. -0 equals 0.
+/// Assigns the same index to equal points, in the order of their first occurrence. -0 equals 0.
 class VertexMerger {
  public:
-  /// For at most `expected` points that differ; more make it slower, not wrong.
+  /// expected: estimated number of distinct points; more only make it slower.
   explicit VertexMerger(std::size_t expected) {
     slots_.assign(std::bit_ceil(expected * 2 + 16), kFree);
   }
@@ -42,7 +42,7 @@ class VertexMerger {
   }
 
   static bool same(const Vec3f& a, const Vec3f& b) {
-    for (int i = 0; i < 3; ++i)  // by bits: NaN equals itself
+    for (int i = 0; i < 3; ++i)  // bitwise: NaN equals itself
       if (std::bit_cast<std::uint32_t>(a[i]) != std::bit_cast<std::uint32_t>(b[i])) return false;
     return true;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Elements of a PLY file into arrays.
+// Reads elements of a PLY file into arrays.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace turnscan::ply {
 
-/// Where one scalar property of all rows goes: row i to target + i * stride bytes.
+/// Target of one scalar property: row i goes to target + i * stride bytes.
 struct PlyColumn {
   enum class Kind {
     kFloat,  ///< float
-    kColor,  ///< std::uint8_t: integers as they are (16 bits scaled down), floats times 255
+    kColor,  ///< std::uint8_t: integers unchanged (16 bits scaled down), floats times 255
     kIndex   ///< std::uint32_t, clamped
   };
   std::size_t property;
@@ -25,16 +25,16 @@ struct PlyColumn {
   std::size_t stride;
 };
 
-/// What to take from an element. Everything else in it is skipped.
+/// What to read from an element. Everything else in it is skipped.
 struct PlyWanted {
   std::vector<PlyColumn> columns;
-  int list = -1;  ///< position of a list property of integers, or -1
-  /// Gets the list of each row, in order; a text that says what is wrong with it ends the reading.
+  int list = -1;  ///< index of a list property of integers, or -1
+  /// Receives the list of each row, in order; returning an error message ends the reading.
   std::function<const char*(std::span<const std::int64_t>)> on_list;
 };
 
-/// Reads the rows of `element`, which begin at `position`, and returns where they end. Fails with
-/// kFormat where the file ends too early or a text is not a number.
+/// Reads the rows of `element`, which begin at `position`, and returns the position after them.
+/// Fails with kFormat if the file ends too early or a text is not a number.
 Result<std::size_t> read_ply_element(std::string_view bytes, std::size_t position, PlyFormat format,
                                      const PlyElement& element, const PlyWanted& wanted);
 

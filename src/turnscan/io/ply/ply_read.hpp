@@ -16,17 +16,17 @@ namespace turnscan::ply {
 enum class PlyParts { kFaces, kGrid };
 
 struct PlyContent {
-  PointCloud cloud;  ///< all vertices of the file, also those that are not finite
+  PointCloud cloud;  ///< all vertices of the file, including non-finite ones
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices are in range
   int grid_width = 0;
   int grid_height = 0;
   std::vector<std::int32_t> grid;  ///< -1 or in range
   std::optional<Viewpoint> viewpoint;
   std::string name;
-  std::size_t end = 0;  ///< behind the last element
+  std::size_t end = 0;  ///< position after the last element
 };
 
-/// Takes the vertices and, of the rest, what is asked for.
+/// Reads the vertices and the requested other parts.
 Result<PlyContent> parse_ply(std::string_view bytes, PlyParts parts);
 
 }  // namespace turnscan::ply

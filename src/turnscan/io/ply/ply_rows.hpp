@@ -1,5 +1,5 @@
 #pragma once
-// The rows of one element of a PLY file, value by value.
+// Reads the rows of one element of a PLY file, value by value.
 
 #include <span>
 #include <turnscan/io/file/load_value.hpp>
@@ -9,7 +9,7 @@
 
 namespace turnscan::ply {
 
-/// Calls f(T()) with the C++ type that stands for `type`.
+/// Calls f(T()) with the C++ type that corresponds to `type`.
 template <class F>
 auto with_type(PlyType type, const F& f) {
   switch (type) {
@@ -33,8 +33,8 @@ auto with_type(PlyType type, const F& f) {
   return f(double());
 }
 
-/// Where the values of a text come from: each row is a line. Functions return false where the text
-/// is damaged.
+/// Source of values for ascii files: each row is a line. Functions return false if the text is
+/// damaged.
 class AsciiRows {
  public:
   AsciiRows(std::string_view bytes, std::size_t position) : cursor_(bytes, position) {}
@@ -48,7 +48,7 @@ class AsciiRows {
     return cursor_.at_line_end();
   }
   bool scalar(PlyType type, double& value) {
-    if (type == PlyType::kFloat) {  // rounded once, straight to float
+    if (type == PlyType::kFloat) {  // rounded once, directly to float
       float number = 0.0F;
       const bool ok = cursor_.floating(number);
       value = static_cast<double>(number);
@@ -65,7 +65,7 @@ class AsciiRows {
     cursor_.skip_blanks();
     return !cursor_.word().empty();
   }
-  /// Whether so many values may follow.
+  /// Whether the file can contain this many more values.
   bool can_hold(PlyType, std::uint64_t count, std::size_t file_bytes) const {
     return count <= (file_bytes - cursor_.position()) / 2 + 1;
   }

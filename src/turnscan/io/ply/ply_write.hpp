@@ -1,5 +1,5 @@
 #pragma once
-// Binary little-endian PLY.
+// Writes binary little-endian PLY.
 
 #include <array>
 #include <cstdint>

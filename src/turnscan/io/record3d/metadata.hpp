@@ -1,5 +1,5 @@
 #pragma once
-// What the entry `metadata` of a Record3D recording says (JSON), after its author's answers
+// Content of the entry `metadata` (JSON) of a Record3D recording, according to its author's answers
 // (github.com/marek-simonik/record3d, issues 27, 33, 36, 83, 93, 108).
 
 #include <optional>
@@ -12,18 +12,19 @@
 namespace turnscan::record3d {
 
 struct Metadata {
-  /// Of colour images of camera.width x camera.height; image coordinates are measured from the
-  /// image's top left corner (Apple, ARCamera.intrinsics). The median over the frames where the
-  /// file has a camera for each.
+  /// For colour images of camera.width x camera.height; image coordinates are measured from the
+  /// image's top left corner (Apple, ARCamera.intrinsics). The median over the frames if the file
+  /// has a camera for each.
   CameraIntrinsics camera;
-  double focal_change = 0.0;               ///< share by which the focal length varies
-  int depth_width = 0, depth_height = 0;   ///< 0: not stated
-  double fps = 0.0;                        ///< 0: not stated
-  std::vector<double> times_s;             ///< of each frame, as they stand; may be empty
-  std::vector<std::optional<Pose>> poses;  ///< camera to world, OpenGL's camera; may be empty
+  double focal_change = 0.0;              ///< relative variation of the focal length
+  int depth_width = 0, depth_height = 0;  ///< 0: not stated
+  double fps = 0.0;                       ///< 0: not stated
+  std::vector<double> times_s;            ///< of each frame, as stored; may be empty
+  std::vector<std::optional<Pose>>
+      poses;  ///< camera to world, in OpenGL's camera convention; may be empty
 };
 
-/// Fails with kFormat where a field is missing or wrong.
+/// Fails with kFormat if a field is missing or wrong.
 Result<Metadata> parse_metadata(std::string_view json);
 
 }  // namespace turnscan::record3d

@@ -1,8 +1,8 @@
 #pragma once
-// A ROS 1 bag as a list of its messages. After "Bag file format 2.0",
+// Index of the messages in a ROS 1 bag. Follows "Bag file format 2.0",
 // https://wiki.ros.org/Bags/Format/2.0. The file is walked from record to record, so that a bag
-// whose recorder never closed it opens as well: what its last whole record is, is the last that is
-// used. Nothing is recursive, and what a record claims is checked against the file first.
+// that was never closed can be opened as well, up to its last complete record. Nothing is
+// recursive, and sizes claimed by a record are checked against the file first.
 
 #include <cstdint>
 #include <filesystem>
@@ -26,15 +26,15 @@ struct Connection {
   std::string type;  ///< "sensor_msgs/Image"
 };
 
-/// Where a message is. 24 bytes each, all that grows with the length of a bag.
+/// Position of a message. 24 bytes each; nothing else grows with the length of a bag.
 struct MessagePlace {
-  std::int64_t time_ns = 0;  ///< when it was recorded
+  std::int64_t time_ns = 0;  ///< time of recording
   std::uint32_t connection = 0;
   std::uint32_t chunk = 0;
   std::uint32_t offset = 0;  ///< of its record in the chunk
 };
 
-/// A message, or the beginning of one.
+/// A message, or its beginning.
 struct Payload {
   std::string_view bytes;
   std::shared_ptr<const std::string> owner;
@@ -48,16 +48,16 @@ class Bag {
   static constexpr std::size_t kMaxConnections = 100000;
 
   /// Reads headers, connections and indices; unpacks only chunks without an index. Fails with
-  /// kFormat when this is no bag or damaged before its first message, kUnsupported (another
-  /// version, encrypted, an unknown packing), kResourceLimit beyond the limits above, and kIo.
+  /// kFormat if this is not a bag or damaged before its first message, kUnsupported (another
+  /// version, encrypted, an unknown compression), kResourceLimit beyond the limits above, and kIo.
   static Result<Bag> open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return file_.path(); }
   const std::vector<Connection>& connections() const { return connections_; }
-  /// Why the file was not read to its end, with the byte where that is; empty: it was.
+  /// Why the file was not read to its end, with the byte offset; empty: it was.
   const std::string& cut() const { return cut_; }
 
-  /// The messages of a topic, by the time at which they were recorded.
+  /// The messages of a topic, sorted by the time of recording.
   std::vector<MessagePlace> messages(std::string_view topic) const;
   /// The first of them.
   std::optional<MessagePlace> first(std::string_view topic) const;
@@ -65,12 +65,12 @@ class Bag {
   const Connection* find(std::string_view topic) const;
 
   /// The message, or its first `most` bytes. May be called from several threads. Fails with kFormat
-  /// (damaged, with the byte of the chunk in the file) and kIo.
+  /// (damaged, with the byte offset of the chunk in the file) and kIo.
   Result<Payload> read(const MessagePlace& place, std::size_t most = kMaxMessageBytes) const;
 
  private:
   struct Chunk {
-    std::uint64_t data_at = 0;  ///< in the file
+    std::uint64_t data_at = 0;  ///< offset in the file
     std::uint32_t stored = 0;   ///< bytes in the file
     std::uint32_t size = 0;     ///< unpacked
     Packing packing = Packing::kNone;

@@ -1,6 +1,6 @@
 #pragma once
-// How a chunk of a ROS bag is packed: not at all, by bzip2, or as an LZ4 frame (what ROS calls lz4
-// is liblz4's frame format: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md).
+// Compression of a chunk of a ROS bag: none, bzip2, or an LZ4 frame (ROS's lz4 is liblz4's frame
+// format: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md).
 
 #include <cstdint>
 #include <string>
@@ -11,10 +11,10 @@ namespace turnscan::rosbag {
 
 enum class Packing : std::uint8_t { kNone, kBz2, kLz4 };
 
-/// By the name in a chunk's header. Fails with kUnsupported.
+/// The compression named in a chunk's header. Fails with kUnsupported.
 Result<Packing> packing_of(std::string_view name);
 
-/// Unpacks to exactly `size` bytes; memory grows with what really comes out. Fails with kFormat.
+/// Unpacks to exactly `size` bytes; memory grows with the actual output. Fails with kFormat.
 Result<std::string> unpack(Packing packing, std::string_view bytes, std::size_t size);
 
 }  // namespace turnscan::rosbag

@@ -1,9 +1,9 @@
 #pragma once
-// The messages of ROS 1 that hold images and what belongs to them, from their bytes. After the
-// definitions in sensor_msgs, geometry_msgs, diagnostic_msgs and tf2_msgs
+// Parsers for the ROS 1 messages that contain images and related data. They follow the definitions
+// in sensor_msgs, geometry_msgs, diagnostic_msgs and tf2_msgs
 // (https://docs.ros.org/en/noetic/api/sensor_msgs/html/msg/Image.html and so on) and ROS's
-// serialisation: fields in order, little-endian, a length of 32 bits before text and lists.
-// All fail with kFormat when the message is shorter than it claims.
+// serialisation: fields in order, little-endian, a 32-bit length before text and lists.
+// All fail with kFormat if the message is shorter than it claims.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ImageMessage {
   std::string_view encoding;
   bool big_endian = false;
   std::string_view data;
-  /// Metres a step, which librealsense appends to depth images where frame_id is "1".
+  /// Metres per step, which librealsense appends to depth images if frame_id is "1".
   std::optional<float> depth_units;
 };
 
@@ -57,16 +57,16 @@ struct TransformStamped {
   Pose T_parent_child = Pose::Identity();
 };
 
-/// The header of any message that begins with one; the message may be cut off behind it.
+/// The header of any message that begins with one; the message may be truncated after it.
 Result<Header> parse_header(std::string_view bytes);
 Result<ImageMessage> parse_image(std::string_view bytes);
 Result<CompressedImageMessage> parse_compressed_image(std::string_view bytes);
 Result<CameraInfoMessage> parse_camera_info(std::string_view bytes);
 Result<KeyValue> parse_key_value(std::string_view bytes);
 Result<float> parse_float32(std::string_view bytes);
-/// geometry_msgs/Transform. Fails when it is no rigid motion, too.
+/// geometry_msgs/Transform. Also fails if it is not a rigid motion.
 Result<Pose> parse_transform(std::string_view bytes);
-/// tf2_msgs/TFMessage. Transforms that are no rigid motions are left out.
+/// tf2_msgs/TFMessage. Transforms that are not rigid motions are skipped.
 Result<std::vector<TransformStamped>> parse_transforms(std::string_view bytes);
 
 }  // namespace turnscan::rosbag

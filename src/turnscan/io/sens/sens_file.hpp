@@ -1,7 +1,7 @@
 #pragma once
 // .sens, the container of ScanNet and of SUN3D's and BundleFusion's recordings, version 4: a header
-// and the frames one after another. After ScanNet's SensReader (sensorData.h and README), which
-// defines it: little-endian; matrices row by row, of 32-bit floats.
+// followed by the frames. Follows ScanNet's SensReader (sensorData.h and README), which defines it:
+// little-endian; row-major matrices of 32-bit floats.
 
 #include <array>
 #include <cstdint>
@@ -26,32 +26,32 @@ struct Header {
   DepthPacking depth_packing = DepthPacking::kUnknown;
   std::uint32_t color_width = 0, color_height = 0;
   std::uint32_t depth_width = 0, depth_height = 0;
-  float depth_shift = 0.0f;       ///< steps of depth a metre
+  float depth_shift = 0.0f;       ///< depth steps per metre
   std::uint64_t frame_count = 0;  ///< as stated
 };
 
 struct FramePlace {
-  Matrix camera_to_world{};  ///< not finite where tracking was lost
+  Matrix camera_to_world{};  ///< not finite if tracking was lost
   std::uint64_t color_time_us = 0, depth_time_us = 0;
-  std::uint64_t data_at = 0;  ///< colour, then depth
+  std::uint64_t data_at = 0;  ///< offset of the colour data, which the depth data follow
   std::uint64_t color_bytes = 0, depth_bytes = 0;
 };
 
 struct Index {
   Header header;
-  std::vector<FramePlace> frames;  ///< those that are whole
+  std::vector<FramePlace> frames;  ///< only complete frames
 };
 
-/// From the first 16 bytes: version 4 and a name of at most 1024 characters.
+/// Checks the first 16 bytes: version 4 and a name of at most 1024 characters.
 bool looks_like_sens(std::string_view begin);
 
-/// Reads the header and passes over the frames. A file that ends early has fewer frames than its
-/// header states. Fails with kFormat where the header is damaged or states impossible sizes, and
-/// with kUnsupported for another version.
+/// Reads the header and skips over the frames. A truncated file has fewer frames than its header
+/// states. Fails with kFormat if the header is damaged or states impossible sizes, and with
+/// kUnsupported for another version.
 Result<Index> read_index(const file::RandomAccessFile& file);
 
 /// Values of the depth image, depth_width x depth_height; row by row. Fails with kUnsupported for
-/// another packing than raw and zlib, and with kFormat where it is damaged.
+/// compression other than raw and zlib, and with kFormat if it is damaged.
 Result<std::vector<std::uint16_t>> read_depth(const file::RandomAccessFile& file,
                                               const Header& header, const FramePlace& frame);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Reading and writing JSON without exceptions: every wrong field becomes a sentence that names it.
-// Sources that look into a Json include <nlohmann/json.hpp>.
+// Reads and writes JSON without exceptions: every wrong field becomes an error message that names
+// it. Sources that access a Json's contents include <nlohmann/json.hpp>.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -15,27 +15,27 @@ namespace turnscan::text {
 
 using Json = nlohmann::json;
 /// For writing only: parsing into it takes quadratic time in the number of fields.
-/// Begin with OrderedJson::object() or array(): a null value that [] or push_back() turns into one
-/// is left unusable, even to its destructor, when no memory is to be had for that (version 3.11).
+/// Begin with OrderedJson::object() or array(): a null value that [] or push_back() converts is
+/// left unusable, even by its destructor, if memory runs out (version 3.11).
 using OrderedJson = nlohmann::ordered_json;
 
-/// Where a value stands: its path, e.g. "sensors[0].intrinsics", in the text that it was parsed
-/// from. Refers to the text, if there is one.
+/// Location of a value: its path, e.g. "sensors[0].intrinsics", in the text that it was parsed
+/// from. Keeps a reference to the text, if there is one.
 struct JsonPlace {
   std::string path;
   std::string_view text;
 
   JsonPlace member(const char* key) const;
   JsonPlace element(std::size_t index) const;
-  /// "line 3, column 14: sensors[0].intrinsics"; the path alone without a text.
+  /// "line 3, column 14: sensors[0].intrinsics"; only the path if there is no text.
   std::string shown() const;
 };
 
-/// One JSON object and its place in the file. Refers to the Json, and to the text.
+/// A JSON object and its location in the file. Keeps references to the Json, and to the text.
 /// All readers fail with kFormat; null counts as absent.
 class JsonObject {
  public:
-  /// text: that the value was parsed from; with it errors name line and column.
+  /// text: from which the value was parsed; if given, errors name line and column.
   static Result<JsonObject> from(const Json& value, std::string_view text = {});
   static Result<JsonObject> from(const Json& value, JsonPlace place);
 
@@ -65,7 +65,7 @@ class JsonObject {
   JsonPlace place_;
 };
 
-/// Fails with kFormat, naming line and column, when text is not JSON, or as check_json_depth().
+/// Fails with kFormat, naming line and column, if text is not JSON, or as check_json_depth().
 Result<Json> parse_json(std::string_view text);
 
 /// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3, and k4 k5 k6); checked.

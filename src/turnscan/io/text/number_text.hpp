@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in text files, without the locale.
+// Locale-independent parsing of numbers in text files.
 
 #include <charconv>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace turnscan::text {
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 inline bool is_space(char c) { return is_blank(c) || c == '\n' || c == '\v' || c == '\f'; }
 
-/// Reads numbers one after another. Errors leave it where the bad text begins.
+/// Reads numbers sequentially. After an error the cursor is at the start of the invalid text.
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text, std::size_t position = 0)
@@ -24,7 +24,7 @@ class TextCursor {
   std::size_t position() const { return static_cast<std::size_t>(at_ - begin_); }
   bool at_end() const { return at_ == end_; }
   bool at_line_end() const { return at_ == end_ || *at_ == '\n'; }
-  /// Counts from 1. Costs a walk over the text: for error messages.
+  /// Counts from 1. Scans the text: for error messages.
   std::size_t line_number() const {
     std::size_t lines = 1;
     for (const char* c = begin_; c != at_; ++c) lines += *c == '\n' ? 1 : 0;
@@ -37,12 +37,12 @@ class TextCursor {
   void skip_space() {
     while (at_ != end_ && is_space(*at_)) ++at_;
   }
-  /// Goes behind the end of the line.
+  /// Advances past the end of the line.
   void skip_line() {
     while (at_ != end_ && *at_ != '\n') ++at_;
     if (at_ != end_) ++at_;
   }
-  /// Goes past `c` if it is next.
+  /// Advances past `c` if it is next.
   bool skip(char c) {
     if (at_ == end_ || *at_ != c) return false;
     ++at_;
@@ -54,7 +54,7 @@ class TextCursor {
     while (at_ != end_ && !is_space(*at_)) ++at_;
     return {first, static_cast<std::size_t>(at_ - first)};
   }
-  /// The text up to the end of the line, without blanks around it.
+  /// The text up to the end of the line, without surrounding blanks.
   std::string_view rest_of_line() {
     skip_blanks();
     const char* first = at_;
@@ -64,8 +64,8 @@ class TextCursor {
     return {first, static_cast<std::size_t>(last - first)};
   }
 
-  /// A floating-point number after blanks; "nan" and "inf" are numbers, and what is too small for
-  /// T is 0. False if there is none on this line, or if it runs into other text.
+  /// A floating-point number after blanks; "nan" and "inf" are numbers, and values too small for T
+  /// are 0. False if there is none on this line, or if it runs into other text.
   template <class T>
   bool floating(T& value) {
     skip_blanks();
@@ -78,7 +78,7 @@ class TextCursor {
     return accept(last);
   }
 
-  /// An integer after blanks, also one written as "3.0"; otherwise as floating().
+  /// An integer after blanks, also if written as "3.0"; otherwise as floating().
   bool integer(std::int64_t& value) {
     skip_blanks();
     const char* first = behind_plus();
@@ -95,7 +95,7 @@ class TextCursor {
   }
 
  private:
-  /// std::from_chars takes no plus sign; "+-1" stays wrong.
+  /// std::from_chars accepts no plus sign; "+-1" stays invalid.
   const char* behind_plus() const {
     return end_ - at_ > 1 && *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_;
   }
@@ -106,7 +106,7 @@ class TextCursor {
     return true;
   }
 
-  /// The value of a number that T cannot hold: 0 or infinity.
+  /// The value of a number outside the range of T: 0 or infinity.
   template <class T>
   static T beyond_range(std::string_view text) {
     const auto exponent = text.find_first_of("eE");

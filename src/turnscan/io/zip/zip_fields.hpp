@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kLocalHeader = 0x04034b50, kListHeader = 0x02014b
 inline constexpr std::size_t kLocalHeaderBytes = 30;
 inline constexpr std::uint16_t kEncrypted = 1, kSizesFollow = 8;  ///< flags
 
-/// The little-endian number of so many bytes; they must be there.
+/// The little-endian number of `count` bytes at `at`; they must exist.
 inline std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < count; ++i)

@@ -1,8 +1,8 @@
 #pragma once
-// Zip archives, read part by part: stored and deflated entries, zip64, one volume, not encrypted.
-// After PKWARE's APPNOTE.TXT 6.3.10. A reader of our own, because libzip and minizip keep one
-// position for all threads, give up where the list at the end is missing (a download or a copy that
-// was cut off), and unpack through zlib, three times as slow as libdeflate.
+// Random-access reader for zip archives: stored and deflated entries, zip64, one volume, not
+// encrypted. Follows PKWARE's APPNOTE.TXT 6.3.10. It replaces libzip and minizip because they share
+// one position between all threads, give up if the central directory is missing (a truncated
+// download or copy), and unpack through zlib, three times as slow as libdeflate.
 
 #include <cstdint>
 #include <string>
@@ -12,9 +12,9 @@
 
 namespace turnscan::zip {
 
-/// Where an entry lies.
+/// Position and size of an entry.
 struct Entry {
-  std::uint64_t header_at = 0;  ///< of its local header
+  std::uint64_t header_at = 0;  ///< offset of its local header
   std::uint64_t packed_size = 0;
   std::uint64_t size = 0;
   std::uint32_t crc = 0;
@@ -27,18 +27,19 @@ struct NamedEntry {
 };
 
 struct Directory {
-  std::vector<NamedEntry> entries;  ///< in the order of the list
-  /// The list at the end of the file is missing or damaged: the entries are those whose headers and
-  /// data were found one after another from the beginning.
+  std::vector<NamedEntry> entries;  ///< in the order of the central directory
+  /// The central directory is missing or damaged: the entries are those whose headers and data were
+  /// found sequentially from the beginning.
   bool cut_off = false;
 };
 
-/// Fails with kFormat where no entry is found, and with kResourceLimit for a list beyond 256 MB.
+/// Fails with kFormat if no entry is found, and with kResourceLimit for a central directory beyond
+/// 256 MB.
 Result<Directory> read_directory(const file::RandomAccessFile& file);
 
-/// The entry's content. Fails with kResourceLimit when it is larger than max_bytes, kUnsupported
-/// for another method than 0 and 8 or an encrypted entry, and with kFormat where it is damaged: its
-/// checksum is compared.
+/// The entry's content. Fails with kResourceLimit if it is larger than max_bytes, kUnsupported for
+/// methods other than 0 and 8 or an encrypted entry, and with kFormat if it is damaged: its
+/// checksum is verified.
 Result<std::string> read_entry(const file::RandomAccessFile& file, const Entry& entry,
                                std::uint64_t max_bytes);
 
