@@ -1,5 +1,5 @@
 #pragma once
-// Long work on a thread of its own, one job after the other. The window never waits for it.
+// Runs long jobs on a separate thread, one after the other. The window never waits for it.
 
 #include <QElapsedTimer>
 #include <QObject>
@@ -15,38 +15,38 @@
 
 namespace turnscan::studio {
 
-/// What a job leaves to be done on the thread of the window.
+/// The part of a job that runs on the window's thread afterwards.
 using Finish = std::function<void()>;
-/// Runs on the worker's thread. It must not touch a widget; what it returns does.
+/// Runs on the worker thread. It must not touch a widget; the Finish that it returns may.
 using Work = std::function<Result<Finish>(const RunContext&)>;
-/// Called on the thread of the window when the work failed, unless it was cancelled.
+/// Called on the window's thread if the work failed, unless it was cancelled.
 using OnError = std::function<void(const QString& text)>;
 
 class JobRunner : public QObject {
   Q_OBJECT
  public:
   explicit JobRunner(QObject* parent = nullptr);
-  /// Cancels everything and waits for it; nothing of it reaches the window any more.
+  /// Cancels everything and waits for it; no callback is called any more.
   ~JobRunner() override;
 
   /// Queues a job. `owner` may be destroyed meanwhile: then neither Finish nor OnError is called.
   /// With a plan, progress is that of the whole job.
   void start(const QString& title, QObject* owner, Work work, OnError on_error,
              PhasePlan plan = {});
-  /// Cancels the running job and those that wait.
+  /// Cancels the running job and the queued ones.
   void cancel();
   bool busy() const { return open_jobs_ > 0; }
 
  Q_SIGNALS:
   void started(const QString& title);
-  /// fraction, 0 to 1, and seconds_left, of the whole job where it has a plan, else of the phase;
-  /// negative: not known yet.
+  /// fraction, 0 to 1, and seconds_left are those of the whole job if it has a plan, else of the
+  /// phase; negative: not known yet.
   void progress(const QString& phase, double fraction, double seconds_left);
   /// The title of the job, and whether its result was used.
   void finished(const QString& title, bool good);
-  /// Before OnError and finished(), of a job that was cancelled.
+  /// Emitted before OnError and finished(), if a job was cancelled.
   void cancelled(const QString& title);
-  /// The same, of one that failed.
+  /// The same, if it failed.
   void failed(const QString& title);
 
  private:
@@ -56,13 +56,13 @@ class JobRunner : public QObject {
   void watch(Job& job);
   void end(const std::shared_ptr<Job>& job, Result<Finish> result);
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
   std::deque<std::shared_ptr<Job>> waiting_;
   std::shared_ptr<Job> running_;
   bool stop_ = false;
 
-  int open_jobs_ = 0;  // thread of the window only
+  int open_jobs_ = 0;  // window's thread only
   std::thread thread_;
 };
 

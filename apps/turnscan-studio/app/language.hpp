@@ -1,5 +1,5 @@
 #pragma once
-// The language of the window: English, or a translation that the program was built with.
+// Language of the window: English, or a translation included in this build.
 
 #include <QString>
 #include <QStringList>
@@ -11,21 +11,21 @@ namespace turnscan::studio {
 
 struct Language {
   QString code;  ///< ISO 639: "es"
-  QString name;  ///< in itself: "Español"
+  QString name;  ///< in the language itself: "Español"
 };
 
-/// English first, then those that this build has.
+/// English first, then the translations in this build.
 std::vector<Language> languages();
 
-/// What was chosen: a code of languages(), or empty for that of the system.
+/// The user's choice: a code of languages(), or empty for the system's language.
 QString chosen_language();
 void choose_language(const QString& code);
 
-/// The code in which texts are shown: what was chosen, else the system's where it is one of
+/// The code of the language in use: the user's choice, else the system's if it is one of
 /// languages(), else English.
 QString shown_language();
 
-/// Translates texts that are made from now on. Texts that are not translated stay English.
+/// Translates texts created from now on. Untranslated texts stay English.
 void install_language(QCoreApplication& app, const QString& code);
 
 }  // namespace turnscan::studio

@@ -1,5 +1,5 @@
 #pragma once
-// What the three modes have in common: a view on the left, a panel on the right.
+// Common base of the three modes: a view on the left, a panel on the right.
 
 #include <QWidget>
 #include <initializer_list>
@@ -16,7 +16,7 @@ class JobRunner;
 class SceneView;
 class ViewSettings;
 
-/// What a mode gets from the window.
+/// What the window provides to a mode.
 struct Services {
   JobRunner& jobs;
   ViewSettings& settings;
@@ -28,43 +28,43 @@ class Mode : public QWidget {
   Mode(const Services& services, QWidget* parent);
 
   SceneView& view() const { return *view_; }
-  /// Whether files dropped on the window are for this mode.
+  /// Whether the mode accepts a file dropped on the window; if so, it opens it.
   virtual bool open_file(const QString& /*path*/) { return false; }
   virtual void undo() {}
   virtual void redo() {}
-  /// What undo and redo would take back and bring back; empty: nothing.
+  /// What undo and redo would revert and restore; empty: nothing.
   virtual QString undo_text() const { return {}; }
   virtual QString redo_text() const { return {}; }
   virtual void save() {}
   virtual void remove_selected() {}
-  /// The window closes: what must not be lost is brought to an end.
+  /// Called when the window closes: finishes what must not be lost.
   virtual void shut_down() {}
 
  Q_SIGNALS:
-  /// One line for the status bar and the messages: what has happened.
+  /// One line for the status bar and the messages: what happened.
   void status(const QString& text);
   /// One line for the status bar: what is selected.
   void described(const QString& text);
-  /// undo_text() or redo_text() is another one.
+  /// undo_text() or redo_text() has changed.
   void undo_changed();
-  /// Another mode is where it goes on; see MainWindow::show_mode().
+  /// Asks to switch to another mode; see MainWindow::show_mode().
   void mode_wanted(const QString& name);
-  /// A recording for the Explorer; with `reconstruct` it goes on to a mesh.
+  /// A recording for the Explorer; with `reconstruct` it is also reconstructed.
   void recording_made(const QString& folder, bool reconstruct);
-  /// One that a fault has ended: the Explorer has it, but the reason stands in this mode.
+  /// A recording ended by a fault: the Explorer gets it, but the reason is shown in this mode.
   void recording_broken_off(const QString& folder);
-  /// The Scanner is to add a pass to a recording.
+  /// Asks the Scanner to add a pass to a recording.
   void another_side_wanted(const AnotherSide& side);
 
  protected:
   JobRunner& jobs() const { return services_.jobs; }
   ViewSettings& settings() const { return services_.settings; }
-  /// Sections go here.
+  /// Layout for sections.
   QVBoxLayout* panel() const { return body_; }
-  /// What stays in sight below the sections, from above: errors, progress, the main action. The
-  /// action comes last, so that a longer text does not move it.
+  /// Widgets that stay visible below the sections, from top to bottom: errors, progress, the main
+  /// action. The action comes last, so that a longer text does not move it.
   void set_footer(std::initializer_list<QWidget*> parts);
-  /// Scrolls the panel so that a part of it is seen.
+  /// Scrolls the panel to make a part of it visible.
   void reveal(QWidget* part);
 
  private:

@@ -1,15 +1,15 @@
 #pragma once
-// Paths as people read and type them: ~ stands for the folder of whoever is at the window.
+// Paths as shown to and typed by users: ~ stands for the home folder.
 
 #include <QString>
 
 namespace turnscan::studio {
 
-/// A path below that folder begins with ~, others stay.
+/// Abbreviates the home folder to ~; other paths are unchanged.
 QString shown_path(const QString& path);
-/// The way back, without blanks around it.
+/// The inverse, with surrounding blanks removed.
 QString typed_path(const QString& text);
-/// The path, or with a number added the first that is not a folder with content.
+/// The path, or with the first number appended for which it is not a non-empty folder.
 QString free_folder(const QString& path);
 
 }  // namespace turnscan::studio

@@ -4,9 +4,10 @@ class QString;
 
 namespace turnscan::studio {
 
-/// Before the application object is made: the surface that VTK needs, high-DPI screens.
+/// Call before the application object is created: sets the surface format that VTK needs, high-DPI
+/// screens.
 void prepare_application();
-/// Where the settings are kept.
+/// Sets the names under which settings are stored.
 void name_application();
 
 }  // namespace turnscan::studio

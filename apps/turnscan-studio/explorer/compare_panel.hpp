@@ -22,7 +22,7 @@ class ModelStore;
 class OptionForm;
 class ParagraphLabel;
 
-/// Two models: side by side, one over the other, or by their distance.
+/// Compares two models: side by side, overlaid, or by their distance.
 class ComparePanel : public QWidget {
   Q_OBJECT
  public:
@@ -36,9 +36,9 @@ class ComparePanel : public QWidget {
   int compared() const;
   const EvaluateOptions& options() const { return *options_; }
   QString first_error() const;
-  /// Nothing is shown without.
+  /// nullopt: nothing is shown.
   void show_figures(const QString& pair, const std::optional<Evaluation>& figures);
-  /// Of the two models the one whose box holds the other one's; 0: neither.
+  /// That of the two models whose bounding box contains the other's; 0: neither.
   int enclosing() const;
   void show_error(const QString& text);
   void stop();
@@ -61,7 +61,7 @@ class ComparePanel : public QWidget {
   OptionForm* form_;
   QLabel* figures_;
   ParagraphLabel* note_;
-  std::set<int> known_;  ///< models that there were
+  std::set<int> known_;  ///< the models at the last update
   MessageLabel* error_;
   Way way_ = kOff;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// How far a model is from another one. Runs on a worker's thread.
+// Distance of a model from another one. Runs on a worker thread.
 
 #include <optional>
 #include <turnscan/evaluation/evaluate.hpp>
@@ -11,13 +11,13 @@ namespace turnscan::studio {
 
 struct Comparison {
   ModelDataPtr colored;               ///< the compared model, coloured by distance
-  std::vector<double> histogram;      ///< shares of the surface, from 0 to scale_m
+  std::vector<double> histogram;      ///< shares of the surface, for distances from 0 to scale_m
   double scale_m = 0.0;               ///< distance of the last colour
-  std::optional<Evaluation> figures;  ///< of a mesh
+  std::optional<Evaluation> figures;  ///< for a mesh
 };
 
-/// Distances of a mesh or cloud to a reference mesh. scale_m 0: the largest threshold. The colours
-/// of a mesh are those of `turnscan evaluate --error-map`.
+/// Computes distances of a mesh or cloud to a reference mesh. scale_m 0: the largest threshold. The
+/// colours of a mesh are those of `turnscan evaluate --error-map`.
 Result<Comparison> compare(const ModelData& compared, const ModelData& reference,
                            const EvaluateOptions& options, double scale_m,
                            const RunContext& context);

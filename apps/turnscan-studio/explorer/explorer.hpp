@@ -44,28 +44,28 @@ class ExplorerMode : public Mode {
   void shut_down() override;
 
   void open_dialog();
-  /// How the selected model is to be exported, and where to.
+  /// Asks for export options and a path for the selected model.
   void export_dialog();
   void export_as(int id, const QString& path, const ExportOptions& options);
-  /// Reconstructs a recording after the jobs that wait, and writes its meshes into a folder, unless
-  /// that is empty. `done` is called unless it is cancelled; text: what it gave, or why not.
+  /// Reconstructs a recording after the queued jobs, and writes its meshes into a folder, unless
+  /// that is empty. `done` is called unless it is cancelled; text: the result, or the error.
   void reconstruct_queued(const QString& recording, const QString& folder,
                           const std::function<void(bool good, const QString& text)>& done);
   /// The title of that job.
   static QString queue_title(const QString& recording);
-  /// Turns the view once; see TurntableMovie.
+  /// Rotates the view once; see TurntableMovie.
   void make_movie(const QString& path, int frames);
-  /// Who says in which unit a file is that looks doubtful.
+  /// Sets the callback that asks for the unit of a file whose size is implausible.
   void set_unit_question(UnitQuestion question) { ask_unit_ = std::move(question); }
-  /// Loads a recording and, when it is there, runs all stages.
+  /// Loads a recording and then optionally runs all stages.
   void take_recording(const QString& folder, bool reconstruct);
   void run_stage(const QString& stage);
   void save_as(int id, const QString& path);
   void save_preset(const QString& path);
-  /// The report page of the run that made a model.
+  /// Exports the report page of the run that made a model.
   void export_report(int id, const QString& path);
-  /// Opens what a session before has left, with its steps of undo and its view; as one step beside
-  /// what is open already.
+  /// Opens what an earlier session left, with its undo steps and its view; as one step in addition
+  /// to what is open already.
   void restore_session(const LostSession& lost);
 
   ModelStore& store() { return *store_; }
@@ -84,7 +84,7 @@ class ExplorerMode : public Mode {
   void file_opened(const QString& path);
 
  private:
-  enum Beside { kOthers, kAlone };  ///< whether what was shown before stays
+  enum Beside { kOthers, kAlone };  ///< whether other models stay visible
   void load(const QString& path, const std::function<void()>& then,
             std::optional<double> metres_per_unit = std::nullopt, Beside beside = kOthers);
   std::vector<int> visible_models() const;
@@ -94,7 +94,7 @@ class ExplorerMode : public Mode {
   void run_comparison();
   void add_sections();
   void connect_panels();
-  /// Those of a split view, left and right; nullptr where it is not split.
+  /// The two models of a split view, left and right; nullptr if it is not split.
   std::pair<const Model*, const Model*> side_by_side() const;
   ItemStyle style_of(const Model& model) const;
   DrawablePtr drawable_of(const Model& model) const;
@@ -125,13 +125,13 @@ class ExplorerMode : public Mode {
     ModelDataPtr data;
     DrawablePtr drawable;
   };
-  int legend_model_ = 0;  ///< the legend is shown while this model is
+  int legend_model_ = 0;  ///< the legend is shown while this model is visible
   Legend legend_;
   std::map<int, Shown> shown_;  ///< by model
   UnitQuestion ask_unit_;
   std::vector<int> queued_results_;  ///< models
-  Shown missing_;                    ///< what no view saw of the selected mesh
-  /// The selected mesh in the colours of a property.
+  Shown missing_;                    ///< the surface of the selected mesh that no view saw
+  /// The selected mesh coloured by a property.
   struct Colored {
     int item = 0;
     ModelDataPtr of;

@@ -1,5 +1,5 @@
 #pragma once
-// Files as models. Nothing here touches a widget.
+// Loads files as models. Nothing here touches a widget.
 
 #include <optional>
 #include <string>
@@ -14,10 +14,10 @@ namespace turnscan::studio {
 
 using NamedModels = std::vector<std::pair<QString, ModelDataPtr>>;
 
-/// A mesh (each object a model), a cloud, a recording's folder or recording.json, or what `turnscan
-/// import` reads without being told more, told apart as `turnscan info` does. metres_per_unit: of a
-/// mesh or cloud; nullopt: that of its format (see read_meshes(); clouds are in metres). Fails as
-/// the readers do.
+/// Loads a mesh (each object becomes a model), a cloud, a recording's folder or recording.json, or
+/// data that `turnscan import` reads without options, distinguished as by `turnscan info`.
+/// metres_per_unit: of a mesh or cloud; nullopt: that of its format (see read_meshes(); clouds are
+/// in metres). Fails as the readers do.
 Result<NamedModels> load_models(const std::string& path, const RunContext& context,
                                 std::optional<double> metres_per_unit = std::nullopt);
 
@@ -28,8 +28,8 @@ ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString&
 /// path: see open_input().
 Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& context);
 
-/// Meshes in every format of write_mesh; clouds as PLY. Where a format keeps colours of vertices
-/// but no texture, they take the texture's. Fails as the writers do.
+/// Saves meshes in every format of write_mesh; clouds as PLY. If a format supports vertex colours
+/// but no texture, vertices take the texture's colours. Fails as the writers do.
 Result<> save_model(const ModelData& data, const std::string& path);
 
 }  // namespace turnscan::studio

@@ -11,7 +11,7 @@ namespace turnscan::studio {
 
 class ModelStore;
 
-/// The models: show and hide, rename, duplicate, delete, colour, counts, properties.
+/// List of the models: show and hide, rename, duplicate, delete, colour, counts, properties.
 class ModelList : public QWidget {
   Q_OBJECT
  public:

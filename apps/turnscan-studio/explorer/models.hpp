@@ -1,5 +1,5 @@
 #pragma once
-// The models of the Explorer, and every state of their list that undo goes back to.
+// The models of the Explorer, and all states of their list for undo.
 
 #include <QColor>
 #include <QObject>
@@ -23,33 +23,33 @@ struct ScanQuality;
 
 enum class ModelKind { kMesh, kCloud, kRecording };
 
-/// Of a mesh made from a recording.
+/// For a mesh made from a recording.
 struct MissingSurface {
   AnotherSide side;
-  DrawablePtr drawable;  ///< what no view saw; nullptr: nothing worth drawing
+  DrawablePtr drawable;  ///< surface that no view saw; nullptr: nothing worth drawing
 };
 
-/// The passes of a recording that a mesh is made of.
+/// The passes of a recording that a mesh was made from.
 struct PassesOfMesh {
   std::shared_ptr<const ModelData> recording;
-  std::map<std::uint32_t, Pose> T_mesh_table;  ///< where their tables lie, by the pass's number
+  std::map<std::uint32_t, Pose> T_mesh_table;  ///< poses of their tables, by the pass's number
 };
 
-/// Never changed once made: an edit makes new data, so that undo only swaps pointers.
+/// Immutable: an edit makes new data, so that undo only swaps pointers.
 struct ModelData {
   ModelKind kind = ModelKind::kCloud;
   TriangleMesh mesh;
-  std::vector<float> confidence;      ///< of each vertex of mesh, or empty; saved with it
-  PointCloud cloud;                   ///< of a recording: a preview
-  std::vector<Viewpoint> viewpoints;  ///< of cloud.frame, where they are known
-  std::shared_ptr<const FrameSequence> recording;  ///< or what another program recorded
+  std::vector<float> confidence;                   ///< per vertex of mesh, or empty; saved with it
+  PointCloud cloud;                                ///< for a recording: a preview
+  std::vector<Viewpoint> viewpoints;               ///< of cloud.frame, if known
+  std::shared_ptr<const FrameSequence> recording;  ///< also one imported from another program
   std::vector<std::string> recording_notes;        ///< what is missing in it
-  std::shared_ptr<const MissingSurface> missing;   ///< of a mesh; nullptr: not known
-  std::shared_ptr<const ScanQuality> quality;      ///< of a mesh as the scan made it, or nullptr
-  std::shared_ptr<const PassesOfMesh> passes;      ///< the same, of a recording with several passes
-  std::optional<double> metres_per_unit;           ///< that its file was read with, if it was told
-  QString source;                                  ///< file, or what was run to make it
-  QString report;                                  ///< several lines for people
+  std::shared_ptr<const MissingSurface> missing;   ///< for a mesh; nullptr: not known
+  std::shared_ptr<const ScanQuality> quality;      ///< for a mesh as made by the scan, else nullptr
+  std::shared_ptr<const PassesOfMesh> passes;  ///< the same, for a recording with several passes
+  std::optional<double> metres_per_unit;       ///< with which its file was read, if specified
+  QString source;                              ///< file, or the operation that made it
+  QString report;                              ///< several human-readable lines
   DrawablePtr drawable;
 };
 using ModelDataPtr = std::shared_ptr<const ModelData>;
@@ -64,14 +64,14 @@ struct Model {
   double opacity = 1.0;
 };
 
-/// What an edit is about: triangles of a mesh, or points of a cloud.
+/// The parts that an edit applies to: triangles of a mesh, or points of a cloud.
 struct SelectedParts {
   ModelDataPtr of;  ///< nullptr: nothing is selected
   std::shared_ptr<const Selection> parts;
-  DrawablePtr drawable;  ///< how they are shown; nullptr: there are none
+  DrawablePtr drawable;  ///< highlight; nullptr: there are none
 };
 
-/// The models, what is selected of them, and what was done next.
+/// The models, the selected parts, and the next action.
 struct ModelState {
   QString what;
   std::vector<Model> models;
@@ -89,36 +89,36 @@ class ModelStore : public QObject {
   const std::vector<Model>& models() const { return models_; }
   const Model* find(int id) const;
 
-  /// Every change is one step of undo; `what` names it: "Undo delete".
+  /// Every change is one undo step; `what` names it: "Undo delete".
   int add(const QString& name, ModelDataPtr data);
-  /// Several models as one step.
+  /// Adds several models as one step.
   std::vector<int> add_all(const std::vector<std::pair<QString, ModelDataPtr>>& made,
                            const QString& what);
-  /// The same, with colours and visibility of their own; ids are given anew.
+  /// The same, with their own colours and visibility; ids are reassigned.
   std::vector<int> add_models(std::vector<Model> models, const QString& what);
-  /// The same, hiding those that they were made from: they lie in the same place.
+  /// The same, hiding the models that they were made from, which are in the same place.
   std::vector<int> add_instead(const std::vector<std::pair<QString, ModelDataPtr>>& made,
                                const std::vector<int>& hidden, const QString& what);
   void rename(int id, const QString& name);
   void set_visible(int id, bool visible);
   void set_color(int id, const QColor& color, bool own_colors);
-  /// Of several changes of one model in a row only the first is a step of undo.
+  /// Of several consecutive changes of one model only the first is an undo step.
   void set_opacity(int id, double opacity);
   void set_data(int id, ModelDataPtr data, const QString& what);
-  /// The same of a file that was read again, as add_instead() does with a new one.
+  /// The same for a file that was reloaded, as add_instead() for a new one.
   void renew(int id, ModelDataPtr data, const std::vector<int>& hidden, const QString& what);
   void duplicate(int id);
   void remove(int id);
-  /// A step of undo, too, unless nothing is selected and nothing was. It ends with the data that it
-  /// is of.
+  /// Also an undo step, unless nothing is selected and nothing was. The selection is dropped when
+  /// the data that it refers to are replaced.
   void select_parts(SelectedParts selected, const QString& what);
   const SelectedParts& selected_parts() const { return selected_; }
 
-  /// The data are in this file now: opened from there, or saved.
+  /// Notes that the data are stored in this file: opened from it, or saved to it.
   void set_file(const ModelDataPtr& data, const QString& file);
-  /// Empty: in no file. A recording is its own folder.
+  /// Empty: not in a file. For a recording, its own folder.
   QString file_of(const ModelData& data) const;
-  /// Names of the models that are in no file.
+  /// Names of the models that are not saved in a file.
   QStringList unsaved() const;
 
   bool can_undo() const { return !undo_.empty(); }
@@ -127,16 +127,15 @@ class ModelStore : public QObject {
   QString redo_text() const { return redo_.empty() ? QString() : redo_.back().what; }
   void undo();
   void redo();
-  /// What each step did, oldest first, those that redo would bring back included.
+  /// Description of each step, oldest first, including those that can be redone.
   QStringList history() const;
-  /// After how many of them the models are as they are now.
+  /// Number of these steps that are applied now.
   std::size_t place_in_history() const { return undo_.size(); }
-  /// Undoes or redoes until as many steps are done; more than there are: all.
+  /// Undoes or redoes until this number of steps is applied; all if there are fewer.
   void go_to(std::size_t place);
-  /// What undo goes back to, oldest first; the models as they are; what redo brings back, the next
-  /// one first.
+  /// States for undo, oldest first; the current models; states for redo, the next one first.
   std::vector<ModelState> states() const;
-  /// Takes these in place of what there is, with `place` steps done. At least one more than that.
+  /// Replaces all states, with `place` steps applied. There must be more states than `place`.
   void set_states(std::vector<ModelState> states, std::size_t place);
 
  Q_SIGNALS:

@@ -6,8 +6,8 @@
 
 namespace turnscan::studio {
 
-/// Runs the pipeline up to a stage and returns the stage's cloud. Where the method has no stage of
-/// that name among saveable_stages(SurfaceMethod) it runs to the end and returns the whole
+/// Runs the pipeline up to a stage and returns the stage's cloud. If the method has no stage of
+/// that name among saveable_stages(SurfaceMethod), runs to the end and returns the whole
 /// reconstruction. Fails as reconstruct() does.
 Result<std::variant<PointCloud, Reconstruction>> reconstruct_until(
     const std::string& stage, const FrameSequence& frames, const ReconstructOptions& options,

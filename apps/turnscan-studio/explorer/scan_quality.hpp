@@ -1,5 +1,5 @@
 #pragma once
-// What a scan tells of one of its meshes, and the mesh in the colours of that.
+// Quality of a mesh as determined by its scan, and the mesh coloured by it.
 
 #include <QString>
 #include <memory>
@@ -12,31 +12,32 @@
 
 namespace turnscan::studio {
 
-/// Of a mesh as the scan made it; an edited one has none.
+/// For a mesh as made by the scan; an edited one has none.
 struct ScanQuality {
   Verdict verdict;
   std::shared_ptr<const PageInput> page;                   ///< the report of the whole run
-  std::size_t object = 0;                                  ///< of page, this mesh
-  std::shared_ptr<const TextureReport> texture = nullptr;  ///< of its texture; nullptr: none
+  std::size_t object = 0;                                  ///< index of this mesh in the page
+  std::shared_ptr<const TextureReport> texture = nullptr;  ///< for its texture; nullptr: none
 };
 
-/// A property of the vertices that a mesh can be coloured by.
+/// A vertex property by which a mesh can be coloured.
 struct ColorWay {
-  QString id, label;  ///< label is for people
+  QString id, label;  ///< label is human-readable
 };
 
-/// Those that are known of this mesh, in the order of the report page.
+/// The properties known for this mesh, in the order of the report page.
 std::vector<ColorWay> color_ways(const ScanQuality& quality);
 
 struct ColoredMesh {
   DrawablePtr drawable;
   Legend legend;
 };
-/// In the colours of color_ways(): viridis, or those of its kinds; grey where it is not known.
+/// Colours a mesh by one of color_ways(): viridis, or the colours of its categories; grey where it
+/// is not known.
 ColoredMesh color_mesh(const ScanQuality& quality, const QString& way);
 
-/// A sign and a colour for each level that are told apart by form, lightness and hue (after
-/// M. Okabe and K. Ito, "Color universal design", 2008).
+/// A sign and a colour for each level, which differ in shape, lightness and hue (after M. Okabe and
+/// K. Ito, "Color universal design", 2008).
 QString sign_of(Level level);
 QColor color_of(Level level);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The models of a session, kept on disk while it runs: a crash or a kill loses none of them.
+// Keeps the models of a running session on disk, so that a crash or a kill does not lose them.
 
 #include <QLockFile>
 #include <QObject>
@@ -15,18 +15,18 @@
 
 namespace turnscan::studio {
 
-/// What a session that did not end well has left.
+/// What remains of a session that did not end properly.
 struct LostSession {
   QString folder;
   KeptList list;
 
-  /// As they were at its end.
+  /// The models at its end.
   const std::vector<KeptModel>& models() const { return list.states[list.place].models; }
 };
 
-/// Writes the models that are in no file, each once, and the list of all states that undo and redo
-/// lead to, into a folder of its own below a root, a moment after they change; the folder is
-/// removed at a good end.
+/// Writes each model that is not in a file once, and the list of all undo and redo states, into a
+/// separate folder below a root, shortly after they change; the folder is removed when the session
+/// ends properly.
 class SessionKeeper : public QObject {
   Q_OBJECT
  public:
@@ -34,30 +34,31 @@ class SessionKeeper : public QObject {
   SessionKeeper(ModelStore& store, const QString& root, QObject* parent = nullptr);
   ~SessionKeeper() override;
 
-  /// Where this person's sessions are.
+  /// Root folder of this user's sessions.
   static QString default_root();
-  /// The newest that no living process keeps and that has models. What is empty is removed.
+  /// The newest session that has models and does not belong to a running process. Removes empty
+  /// ones.
   static std::optional<LostSession> find_lost(const QString& root);
   static void discard(const LostSession& lost);
 
-  /// Where the camera is, and which model is chosen, asked for with each writing. They change more
-  /// often than models, and are written with the next change, or a moment after look_changed().
+  /// Provides the camera and the id of the selected model with each write. They change more often
+  /// than models, and are written with the next change, or shortly after look_changed().
   using Look = std::function<std::pair<CameraPlace, int>()>;
   void set_look(Look look) { look_ = std::move(look); }
   void look_changed();
 
-  /// Removes the lost session once its models are kept as those of this one.
+  /// Removes the lost session once its models are stored as part of this one.
   void take_over(const LostSession& lost);
-  /// Writes now what is to be written, and waits for it.
+  /// Writes pending changes now, and waits for that.
   void flush();
 
  Q_SIGNALS:
-  /// The session cannot be kept, with the reason: once.
+  /// The session cannot be stored, with the reason; emitted once.
   void failed(const QString& text);
 
  private:
   void write();
-  /// The file of a model's data, made known to `kept` and, if it is yet to be written, `files`.
+  /// The file of a model's data, added to `kept` and, if it is not yet written, to `files`.
   using Files = std::vector<std::pair<QString, ModelDataPtr>>;
   using Kept = std::map<QString, std::weak_ptr<const ModelData>>;
   KeptModel keep(const Model& model, Kept& kept, Files& files);
@@ -68,7 +69,7 @@ class SessionKeeper : public QObject {
   QString folder_;
   std::unique_ptr<QLockFile> lock_;
   QTimer timer_;
-  QThreadPool writer_;  ///< one thread, so that the list is written after its files
+  QThreadPool writer_;  ///< a single thread, so that the list is written after its files
   Look look_;
   Kept kept_;               ///< by file
   QStringList taken_over_;  ///< folders
@@ -79,8 +80,8 @@ class SessionKeeper : public QObject {
 /// The models of a lost session, in all of its states.
 struct RestoredModels {
   std::vector<ModelState> states;
-  std::map<ModelDataPtr, QString> files;  ///< those of the person's
-  QStringList missing;                    ///< names of those that cannot be read, of its last state
+  std::map<ModelDataPtr, QString> files;  ///< files of the user
+  QStringList missing;  ///< names of the models of its last state that cannot be read
 };
 /// Fails with kCancelled.
 Result<RestoredModels> restore(const LostSession& lost, const RunContext& context);

@@ -1,5 +1,5 @@
 #pragma once
-// What a session keeps of its models, as it stands in its file.
+// The models of a session as stored in its file.
 
 #include <QByteArray>
 #include <QColor>
@@ -12,37 +12,37 @@
 
 namespace turnscan::studio {
 
-/// A model as a session keeps it.
+/// A model as stored in a session.
 struct KeptModel {
   int id = 0;
   QString name, file;
-  bool in_own_file = false;  ///< a file of the person's; else one of the session's
-  int place_in_file = 0;     ///< of several models in a file
+  bool in_own_file = false;  ///< a file of the user; else one of the session
+  int place_in_file = 0;     ///< index among several models in a file
   bool visible = true, own_colors = true;
   QColor color;
   double opacity = 1.0;
-  std::optional<double> metres_per_unit = std::nullopt;  ///< of its own file, if it was told
+  std::optional<double> metres_per_unit = std::nullopt;  ///< of its own file, if specified
 };
 
-/// A state of the models, and what was done next.
+/// A state of the models, and the next action.
 struct KeptState {
   QString what;
   std::vector<KeptModel> models;
-  int selected_model = -1;  ///< of them, of which a part is selected
+  int selected_model = -1;  ///< index of the model with a selected part
   Selection selected;
 };
 
-/// All states that undo and redo lead to.
+/// All undo and redo states.
 struct KeptList {
   std::vector<KeptState> states;
-  std::size_t place = 0;  ///< of the state that the models were in
-  int chosen = 0;         ///< id of the model that was chosen
+  std::size_t place = 0;  ///< index of the current state
+  int chosen = 0;         ///< id of the selected model
   std::optional<CameraPlace> camera;
 };
 
 QByteArray list_text(const KeptList& list);
-/// Of a session's folder. Without states where it is damaged or missing; what is damaged in a state
-/// is left out.
+/// Reads the list in a session's folder. Has no states if it is damaged or missing; damaged parts
+/// of a state are skipped.
 KeptList read_list(const QString& folder);
 
 inline constexpr const char* kSessionList = "session.json";

@@ -11,15 +11,15 @@ namespace turnscan::studio {
 class ParagraphLabel;
 struct MissingSurface;
 
-/// What no view saw of the selected mesh, and the way to another pass.
+/// Shows the surface of the selected mesh that no view saw, and offers another pass.
 class SidePanel : public QWidget {
   Q_OBJECT
  public:
   explicit SidePanel(QWidget* parent = nullptr);
 
-  /// nullptr: nothing is known to be missing.
+  /// nullptr: no missing surface is known.
   void show_missing(const std::shared_ptr<const MissingSurface>& missing);
-  /// Whether the missing surface is to be drawn.
+  /// Whether the missing surface should be drawn.
   bool drawn() const;
 
  Q_SIGNALS:

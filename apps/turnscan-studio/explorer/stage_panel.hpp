@@ -1,5 +1,5 @@
 #pragma once
-// The stages of the pipeline as panels, in their order.
+// Panels for the stages of the pipeline, in their order.
 
 #include <QWidget>
 #include <memory>
@@ -29,28 +29,28 @@ class StagePanel : public QWidget {
   ~StagePanel() override;
 
   const ReconstructOptions& options() const { return *options_; }
-  /// Empty, or the first thing that is wrong with the options.
+  /// The first error in the options, or empty.
   QString first_error() const;
-  /// What the automatic values were.
+  /// Shows the values that were used for automatic options.
   void show_used(const std::vector<ResolvedParameter>& choices);
   void show_error(const QString& text);
   void add_error(const QString& text);
-  /// What is to stay in sight.
+  /// Widgets that stay visible.
   QWidget* error() const;
   QWidget* action() const;
-  /// Which buttons make sense for the selected model.
+  /// Enables the buttons that apply to the selected model.
   void set_target(bool recording, bool cloud);
 
-  /// TOML as the command line's --config reads it.
+  /// TOML as read by the command line's --config.
   std::string preset_text() const;
   Result<> load_preset(const std::string& path);
-  void store() const;  ///< keeps the options in the settings
+  void store() const;  ///< stores the options in the settings
 
  Q_SIGNALS:
   /// A stage of saveable_stages(), or "mesh".
   void run(const QString& stage);
   void filter();
-  /// preset_text() is to go there.
+  /// Asks to write preset_text() to this path.
   void save_preset(const QString& path);
 
  private:

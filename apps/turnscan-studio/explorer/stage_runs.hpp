@@ -1,5 +1,5 @@
 #pragma once
-// Stages of the pipeline run on a model. All of this runs on a worker's thread.
+// Runs stages of the pipeline on a model. All of this runs on a worker thread.
 
 #include <string>
 #include <turnscan/reconstruction/pipeline.hpp>
@@ -11,36 +11,36 @@
 
 namespace turnscan::studio {
 
-/// The stage that ends with meshes; the others are those of saveable_stages().
+/// The final stage, which makes meshes; the others are those of saveable_stages().
 inline const std::string kMeshStage = "mesh";
 
 struct StageRun {
   NamedModels models;
-  std::vector<ResolvedParameter> choices;  ///< automatic values as they were used
-  QString not_joined;  ///< why passes are apart, each in a model of its own; else empty
+  std::vector<ResolvedParameter> choices;  ///< values used for automatic options
+  QString not_joined;  ///< why passes are separate, each in its own model; else empty
 };
 
 /// Runs the pipeline on a recording or a cloud up to a stage. For a recording the results are those
 /// of `turnscan reconstruct` with the same options (--calibration auto, --save-stage), byte for
-/// byte: its passes are joined. A mesh fails with kUnsupported, else as reconstruct() does.
+/// byte, including joined passes. Fails with kUnsupported for a mesh, else as reconstruct() does.
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context);
 
-/// What run_stage_of() comes to, where that is known: for the mesh of a recording.
+/// Phases of run_stage_of(), if known: for the mesh of a recording.
 PhasePlan stage_phases(const Model& model, const std::string& stage,
                        const ReconstructOptions& options);
 
-/// The mesh of all passes of a recording, of which these lie where they are stated, as
-/// `--pass-pose` and, where their `refine` says so, `--refine-pass-poses`. Fails as run_stage_of().
+/// The mesh of all passes of a recording with these stated poses, as with `--pass-pose` and, for
+/// those with `refine`, `--refine-pass-poses`. Fails as run_stage_of().
 Result<StageRun> join_stated(const Model& recording, const std::vector<PassPose>& poses,
                              const ReconstructOptions& options, const RunContext& context);
 
-/// A mesh of each pass, joined with no other, in the frame of its own table. Fails when no pass
-/// gives one; not_joined names those that do not.
+/// A separate mesh of each pass, in the frame of its own table. Fails if no pass gives one;
+/// not_joined names those that do not.
 Result<StageRun> mesh_each_pass(const Model& recording, const ReconstructOptions& options,
                                 const RunContext& context);
 
-/// The statistical filter on a cloud.
+/// Applies the statistical filter to a cloud.
 Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,
                                   const RunContext& context);
 

@@ -12,17 +12,18 @@ namespace turnscan::studio {
 class ParagraphLabel;
 struct ScanQuality;
 
-/// How good the selected mesh is: a light, a sentence for each property, colours, the report.
+/// Quality of the selected mesh: a traffic light, a sentence for each property, colouring, the
+/// report.
 class VerdictPanel : public QWidget {
   Q_OBJECT
  public:
   explicit VerdictPanel(QWidget* parent = nullptr);
 
-  /// nullptr: nothing is known of the mesh.
+  /// nullptr: nothing is known about the mesh.
   void show_quality(const std::shared_ptr<const ScanQuality>& quality);
-  /// What the mesh is to be coloured by, see color_ways(); empty: as it is.
+  /// The property by which to colour the mesh, see color_ways(); empty: none.
   QString color_way() const;
-  /// What stands on the panel, for tests and screen readers.
+  /// Text of the panel, for tests and screen readers.
   QString text() const;
 
  Q_SIGNALS:

@@ -1,5 +1,5 @@
 #pragma once
-// How an averaged scan and the turntable found in it are drawn.
+// Draws an averaged scan and the turntable found in it.
 
 #include <turnscan/core/calibration.hpp>
 #include <turnscan/turntable/detection/average.hpp>
@@ -9,13 +9,13 @@
 
 namespace turnscan::studio {
 
-/// The averaged scan; with a table, the platter in colours of the distance to its plane.
+/// The averaged scan; with a table, the platter is coloured by the distance to its plane.
 DrawablePtr averaged_picture(const AveragedScan& scan, const TurntableInfo* table);
 
-/// Of those colours.
+/// Legend of those colours.
 Legend residual_legend();
 
-/// The rim, and the axis from the middle of the platter. Sensor frame.
+/// The rim, and the axis from the centre of the platter. Sensor frame.
 Segments table_outline(const TurntableInfo& table);
 
 }  // namespace turnscan::studio

@@ -1,5 +1,5 @@
 #pragma once
-// What a recording has seen of the object so far.
+// Coverage of the object during a recording.
 
 #include <cstdint>
 #include <optional>
@@ -8,32 +8,34 @@
 
 namespace turnscan::studio {
 
-/// Counts, per cell of a grid that turns with the table, from which sides it was seen. A side is
-/// ten degrees of a turn.
+/// Counts, per cell of a grid that rotates with the table, the directions from which it was seen. A
+/// direction ("side") is ten degrees of a turn.
 class LiveCoverage {
  public:
   static constexpr int kSides = 36;
-  static constexpr int kWell = 3;  ///< sides from which a place counts as seen well
+  static constexpr int kWell = 3;  ///< sides from which a well-seen place was seen
 
   explicit LiveCoverage(double cell_m) : cell_m_(cell_m) {}
 
-  /// Points of one frame in the table's frame as it stood then, turned back by the table's angle.
+  /// Adds the points of one frame, in the table's frame at that time; they are rotated back by the
+  /// table's angle.
   void add(const std::vector<Vec3f>& points, double turned_rad);
 
-  /// Surface that more than one frame saw, about: a surface of any slope meets 1.5 cells per area
-  /// of a cell's side in the mean (Cauchy's formula).
+  /// Approximate area of the surface seen by more than one frame: on average, a surface of any
+  /// orientation intersects 1.5 cells per area of a cell's face (Cauchy's formula).
   double area_m2() const;
-  /// Share of it that was seen from kWell sides or more; 0 while nothing was seen.
+  /// Share of it that was seen from at least kWell sides; 0 while nothing was seen.
   double share_well() const;
-  /// Sides of the turn from which there is a frame.
+  /// Number of sides of the turn with a frame.
   int sides() const;
-  /// Colour of the place at p, table frame, by the sides that it was seen from; nullopt where none
-  /// or only one frame saw it.
+  /// Colour at p, table frame, by the number of sides from which it was seen; nullopt if at most
+  /// one frame saw it.
   std::optional<Rgb> color_at(const Vec3f& p) const;
-  /// The best of the cell at p and those beside it: for a place that lies on the surface about.
+  /// The best of the cell at p and its neighbours: for points that are only approximately on the
+  /// surface.
   std::optional<Rgb> color_near(const Vec3f& p) const;
   double cell_m() const { return cell_m_; }
-  /// A point per cell, coloured by sides: color_of_sides().
+  /// One point per cell, coloured by color_of_sides().
   PointCloud cloud() const;
 
  private:
@@ -42,7 +44,7 @@ class LiveCoverage {
     std::uint32_t points = 0, frames = 0, last_frame = 0;
     std::uint64_t sides = 0;
   };
-  /// Sides from which the cell at p was seen; 0: by no frame, or only one.
+  /// Number of sides from which the cell at p was seen; 0: by at most one frame.
   int sides_at(const Vec3f& p) const;
 
   double cell_m_;
@@ -52,7 +54,7 @@ class LiveCoverage {
 };
 
 /// 0: not at all, 1: little, LiveCoverage::kWell and more: well. Colours of M. Okabe and K. Ito,
-/// which people with any colour vision tell apart.
+/// which people with any colour vision can distinguish.
 Rgb color_of_sides(int sides);
 
 }  // namespace turnscan::studio

@@ -1,5 +1,5 @@
 #pragma once
-// What the thread of a LiveFeed holds while a source is open.
+// State of a LiveFeed's thread while a source is open.
 
 #include <chrono>
 #include <turnscan/core/camera.hpp>
@@ -17,22 +17,22 @@ struct LiveFeed::Session {
 
   Session(LiveFeed& feed, FrameSource& source);
 
-  /// The frame as it is shown, counted and collected.
+  /// Displays, counts and collects a frame.
   void take(const Frame& frame);
-  /// No frame came.
+  /// Call when no frame arrived.
   void note_silence();
-  /// Records until the limits of the request; fails where the source cannot go on.
+  /// Records until the limits of the request; fails if the source cannot continue.
   void record(const RecordingRequest& request, const RunContext& context);
 
  private:
   std::shared_ptr<const Calibration> calibration();
-  /// As the recording will have it: where the table stands is in it, if that is known.
+  /// The header for the recording, including the pose of the table, if that is known.
   SequenceHeader header_with_table();
   Result<CaptureResult> capture_now(const RecordingRequest& request, const RunContext& context);
   void begin_seen(const CaptureOptions& options);
-  /// What the motion has shown meanwhile, if that is new.
+  /// Takes over a new motion estimate, if there is one.
   void take_motion(const std::shared_ptr<const Calibration>& shown);
-  /// From now on frames are placed so, and those of before that are still there.
+  /// Uses this motion for all further frames, and for the earlier ones that are still kept.
   void place_by(const LiveMotion& motion);
   void see(const Frame& frame);
   void count_seen(const Frame& frame, double turned_rad);
@@ -54,17 +54,17 @@ struct LiveFeed::Session {
 
   RigWatch rig_watch_;
 
-  // Of a recording.
+  // State of a recording.
   SequenceHeader header_;
-  bool table_given_ = false;  ///< else header_ has the one that the motion has shown
+  bool table_given_ = false;  ///< else header_ has the one estimated from motion
   std::optional<double> speed_rad_s_, first_time_s_;
-  std::shared_ptr<const Calibration> shown_;  ///< by the motion, as far as it was taken
+  std::shared_ptr<const Calibration> shown_;  ///< the last motion estimate that was taken over
   std::optional<LiveMotion> motion_;
   std::optional<LiveCoverage> seen_;
   std::unique_ptr<LiveSurface> surface_;
-  TriangleMesh mesh_;  ///< the newest of surface_, table frame
+  TriangleMesh mesh_;  ///< the latest of surface_, table frame
   std::size_t surfaces_ = 0;
-  /// Of the last frame of each sensor, the table turned back; where that is known.
+  /// Pose for the last frame of each sensor with the table's rotation removed; if known.
   std::vector<std::optional<Pose>> T_turned_sensor_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The board that turns the table, if there is one.
+// The board that drives the table, if there is one.
 
 #include <QWidget>
 #include <memory>
@@ -22,15 +22,15 @@ class MotorPanel : public QWidget {
   explicit MotorPanel(QWidget* parent = nullptr);
   ~MotorPanel() override;
 
-  /// Serial port; empty: nobody turns the table from here.
+  /// Serial port; empty: no motor.
   std::string port() const;
   void set_port(const QString& port);
   const MotorOptions& options() const { return options_; }
   const CaptureStops& stops() const { return stops_; }
   QString first_error() const;
-  /// While a recording has the board, it is not to be tried.
+  /// Disables trying the motor while a recording uses the board.
   void set_in_use(bool in_use);
-  /// Whether the table turns on its button.
+  /// Whether the table is turning by its button.
   bool turning() const;
   void stop();
   void store() const;

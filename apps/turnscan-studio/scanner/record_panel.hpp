@@ -1,5 +1,5 @@
 #pragma once
-// Where to, how long and with what: the panel of a recording, and how it goes on.
+// The panel of a recording: folder, duration, options, and progress.
 
 #include <QWidget>
 #include <memory>
@@ -29,21 +29,22 @@ class RecordPanel : public QWidget {
   ~RecordPanel() override;
 
   void set_folder(const QString& folder);
-  /// What is recorded next is added to the recording in this folder; empty: a recording of its own.
+  /// Adds the next recording to the one in this folder; empty: makes a new recording.
   void set_next_pass(const QString& folder, const QString& advice);
-  /// Each device's table has its own speed; the one typed before the first device is that one's.
+  /// Each device's table has its own speed; a speed typed before the first device was set belongs
+  /// to that one.
   void set_device(const QString& uri);
   bool reconstruct() const;
-  /// What is to be recorded; nullopt: something is wrong, and it is shown.
+  /// The requested recording; nullopt: invalid, and the error is shown.
   std::optional<RecordingRequest> request();
   void show_error(const QString& text);
-  /// What is said of the recording before does not belong to what plays now.
+  /// Clears the text about the previous recording, which does not apply to the source playing now.
   void forget_last();
-  /// open: a sensor is there to be recorded.
+  /// open: a sensor is available for recording.
   void show_state(const LiveState& state, bool open);
   MotorPanel& motor() { return *motor_; }
   void store() const;
-  /// Errors, progress and the button, which are to stay in sight.
+  /// Errors, progress and the button, which stay visible.
   QWidget* footer() const { return footer_; }
 
  Q_SIGNALS:
@@ -58,7 +59,7 @@ class RecordPanel : public QWidget {
 
   std::unique_ptr<Options> options_;
   QString device_;
-  QString next_pass_;  ///< folder that gets another pass; empty: none
+  QString next_pass_;  ///< folder to which a pass is added; empty: none
   QWidget* footer_;
   ParagraphLabel* advice_;
   QPushButton* leave_;

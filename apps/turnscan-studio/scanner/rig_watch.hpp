@@ -1,5 +1,5 @@
 #pragma once
-// Whether the platter is still where the calibration has it, looked at now and then.
+// Periodically checks whether the platter still is where the calibration has it.
 
 #include <chrono>
 #include <future>
@@ -13,19 +13,19 @@
 
 namespace turnscan::studio {
 
-/// Averages a few frames and compares them on a thread of its own; nobody waits for it.
+/// Averages a few frames and compares them on a separate thread; nobody waits for it.
 class RigWatch {
  public:
-  static constexpr std::size_t kFrames = 6;  ///< averaged for one look
-  static constexpr double kPause_s = 4.0;    ///< between two looks
+  static constexpr std::size_t kFrames = 6;  ///< averaged for one check
+  static constexpr double kPause_s = 4.0;    ///< between two checks
 
   ~RigWatch();
 
-  /// Frames of sensor 0, as they come. Another calibration begins anew; nullptr: there is nothing
-  /// to compare with. header: of the frames.
+  /// Passes the frames of sensor 0 as they arrive. A different calibration restarts the check;
+  /// nullptr: there is nothing to compare with. header: of the frames.
   void take(const Frame& frame, const SequenceHeader& header,
             const std::shared_ptr<const Calibration>& calibration);
-  /// The last look; nullopt: none yet with this calibration.
+  /// The last result; nullopt: none yet with this calibration.
   const std::optional<RigCheck>& found() const { return found_; }
 
  private:
@@ -36,7 +36,7 @@ class RigWatch {
   std::vector<Frame> frames_;
   std::optional<RigCheck> found_;
   std::future<Result<RigCheck>> look_;
-  bool outdated_ = false;  ///< look_ is by another calibration
+  bool outdated_ = false;  ///< look_ uses an outdated calibration
   Clock::time_point last_ = Clock::now() - std::chrono::minutes(1);
   RunContext context_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// 3D Scanner: look, calibrate, record.
+// 3D Scanner: view, calibrate, record.
 
 #include <memory>
 #include <optional>
@@ -30,7 +30,7 @@ class PickTool;
 class RecordPanel;
 struct LiveState;
 
-/// How often something new was shown since the recording began.
+/// Number of display updates since the recording began.
 struct LiveUpdates {
   std::size_t pictures = 0, coverages = 0, surfaces = 0;
 };
@@ -45,7 +45,7 @@ class ScannerMode : public Mode {
   QString undo_text() const override { return picks_.empty() ? QString() : tr("click"); }
   void shut_down() override;
 
-  /// Tells how to lay the object, lays it so where the source can, and goes on with its recording.
+  /// Shows how to place the object, repositions it if the source can, and continues its recording.
   void scan_another_side(const AnotherSide& side);
   void set_device(const QString& uri);
   RecordPanel& recording() { return *record_; }
@@ -54,11 +54,11 @@ class ScannerMode : public Mode {
   const Calibration* calibration() const { return calibration_.get(); }
   void load_calibration(const QString& path);
   void save_calibration(const QString& path);
-  /// A point on the platter's rim, sensor frame.
+  /// Adds a point on the platter's rim, sensor frame.
   void add_pick(const Vec3d& point);
   void undo_pick();
   std::size_t picks() const { return picks_.size(); }
-  /// The last look at the platter beside the calibration.
+  /// The last comparison of the platter with the calibration.
   const std::optional<RigCheck>& rig_check() const { return rig_; }
 
  protected:
@@ -77,7 +77,7 @@ class ScannerMode : public Mode {
   void show_empty_text();
   void list_devices();
   QString chosen_uri() const;
-  /// A table and its speed are those of one device: what is known of another's is put away.
+  /// A table and its speed belong to one device: clears those of another.
   void take_device(const QString& uri);
   void forget_calibration();
   void toggle_play();
@@ -106,9 +106,9 @@ class ScannerMode : public Mode {
   std::shared_ptr<const AveragedScan> scan_;
   std::shared_ptr<const Calibration> calibration_;
   QString played_uri_;
-  bool for_next_device_ = false;   ///< the calibration was loaded before a device played
+  bool for_next_device_ = false;   ///< the calibration was loaded before a device was opened
   bool is_kept_ = false;           ///< the calibration is that of an earlier recording
-  bool kept_is_outdated_ = false;  ///< what is kept of the device that plays does not fit
+  bool kept_is_outdated_ = false;  ///< the stored calibration of the current device does not fit
   std::vector<Vec3d> picks_;
 
   JobRunner* quick_;

@@ -1,5 +1,5 @@
 #pragma once
-// For the sources of the 3D Scanner.
+// Internal to the sources of the 3D Scanner.
 
 #include <turnscan/turntable/detection/average.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
@@ -14,7 +14,7 @@ struct ScannerMode::CalibrationOptions {
   DetectOptions detect;
 };
 
-/// Pixels of a sensor, near enough to each other to look like a surface.
+/// Pixels of a sensor, drawn large enough to look like a surface.
 inline ItemStyle picture_style(bool visible) {
   ItemStyle style;
   style.visible = visible;
@@ -23,7 +23,7 @@ inline ItemStyle picture_style(bool visible) {
   return style;
 }
 
-/// Points on the rim of the platter.
+/// Picks points on the rim of the platter.
 class PickTool : public ViewTool {
  public:
   explicit PickTool(ScannerMode& mode) : mode_(mode) {}

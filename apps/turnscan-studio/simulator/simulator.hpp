@@ -1,5 +1,5 @@
 #pragma once
-// Scanner Simulator: build a rig, run it, see what it covers.
+// Scanner Simulator: build a rig, run it, see its coverage.
 
 #include <memory>
 #include <mutex>
@@ -34,7 +34,7 @@ class OptionForm;
 struct ItemStyle;
 struct SimulationResult;
 
-/// Samples on their way from the threads that trace them to the view.
+/// Transfers samples from the tracing threads to the view.
 struct SampleStream {
   std::mutex mutex;
   std::vector<Vec3f> points;
@@ -59,11 +59,11 @@ class SimulatorMode : public Mode {
   void load_scene(const QString& path);
   void save_scene(const QString& path);
   void run();
-  /// The scene as the command line's --scene reads it.
+  /// The scene in the form read by the command line's --scene.
   const SceneDescription& scene();
   void set_folder(const QString& folder);
   const SimulationResult* result() const { return result_.get(); }
-  /// Whether the object of the scene is there.
+  /// Whether the object of the scene is loaded.
   bool ready() const;
   int scanner_count() const { return int(scanners_.size()); }
 
@@ -106,7 +106,7 @@ class SimulatorMode : public Mode {
   std::shared_ptr<SimulationResult> result_;
   std::unique_ptr<class RigTool> tool_;
 
-  JobRunner* quick_;  ///< previews, beside the long jobs
+  JobRunner* quick_;  ///< for previews, in parallel with the long jobs
   QTimer* preview_;
   QTimer* poll_;
   QComboBox* object_;
@@ -122,7 +122,7 @@ class SimulatorMode : public Mode {
   MessageLabel* error_;
   std::vector<std::pair<QString, OptionForm*>> forms_;
   int object_item_ = 0, table_item_ = 0, coverage_item_ = 0, hole_item_ = 0;
-  std::vector<std::string> steps_;  ///< of undo: the scene as TOML, oldest first
+  std::vector<std::string> steps_;  ///< undo steps: the scene as TOML, oldest first
   int step_ = 0;
   std::vector<int> sample_items_;
   std::size_t samples_shown_ = 0;

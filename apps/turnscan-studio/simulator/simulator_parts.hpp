@@ -1,5 +1,5 @@
 #pragma once
-// For the sources of the Simulator.
+// Internal to the sources of the Simulator.
 
 #include <memory>
 #include <turnscan/sensors/scanner_file.hpp>
@@ -15,10 +15,10 @@ struct SimulatorMode::RigScanner {
   ScannerModel model;
   ScannerPlacement placement;
   OptionForm* form = nullptr;
-  int lines = 0, bodies = 0;  // items of the view
+  int lines = 0, bodies = 0;  // items in the view
 };
 
-/// Drags a scanner about the point that it looks at; with Shift nearer and farther.
+/// Drags a scanner around its target point; with Shift, closer and farther.
 class RigTool : public ViewTool {
  public:
   explicit RigTool(SimulatorMode& mode) : mode_(mode) {}

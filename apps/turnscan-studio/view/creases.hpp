@@ -5,8 +5,8 @@
 namespace turnscan::studio {
 
 /// The mesh with a normal per vertex, for drawing: vertices at which faces meet at more than
-/// `angle_rad` are there once per face, with the mean normal of the faces on its side of the
-/// crease, so that edges look like edges. Vertices keep their order; new ones follow.
+/// `angle_rad` are duplicated, each copy with the mean normal of the faces on its side of the
+/// crease, so that edges look sharp. Vertices keep their order; new ones are appended.
 TriangleMesh split_at_creases(const TriangleMesh& mesh, double angle_rad);
 
 }  // namespace turnscan::studio

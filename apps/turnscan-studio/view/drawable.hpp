@@ -1,5 +1,5 @@
 #pragma once
-// Meshes, clouds and lines made ready for the graphics library, on any thread.
+// Converts meshes, clouds and lines for the graphics library, on any thread.
 
 #include <cstdint>
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace turnscan::studio {
 
-/// Geometry as it is drawn; see drawable_parts.hpp.
+/// Geometry ready to be drawn; see drawable_parts.hpp.
 struct Drawable;
 using DrawablePtr = std::shared_ptr<const Drawable>;
 
-/// Pairs of points, metres.
+/// Line segments: pairs of points, metres.
 struct Segments {
   std::vector<Vec3f> points;
 
@@ -24,20 +24,20 @@ struct Segments {
 };
 
 enum class Shading {
-  kSmooth,  ///< normals of the mesh, or made from it
-  kFlat     ///< every face with a normal of its own
+  kSmooth,  ///< normals of the mesh, or computed from it
+  kFlat     ///< one normal per face
 };
 
 enum class Texels {
-  kBlended,  ///< a picture of something
-  kSquares   ///< each texel one colour: what it stands for must not be mixed
+  kBlended,  ///< interpolated, for images
+  kSquares   ///< each texel has a single colour: values must not be mixed
 };
 
-/// A mesh without triangles gives something that draws nothing. A texture that fits the mesh
-/// (has_texture()) is drawn, unless the shading is flat; the picture is shared, not copied.
+/// A mesh without triangles gives an empty drawable. A texture that matches the mesh
+/// (has_texture()) is drawn, unless the shading is flat; the image is shared, not copied.
 DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth,
                           Texels texels = Texels::kBlended);
-/// spacing_m: how far its points lie apart; they are drawn so large that they touch. 0: not known,
+/// spacing_m: distance between its points, which are drawn so large that they touch. 0: not known,
 /// all are drawn in the view's point size.
 DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m = 0.0);
 DrawablePtr make_drawable(const Segments& segments);

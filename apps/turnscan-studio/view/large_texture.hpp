@@ -1,6 +1,6 @@
 #pragma once
-// A large picture on its way to the graphics card, piece by piece: at once it would be a pause that
-// shows, and so would the smaller levels of it, which the card would make by itself.
+// Uploads a large image to the graphics card piece by piece: uploading it at once would cause a
+// noticeable pause, and so would the mipmap levels if the card generated them.
 
 #include <vtkNew.h>
 #include <vtkOpenGLTexture.h>
@@ -13,19 +13,19 @@
 
 namespace turnscan::studio {
 
-/// Pictures of more pixels are brought there in pieces.
+/// Images with more pixels are uploaded in pieces.
 inline constexpr std::size_t kPictureAtOnce = 1200000;
 
 class LargeTexture {
  public:
-  /// The picture and halves_of() it, which have to live as long.
+  /// The image and halves_of() it, which must outlive this.
   LargeTexture(const ColorImage& picture, const std::vector<ColorImage>& halves,
                vtkOpenGLRenderWindow* window);
 
-  /// One piece more, until it is complete. The window's context must be current.
+  /// Uploads one more piece, until it is complete. The window's context must be current.
   void upload_piece();
   bool complete() const { return level_ == levels_.size(); }
-  /// Once it is complete.
+  /// Valid once it is complete.
   vtkSmartPointer<vtkTexture> texture() const;
 
  private:

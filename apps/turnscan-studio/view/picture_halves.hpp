@@ -5,8 +5,8 @@
 
 namespace turnscan::studio {
 
-/// Halves of a picture, their halves, and so on, down to one pixel. Each pixel is the mean of those
-/// that it stands for.
+/// The image at half size, a quarter, and so on, down to one pixel. Each pixel is the mean of those
+/// that it covers.
 std::vector<ColorImage> halves_of(const ColorImage& picture);
 
 }  // namespace turnscan::studio

@@ -1,5 +1,5 @@
 #pragma once
-// The view: what is drawn, the camera, and what a person does with the mouse. VTK stays behind it.
+// The view: drawing, camera, and mouse interaction. Encapsulates VTK.
 
 #include <QColor>
 #include <QCursor>
@@ -24,22 +24,23 @@ inline QColor to_color(const Rgb& c) { return {c.r, c.g, c.b}; }
 
 struct ItemStyle {
   bool visible = true;
-  QColor color = QColor(0xb9c4cf);  ///< where the item has no colours of its own
-  bool own_colors = true;           ///< draw the colours, or the texture, that it has
+  QColor color = QColor(0xb9c4cf);  ///< if the item has no colours of its own
+  bool own_colors = true;           ///< draw its own colours or texture
   double opacity = 1.0;             ///< 0 to 1
-  int pane = 0;                     ///< 1: on the right where the view is split
+  int pane = 0;                     ///< 1: on the right in a split view
   double line_width = 1.5;
-  double point_scale = 1.0;  ///< of the view's point size
+  double point_scale = 1.0;  ///< relative to the view's point size
   bool lit = true;
-  bool boxed = true;    ///< gets a bounding box, and is cut by the clipping plane
-  bool in_view = true;  ///< the camera is set so that it is seen
+  bool boxed = true;    ///< has a bounding box, and is cut by the clipping plane
+  bool in_view = true;  ///< included when the camera is fitted
 };
 
-/// What the mouse does in place of turning the camera. Positions in pixels of the widget.
+/// Mouse interaction that replaces the rotation of the camera. Positions are in pixels of the
+/// widget.
 class ViewTool {
  public:
   virtual ~ViewTool() = default;
-  /// True: the tool takes the mouse until it is released.
+  /// True: the tool receives the mouse events until release.
   virtual bool press(const QPointF& at, Qt::KeyboardModifiers keys) = 0;
   virtual void drag(const QPointF& /*at*/, Qt::KeyboardModifiers /*keys*/) {}
   virtual void release(const QPointF& /*at*/) {}
@@ -51,18 +52,18 @@ class ViewTool {
 enum class SurfaceLook {
   kShaded,
   kEdges,      ///< with the edges of its triangles
-  kWireframe,  ///< these alone
-  kNormals     ///< coloured by where it faces: x red, y green, z blue
+  kWireframe,  ///< only the edges
+  kNormals     ///< coloured by the normal: x red, y green, z blue
 };
 
 enum class StandardView { kFront, kBack, kLeft, kRight, kTop, kBottom, kCorner };
 
-/// Where the camera is, what it turns about, and which way is up on the screen.
+/// Position of the camera, its centre of rotation, and the up direction on the screen.
 struct CameraPlace {
   Vec3d position, focus, up;
 };
 
-/// A bar of colours with texts beside it, low values first.
+/// A colour bar with labels, low values first.
 struct Legend {
   QString title;
   struct Entry {
@@ -70,9 +71,9 @@ struct Legend {
     QString text;
   };
   std::vector<Entry> entries;
-  bool continuous = false;        ///< one bar with the colours blended, texts at even distances
-  std::vector<double> histogram;  ///< shares beside the bar; may be empty
-  std::vector<QColor> bar;        ///< of a continuous one: finer colours than the entries have
+  bool continuous = false;        ///< one bar with blended colours and evenly spaced labels
+  std::vector<double> histogram;  ///< shares shown next to the bar; may be empty
+  std::vector<QColor> bar;        ///< for a continuous one: finer colours than the entries
 };
 
 class SceneView : public QWidget {
@@ -82,7 +83,7 @@ class SceneView : public QWidget {
   ~SceneView() override;
 
   int add(DrawablePtr drawable, const ItemStyle& style);
-  /// Other geometry for an item; it keeps its style.
+  /// Replaces the geometry of an item, which keeps its style.
   void replace(int item, DrawablePtr drawable);
   void set_style(int item, const ItemStyle& style);
   void remove(int item);
@@ -92,13 +93,13 @@ class SceneView : public QWidget {
   void set_camera_speed(double factor);
   void set_boxes(bool on);
   void set_split(bool on, const QString& left = {}, const QString& right = {});
-  /// What it shows comes many times a second: edges are not smoothed, which costs a software
-  /// renderer as much as all else.
+  /// For content that changes many times per second: disables antialiasing, which costs a software
+  /// renderer as much as everything else.
   void set_live(bool live);
   void set_legend(const Legend& legend);
-  /// Shown in the middle while nothing is drawn.
+  /// Shown in the middle if nothing is drawn.
   void set_empty_text(const QString& title, const QString& text);
-  /// Buttons below that text; the first one is what most people want.
+  /// Buttons below that text; the first is the one that most users want.
   struct Action {
     QString text;
     std::function<void()> run;
@@ -106,58 +107,60 @@ class SceneView : public QWidget {
   void set_empty_actions(const std::vector<Action>& actions);
   /// One line at the top, e.g. what to click next; empty: none.
   void set_hint(const QString& text);
-  void set_tool(ViewTool* tool);  ///< nullptr: the camera alone
+  void set_tool(ViewTool* tool);  ///< nullptr: the camera gets the mouse
   ViewTool* tool() const { return tool_; }
-  /// Painted above the picture whichever tool is active, e.g. measurements; empty: nothing.
+  /// Painted over the picture whichever tool is active, e.g. measurements; empty: nothing.
   void set_marks(std::function<void(QPainter&)> paint);
-  /// Up on the screen: +Y of the table's frame, -Y of a sensor's.
+  /// Up direction on the screen: +Y of the table's frame, -Y of a sensor's.
   void set_up(const Vec3d& up);
-  /// A plane (normal . p >= offset is shown) that everything is cut by; normal 0: none.
+  /// Clips everything at a plane (normal . p >= offset is shown); normal 0: none.
   void set_clip(const Vec3d& normal, double offset);
-  /// The same, of another plane: that of a person who looks inside, beside that of a tool.
+  /// The same for a second plane, set by the user to look inside, in addition to that of a tool.
   void set_view_clip(const Vec3d& normal, double offset);
 
   void set_surface_look(SurfaceLook look);
-  /// Places that little light reaches are darker; off by itself while the view moves.
+  /// Darkens places that little ambient light reaches; switched off while the view moves.
   void set_ambient_occlusion(bool on);
 
   void reset_camera();
   CameraPlace camera() const;
-  /// As if a person had moved it there.
+  /// As if the user had moved it there.
   void set_camera(const CameraPlace& place);
-  /// Whether all of a box is seen, and no smaller than a twentieth of the view.
+  /// Whether a box is completely visible, and at least a twentieth of the view in size.
   bool sees(const Box& box) const;
-  /// The camera moves until it does, if it does not yet.
+  /// Moves the camera until sees() is true, if necessary.
   void bring_into_view(const Box& box);
-  /// Turns the camera about the vertical through its centre of rotation.
+  /// Rotates the camera about the vertical through its centre of rotation.
   void turn(double angle_rad);
-  /// reset_camera(), unless somebody has moved the camera.
+  /// reset_camera(), unless the user has moved the camera.
   void fit_unless_moved();
   void look(StandardView from);
-  /// The camera moves to look at a point from a direction (0: as now), `size_m` filling the view.
+  /// Moves the camera to look at a point from a direction (0: the current one), with `size_m`
+  /// filling the view.
   void fly_to(const Vec3d& center, double size_m, const Vec3d& from);
-  /// As if the sensor looked: from the origin along +z, y down.
+  /// Views from the sensor: from the origin along +z, y down.
   void look_as_sensor(const Vec3d& target);
 
-  /// Where what is drawn under a pixel lies; nothing on the background.
+  /// Position of what is drawn at a pixel; nullopt on the background.
   std::optional<Vec3d> pick(const QPointF& at);
-  /// Pixel of a point, if it is before the camera.
+  /// Pixel of a point, if it is in front of the camera.
   std::optional<QPointF> project(const Vec3d& p) const;
   /// Origin and direction (unit length) of the line of sight through a pixel.
   std::pair<Vec3d, Vec3d> sight(const QPointF& at) const;
-  /// Takes homogeneous points to pixels of the widget times depth (x, y, _, depth > 0).
+  /// Projects homogeneous points to pixels of the widget times depth (x, y, _, depth > 0).
   Eigen::Matrix4d to_pixels() const;
-  /// Metres per pixel at the point that the camera turns about.
+  /// Metres per pixel at the camera's centre of rotation.
   double metres_per_pixel() const;
 
   QImage screenshot();
   void request_render();
   void update_overlay();
-  /// Whether everything is drawn that is to be drawn while nothing moves.
+  /// Whether everything that is drawn at rest has been drawn.
   bool settled() const;
-  /// Points that the last frame while moving drew, and the longest such frame.
+  /// Number of points that the last frame drew while moving, and the longest duration of such a
+  /// frame.
   std::size_t points_while_moving() const;
-  /// As many points as this machine draws without a pause that shows.
+  /// Number of points that this machine draws without a noticeable pause.
   std::size_t points_at_once() const;
   double longest_frame_ms() const;
 

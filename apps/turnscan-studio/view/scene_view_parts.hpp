@@ -1,5 +1,5 @@
 #pragma once
-// What a SceneView consists of, for its own sources.
+// Internals of SceneView, for its own sources.
 
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
@@ -25,11 +25,12 @@
 
 namespace turnscan::studio {
 
-inline constexpr int kRestAfterMs = 180;    ///< the camera, after it moved
+inline constexpr int kRestAfterMs =
+    180;  ///< time without movement after which the camera is at rest
 inline constexpr double kViewAngle = 30.0;  ///< degrees, vertical
-inline constexpr double kPointSize = 2.0;   ///< pixels, unless somebody changes it
+inline constexpr double kPointSize = 2.0;   ///< pixels, by default
 
-/// The OpenGL surface; the mouse belongs to the view.
+/// The OpenGL surface; mouse events are handled by the view.
 class VtkCanvas : public QVTKOpenGLNativeWidget {
  public:
   explicit VtkCanvas(SceneView* view) : QVTKOpenGLNativeWidget(view), view_(view) {}
@@ -43,17 +44,18 @@ class VtkCanvas : public QVTKOpenGLNativeWidget {
 
 class ViewOverlay;
 
-/// nullptr where it has none.
+/// nullptr if it has none.
 vtkSmartPointer<vtkTexture> texture_of(const Drawable& drawable);
 
 struct SceneView::Item {
   DrawablePtr drawable;
   ItemStyle style;
-  /// Of each chunk, made when it is first drawn: hundreds at once would be a pause that shows.
+  /// One per chunk, created when it is first drawn: hundreds at once would cause a noticeable
+  /// pause.
   std::vector<vtkSmartPointer<vtkActor>> actors;
   vtkSmartPointer<vtkActor> coarse, box;
   vtkSmartPointer<vtkTexture> texture;  ///< made with the first actor
-  std::unique_ptr<LargeTexture> large;  ///< on its way, or complete and `texture` already
+  std::unique_ptr<LargeTexture> large;  ///< being uploaded, or complete and already in `texture`
 
   bool has_large_texture() const { return large && large->complete(); }
   bool waits_for_texture() const {
@@ -77,7 +79,7 @@ struct SceneView::Parts {
   ClipPlane tool_clip, view_clip;
   std::map<int, Item> items;
   int next_item = 1;
-  /// Of the last item that was dropped: an edit, or undoing it, mostly keeps the texture.
+  /// Texture of the last item that was dropped: an edit, or undoing it, usually keeps the texture.
   std::unique_ptr<LargeTexture> spare;
   std::shared_ptr<const MeshTexture> spare_of;
 
@@ -92,12 +94,12 @@ struct SceneView::Parts {
   std::function<void(QPainter&)> marks;
 
   Vec3d up = Vec3d::UnitY();
-  Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a flight
+  Vec3d from_focus, from_offset, to_focus, to_offset;  ///< of a camera flight
   QVariantAnimation flight;
 
-  QTimer render;  ///< the next frame
-  QTimer rest;    ///< the camera has come to rest
-  QTimer more;    ///< the next piece of the points that are still missing
+  QTimer render;  ///< triggers the next frame
+  QTimer rest;    ///< fires when the camera is at rest
+  QTimer more;    ///< draws the next part of the missing points
   bool moving = false, complete = false, warm = false;
   std::size_t budget = 40000, chunks_a_frame = 1, points_drawn = 0;
   double longest_ms = 0.0;
@@ -109,13 +111,13 @@ struct SceneView::Parts {
 
   QPointF last_mouse;
   bool tool_active = false;
-  bool touched = false;  ///< somebody has moved the camera
+  bool touched = false;  ///< the user has moved the camera
 
   bool waits_for_texture() const {
     return std::any_of(items.begin(), items.end(),
                        [](const auto& entry) { return entry.second.waits_for_texture(); });
   }
-  /// The small picture for now, or the one that is there already.
+  /// Uses the small image for now, or the texture that is already uploaded.
   void give_texture(Item& item) {
     if (spare && spare_of == item.drawable->texture) {
       item.large = std::move(spare);

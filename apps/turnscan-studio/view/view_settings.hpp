@@ -1,5 +1,5 @@
 #pragma once
-// What the three modes share about their views, and its controls at the top of every panel.
+// View settings shared by the three modes, and their controls at the top of every panel.
 
 #include <QObject>
 #include <QWidget>
@@ -25,7 +25,7 @@ class ViewSettings : public QObject {
   void set_boxes(bool on);
   void set_dark(bool on);
 
-  /// Keeps the view as these settings say.
+  /// Applies these settings to the view, now and after changes.
   void attach(SceneView* view);
 
  Q_SIGNALS:

@@ -1,5 +1,5 @@
 #pragma once
-// What the program has said since it started, in all modes.
+// All messages of the program since it started, in all modes.
 
 #include <QDateTime>
 #include <QObject>
@@ -8,7 +8,7 @@
 
 namespace turnscan::studio {
 
-/// Errors and lines of the status bar, oldest first; the last kMax of them. Thread of the window.
+/// Errors and lines of the status bar, oldest first; the last kMax of them. Window's thread only.
 class MessageLog : public QObject {
   Q_OBJECT
  public:
@@ -20,9 +20,9 @@ class MessageLog : public QObject {
   };
 
   const std::deque<Entry>& entries() const { return entries_; }
-  /// The same text once more, right after itself, is not noted again.
+  /// A repetition of the last text is not added again.
   void add(const QString& text, bool error);
-  /// A line for each entry.
+  /// One line per entry.
   QString text() const;
 
  Q_SIGNALS:
@@ -32,7 +32,7 @@ class MessageLog : public QObject {
   std::deque<Entry> entries_;
 };
 
-/// That of the program.
+/// The program's log.
 MessageLog& messages();
 
 }  // namespace turnscan::studio

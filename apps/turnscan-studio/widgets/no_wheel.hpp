@@ -4,7 +4,7 @@ class QWidget;
 
 namespace turnscan::studio {
 
-/// The wheel scrolls the panel that the widget is on; it does not change its value on the way.
+/// Makes the wheel scroll the panel that contains the widget instead of changing its value.
 void leave_wheel_to_panel(QWidget* widget);
 
 }  // namespace turnscan::studio

@@ -1,6 +1,6 @@
 #pragma once
-// Fields for the options of a library's struct, made from its OptionTable: names, ranges, units,
-// help and the words of errors have their one source there.
+// Input fields for an options struct of the library, generated from its OptionTable, which defines
+// names, ranges, units, help and error messages.
 
 #include <QMap>
 #include <QString>
@@ -17,25 +17,25 @@ class OptionForm : public QWidget {
   Q_OBJECT
  public:
   /// The table refers to a struct that must outlive the form. The editor of the field "voxel-size"
-  /// has the object name "option:voxel-size". hide: fields that get no row.
+  /// has the object name "option:voxel-size". hide: fields without a row.
   explicit OptionForm(OptionTable table, const QStringList& hide = {}, QWidget* parent = nullptr);
 
-  /// Whether every text that was typed was accepted; the struct holds the last good values.
+  /// Whether every typed text was accepted; the struct holds the last valid values.
   bool valid() const;
-  /// The first thing that is wrong, in the words of the command line; empty: nothing.
+  /// The first error, in the words of the command line; empty: none.
   QString first_error() const;
-  /// Shows what the struct holds now.
+  /// Shows the current values of the struct.
   void refresh();
   void reset_to_defaults();
-  /// What an automatic value was in the last run; `why` becomes the tool tip.
+  /// Shows the value that an automatic option had in the last run; `why` becomes the tool tip.
   void show_used(const QString& field, const QString& value, const QString& why);
 
   /// Values that differ from the defaults, by name.
   QMap<QString, QString> values() const;
-  /// Unknown names and values that no longer fit are passed over.
+  /// Ignores unknown names and values that are no longer valid.
   void set_values(const QMap<QString, QString>& values);
 
-  /// Keeps values() in the settings, and takes them from there.
+  /// Store values() in the settings, and restore them.
   void store(const QString& group) const;
   void restore(const QString& group);
 

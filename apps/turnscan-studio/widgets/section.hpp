@@ -11,7 +11,7 @@ class QVBoxLayout;
 
 namespace turnscan::studio {
 
-/// A titled part of a panel that can be folded.
+/// A collapsible titled part of a panel.
 class Section : public QWidget {
   Q_OBJECT
  public:
@@ -28,16 +28,16 @@ class Section : public QWidget {
   QVBoxLayout* body_;
 };
 
-/// An error where it belongs, and in the messages; hidden without text.
+/// An error message, also added to the message log; hidden without text.
 class MessageLabel : public QLabel {
  public:
   explicit MessageLabel(QWidget* parent = nullptr);
   void show_text(const QString& text);
-  /// On a line below what is shown.
+  /// Appends a line to the shown text.
   void add_text(const QString& text);
 };
 
-/// A paragraph of several lines, of which a panel shows all.
+/// A paragraph of several lines, which a panel shows completely.
 class ParagraphLabel : public QLabel {
  public:
   explicit ParagraphLabel(QWidget* parent = nullptr);
@@ -52,12 +52,12 @@ class ParagraphLabel : public QLabel {
   void make_room();
 };
 
-/// Text that explains; wraps and stays in the background.
+/// Explanatory text in a subdued colour; wraps.
 QLabel* quiet_label(const QString& text, QWidget* parent = nullptr);
 QPushButton* button(const QString& text, const QString& tip, QWidget* parent = nullptr);
 QPushButton* primary_button(const QString& text, const QString& tip, QWidget* parent = nullptr);
 QToolButton* tool_button(const QString& text, const QString& tip, QWidget* parent = nullptr);
-/// A vertical layout within a scroll area, as wide as the panel.
+/// A vertical layout inside a scroll area, as wide as the panel.
 QVBoxLayout* scrolled_body(QScrollArea* area);
 
 }  // namespace turnscan::studio

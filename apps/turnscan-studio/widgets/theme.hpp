@@ -11,13 +11,13 @@ namespace turnscan::studio {
 struct Theme {
   bool dark = false;
   QColor window, panel, field, text, quiet_text, line, accent, accent_text, error, good;
-  QColor view_top, view_bottom;  ///< of the gradient behind the models
+  QColor view_top, view_bottom;  ///< gradient behind the models
 };
 
 const Theme& light_theme();
 const Theme& dark_theme();
 
-/// Gives the whole program palette and style sheet of the theme.
+/// Applies the theme's palette and style sheet to the whole program.
 void apply_theme(QApplication& app, const Theme& theme);
 
 /// Distinct, readable on both themes; repeats after 10.

@@ -1,5 +1,5 @@
 #pragma once
-// What the Help menu shows: keys, the manual, messages, what the program is made of.
+// Contents of the Help menu: keys, the manual, messages, about.
 
 #include <QString>
 #include <vector>
@@ -8,14 +8,14 @@ namespace turnscan::studio {
 
 class MainWindow;
 
-/// What a person can press, and what that does, in the order of the menus; the mouse first.
+/// Keys and mouse actions with their effects, in the order of the menus; the mouse first.
 struct KeyLine {
   QString keys, what;
 };
 std::vector<KeyLine> keys_of(const MainWindow& window);
 void show_keys(MainWindow& window);
 
-/// docs/studio.md as it came with the program, or empty: then it is not here.
+/// docs/studio.md as shipped with the program; empty if it is not installed.
 QString manual_file();
 void show_manual(MainWindow& window);
 

@@ -12,8 +12,8 @@ namespace turnscan::studio {
 
 class JobRunner;
 
-/// Shows the running job in the status line: phase, progress, time left (or, where nobody knows,
-/// how long it has run), Cancel.
+/// Shows the running job in the status line: phase, progress, remaining time (or elapsed time if
+/// that is not known), Cancel.
 class JobBar : public QWidget {
   Q_OBJECT
  public:

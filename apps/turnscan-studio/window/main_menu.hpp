@@ -8,7 +8,7 @@ namespace turnscan::studio {
 
 class MainWindow;
 
-/// What of the menus follows the state of the window.
+/// Menu items that depend on the state of the window.
 struct MainMenu {
   QMenu* recent = nullptr;  ///< filled by the window whenever it is opened
   QAction* undo = nullptr;
@@ -16,7 +16,7 @@ struct MainMenu {
   QAction* dark = nullptr;
 };
 
-/// Fills the menu bar. The actions call the window, which must have its modes by then.
+/// Fills the menu bar. The actions call the window, whose modes must exist by then.
 MainMenu make_main_menu(MainWindow& window);
 
 }  // namespace turnscan::studio

@@ -20,7 +20,8 @@ class ScannerMode;
 class SimulatorMode;
 class ViewSettings;
 
-/// The three modes, one of them shown, with the menus and the line of the running job.
+/// The main window: three modes, one of them visible, with the menus and the status of the running
+/// job.
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
@@ -30,14 +31,14 @@ class MainWindow : public QMainWindow {
   void open(const QString& path);
   void show_mode(const QString& name);  ///< "scanner", "explorer" or "simulator"
   void screenshot(const QString& path);
-  /// Into the status bar and the messages.
+  /// Shows a text in the status bar and adds it to the messages.
   void say(const QString& text);
 
-  /// Asked before the window closes with something at stake, one line each; true: close. A dialog,
-  /// unless a test answers.
+  /// Asks for confirmation before the window closes with something at stake, one line each; true:
+  /// close. A dialog, unless a test answers.
   using CloseQuestion = std::function<bool(const QStringList& at_stake)>;
   void set_close_question(CloseQuestion question) { ask_to_close_ = std::move(question); }
-  /// Offers what a session that did not end well has left, if there is one.
+  /// Offers to restore a session that did not end properly, if there is one.
   void offer_lost_session();
 
   JobRunner& jobs() { return *jobs_; }

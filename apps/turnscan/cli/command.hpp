@@ -1,5 +1,5 @@
 #pragma once
-// What a subcommand is to the program: it declares its options, then runs.
+// Interface of a subcommand: it declares its options, then runs.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace turnscan::cli {
 
 class CommandLine;
 
-/// What a run says of itself beside its phase while it goes on: one line, which replaces the last.
+/// Status text of a run, shown next to its phase: one line, which replaces the previous one.
 class StatusLine {
  public:
   void set(std::string text) {
@@ -36,8 +36,8 @@ class StatusLine {
   std::string text_;
 };
 
-/// One run of a subcommand: how it is watched and cancelled, and what it has to say. Text goes to
-/// standard output when the command has ended, so that it never mixes with the progress bar.
+/// One run of a subcommand: its context and its output. Text goes to standard output after the
+/// command has ended, so that it never mixes with the progress bar.
 class Session {
  public:
   explicit Session(RunContext context) : context_(std::move(context)) {}
@@ -51,14 +51,15 @@ class Session {
   }
   const std::string& text() const { return text_; }
 
-  /// Puts a question to whoever sits before standard error and takes a line of standard input,
-  /// while no progress is shown. nullopt: standard input has ended. Fails with kCancelled.
+  /// Prints a question to standard error and reads a line from standard input, with the progress
+  /// display paused. nullopt: standard input has ended. Fails with kCancelled.
   Result<std::optional<std::string>> ask(const std::string& question);
-  /// What shows progress; called with true before a question, with false behind it.
+  /// Sets the callback that pauses the progress display; called with true before a question, with
+  /// false after it.
   void on_question(std::function<void(bool)> pause) { pause_ = std::move(pause); }
 
-  /// States the phases that are still to come, from which one percentage and one time left follow.
-  /// Without a plan each phase has its clock.
+  /// States the remaining phases, so that one percentage and one remaining time can be shown.
+  /// Without a plan each phase shows its own elapsed time.
   void plan(PhasePlan phases) {
     if (take_plan_) take_plan_(std::move(phases));
   }
@@ -72,7 +73,7 @@ class Session {
   std::string text_;
 };
 
-/// Of --overwrite-unfinished, in every command that makes a recording.
+/// Help of --overwrite-unfinished, for every command that makes a recording.
 inline constexpr const char* kOverwriteUnfinishedHelp =
     "Remove what lies at RECORDING when it is a recording that was not finished";
 
@@ -80,9 +81,10 @@ class Command {
  public:
   virtual ~Command() = default;
   virtual void declare(CommandLine& line) = 0;
-  /// What run() will read and write; the program refuses outputs over inputs.
+  /// What run() will read and write; the program rejects outputs that would overwrite inputs.
   virtual FileRoles files() const = 0;
-  /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else failed.
+  /// kInvalidOption means wrong usage, kCancelled that the user stopped it; anything else is a
+  /// failure.
   virtual Result<> run(Session& session) = 0;
 };
 

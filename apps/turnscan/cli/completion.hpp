@@ -1,5 +1,5 @@
 #pragma once
-// What shells complete, from the same tables as the reference page.
+// Shell completions, from the same tables as the reference page.
 
 #include <string>
 #include <vector>

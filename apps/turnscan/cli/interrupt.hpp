@@ -5,12 +5,14 @@
 
 namespace turnscan::cli {
 
-inline constexpr int kExitCancelled = 130;  ///< of the process, as shells say it of SIGINT
+inline constexpr int kExitCancelled =
+    130;  ///< exit code of the process, the shells' convention for SIGINT
 
 /// Turns the first Ctrl-C (SIGINT), SIGTERM or SIGHUP into RunContext::cancel(); the second ends
-/// the process at once with kExitCancelled. To be made before any other thread: it blocks the
-/// signals for all threads and for child processes, so that a Ctrl-C in a terminal ends children
-/// only by way of their parent. A signal that was ignored from the start (nohup) stays ignored.
+/// the process at once with kExitCancelled. Must be constructed before any other thread starts: it
+/// blocks the signals for all threads and for child processes, so that a Ctrl-C in a terminal ends
+/// children only through their parent. A signal that was ignored from the start (nohup) stays
+/// ignored.
 class InterruptWatch {
  public:
   explicit InterruptWatch(RunContext context);

@@ -7,7 +7,7 @@
 
 namespace turnscan::cli {
 
-/// turnscan.1, in man's macros.
+/// turnscan.1, in man macros.
 std::string man_page(const std::vector<CommandReference>& commands);
 
 }  // namespace turnscan::cli

@@ -8,14 +8,14 @@
 
 namespace turnscan::cli {
 
-/// The program: its subcommands, and what their results mean to the caller. Exit codes: 0 done,
-/// 1 failed, 2 wrong usage, 130 cancelled. An error is one line on standard error.
+/// The program: its subcommands, and the exit codes for their results: 0 done, 1 failed, 2 wrong
+/// usage, 130 cancelled. An error is one line on standard error.
 class Program {
  public:
   Program();
   ~Program();
 
-  /// help: one sentence. The reference page is printed by the command that add_reference() adds.
+  /// help: one sentence. add_reference() adds the command that prints the reference page.
   void add(const std::string& name, const std::string& help, std::unique_ptr<Command> command);
   void add_reference();
 
@@ -25,9 +25,9 @@ class Program {
   struct Entry;
 
   int run_command(Entry& entry);
-  /// Names of those that have an option of that long name.
+  /// Names of the commands that have an option with this long name.
   std::vector<std::string> commands_with(const std::string& option) const;
-  /// Of the program, or the common options of the chosen command.
+  /// Help of the program, or the common options of the chosen command.
   std::string help();
   int unknown_command(const std::string& name);
   /// markdown, man, bash, zsh or fish. Fails with kInvalidOption for another format.
@@ -37,8 +37,8 @@ class Program {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The exit code of body(), which may throw: too little memory or too few threads become an error
-/// in one line like any other.
+/// Runs body() and returns its exit code. Exceptions, such as lack of memory or threads, become an
+/// error in one line like any other.
 int run_guarded(int (*body)(int, char**), int argc, char** argv);
 
 }  // namespace turnscan::cli

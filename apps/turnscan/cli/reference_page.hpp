@@ -13,11 +13,11 @@ struct CommandReference {
   std::vector<ArgumentGroup> groups;
 };
 
-/// A kind of TOML file that people write.
+/// A kind of TOML file written by users.
 struct FileReference {
   std::string title;
   std::string help;
-  std::vector<ArgumentGroup> groups;  ///< see keys_of(); without a name: keys at the top
+  std::vector<ArgumentGroup> groups;  ///< see keys_of(); without a name: top-level keys
 };
 
 /// docs/reference.md: every command with its arguments and options, then the files, as Markdown.

@@ -1,5 +1,5 @@
 #pragma once
-// What turnscan capture and turnscan scan have in common on the command line.
+// Command-line arguments shared by turnscan capture and turnscan scan.
 
 #include <functional>
 #include <string>
@@ -12,17 +12,17 @@ namespace turnscan::cli {
 
 class CommandLine;
 
-/// All options of a setup but --device, limits, speed and crop.
+/// All options of a setup except --device, limits, speed and crop.
 void declare_capture(CommandLine& line, CaptureSetup& setup);
 
-/// Speed and crop, whose names are those of stages in turnscan scan.
+/// Speed and crop, whose names collide with those of stages in turnscan scan.
 void declare_table(CommandLine& line, CaptureSetup& setup);
 
-/// The files among what is read: recordings of "replay:" devices, and another one (may be empty).
+/// The input files: recordings of "replay:" devices, and another file (may be empty).
 std::vector<std::string> with_replayed(const std::vector<std::string>& devices,
                                        const std::string& file);
 
-/// Shows a capture's progress in the session.
+/// Callback that shows a capture's progress in the session.
 std::function<void(const CaptureProgress&)> progress_in(Session& session);
 
 }  // namespace turnscan::cli

@@ -1,6 +1,6 @@
 #pragma once
 // One scene of the demo: a virtual camera records it, the recording is reconstructed, and every
-// object is compared with the truth.
+// object is compared with the ground truth.
 
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace turnscan::cli {
 
-/// One scanner before one turntable.
+/// One scanner in front of one turntable.
 struct DemoScanOptions {
   DemoScanOptions();
   std::string scanner = "kinect-v2";
@@ -39,18 +39,18 @@ struct DemoFigures {
   MeshReport check;
   Evaluation evaluation;
   double f_at_1mm = 0.0;
-  double seconds = 0.0;  ///< of the scene, from the first frame to the mesh
+  double seconds = 0.0;  ///< for the scene, from the first frame to the mesh
 };
 
-/// "all" becomes every scene. Fails with kInvalidOption for an unknown name.
+/// Expands "all" to every scene. Fails with kInvalidOption for an unknown name.
 Result<std::vector<std::string>> scene_names(const std::string& object);
 
-/// Of run_demo_scene().
+/// Phases of run_demo_scene().
 PhasePlan demo_phases(const std::string& name, const DemoSceneOptions& options);
 
-/// Leaves in `folder`: recording/, per object OBJECT.ply, OBJECT.stl, OBJECT-reference.ply,
-/// OBJECT-errors.ply and OBJECT.png (reference, reconstruction, errors), report.json.
-/// Reconstructed pieces belong to the reference that they are nearest to.
+/// Writes into `folder`: recording/, per object OBJECT.ply, OBJECT.stl, OBJECT-reference.ply,
+/// OBJECT-errors.ply and OBJECT.png (reference, reconstruction, errors), report.json. Reconstructed
+/// pieces are assigned to the nearest reference.
 Result<std::vector<DemoFigures>> run_demo_scene(const std::string& name,
                                                 const std::filesystem::path& folder,
                                                 const DemoSceneOptions& options,

@@ -1,5 +1,5 @@
 #pragma once
-// The stages of a reconstruction on the command line.
+// Options of the reconstruction's stages on the command line.
 
 #include <turnscan/reconstruction/options.hpp>
 
@@ -7,7 +7,7 @@ namespace turnscan::cli {
 
 class CommandLine;
 
-/// A group of options for each stage. options must outlive line.
+/// Adds a group of options for each stage. options must outlive line.
 void declare_stages(CommandLine& line, ReconstructOptions& options);
 
 }  // namespace turnscan::cli

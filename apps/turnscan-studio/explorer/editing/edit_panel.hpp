@@ -24,8 +24,8 @@ class MessageLabel;
 class PlaneBox;
 class SelectionTool;
 
-/// Parts of the selected model are chosen on the screen, shown, and then edited; each edit is one
-/// step of undo.
+/// Selects parts of the selected model on the screen, highlights and edits them; each edit is one
+/// undo step.
 class EditPanel : public QWidget {
   Q_OBJECT
  public:
@@ -33,16 +33,17 @@ class EditPanel : public QWidget {
   ~EditPanel() override;
 
   std::size_t selected() const { return count_selected(selection()); }
-  /// Of the model that is chosen and shown; else empty.
+  /// Selection in the model that is selected and visible; else empty.
   const Selection& selection() const;
-  /// Nothing, where nothing is selected: the model as a whole is deleted elsewhere.
+  /// Does nothing and returns false if nothing is selected: the model as a whole is deleted
+  /// elsewhere.
   bool delete_selected();
 
  Q_SIGNALS:
   void said(const QString& text);
 
  private:
-  /// What an edit makes of a model, and what is said about it; on a worker's thread.
+  /// Result of an edit and its description; computed on a worker thread.
   struct Edited {
     ModelDataPtr data;
     QString text;
@@ -84,7 +85,7 @@ class EditPanel : public QWidget {
   QWidget* plane_row_;
   MessageLabel* error_;
 
-  DrawablePtr drawn_;  ///< the selection, as
+  DrawablePtr drawn_;  ///< the selection, as drawn
   int item_ = 0;       ///< in the view
 };
 

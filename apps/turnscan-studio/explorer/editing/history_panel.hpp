@@ -8,7 +8,7 @@ namespace turnscan::studio {
 
 class ModelStore;
 
-/// All states that undo and redo lead to, oldest first; a click goes there.
+/// All states reachable by undo and redo, oldest first; a click goes there.
 class HistoryPanel : public QWidget {
   Q_OBJECT
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Rectangle, lasso and brush: what the mouse encloses or paints over on the screen.
+// Rectangle, lasso and brush: select what the mouse encloses or paints over on the screen.
 
 #include <functional>
 #include <optional>
@@ -13,7 +13,7 @@ namespace turnscan::studio {
 class SelectionTool : public ViewTool {
  public:
   enum Shape { kRectangle, kLasso, kBrush };
-  /// `how` as the keys say: Shift adds, Ctrl subtracts; nothing: as the panel says.
+  /// `how` as given by the keys: Shift adds, Ctrl subtracts; nullopt: as set in the panel.
   using Done = std::function<void(const ScreenRegion& region, std::optional<SelectHow> how)>;
 
   SelectionTool(SceneView& view, Shape shape, Done done);
@@ -36,7 +36,7 @@ class SelectionTool : public ViewTool {
   std::vector<Eigen::Vector2d> path_;
 };
 
-/// As a person sees it now.
+/// The current view of the user.
 ScreenView screen_of(const SceneView& view);
 
 }  // namespace turnscan::studio

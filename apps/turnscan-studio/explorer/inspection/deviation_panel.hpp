@@ -19,25 +19,25 @@ namespace turnscan::studio {
 class MessageLabel;
 class ParagraphLabel;
 
-/// Signed distances of the selected model to a reference, in colours with a tolerance band; and the
-/// way of laying it onto the reference.
+/// Signed distances of the selected model to a reference, colour-coded with a tolerance band; and
+/// its alignment to the reference.
 class DeviationPanel : public QWidget {
   Q_OBJECT
  public:
   explicit DeviationPanel(const ExplorerParts& parts, QWidget* parent = nullptr);
   ~DeviationPanel() override;
 
-  /// The model in the colours of its deviations; nullptr: it has none.
+  /// The model coloured by its deviations; nullptr: it has none.
   DrawablePtr drawable_of(const Model& model) const;
-  /// Whether a model is not to be drawn, as it is the reference of one that is.
+  /// Whether a model must not be drawn because it is the reference of one that is.
   bool hides(int id) const;
-  /// Of the colours that are shown; nothing while none are.
+  /// Legend of the visible colours; nullopt if none are shown.
   std::optional<Legend> legend() const;
-  /// To ask for the deviation of any place on a model; nullptr: they were not computed for it.
+  /// For the deviation at any point on a model; nullptr: not computed for it.
   std::shared_ptr<const SignedDistance> distance_of(const Model& model) const;
   const std::vector<float>& values() const { return shown_.values; }
 
-  /// A line for each vertex or point, as deviations_csv().
+  /// One line per vertex or point, as deviations_csv().
   void export_csv(const QString& path);
 
  Q_SIGNALS:
@@ -45,7 +45,7 @@ class DeviationPanel : public QWidget {
   void said(const QString& text);
 
  private:
-  /// Of one model at a time.
+  /// For one model at a time.
   struct Shown {
     ModelDataPtr of;
     int reference = 0;

@@ -8,7 +8,7 @@ class ModelStore;
 class SceneView;
 class ToolButtons;
 
-/// What inspection and editing work with; all outlive them.
+/// Services used by inspection and editing; they outlive all of these.
 struct ExplorerParts {
   ModelStore& store;
   ModelList& list;

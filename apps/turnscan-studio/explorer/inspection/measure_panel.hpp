@@ -24,7 +24,7 @@ namespace turnscan::studio {
 class MeasureTool;
 class MessageLabel;
 
-/// Measurements that are made by clicks, kept in a list, drawn in the view, and written as a table.
+/// Measurements made by clicks, kept in a list, drawn in the view, and exported as a table.
 class MeasurePanel : public QWidget {
   Q_OBJECT
  public:

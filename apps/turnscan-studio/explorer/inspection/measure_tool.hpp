@@ -1,5 +1,5 @@
 #pragma once
-// Clicks on models, and measurements as they are drawn above the picture.
+// Picks points on models, and draws measurements over the picture.
 
 #include <QString>
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace turnscan::studio {
 
-/// Collects places on what is drawn; on the background the mouse turns the camera.
+/// Collects points on what is drawn; on the background the mouse rotates the camera.
 class MeasureTool : public ViewTool {
  public:
   using Done = std::function<void(const std::vector<Vec3d>&)>;
 
-  /// `clicked` follows each place, `done` the last of `count`; then it begins anew.
+  /// `clicked` is called after each point, `done` after the last of `count`; then it starts anew.
   MeasureTool(SceneView& view, std::function<void()> clicked, Done done);
 
   void begin(std::size_t count);
@@ -32,7 +32,7 @@ class MeasureTool : public ViewTool {
   std::vector<Vec3d> places_;
 };
 
-/// Its lines and points, with the text on a card beside them.
+/// Draws its lines and points, with the text on a card next to them.
 void paint_measurement(QPainter& painter, const SceneView& view, const Measurement& measurement,
                        const QString& text, bool highlighted);
 

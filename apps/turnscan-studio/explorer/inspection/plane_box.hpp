@@ -11,18 +11,18 @@ class QSlider;
 
 namespace turnscan::studio {
 
-/// A plane across an axis: which, where in millimetres, and which side.
+/// A plane perpendicular to an axis: which axis, position in millimetres, and which side.
 class PlaneBox : public QWidget {
   Q_OBJECT
  public:
-  enum Side { kAbove, kBelow };  ///< of the place on the axis
+  enum Side { kAbove, kBelow };  ///< of the position on the axis
   /// name: of the object; its editors are NAME_axis, NAME_place, NAME_slider and NAME_flip.
-  /// `stays`: unless it is flipped.
+  /// `stays`: the side that is kept unless it is flipped.
   PlaneBox(const QString& name, Side stays, QWidget* parent = nullptr);
 
-  /// The range of the place. One that is beyond it goes to the middle.
+  /// Sets the range of the position. One outside it is moved to the middle.
   void set_box(const Box& box);
-  /// Normal and offset of the side that stays: normal . p >= offset.
+  /// Normal and offset of the side that is kept: normal . p >= offset.
   std::pair<Vec3d, double> plane() const;
 
  Q_SIGNALS:

@@ -16,7 +16,8 @@ class MessageLabel;
 class ParagraphLabel;
 class PlaneBox;
 
-/// A plane through the models, the selected one closed where it is cut, and the drawing of the cut.
+/// A section plane through the models, with the selected one capped at the cut, and the drawing of
+/// the section.
 class SectionPanel : public QWidget {
   Q_OBJECT
  public:
@@ -24,7 +25,7 @@ class SectionPanel : public QWidget {
   ~SectionPanel() override;
 
   const std::optional<turnscan::Section>& section() const { return section_; }
-  /// As DXF where the name ends so, else as SVG.
+  /// As DXF if the file has that extension, else as SVG.
   void export_drawing(const QString& path);
 
  Q_SIGNALS:
@@ -45,8 +46,8 @@ class SectionPanel : public QWidget {
   QPushButton *on_, *dxf_, *svg_;
   ParagraphLabel* figures_;
   MessageLabel* error_;
-  QTimer later_;     ///< the plane has come to rest
-  ModelDataPtr of_;  ///< that the section belongs to
+  QTimer later_;     ///< fires when the plane has stopped moving
+  ModelDataPtr of_;  ///< model to which the section belongs
   bool running_ = false, again_ = false;
   std::optional<turnscan::Section> section_;
   int contour_item_ = 0, cap_item_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Buttons that give the mouse to a tool: one at a time, in whichever panel they are.
+// Buttons that give the mouse to a tool: one at a time, across all panels.
 
 #include <QObject>
 #include <QPointer>
@@ -19,9 +19,9 @@ class ToolButtons : public QObject {
   ~ToolButtons() override;
 
   /// Makes the button checkable. While it is checked the tool has the mouse (nullptr: the camera
-  /// keeps it), and no other button is. `switched` is called with every change.
+  /// keeps it), and no other button is checked. `switched` is called with every change.
   void add(QAbstractButton* button, ViewTool* tool, std::function<void(bool on)> switched = {});
-  /// Back to the camera alone.
+  /// Returns the mouse to the camera.
   void stop();
 
  private:
@@ -32,7 +32,7 @@ class ToolButtons : public QObject {
   };
   void on_toggled(std::size_t which, bool on);
 
-  QPointer<SceneView> view_;  ///< when the window ends, it may have gone before
+  QPointer<SceneView> view_;  ///< may be destroyed first when the window closes
   std::vector<Entry> entries_;
 };
 

@@ -14,13 +14,13 @@ namespace turnscan::studio {
 
 class ModelStore;
 
-/// How the models are drawn: surfaces, opacity, isolation, a clipping plane, ambient occlusion.
+/// Appearance of the models: surfaces, opacity, isolation, a clipping plane, ambient occlusion.
 class LookPanel : public QWidget {
   Q_OBJECT
  public:
   LookPanel(SceneView& view, ModelStore& store, QWidget* parent = nullptr);
 
-  /// Which model the opacity is of; 0: none.
+  /// Sets the model to which the opacity applies; 0: none.
   void show_model(int id);
   /// Whether only the selected model is shown.
   bool isolated() const;

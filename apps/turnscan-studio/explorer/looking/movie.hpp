@@ -1,5 +1,5 @@
 #pragma once
-// The view, turned once about the vertical, as pictures or as a film.
+// A turntable animation of the view, as pictures or as a film.
 
 #include <QObject>
 #include <QPointer>
@@ -13,14 +13,14 @@ namespace turnscan::studio {
 class JobRunner;
 class SceneView;
 
-/// Whether ffmpeg is there to make films.
+/// Whether ffmpeg is available to make films.
 bool can_make_films();
 
-/// Takes a picture of each step while the window goes on; the camera ends where it began.
+/// Takes a picture at each step while the window stays responsive; finally restores the camera.
 class TurntableMovie : public QObject {
   Q_OBJECT
  public:
-  /// path: .mp4, or .png for NAME-0001.png and so on. Deletes itself when it has ended.
+  /// path: .mp4, or .png for NAME-0001.png and so on. Deletes itself when it has finished.
   TurntableMovie(SceneView& view, JobRunner& jobs, const QString& path, int frames,
                  QObject* parent);
 

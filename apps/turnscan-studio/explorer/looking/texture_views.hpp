@@ -1,5 +1,5 @@
 #pragma once
-// A textured mesh in the colours of the views that its texture came from.
+// Colours a textured mesh by the views that contributed to its texture.
 
 #include <turnscan/reconstruction/result.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace turnscan::studio {
 
-/// Each square of texels in the colour of the view that gave it most of its own; grey where none
-/// did. The legend lists the views with the largest shares, by their frames and the directions
-/// they look from. Without the report's squares, or without a texture on the mesh, no drawable.
+/// Each square of texels gets the colour of the view that contributed most to it; grey if none did.
+/// The legend lists the views with the largest shares, with their frames and viewing directions. No
+/// drawable if the report has no squares, or the mesh no texture.
 ColoredMesh color_by_view(const TriangleMesh& mesh, const TextureReport& report);
 
 }  // namespace turnscan::studio

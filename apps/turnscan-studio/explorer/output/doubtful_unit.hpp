@@ -1,5 +1,5 @@
 #pragma once
-// Files that do not say their unit, and are implausibly large or small in the usual one.
+// Detects files that do not state their unit and are implausibly large or small in the usual one.
 
 #include <QString>
 #include <functional>
@@ -13,22 +13,22 @@ namespace turnscan::studio {
 
 struct DoubtfulUnit {
   QString file;
-  double size_m = 0.0;           ///< largest side, as the file was read
-  double metres_per_unit = 1.0;  ///< with that
-  double likely = 1e-3;          ///< of the units below the one that makes most sense
+  double size_m = 0.0;           ///< largest side, as read
+  double metres_per_unit = 1.0;  ///< with which it was read
+  double likely = 1e-3;          ///< the most plausible of the units below
 };
 
 /// Millimetres, centimetres, inches, metres.
 inline constexpr double kFileUnits_m[] = {1e-3, 1e-2, 0.0254, 1.0};
 
-/// Of an OBJ, STL or PLY that is smaller than 4 mm or larger than 2.5 m as it was read: what stands
-/// on a turntable is not.
+/// For an OBJ, STL or PLY that is smaller than 4 mm or larger than 2.5 m as read, which is
+/// implausible for an object on a turntable; else nullopt.
 std::optional<DoubtfulUnit> doubtful_unit(const QString& path, const NamedModels& models);
 
 /// "13.9 m", "139 mm"
 QString size_of_model(double metres);
 
-/// Metres per unit of the file. A dialog, unless a test answers.
+/// Returns metres per unit of the file. A dialog, unless a test answers.
 using UnitQuestion = std::function<double(const DoubtfulUnit&)>;
 double ask_unit(const DoubtfulUnit& doubt, QWidget* parent);
 

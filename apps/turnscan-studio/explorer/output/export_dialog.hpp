@@ -10,15 +10,15 @@ class QLineEdit;
 
 namespace turnscan::studio {
 
-/// How a model is to be written: format, unit, axis that is up, triangles, colours. What was chosen
-/// last is chosen again.
+/// Options for exporting a model: format, unit, up axis, triangles, colours. Remembers the last
+/// choices.
 class ExportDialog : public QDialog {
   Q_OBJECT
  public:
   ExportDialog(const ModelData& model, const QString& name, QWidget* parent = nullptr);
 
   ExportOptions options() const;
-  QString ending() const;  ///< with the dot
+  QString ending() const;  ///< including the dot
   void accept() override;
 
  private:

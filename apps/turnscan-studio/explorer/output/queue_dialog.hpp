@@ -1,5 +1,5 @@
 #pragma once
-// Several recordings, reconstructed one after the other while nobody looks.
+// Reconstructs several recordings one after the other, unattended.
 
 #include <QDialog>
 #include <QStringList>
@@ -18,10 +18,10 @@ class QueueDialog : public QDialog {
  public:
   QueueDialog(ExplorerMode& mode, JobRunner& jobs, QWidget* parent = nullptr);
 
-  /// Folders of recordings, or files that `turnscan import` reads; those that are there already
-  /// are left out.
+  /// Adds folders of recordings, or files that `turnscan import` reads; skips those already in the
+  /// list.
   void add(const QStringList& recordings);
-  /// Queues all that wait. One that fails does not keep the others back.
+  /// Queues all waiting recordings. A failure does not affect the others.
   void start();
 
  protected:

@@ -23,14 +23,14 @@ namespace turnscan::studio {
 class MessageLabel;
 class PairTool;
 
-/// Joins a pass that was not joined by itself: where it lies is shown by pairs of places, clicked
-/// on the mesh so far and on its own.
+/// Joins a pass that could not be joined automatically: its pose is determined from pairs of
+/// corresponding points, clicked on the mesh so far and on the mesh of the pass.
 class JoinPanel : public QWidget {
   Q_OBJECT
  public:
   using Options = std::function<Result<ReconstructOptions>()>;
 
-  /// options: those of the reconstruction, asked for when it begins.
+  /// options: those of the reconstruction, queried when it begins.
   JoinPanel(const ExplorerParts& parts, Options options, QWidget* parent = nullptr);
   ~JoinPanel() override;
 
@@ -40,7 +40,7 @@ class JoinPanel : public QWidget {
   const Model* moved() const;  ///< on the right
 
  Q_SIGNALS:
-  void changed();  ///< is_picking()
+  void changed();  ///< is_picking() changed
   void said(const QString& text);
 
  private:
@@ -60,7 +60,7 @@ class JoinPanel : public QWidget {
   QPushButton *pick_, *undo_, *join_, *apart_;
   QLabel* text_;
   MessageLabel* error_;
-  std::size_t known_ = 0;  ///< meshes of passes that there were
+  std::size_t known_ = 0;  ///< number of meshes of passes at the last update
   std::optional<PairFit> fit_;
 };
 

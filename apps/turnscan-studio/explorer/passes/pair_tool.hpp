@@ -1,5 +1,5 @@
 #pragma once
-// The same places clicked on two models side by side.
+// Picks corresponding points on two models shown side by side.
 
 #include <functional>
 #include <turnscan/geometry/registration/point_pairs.hpp>
@@ -9,17 +9,17 @@
 
 namespace turnscan::studio {
 
-/// The nth place on the left and the nth on the right are a pair, in whichever order they are
-/// clicked. On the background, and with a key held, the mouse turns the camera.
+/// The nth point on the left and the nth on the right form a pair, in whichever order they are
+/// clicked. On the background, and with a modifier key, the mouse rotates the camera.
 class PairTool : public ViewTool {
  public:
   PairTool(SceneView& view, std::function<void()> changed);
 
   void clear();
-  void undo();  ///< the last click
+  void undo();  ///< removes the last click
   std::size_t places(int pane) const;
   bool empty() const { return clicks_.empty(); }
-  /// Those that are whole; the source is on the right.
+  /// The complete pairs; the source is on the right.
   std::vector<PointPair> pairs() const;
 
   bool press(const QPointF& at, Qt::KeyboardModifiers keys) override;
