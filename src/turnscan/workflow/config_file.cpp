@@ -30,7 +30,8 @@ const OptionGroup* group_of(const std::deque<OptionGroup>& groups, std::string_v
   return nullptr;
 }
 
-/// Set in the table of all fields, so that the nearest name is looked for among all of them.
+/// Looks the key up in the table of all fields, so that the nearest name is searched among all of
+/// them.
 Result<> set_field(const std::deque<OptionGroup>& groups, const std::string& table,
                    const std::string& key, const std::string& value) {
   const OptionGroup* group = group_of(groups, key);

@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kTold = 0.7;
 
-/// Of the preset of this name; 0 where there is none, or where it does not triangulate. A model is
-/// never taken for a file's name.
+/// Baseline of the preset of this name; 0 if there is none, or if it does not triangulate. A model
+/// name is never treated as a file name.
 double baseline_of(const std::string& model) {
   if (model.empty() || model.ends_with(".toml") || model.find('/') != std::string::npos) return 0.0;
   const auto preset = find_scanner(model);
   if (!preset || preset->kind != ScannerKind::kMatrix) return 0.0;
   const bool triangulates =
       preset->sensing == Sensing::kStereo || preset->sensing == Sensing::kStructuredLight;
-  return triangulates ? std::abs(preset->emitter_m.x()) : 0.0;  // side by side
+  return triangulates ? std::abs(preset->emitter_m.x()) : 0.0;  // the cameras are side by side
 }
 
 }  // namespace

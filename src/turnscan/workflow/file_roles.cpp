@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 using FileId = std::pair<dev_t, ino_t>;
 
-/// Of a regular file, symbolic links followed.
+/// Identity of a regular file, following symbolic links.
 std::optional<FileId> id_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
   return FileId(status.st_dev, status.st_ino);
 }
 
-/// A file that does not exist yet is known by its name.
+/// A file that does not exist yet is identified by its name.
 std::string name_of_file(const std::string& path) {
   std::error_code error;
   const fs::path full = fs::weakly_canonical(path, error);
@@ -38,8 +38,8 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether a file name is OUT-1, OUT-2, ... of this one, as write_objects() numbers them, or
-/// OUT-pass2, OUT-pass2-1, ..., as mesh_of_pass() names those of passes.
+/// Whether a file name is OUT-1, OUT-2, ... for this output, as numbered by write_objects(), or
+/// OUT-pass2, OUT-pass2-1, ..., as named by mesh_of_pass().
 bool is_numbered(const fs::path& name, const fs::path& out) {
   const std::string stem = name.stem().string(), begin = out.stem().string();
   if (name.extension() != out.extension() || !stem.starts_with(begin)) return false;
@@ -55,7 +55,7 @@ bool is_numbered(const fs::path& name, const fs::path& out) {
   return numbers_objects(out.string()) && rest.starts_with('-') && is_number(rest.substr(1));
 }
 
-/// Those that lie there already.
+/// The numbered files that already exist.
 std::vector<std::string> numbered_files(const std::string& out) {
   std::vector<std::string> files;
   if (out.empty()) return files;
@@ -67,7 +67,7 @@ std::vector<std::string> numbered_files(const std::string& out) {
   return files;
 }
 
-/// Of an output by its own name, and of what lies there already by any name.
+/// Compares an output by its own name, and existing files by any name.
 Result<> check_numbered_differ(const FileRoles& roles) {
   if (roles.numbered.empty()) return {};
   std::set<FileId> ids;
@@ -93,7 +93,8 @@ Result<> check_outputs_differ(const std::vector<std::string>& outputs) {
   std::set<std::string> names;
   for (const std::string& output : outputs) {
     const auto id = id_of(output);
-    // What is neither a file nor absent (/dev/stdout) may get several outputs.
+    // Something that is neither a file nor absent (/dev/stdout) may be the target of several
+    // outputs.
     std::error_code error;
     if (output.empty() || (!id && fs::exists(output, error))) continue;
     const bool twice =
@@ -105,7 +106,7 @@ Result<> check_outputs_differ(const std::vector<std::string>& outputs) {
   return {};
 }
 
-/// An input that holds the folder is read beside it (a data set, its recording within it).
+/// An input that contains the folder is read without it (a data set with its recording inside).
 Result<> check_input_stays(const std::string& input, const std::string& removed) {
   std::error_code error;
   if (input.empty() || removed.empty() || !fs::exists(removed, error)) return {};
@@ -119,7 +120,7 @@ Result<> check_input_stays(const std::string& input, const std::string& removed)
   return {};
 }
 
-/// Looks into folders only when an output exists that they could hold.
+/// Searches folders only if an output exists that they could contain.
 class InputSearch {
  public:
   explicit InputSearch(const FileRoles& roles) {

@@ -12,9 +12,9 @@ namespace turnscan {
 struct FileRoles {
   std::vector<std::string> inputs;   ///< a folder stands for every file in it
   std::vector<std::string> outputs;  ///< none of them is a folder
-  std::string
-      numbered{};  ///< one of the outputs, which is written as OUT-1, OUT-2, ... for several
-                   ///< objects, and as OUT-pass2, ... for passes that do not fit; may be empty
+  /// One of the outputs, which is written as OUT-1, OUT-2, ... for several objects, and as
+  /// OUT-pass2, ... for passes that do not fit; may be empty.
+  std::string numbered{};
   std::string removed{};  ///< a folder that is emptied before the work begins; may be empty
 };
 

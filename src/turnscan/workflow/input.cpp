@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecordingFile = "recording.json";
 
-/// The lines after the first, which says where the data come from.
+/// The lines after the first, which states the origin of the data.
 std::vector<std::string> assumptions_of(const std::string& source) {
   std::vector<std::string> lines;
   for (std::size_t end = source.find('\n'); end != std::string::npos;) {
@@ -23,7 +23,7 @@ std::vector<std::string> assumptions_of(const std::string& source) {
   return lines;
 }
 
-/// Of a file, or of the regular files in a folder and below.
+/// Size of a file, or of the regular files in a folder and below.
 std::uint64_t bytes_of(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) {
@@ -118,7 +118,7 @@ Result<SequenceSummary> summarize(const Input& input, const RunContext& context)
   TURNSCAN_ASSIGN(const auto filled, filled_depth_notes(*input.frames, context));
   summary.notes.insert(summary.notes.end(), filled.begin(), filled.end());
   if (input.imported)
-    summary.bytes = input.bytes;  // what was assumed stands in the summary already
+    summary.bytes = input.bytes;  // the summary already contains the assumptions
   else
     summary.notes.insert(summary.notes.end(), input.notes.begin(), input.notes.end());
   return summary;

@@ -24,7 +24,7 @@ Result<CalibratedFrames> calibrated_by(const FrameSequence& sequence, Calibratio
   out.choice = std::move(choice);
   TURNSCAN_ASSIGN(out.frames, with_choice(sequence, out.choice));
   out.options = options;
-  if (out.choice.calibration) out.options.merge.speed_rad_s.reset();  // it is in the angles
+  if (out.choice.calibration) out.options.merge.speed_rad_s.reset();  // included in the angles
   return out;
 }
 
@@ -41,8 +41,8 @@ namespace {
 
 using workflow::PlacedRecording;
 
-/// Whether the recordings hold several passes that are to become one mesh. Poses of their own bring
-/// frames together as they are.
+/// Whether the recordings have several passes to be fused into one mesh. Frames with poses of their
+/// own are fused as they are.
 bool joins_passes(const std::vector<NamedSequence>& recordings, const ReconstructRequest& request) {
   if (recordings.size() > 1 || !request.pass_poses.empty()) return true;
   const FrameSequence& frames = *recordings[0].frames;

@@ -12,7 +12,7 @@ namespace turnscan::workflow {
 
 namespace {
 
-/// Does what comes after the meshes: a failure, and an exception too, becomes a note.
+/// Runs a step after the meshes: an error, or an exception, becomes a note.
 template <class Step>
 Result<> attempt(const char* what, std::vector<std::string>& notes, const Step& step) {
   const auto note = [&](const std::string& why) {
@@ -29,13 +29,13 @@ Result<> attempt(const char* what, std::vector<std::string>& notes, const Step& 
   return {};
 }
 
-/// The name in front where there are several recordings.
+/// Prefixes the recording's name if there are several.
 std::string note_of(const PlacedRecording& recording, const std::vector<PlacedRecording>& placed,
                     const std::string& note) {
   return placed.size() == 1 ? note : fmt::format("{}: {}", recording.name, note);
 }
 
-/// What the calibrations have to say comes first.
+/// Inserts the calibrations' notes at the front.
 void note_calibrations(const std::vector<PlacedRecording>& placed,
                        std::vector<std::string>& notes) {
   std::vector<std::string> first;
@@ -46,7 +46,7 @@ void note_calibrations(const std::vector<PlacedRecording>& placed,
   notes.insert(notes.begin(), first.begin(), first.end());
 }
 
-/// What the devices did to depth.
+/// Adds notes on what the devices did to depth.
 Result<> note_devices(const std::vector<PlacedRecording>& placed, const RunContext& context,
                       std::vector<std::string>& notes) {
   for (const PlacedRecording& recording : placed) {
@@ -56,7 +56,7 @@ Result<> note_devices(const std::vector<PlacedRecording>& placed, const RunConte
   return {};
 }
 
-/// The frames that went into an object, of the passes that were joined, or of all of a recording.
+/// The frames that an object was made from: of the joined passes, or all of a recording.
 std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRecording>& placed,
                                   const std::vector<PassOfMany>& passes,
                                   const Reconstruction& made) {
@@ -77,7 +77,7 @@ std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRe
   return {{calibrated.frames.get(), pass, merge.speed_rad_s, Pose::Identity(), pass.value_or(0)}};
 }
 
-/// By the recording that shows most sides of its object.
+/// Judges by the recording that shows most sides of its object.
 Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<PassOfMany>& passes,
                const ReconstructRequest& request, const RunContext& context, ReconstructRun& run) {
   ScanKnowledge known;

@@ -26,8 +26,9 @@ Result<std::string> ffmpeg(const std::vector<std::string>& arguments, std::strin
                        kLongestVideo_s, context, input);
 }
 
-/// H.264 with the colours of sRGB's primaries, its index in front, sides even as it wants them. An
-/// MP4 file is not written front to back, which the file in memory behind /dev/stdout allows.
+/// Encodes H.264 with sRGB's primaries, the index in front, and even dimensions as required by the
+/// format. An MP4 file is not written sequentially, which the memory file behind /dev/stdout
+/// allows.
 Result<std::string> video_of(const std::vector<std::string>& pictures, double duration_s,
                              const RunContext& context) {
   std::string input;

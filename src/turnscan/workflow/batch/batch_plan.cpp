@@ -25,7 +25,7 @@ std::string safe_name(const std::string& text) {
   return name.empty() ? "task" : name;
 }
 
-/// The options of `over` take the place of those of the same name.
+/// Merges options; those of `over` replace those of the same name.
 BatchOptions merged(const BatchOptions& under, const BatchOptions& over) {
   BatchOptions all;
   for (const auto& option : under) {
@@ -42,7 +42,7 @@ BatchOptions with_absolute_paths(BatchOptions options, const std::string& folder
   return options;
 }
 
-/// As absolute path, unless it is no path.
+/// As an absolute path, unless it is not a path.
 std::string absolute_input(const std::string& input, const fs::path& folder) {
   if (input.starts_with("builtin:")) return input;
   std::error_code error;
@@ -57,7 +57,7 @@ std::string name_from(const std::string& input) {
                                                            : path.filename().string();
 }
 
-/// What a sweep adds to the name of a task, and to its options.
+/// Suffix of a task's name for one combination of swept values, and the options to set.
 struct SweepPoint {
   std::string name;
   BatchOptions options;
@@ -158,7 +158,7 @@ class Planner {
     return {};
   }
 
-  /// A task for each point of the sweep.
+  /// Adds a task for each point of the sweep.
   Result<> add(const std::string& name, const std::vector<std::string>& inputs,
                const BatchOptions& options) {
     for (const SweepPoint& point : sweep_points(axes_)) {

@@ -35,7 +35,7 @@ std::string full_path(const std::string& folder) {
 
 int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
-/// A task that is to be run.
+/// A task to be run.
 struct Due {
   const BatchTask* task = nullptr;
   int attempts_before = 0;
@@ -104,7 +104,7 @@ class BatchRunner {
     return {};
   }
 
-  /// The longest first, so that at the end no core waits for one that began late.
+  /// Longest first, so that at the end no core waits for a task that began late.
   std::vector<engine::Job> jobs_for(const std::set<std::string>& names) const {
     std::vector<const BatchTask*> order;
     for (const BatchTask& task : tasks_)
@@ -176,10 +176,10 @@ class BatchRunner {
     return std::max<std::uint64_t>(task.frames, 1);
   }
 
-  /// Looks into the task's folder for what became of it.
+  /// Reads the outcome of an ended task from its folder.
   Result<> settle(const engine::Ended& end, std::set<std::string>& again) {
     const auto found = due_.find(end.name);
-    if (found == due_.end()) return {};  // adopted, and done before it was looked at
+    if (found == due_.end()) return {};  // adopted, and already done when the states were read
     Due& due = found->second;
     const TaskRecord record = folder_.record(end.name);
     const bool ran = record.attempts > due.attempts_before;
@@ -198,7 +198,7 @@ class BatchRunner {
     return {};
   }
 
-  /// The reason is the engine's: the task's own process left none.
+  /// Uses the engine's reason, because the task's own process left none.
   Result<> give_up(const BatchTask& task, const engine::Ended& end) const {
     TaskRecord record = folder_.record(task.name);
     record.state = TaskState::kFailed;
@@ -230,7 +230,8 @@ class BatchRunner {
 fs::path own_program() {
   std::error_code error;
   std::string path = fs::read_symlink("/proc/self/exe", error).string();
-  // What the system says of a program that was replaced meanwhile: the new one lies there.
+  // Suffix that the system reports for an executable that was replaced meanwhile; the new one is at
+  // the same path.
   constexpr std::string_view kReplaced = " (deleted)";
   if (path.ends_with(kReplaced)) path.resize(path.size() - kReplaced.size());
   return path;

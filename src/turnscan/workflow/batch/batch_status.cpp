@@ -12,7 +12,7 @@ using namespace batch;
 
 namespace {
 
-constexpr std::size_t kMaxLines = 50;  // of failures, and of what runs
+constexpr std::size_t kMaxLines = 50;  // of failures, and of running tasks
 
 std::string duration_text(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
@@ -20,7 +20,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-/// From the time that a frame took so far, and how many tasks run at once.
+/// Estimated from the time per frame so far, and the number of concurrent tasks.
 std::string time_left(const BatchSummary& summary) {
   double seconds = 0.0, frames = 0.0, left = 0.0;
   for (const SummaryRow& row : summary.rows) {

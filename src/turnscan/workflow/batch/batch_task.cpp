@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Options that stand in no table: they name files, or may come several times.
+/// Options that are not in an option table: they name files, or may be repeated.
 struct PlainOptions {
   std::set<std::string> texts, files, flags;
 };
@@ -68,7 +68,7 @@ Result<> check_option(const OptionTable& table, const PlainOptions& plain, const
   return table.set(name, value);
 }
 
-/// Where the path begins and ends in the value of an option that has one.
+/// Position of the path inside the value of an option that has one.
 std::pair<std::size_t, std::size_t> path_in(const std::string& option, const std::string& value) {
   if (option == "scanner") return {0, std::min(value.find(','), value.size())};
   if (option == "pass-pose") {

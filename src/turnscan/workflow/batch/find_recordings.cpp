@@ -18,7 +18,7 @@ bool holds(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
-/// A file that says by itself what it is: any program's JSON or .conf may lie among recordings.
+/// Whether a file identifies itself: any program's JSON or .conf may be among recordings.
 bool is_file_of_a_sensor(const fs::directory_entry& entry) {
   std::error_code error;
   if (!entry.is_regular_file(error)) return false;
@@ -45,7 +45,7 @@ void find_below(const fs::path& folder, const std::string& prefix, int depth,
   }
 }
 
-/// Of what a batch of simulations has made.
+/// Finds the results of a batch of simulations.
 void find_results(const fs::path& batch, std::vector<FoundRecording>& found) {
   std::vector<fs::path> tasks;
   std::error_code error;

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct PrintedFile {
-  std::string name;  ///< relative; of a single file empty, so that it may be moved
+  std::string name;  ///< relative; empty for a single file, so that it may be moved
   fs::path path;
 };
 
 bool is_no_path(const std::string& input) { return input.starts_with("builtin:"); }
 
-/// Sorted by name: the order of a folder's entries is the file system's affair.
+/// Sorted by name: the order of a folder's entries depends on the file system.
 Result<std::vector<PrintedFile>> files_below(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -48,7 +48,7 @@ Result<std::string> file_stamp(const fs::path& path) {
   return fmt::format("{} {}.{:09}", status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
-/// Names and texts with their lengths, so that no two lists give the same bytes.
+/// Fields are prefixed with their length, so that different lists never give the same bytes.
 void add_field(file::Sha256& sum, const std::string& text) {
   sum.add(fmt::format("{}:", text.size()));
   sum.add(text);
@@ -94,7 +94,7 @@ std::string digest_of(const BatchTask& task, const std::vector<InputPrint>& inpu
   file::Sha256 sum;
   add_field(sum, std::string("turnscan ") + version());
   for (std::string word : arguments_of(task, 0)) {
-    // Where an input lies does not matter, what it holds does.
+    // The result depends on the content of an input, not on its location.
     for (const InputPrint& input : inputs) {
       const auto at = is_no_path(input.path) ? std::string::npos : word.find(input.path);
       if (at != std::string::npos) word.erase(at, input.path.size());

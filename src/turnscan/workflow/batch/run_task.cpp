@@ -41,7 +41,7 @@ Result<> remove_folder(const fs::path& folder) {
                  error.message());
 }
 
-/// What killed attempts have left.
+/// Removes what killed attempts left.
 Result<> remove_leftovers(const fs::path& task_folder) {
   std::error_code error;
   std::vector<fs::path> old;
@@ -51,7 +51,7 @@ Result<> remove_leftovers(const fs::path& task_folder) {
   return {};
 }
 
-/// The error of the command: its last line that is one.
+/// The error of the command: the last line of its log that is one.
 std::string reason_in(const fs::path& log, const process::ProcessEnd& end) {
   if (end.signal == 9)
     return "killed (signal 9): perhaps it needed more memory than there was; give it more, or "
@@ -68,7 +68,7 @@ std::string reason_in(const fs::path& log, const process::ProcessEnd& end) {
   return text->substr(at, text->find('\n', at) - at);
 }
 
-/// Waits for the command; ends it when context is cancelled.
+/// Waits for the command; terminates it when the context is cancelled.
 Result<process::ProcessEnd> wait_for_command(process::BackgroundProcess& command,
                                              const RunContext& context) {
   auto pause = std::chrono::milliseconds(1);
@@ -124,7 +124,7 @@ class TaskRun {
   }
 
  private:
-  /// The result in its place.
+  /// Makes the result and puts it in place.
   Result<> make() {
     auto prints = prints_of(task_);
     if (!prints) {
@@ -166,7 +166,8 @@ class TaskRun {
     return fail(ErrorCode::kLibrary, "{}", reason_in(log, end));
   }
 
-  /// The old result goes first: until the record says done, the task is to be run again anyway.
+  /// The old result is removed first: until the record says done, the task has to be run again
+  /// anyway.
   Result<> put_in_place() const {
     const fs::path result = folder_.result_folder(task_.name);
     TURNSCAN_TRY(remove_folder(result));

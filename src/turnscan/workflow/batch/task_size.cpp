@@ -10,14 +10,14 @@ namespace turnscan::batch {
 
 namespace {
 
-// Measured with Kinect v2, D435 and Azure Kinect, 40 to 400 frames, all methods: 80 to 222 MB;
-// these give 1.3 to 2.2 times as much (docs/scale.md).
+// Measured with Kinect v2, D435 and Azure Kinect, 40 to 400 frames, all methods: 80 to 222 MB; this
+// estimate is 1.3 to 2.2 times as much (docs/scale.md).
 constexpr double kProgramBytes = 72e6;
-constexpr double kBytesPerPixel = 1.5;      // of all frames: what a method keeps of them
-constexpr double kBytesPerDecoded = 40.0;   // of one frame, on its way in
-constexpr double kSquareMetreBytes = 80.0;  // over the square of the voxel size, of a surface of
-                                            // twice a figure of 20 cm
-constexpr double kUsualVoxel_m = 1.3e-3;    // where it is chosen from the data
+constexpr double kBytesPerPixel = 1.5;     // of all frames, kept by a method
+constexpr double kBytesPerDecoded = 40.0;  // of one frame, while it is decoded
+// Divided by the square of the voxel size, for a surface twice that of a figure of 20 cm.
+constexpr double kSquareMetreBytes = 80.0;
+constexpr double kUsualVoxel_m = 1.3e-3;  // if it is chosen from the data
 
 constexpr double kSimulateBytes = 250e6;
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSizePx = 192;
 
-/// The meshes of a reconstruction, or the true shape of a simulation.
+/// The meshes of a reconstruction, or the ground truth of a simulation.
 std::vector<fs::path> meshes_in(const fs::path& result) {
   std::vector<fs::path> meshes;
   std::error_code error;

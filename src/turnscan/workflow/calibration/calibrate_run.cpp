@@ -12,7 +12,7 @@ namespace turnscan {
 
 namespace {
 
-/// With a note of what disturbed the recording.
+/// Calibrates from motion, and notes what disturbed the recording.
 Result<Calibration> motion_calibration(const FrameSequence& recording,
                                        const CalibrateRequest& request, const RunContext& context) {
   TURNSCAN_ASSIGN(Calibration out,
@@ -37,7 +37,7 @@ Result<Calibration> platter_calibration(const FrameSequence& recording,
   return out;
 }
 
-/// From motion; where nothing turns or nothing about the turn can be seen, from the platter.
+/// From motion; if nothing turns or the rotation cannot be observed, from the platter.
 Result<Calibration> by_any_way(const FrameSequence& recording, const CalibrateRequest& request,
                                const RunContext& context) {
   auto moving = motion_calibration(recording, request, context);
@@ -65,7 +65,7 @@ Result<Calibration> picked_calibration(const FrameSequence& recording,
       sensor.viewpoint.parallel ? Vec3d(1e6 * sensor.viewpoint.value) : sensor.viewpoint.value;
   auto calibration = calibrate_from_points(picks, above);
   if (!calibration) {
-    // What the file holds is data, not the way the command was called.
+    // Invalid content of the file is a data error, not a usage error.
     Error error = std::move(calibration).error();
     if (error.code == ErrorCode::kInvalidOption) error.code = ErrorCode::kFormat;
     error.path = request.points;
@@ -103,7 +103,7 @@ Result<Calibration> run_calibration(const FrameSequence& sequence, const Calibra
   workflow::keep_corrections(correction, found);
   found.made_at =
       request.made_at.empty() ? workflow::dates_of(sequence).started_at : request.made_at;
-  // What is shown is what the file gives back.
+  // Returns the calibration as it is read back from its file.
   TURNSCAN_ASSIGN(Calibration calibration, parse_calibration(calibration_json(found)));
   TURNSCAN_TRY(context.check());
   return calibration;

@@ -63,7 +63,7 @@ Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence&
     if (check.error().code == ErrorCode::kCancelled) return tl::unexpected<Error>(check.error());
     return std::nullopt;
   }
-  // Without the rim what lies at that height may as well be the object's base.
+  // Without the rim, the surface at that height may as well be the object's base.
   if (!std::isfinite(check->tilt_rad)) return std::nullopt;
   return *check;
 }

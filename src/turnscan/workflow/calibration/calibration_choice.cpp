@@ -17,8 +17,8 @@ namespace turnscan {
 
 namespace {
 
-/// A calibration that the checks speak against takes precedence over another one if they find it
-/// off by so much less.
+/// A calibration that is itself doubted replaces another one only if its misfit is less than this
+/// share of the other's.
 constexpr double kClearlyLess = 0.4;
 
 bool undetermined(const Calibration& found, std::string_view what) {
@@ -59,7 +59,7 @@ CalibrationChoice chosen_from_motion(Calibration found, const std::string& why) 
   return out;
 }
 
-/// Nothing, too, where the recording lacks what is needed to measure it.
+/// Also nullopt if the recording lacks what is needed for the measurement.
 template <class Measure>
 Result<std::optional<Measure>> if_measurable(Result<std::optional<Measure>> measured) {
   if (!measured && measured.error().code == ErrorCode::kMissingData) return std::nullopt;
@@ -75,7 +75,7 @@ Result<CalibrationChecks> check_calibration(const FrameSequence& sequence, Platt
   return out;
 }
 
-/// Why the checks speak against the calibration; nullopt: they do not.
+/// Why the checks contradict the calibration; nullopt: they do not.
 std::optional<std::string> doubt_of(const CalibrationChecks& checks) {
   if (checks.closure && checks.closure->significant())
     return fmt::format("with the recording's calibration the object lies {} away after one turn",
@@ -88,7 +88,7 @@ std::optional<std::string> doubt_of(const CalibrationChecks& checks) {
   return std::nullopt;
 }
 
-/// The sequence with the angles of a stated speed in place of its own.
+/// The sequence with angles from a stated speed instead of its own.
 SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) {
   SequenceView out(sequence);
   SequenceHeader header = sequence.header();
@@ -101,7 +101,7 @@ SequenceView at_stated_speed(const FrameSequence& sequence, double speed_rad_s) 
   return out;
 }
 
-/// The checks of the calibration with which the sequence would be used as it is.
+/// Checks the calibration as it would be used without changes.
 Result<CalibrationChecks> check_as_used(const FrameSequence& sequence,
                                         const CalibrationRequest& request, PlatterMemory& memory,
                                         const RunContext& context) {
@@ -110,7 +110,7 @@ Result<CalibrationChecks> check_as_used(const FrameSequence& sequence,
              : check_calibration(sequence, memory, context);
 }
 
-/// What was given by somebody is used, and a doubt about it is said.
+/// Uses what the user stated, and notes any doubt about it.
 Result<CalibrationChoice> as_given(const FrameSequence& sequence, const CalibrationRequest& request,
                                    PlatterMemory& memory, const RunContext& context) {
   CalibrationChoice out;
@@ -132,7 +132,7 @@ bool moves_frames(const Placement& placement) {
                      [](const Disturbance& d) { return d.kind != DisturbanceKind::kHidden; });
 }
 
-/// The choice with the frames where they belong, and said why.
+/// Applies corrected poses after disturbances to the choice, and notes the reason.
 void correct(Placement placement, CalibrationChoice& choice) {
   if (placement.disturbances.empty()) return;
   std::string text = text_of(placement);
@@ -147,7 +147,7 @@ void correct(Placement placement, CalibrationChoice& choice) {
   choice.note = choice.note.empty() ? text : text + "; " + choice.note;
 }
 
-/// The recording's own calibration, with a word about what disturbed it.
+/// The recording's own calibration, with a note on disturbances.
 Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
                                       const CalibrationRequest& request, PlatterMemory& memory,
                                       const RunContext& context) {
@@ -161,7 +161,7 @@ Result<CalibrationChoice> as_recorded(const FrameSequence& sequence,
   return out;
 }
 
-/// The calibration and the frames' poses as they are where something disturbed the recording.
+/// The calibration, with the frames' poses corrected after disturbances.
 Result<CalibrationChoice> settled(const FrameSequence& sequence, const CalibrationRequest& request,
                                   Calibration found, const std::string& why, PlatterMemory& memory,
                                   const RunContext& context) {
@@ -180,7 +180,8 @@ Result<CalibrationChoice> from_motion(const FrameSequence& sequence,
   return settled(sequence, request, std::move(found), why, memory, context);
 }
 
-/// The recording's table, turning as the motion says. Its deviations are not known.
+/// The recording's table with the rotation found from motion. Its standard deviations are not
+/// known.
 Calibration with_recorded_table(const TurntableInfo& table, const Calibration& found) {
   Calibration out;
   out.method = found.method;
@@ -197,14 +198,14 @@ Calibration with_recorded_table(const TurntableInfo& table, const Calibration& f
   return out;
 }
 
-/// Where the recording knows its table but not how it turned: nullopt if the motion does not say
-/// it either, or if something then speaks against the table.
+/// For a recording with a known table but unknown rotation; nullopt if the rotation cannot be found
+/// from motion either, or if the checks then contradict the table.
 Result<std::optional<CalibrationChoice>> turned_as_seen(const FrameSequence& sequence,
                                                         const Calibration& found,
                                                         PlatterMemory& memory,
                                                         const RunContext& context) {
   const auto& table = sequence.header().turntable;
-  // Where further sensors stand was found beside the table that the motion shows.
+  // The poses of further sensors were determined relative to the table found from motion.
   if (!table || undetermined(found, "angles") || !found.others.empty() ||
       table->axis.normalized().dot(found.table.axis) < 0.9)
     return std::nullopt;
@@ -219,7 +220,7 @@ Result<std::optional<CalibrationChoice>> turned_as_seen(const FrameSequence& seq
   return out;
 }
 
-/// The recording lacks a table, or how it turned.
+/// For a recording without a table, or without its rotation.
 Result<CalibrationChoice> completed(const FrameSequence& sequence,
                                     const CalibrationRequest& request, PlatterMemory& memory,
                                     const RunContext& context) {
@@ -236,7 +237,7 @@ Result<CalibrationChoice> completed(const FrameSequence& sequence,
   return std::move(*turned);
 }
 
-/// The recording's own calibration, or one from motion where something speaks against it.
+/// The recording's own calibration, or one from motion if the checks contradict it.
 Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
                                     const CalibrationRequest& request, PlatterMemory& memory,
                                     const RunContext& context) {
@@ -250,7 +251,7 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
   if (found) {
-    // A calibration takes precedence over the recording's only if nothing speaks against it.
+    // A calibration replaces the recording's only if the checks do not contradict it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));
     TURNSCAN_ASSIGN(const auto checks, check_calibration(*better, memory, context));
     if (!doubt_of(checks) || !found->poses.empty()) return found;
@@ -267,7 +268,7 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
 Result<CalibrationChoice> automatic(const FrameSequence& sequence,
                                     const CalibrationRequest& request, PlatterMemory& memory,
                                     const RunContext& context) {
-  if (workflow::has_poses(sequence)) return CalibrationChoice();  // they are not questioned
+  if (workflow::has_poses(sequence)) return CalibrationChoice();  // these are not questioned
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
     auto found = completed(sequence, request, memory, context);
@@ -280,14 +281,14 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
   CalibrationChoice out;
   if (!moves_frames(placement)) {
     TURNSCAN_ASSIGN(out, undoubted(sequence, request, memory, context));
-    if (!out.left_out.empty()) return out;  // they were found with the better calibration
+    if (!out.left_out.empty()) return out;  // found with the better calibration
   }
   correct(std::move(placement), out);
   return out;
 }
 
-/// The recording's own calibration where coarse frames, which cost less, show nothing that speaks
-/// against it and no disturbance. nullopt: look again with finer ones.
+/// Keeps the recording's own calibration if coarse frames, which cost less, show no contradiction
+/// and no disturbance. nullopt: check again with finer ones.
 Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
                                                   const CalibrationRequest& request,
                                                   const RunContext& context) {
@@ -309,7 +310,7 @@ Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
 double CalibrationChecks::misfit_m() const {
   constexpr double kArm_m = 0.1;
   double out = 0.0;
-  // The turn is not known of a round object.
+  // The rotation of a round object cannot be observed.
   if (closure)
     out = std::hypot(closure->shift_m,
                      std::isfinite(closure->turn_rad) ? kArm_m * closure->turn_rad : 0.0);
@@ -327,7 +328,7 @@ Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
     if (sound) return std::move(*sound);
   }
   const SequenceView reduced = workflow::reduced_frames(sequence);
-  PlatterMemory memory;  // it stands where it stood, whatever is asked about the recording
+  PlatterMemory memory;  // the platter's position does not depend on which check asks for it
   if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
   if (request.mode == "motion")
     return from_motion(reduced, request, "--calibration motion was given", memory, context);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMinTurn_rad = 0.4 * kTurn;
 constexpr std::size_t kMinFrames = 16;
-/// Of a disturbance's size: by how much it shifts an axis that is fitted to all frames, roughly.
+/// Rough share of a disturbance's size by which it shifts an axis fitted to all frames.
 constexpr double kShiftShare = 0.3;
 
 using Positions = std::vector<std::size_t>;
@@ -20,8 +20,8 @@ bool moves_rigidly(const Disturbance& d) {
   return d.kind == DisturbanceKind::kObject || d.kind == DisturbanceKind::kSensor;
 }
 
-/// The frames of the longest time, as the table turned, between two moves; empty where nothing
-/// moved or too little remains.
+/// The frames of the longest interval, in table angle, between two moves; empty if nothing moved or
+/// too few frames remain.
 Positions longest_rest(const FrameSequence& recording, const Calibration& found,
                        const Placement& placement) {
   const std::size_t n = found.angles_rad.size();
@@ -46,8 +46,8 @@ Positions longest_rest(const FrameSequence& recording, const Calibration& found,
   return out;
 }
 
-/// The calibration of some frames for all of them: outside of these the table turned at its speed,
-/// from the moment on at which it began to turn.
+/// Extends the calibration of some frames to all of them: outside of these the table turned at its
+/// speed, from the time at which it began to turn.
 void extend(const FrameSequence& recording, const Positions& rest, const Calibration& before,
             Calibration& found) {
   const auto& frames = recording.frames();
@@ -80,7 +80,7 @@ void extend(const FrameSequence& recording, const Positions& rest, const Calibra
   found.start_s = before.start_s;
 }
 
-/// nullopt: the motion of these frames alone says no more.
+/// nullopt: the motion of these frames alone gives no better result.
 Result<std::optional<Calibration>> calibrated_by(
     const Positions& rest, const FrameSequence& recording, const FromMotionOptions& options,
     const DetectOptions& detect, const Calibration& before, const RunContext& context) {

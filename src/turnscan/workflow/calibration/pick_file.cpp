@@ -31,7 +31,7 @@ Result<PickColumns> parse_columns(const std::string& path, std::string_view line
                  "column,row");
 }
 
-/// Median depth of the valid pixels around; the rim's own pixel may be mixed.
+/// Median depth of the valid pixels in the neighbourhood; the rim's own pixel may be mixed.
 Result<Vec3d> pixel_point(const AveragedScan& scan, double column, double row) {
   std::vector<float> depths;
   const long x = std::lround(column), y = std::lround(row);
@@ -45,7 +45,7 @@ Result<Vec3d> pixel_point(const AveragedScan& scan, double column, double row) {
   if (depths.empty())
     return fail(ErrorCode::kMissingData, "pixel {}, {} has no depth", column, row);
   std::sort(depths.begin(), depths.end());
-  // The nearest of the even ones: behind the rim lies something else.
+  // The nearer of the two middle ones: behind the rim is something else.
   return Vec3d(scan.intrinsics.ray(column, row) * double(depths[(depths.size() - 1) / 2]));
 }
 

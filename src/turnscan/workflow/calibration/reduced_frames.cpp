@@ -14,7 +14,7 @@ int step_of(const SensorInfo& sensor, double most_pixels) {
   return step;
 }
 
-/// Pixels 0, step, 2 step, ... of either direction.
+/// Keeps pixels 0, step, 2 step, ... in both directions.
 CameraIntrinsics reduced(CameraIntrinsics camera, int step) {
   camera.width = (camera.width + step - 1) / step;
   camera.height = (camera.height + step - 1) / step;

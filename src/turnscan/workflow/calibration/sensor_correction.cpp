@@ -15,7 +15,7 @@ std::optional<DepthCorrection>& depth_of(Calibration& calibration, std::size_t s
   return sensor == 0 ? calibration.depth : calibration.others[sensor - 1].depth;
 }
 
-/// By the ball where one is stated: its size is known better than a platter's.
+/// Uses the ball if one is stated: its size is known better than a platter's.
 Result<DepthGauge> gauge(const FrameSequence& recording, std::uint32_t sensor,
                          const CalibrateRequest& request, const RunContext& context) {
   const double recorded_m = recording.header().sensors[sensor].depth_bias_m;

@@ -20,7 +20,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr auto kLongestPoll = std::chrono::milliseconds(500);
-constexpr auto kGrace = std::chrono::seconds(15);  // for cancelled jobs to end their own children
+// For cancelled jobs to terminate their own children.
+constexpr auto kGrace = std::chrono::seconds(15);
 
 std::uint64_t number_in(const fs::path& file) {
   std::ifstream in(file);
@@ -71,7 +72,7 @@ class LocalEngine : public Engine {
       (void)reap();
       std::this_thread::sleep_for(kPoll);
     }
-    running_.clear();  // kills what is left
+    running_.clear();  // kills the remaining ones
   }
 
   std::string status() const override { return fmt::format("{} running", running_.size()); }
@@ -143,7 +144,8 @@ class LocalEngine : public Engine {
 
 std::uint64_t usable_memory_bytes() {
   std::uint64_t bytes = available_bytes();
-  const std::uint64_t most = number_in("/sys/fs/cgroup/memory.max");  // 0: "max", or no such group
+  // 0: "max", or there is no such group.
+  const std::uint64_t most = number_in("/sys/fs/cgroup/memory.max");
   const std::uint64_t used = number_in("/sys/fs/cgroup/memory.current");
   if (most > 0) bytes = std::min(bytes, most > used ? most - used : 0);
   return bytes / 10 * 9;

@@ -10,7 +10,7 @@ namespace turnscan::engine {
 namespace {
 
 constexpr double kLongestCall_s = 120.0;
-constexpr int kDefaultArray = 1001;  // MaxArraySize where it cannot be asked
+constexpr int kDefaultArray = 1001;  // MaxArraySize if it cannot be queried
 
 std::string joined_with_commas(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ","));
@@ -38,7 +38,7 @@ Result<std::map<SlurmElement, SlurmState>> SlurmClient::states(
   const auto text = call("squeue", {"--noheader", "--array", "--states=all",
                                     "--jobs=" + joined_with_commas(jobs), "--format=%i|%T|%r"});
   if (text) return parse_slurm_states(*text);
-  // What it says when it has forgotten the only job that it was asked for.
+  // squeue's message when it no longer knows the only job asked for.
   if (text.error().message.find("Invalid job id") != std::string::npos)
     return std::map<SlurmElement, SlurmState>();
   return tl::unexpected<Error>(text.error());

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kSleep = std::chrono::milliseconds(100);
-constexpr auto kNoAnswer = std::chrono::hours(1);      // after which the engine counts as lost
+constexpr auto kNoAnswer = std::chrono::hours(1);      // after which the engine is considered lost
 constexpr auto kCancelled = std::chrono::seconds(40);  // KillWait is 30 s
 constexpr double kMemoryMargin = 1.3;
 
@@ -89,7 +89,7 @@ class SlurmEngine : public Engine {
 
   void cancel() override {
     if (open_.empty()) return;
-    const SlurmClient client{RunContext()};  // ours is cancelled already
+    const SlurmClient client{RunContext()};  // our own context is already cancelled
     (void)client.call("scancel", jobs_);
     const auto begin = Clock::now();
     while (Clock::now() - begin < kCancelled) {
@@ -112,14 +112,14 @@ class SlurmEngine : public Engine {
  private:
   fs::path list_file(int number) const { return folder_ / fmt::format("slurm-{}.list", number); }
 
-  /// By which a job is found again whose number got lost with its submitter.
+  /// Identifies a job whose number was lost with its submitter.
   std::string job_name(int number) const {
     file::Sha256 sum;
     sum.add(folder_.string());
     return fmt::format("turnscan-{}-{}", file::hex_of(sum.finish()).substr(0, 12), number);
   }
 
-  /// The elements of a job from its list.
+  /// Adds the elements of a job from its list file.
   Result<> take(const std::string& job, int number) {
     TURNSCAN_ASSIGN(const std::string text, read_file(list_file(number)));
     text::LineReader lines(text);
@@ -161,7 +161,7 @@ class SlurmEngine : public Engine {
     for (const Job& job : jobs) peak = std::max(peak, job.peak_bytes);
     const auto megabytes =
         static_cast<std::uint64_t>(kMemoryMargin * static_cast<double>(peak) / (1 << 20)) + 1;
-    // A cluster that was not told its nodes' memory (then 1 MB) refuses whoever asks for some.
+    // A cluster whose nodes' memory is not configured (1 MB then) rejects every memory request.
     if (client_.node_megabytes() >= megabytes) words.push_back(fmt::format("--mem={}M", megabytes));
     words.insert(words.end(), options_.begin(), options_.end());
     return words;
@@ -217,7 +217,7 @@ class SlurmEngine : public Engine {
     if (pending && !usual) pending_reason_ = state.reason;
   }
 
-  /// What the task's own process said, where Slurm only knows its exit code.
+  /// The message of the task's own process; Slurm only knows its exit code.
   std::string end_reason(const SlurmElement& element, const SlurmState& state) const {
     const fs::path log = folder_ / fmt::format("slurm-{}_{}.log", element.job, element.index);
     std::error_code error;

@@ -12,12 +12,13 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kWorthShare = 0.02;   // of the surface, unseen, below which nothing is advised
-constexpr double kUsefulShare = 0.2;   // of the unseen surface, that a pose is to show
-constexpr double kOverlapShare = 0.2;  // of the smaller surface, more than joining needs
+constexpr double kWorthShare = 0.02;   // unseen share of the surface below which there is no advice
+constexpr double kUsefulShare = 0.2;   // share of the unseen surface that a pose must show
+constexpr double kOverlapShare = 0.2;  // share of the smaller surface, more than registration needs
 constexpr double kSteepSine = 0.5;     // of 30 degrees
 constexpr double kMinTip_rad = 10.0 * kRadiansPerDegree;
-constexpr double kLikeness = 0.97;  // of what shows: the one that stands better comes first
+constexpr double kLikeness = 0.97;  // poses within this ratio of what they show count as equal: the
+                                    // most stable one comes first
 constexpr std::size_t kSamples = 10000, kOverlapStride = 8;
 constexpr std::uint32_t kEnoughViews = 2;
 constexpr std::size_t kMaxPoses = 3;
@@ -26,7 +27,7 @@ bool is_unseen(Evidence evidence) {
   return evidence == Evidence::kInvented || evidence == Evidence::kBase;
 }
 
-/// Points on the surface, each for the same area.
+/// Points on the surface, each representing the same area.
 struct AreaSamples {
   std::vector<Vec3f> points, normals;
   double each_m2 = 0.0;
@@ -54,7 +55,7 @@ Result<SampledObject> sample_object(const ObjectResult& object) {
   return out;
 }
 
-/// Directions on the table at the first frame of the pass; unit.
+/// Directions on the table at the first frame of the pass; unit vectors.
 struct Directions {
   Vec3d sensor, right;
 
@@ -81,12 +82,12 @@ Eigen::Matrix3d tip_rotation(const NextPose& pose, const Directions& directions)
   return Eigen::AngleAxisd(pose.tip_rad, axis).toRotationMatrix();
 }
 
-/// down: in the table's frame, as the object lies now.
+/// down: in the table's frame, with the object's current pose.
 NextPose pose_with(const Vec3d& down, const Directions& directions) {
   NextPose pose;
   pose.tip_rad = std::acos(std::clamp(-down.y(), -1.0, 1.0));
   const Vec3d level(down.x(), 0.0, down.z());
-  // Upside down is the same over either side.
+  // Turning it upside down over either side gives the same pose.
   pose.towards_rad = level.norm() > 1e-3 ? directions.angle_of(level) : 0.25 * kTurn;
   return pose;
 }
@@ -131,7 +132,7 @@ class PoseSearch {
     return out;
   }
 
-  /// The middle above the axis, the lowest point on the platter.
+  /// Places the centre above the axis and the lowest point on the platter.
   void set_down(NextPose& pose) const {
     pose.T_table_mesh.linear() = tip_rotation(pose, directions_) * turn_table_mesh_;
     Box box;
@@ -159,7 +160,7 @@ class PoseSearch {
     return {};
   }
 
-  /// Those that show something and can be joined, best first.
+  /// The poses that show something new and can be registered, best first.
   Result<std::vector<NextPose>> judged(std::vector<NextPose> poses,
                                        const RunContext& context) const {
     std::vector<NextPose> out;
@@ -174,7 +175,7 @@ class PoseSearch {
     std::stable_sort(out.begin(), out.end(), [](const NextPose& one, const NextPose& other) {
       return one.shows_m2 > other.shows_m2;
     });
-    // Of those that show as much the surest one.
+    // Among those that show equally much, the most stable one.
     const auto alike = std::find_if(out.begin(), out.end(), [&](const NextPose& pose) {
       return pose.shows_m2 < kLikeness * out.front().shows_m2;
     });

@@ -45,8 +45,8 @@ struct NextPose {
   /// from above, counter-clockwise from the sensor's position at the pass's first frame (90
   /// degrees: to the right, seen from the sensor).
   double tip_rad = 0.0, towards_rad = 0.0;
-  Pose T_table_mesh =
-      Pose::Identity();     ///< the resulting pose; table frame of the pass, centre above the axis
+  /// The resulting pose; table frame of the pass, centre above the axis.
+  Pose T_table_mesh = Pose::Identity();
   double shows_m2 = 0.0;    ///< area of unseen surface that becomes visible in one turn
   double overlap_m2 = 0.0;  ///< area of already measured surface that is seen again
   bool stands = true;       ///< stable without support; false: it has to be propped up

@@ -9,7 +9,7 @@ namespace {
 constexpr Rgb kSeen{204, 196, 184}, kUnseen{255, 0, 144};
 constexpr int kSide = 640;
 
-/// Triangles with colours of their own.
+/// Triangles with individual colours.
 TriangleMesh painted(const ObjectResult& object, const Pose& T_table_mesh) {
   TriangleMesh out;
   const TriangleMesh& mesh = object.mesh;

@@ -16,7 +16,7 @@ struct SideWords {
   const char *side, *way;
 };
 
-/// From the sensor on, by eighths of a turn counter-clockwise seen from above.
+/// Starting at the sensor, in steps of an eighth of a turn counter-clockwise seen from above.
 constexpr std::array<SideWords, 8> kSides{{
     {"front", "towards the sensor"},
     {"front right side", "towards the sensor and to the right"},

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
 
-/// Bytes of the UTF-8 character at `at`; 0: there is none, or it is overlong, a surrogate or out of
-/// range (Unicode 15, table 3-7).
+/// Length of the UTF-8 character at `at`; 0 if it is missing, overlong, a surrogate or out of range
+/// (Unicode 15, table 3-7).
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;

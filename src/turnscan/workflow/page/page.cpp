@@ -25,7 +25,7 @@ constexpr const char* kNoViewer =
     "<p>The model in 3D is not in this page: the turnscan that wrote it was built without its "
     "viewer (scripts/setup page). The pictures show the model from six sides.</p>\n";
 
-/// The bundle of web/, beside the program's other data; empty where it was not built.
+/// The bundle of web/, installed with the program's other data; empty if it was not built.
 std::string viewer_script() {
   const auto data = data_folder();
   if (!data) return "";
@@ -62,7 +62,7 @@ Result<> check_input(const PageInput& input) {
   return {};
 }
 
-/// Arrays of the report where the object has none; those of another mesh are no use.
+/// Uses arrays of the report if the object has none; those of another mesh are ignored.
 void take_arrays(const page::ReportedObject& reported, PageObject& object) {
   const auto take = [&](const char* key, auto& out, double most) {
     const auto found = reported.per_vertex.find(key);
@@ -70,7 +70,7 @@ void take_arrays(const page::ReportedObject& reported, PageObject& object) {
         found->second.size() != object.mesh.vertices.size())
       return;
     using Value = typename std::decay_t<decltype(out)>::value_type;
-    const auto unknown = std::numeric_limits<Value>::quiet_NaN();  // of integers 0
+    const auto unknown = std::numeric_limits<Value>::quiet_NaN();  // 0 for integers
     for (const double v : found->second)
       out.push_back(std::isfinite(v) ? static_cast<Value>(std::clamp(v, 0.0, most)) : unknown);
   };

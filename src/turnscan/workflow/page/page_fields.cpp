@@ -15,7 +15,7 @@ std::vector<float> scaled(const std::vector<T>& values, double scale) {
   return out;
 }
 
-/// Value below which this share of the finite |values| of all objects lies.
+/// Quantile of the finite |values| of all objects.
 double quantile_of_magnitude(const std::vector<PageObject>& objects, const Field& field,
                              double share) {
   std::vector<float> all;
@@ -30,7 +30,7 @@ double quantile_of_magnitude(const std::vector<PageObject>& objects, const Field
   return all[static_cast<std::size_t>(at)];
 }
 
-/// To 1, 1.5, 2, 3, 5 or 7 times a power of ten, so that a legend has plain numbers.
+/// Rounds up to 1, 1.5, 2, 3, 5 or 7 times a power of ten, so that a legend has simple numbers.
 double rounded_up(double value) {
   if (!(value > 0.0)) return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));

@@ -8,7 +8,7 @@ namespace turnscan {
 
 namespace {
 
-/// 1 where no triangle about a vertex was measured.
+/// 1 if no triangle at a vertex was measured.
 std::vector<std::uint8_t> invented_vertices(const ObjectResult& object) {
   if (object.evidence.size() != object.mesh.triangles.size()) return {};
   std::vector<std::uint8_t> invented(object.mesh.vertices.size(), 1);

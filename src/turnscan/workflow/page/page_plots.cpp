@@ -15,7 +15,7 @@ constexpr std::size_t kAngleBins = 36;
 constexpr std::size_t kMaxSpeeds = 240;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A vertex of any object: where it is, how much surface it stands for, a value.
+/// A vertex of any object: its position, the surface area that it represents, a value.
 struct Sample {
   Vec3d position;
   double area_m2;
@@ -76,7 +76,7 @@ Plot histogram(const std::vector<Sample>& samples, const Field& field) {
   return plot;
 }
 
-/// The value below which a share of the area lies; NaN of nothing. Sorts.
+/// Quantile weighted by area; NaN if empty. Sorts its argument.
 double weighted_quantile(std::vector<std::pair<double, double>>& value_area, double share) {
   if (value_area.empty()) return kNone;
   std::sort(value_area.begin(), value_area.end());
@@ -134,7 +134,7 @@ Plot over_direction(const std::vector<Sample>& samples, const Field& field) {
   return plot;
 }
 
-/// Speed between frames so far apart that there are at most kMaxSpeeds.
+/// Speed between frames that are far enough apart that there are at most kMaxSpeeds values.
 Plot speed_plot(const std::vector<TurnPoint>& turn) {
   Plot plot;
   plot.title = "Speed over the turn";
@@ -153,7 +153,7 @@ Plot speed_plot(const std::vector<TurnPoint>& turn) {
   return plot;
 }
 
-/// Frames in their order; those of several recordings or passes are counted anew.
+/// Frames in order; those of several recordings or passes are renumbered.
 Plot frames_plot(const FrameColumns& frames, const std::string& of_object) {
   Plot plot;
   plot.title = "How well the frames agree" + of_object;

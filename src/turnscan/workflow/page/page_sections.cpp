@@ -25,11 +25,10 @@ std::string section(const std::string& id, const std::string& title, const std::
                      id, id, title, content);
 }
 
-/// Rows of a table, the first of them its head; cells are escaped.
+/// Rows of a table, the first of which is the header; cells are escaped.
 class HtmlTable {
  public:
-  /// Of the layout kStacked a row becomes a list on a narrow screen, each value after its column's
-  /// name.
+  /// With kStacked, a row becomes a list on a narrow screen, each value after its column's name.
   enum class Layout { kColumns, kStacked };
 
   explicit HtmlTable(std::vector<std::string> head, Layout layout = Layout::kColumns)
@@ -70,7 +69,7 @@ std::string list_of(const std::vector<std::string>& sentences) {
 
 std::string mm(double value_m) {
   const double value = std::round(value_m * 1e6) / 1e3;
-  return fmt::format("{:.3f} mm", value == 0.0 ? 0.0 : value);  // no minus before a zero
+  return fmt::format("{:.3f} mm", value == 0.0 ? 0.0 : value);  // avoids a negative zero
 }
 std::string percent(double share) { return fmt::format("{:.1f} %", share * 100.0); }
 
@@ -84,7 +83,8 @@ std::string verdict_html(const std::string& name, const Verdict& verdict) {
   std::string html = fmt::format("<h3>{} <span class=\"badge {}\">{}</span></h3>\n", escaped(name),
                                  verdict.colour, verdict.colour);
   if (verdict.sentences.empty()) return html;
-  // A narrow screen shows the rows as blocks, which by themselves are no rows to a screen reader.
+  // A narrow screen shows the rows as blocks, which a screen reader would not treat as rows without
+  // these roles.
   html +=
       "<div class=\"table verdict\" tabindex=\"0\"><table role=\"table\"><thead><tr role=\"row\">"
       "<th scope=\"col\">What</th><th scope=\"col\">Rating</th><th scope=\"col\">Why</th>"
@@ -176,7 +176,7 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
     options.ground = false;
     options.ambient_samples = kPictureSamples;
     TURNSCAN_TRY(context.check());
-    // With a context of its own: its phases are no phases of the page.
+    // With a separate context: its phases are not phases of the page.
     TURNSCAN_ASSIGN(const ColorImage picture, render_picture(meshes, options, RunContext()));
     TURNSCAN_ASSIGN(const std::string jpeg, encode_color_jpeg(picture, kPictureQuality));
     html += fmt::format(

@@ -11,7 +11,7 @@ namespace turnscan::page {
 
 namespace {
 
-using Json = nlohmann::json;  // an ordered one takes quadratic time to read
+using Json = nlohmann::json;  // reading an ordered one takes quadratic time
 
 const Json& at(const Json& json, const char* key) {
   static const Json none;
@@ -51,7 +51,7 @@ std::optional<Verdict> verdict_of(const Json& json) {
   return verdict;
 }
 
-/// What is no number is NaN.
+/// Non-numbers become NaN.
 std::vector<double> numbers_at(const Json& json, const char* key) {
   std::vector<double> numbers;
   if (!at(json, key).is_array()) return numbers;
@@ -87,7 +87,7 @@ ReportedObject object_of(const Json& json) {
   return object;
 }
 
-/// A figure of the report, for people.
+/// A figure of the report with its display name.
 struct FigureName {
   const char *key, *name, *unit;
 };
@@ -139,7 +139,7 @@ Result<ReportFacts> facts_of(const std::string& report) {
     return fail(ErrorCode::kFormat,
                 "report: it is not a JSON object; give the file that --report wrote");
   facts.version = text_at(json, "version");
-  // A scan's report has that of the reconstruction in it.
+  // A scan's report contains that of the reconstruction.
   const Json& inner = at(json, "reconstruction");
   if (inner.is_object()) {
     facts.version = text_at(inner, "version");

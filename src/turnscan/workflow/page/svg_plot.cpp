@@ -14,7 +14,8 @@ namespace {
 constexpr double kWidth = 560, kHeight = 300;
 constexpr double kLeft = 62, kRight = 14, kTop = 14, kBottom = 46;
 constexpr std::array<const char*, 3> kColors{"#1f5fa8", "#c2541b", "#3a7d44"};
-constexpr std::array<const char*, 3> kDashes{"none", "7 4", "2 3"};  // told apart without colour
+// Distinguishable without colour.
+constexpr std::array<const char*, 3> kDashes{"none", "7 4", "2 3"};
 constexpr int kXTicks = 7, kYTicks = 5;
 
 struct Extent {
@@ -27,7 +28,8 @@ struct Extent {
     high = std::max(high, v);
   }
   bool empty() const { return !(low <= high); }
-  /// At least 2 % of the values: what is less is rounding, and not to be magnified.
+  /// The range is at least 2 % of the values: smaller variations are rounding errors and must not
+  /// be magnified.
   void widen() {
     const double magnitude = std::max(std::abs(low), std::abs(high));
     if (high - low > 0.02 * magnitude) return;
@@ -112,7 +114,7 @@ class Drawing {
     for (std::size_t i = 0; i < plot_.x.size(); ++i) {
       const bool there = std::isfinite(series.y[i]);
       if (there)
-        // With h0 a point without neighbours is a dot.
+        // With h0, a point without neighbours is drawn as a dot.
         path += fmt::format("{}{:.1f} {:.1f}{}", drawing ? 'L' : 'M', at_x(plot_.x[i]),
                             at_y(series.y[i]), drawing ? "" : "h0");
       drawing = there;
@@ -128,7 +130,7 @@ class Drawing {
   std::vector<double> x_ticks_, y_ticks_;
 };
 
-/// What each line of the drawing is.
+/// Legend of the lines in the drawing.
 std::string key(const Plot& plot) {
   if (plot.series.size() < 2) return "";
   std::string html = "<ul class=\"key\">";
@@ -141,7 +143,7 @@ std::string key(const Plot& plot) {
 }
 
 std::string table(const Plot& plot) {
-  // A table that is read, not one that is searched: at most so many rows.
+  // The table is for reading: it has at most this many rows.
   constexpr std::size_t kMaxRows = 60;
   const std::size_t step = (plot.x.size() + kMaxRows - 1) / kMaxRows;
   std::string html = fmt::format(

@@ -33,7 +33,7 @@ Result<> keep_object(int number, Reconstruction& r, const RunContext& context) {
   return {};
 }
 
-/// One mesh an object; which is the largest is known only when all are made.
+/// One mesh per object; which one is largest is known only when all have been made.
 Result<Reconstruction> fuse_all(const std::vector<PassOfMany>& passes,
                                 const std::vector<ObjectPlaces>& objects,
                                 const ReconstructOptions& options, const StageSink& sink,
@@ -58,7 +58,7 @@ Result<Reconstruction> fuse_all(const std::vector<PassOfMany>& passes,
   return out;
 }
 
-/// A pass of which nothing was joined, or what is left of it.
+/// Reconstructs a pass that was not joined, or the part of it that was not.
 Result<PassApart> reconstruct_apart(const PassOfMany& pass, const std::string& reason,
                                     const std::optional<ObjectPartition>& left,
                                     const ReconstructOptions& options, const RunContext& context) {

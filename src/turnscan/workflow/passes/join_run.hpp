@@ -12,8 +12,8 @@ namespace turnscan {
 struct PassApart {
   std::uint32_t number = 0;
   std::string name;
-  std::string
-      reason;  ///< why it was not joined; empty for the first pass if no other was joined with it
+  /// Why it was not joined; empty for the first pass if no other was joined with it.
+  std::string reason;
   Reconstruction reconstruction;
 };
 

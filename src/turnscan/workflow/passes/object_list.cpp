@@ -50,7 +50,7 @@ Reconstruction list_objects(std::vector<Reconstruction> made) {
     for (const std::string& note : one.notes)
       out.notes.push_back(fmt::format("object {}: {}", k + 1, note));
     add_times(one.stages, out.stages);
-    // Frames of a pass show several objects.
+    // A frame of a pass shows several objects.
     out.frames = std::max(out.frames, one.frames);
     out.dropped_frames = std::max(out.dropped_frames, one.dropped_frames);
     out.returns = std::max(out.returns, one.returns);

@@ -13,7 +13,7 @@ namespace {
 
 /// Each point is then seen about a dozen times.
 constexpr std::size_t kMaxFrames = 36;
-constexpr double kAround_m = 0.01;  // the space around the objects that is looked at
+constexpr double kAround_m = 0.01;  // margin around the objects that is considered
 
 std::vector<std::size_t> spread_frames(const FrameSequence& frames) {
   std::vector<std::size_t> good;

@@ -19,19 +19,19 @@ namespace {
 using passes::ObjectPart;
 using passes::PassSurface;
 
-constexpr std::size_t kMinPoints = 200;  // that join_passes() takes
-/// What is smaller than this share of the largest object is a crumb beside it.
+constexpr std::size_t kMinPoints = 200;  // as required by join_passes()
+/// Anything smaller than this share of the largest object is debris.
 constexpr double kCrumbShare = 0.1;
 
-/// Stated motions that differ by more from what the surfaces show are doubted: metres, and
-/// deviations of what they show.
+/// Tolerances between stated motions and those found from the surfaces, above which the former are
+/// doubted: metres, and standard deviations of the latter.
 constexpr double kDoubt_m = 0.001, kDoubtSigmas = 5.0;
 
-/// So many images a sensor place a pass as well as all of them do: the fusion, which follows, takes
-/// all. Beyond them every second one, third one, ... is left out.
+/// This many images per sensor determine a pass's pose as well as all of them; fusion, which
+/// follows, uses all. If there are more, every second one, third one, ... is used.
 constexpr std::size_t kPlacingImages = 300;
 
-/// Where a pass lies needs nothing but its surface.
+/// Registration of a pass only needs its surface.
 ReconstructOptions for_surface(const ReconstructOptions& options) {
   ReconstructOptions out = options;
   out.surface.method = SurfaceMethod::kVolumetric;
@@ -45,10 +45,10 @@ ReconstructOptions for_surface(const ReconstructOptions& options) {
   return out;
 }
 
-/// A pass as it was measured: its objects, and whose is which part of the table.
+/// A measured pass: its objects, and which part of the table belongs to which of them.
 struct MeasuredTable {
   std::vector<PassSurface> objects;      ///< largest first
-  std::optional<ObjectPartition> share;  ///< of several
+  std::optional<ObjectPartition> share;  ///< if there are several
 };
 
 std::vector<std::size_t> images_for_placing(const FrameSequence& frames) {
@@ -95,7 +95,8 @@ Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOpt
     out.objects.push_back(std::move(surface));
     meshes.push_back(&object.mesh);
   }
-  // A few views from anywhere show an object in pieces; several of them stand on tables only.
+  // A few views from arbitrary positions show an object in pieces; only tables carry several
+  // objects.
   if (!pass.frames.frames->header().turntable) out = {{united(out.objects)}, {}};
   if (out.objects.empty() || out.objects[0].points.size() < kMinPoints)
     return fail(ErrorCode::kTooFewPoints, "hardly anything of it was measured");
@@ -111,7 +112,7 @@ PassPlacement placement_of(const PassOfMany& pass, const Pose& T_object_table) {
   return placement;
 }
 
-/// How far two motions bring a surface apart, rms.
+/// RMS distance between a surface under two motions.
 double apart_m(const PassSurface& surface, const Pose& one, const Pose& other) {
   double sum = 0.0;
   for (const Vec3f& p : surface.points)
@@ -119,7 +120,7 @@ double apart_m(const PassSurface& surface, const Pose& one, const Pose& other) {
   return std::sqrt(sum / double(surface.points.size()));
 }
 
-/// Finds the motions of what nobody stated, and doubts of what somebody did.
+/// Finds the poses that were not stated, and checks those that were.
 class PassSearch {
  public:
   explicit PassSearch(const std::vector<PassOfMany>& passes) : passes_(passes) {
@@ -143,7 +144,8 @@ class PassSearch {
   }
 
  private:
-  /// A pass without a surface that is not needed is not joined, and does not keep others from it.
+  /// A pass that has no surface and is not required is not joined, and does not prevent others from
+  /// being joined.
   Result<> measure(const ReconstructOptions& options, const RunContext& context) {
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       auto table = measure_table(passes_[k], options, context);
@@ -162,7 +164,7 @@ class PassSearch {
     return {};
   }
 
-  /// The first is where it is.
+  /// The first pass defines the frame.
   bool is_stated(std::size_t k) const {
     return k == 0 || (passes_[k].T_first_pass && !passes_[k].refine);
   }
@@ -192,7 +194,7 @@ class PassSearch {
   }
 
   Result<std::vector<std::vector<ObjectPart>>> join(const RunContext& context) {
-    // What is stated of several objects is not questioned.
+    // Stated poses of several objects are not questioned.
     if (several_objects() && any_stated()) return std::vector<std::vector<ObjectPart>>();
     TURNSCAN_ASSIGN(auto by_shape, join_tables(context));
     const bool open = std::any_of(by_shape.begin(), by_shape.end(),
@@ -207,12 +209,12 @@ class PassSearch {
     std::vector<std::vector<PassSurface>> surfaces;
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       surfaces.push_back(tables_[k].objects);
-      if (passes_[k].refine) surfaces.back().clear();  // it is not searched for
+      if (passes_[k].refine) surfaces.back().clear();  // excluded from the search
     }
     return passes::join_objects(surfaces, {}, context);
   }
 
-  /// Whether two passes at least have colours. They are looked at only where shapes do not tell.
+  /// Whether at least two passes have colours. Colours are used only if shapes are ambiguous.
   Result<bool> color_tables(const RunContext& context) {
     std::size_t colored = 0;
     for (std::size_t k = 0; k < passes_.size(); ++k) {
@@ -246,8 +248,8 @@ class PassSearch {
     return {part.motion.sigma_m, part.motion.sigma_rad, part.motion.overlap_m2};
   }
 
-  /// One object: what hangs together with the first pass or with one that is stated has its place
-  /// through it, and of the others what hangs together is an object of its own.
+  /// For one object: everything connected with the first pass or with a stated one gets its pose
+  /// through it; each remaining connected group is an object of its own.
   Result<> take_passes(const std::vector<std::vector<ObjectPart>>& groups,
                        const RunContext& context) {
     ObjectPlaces first;
@@ -274,9 +276,9 @@ class PassSearch {
     return {};
   }
 
-  /// Onto what has its place already.
+  /// Registers it to the passes that already have poses.
   Result<> place_roughly_stated(std::size_t k, ObjectPlaces& object, const RunContext& context) {
-    if (tables_[k].objects.empty()) return {};  // why is known
+    if (tables_[k].objects.empty()) return {};  // the reason is already recorded
     std::vector<passes::PlacedSurface> placed;
     for (std::size_t i = 0; i < passes_.size(); ++i)
       if (object.of_pass[i] && !tables_[i].objects.empty())
@@ -346,7 +348,7 @@ class PassSearch {
         reason += fmt::format("{}object {}: ", reason.empty() ? "" : "; ", part.object + 1);
       reason += part.motion.reason;
     }
-    // Where nothing was joined, it is what the others did not fit.
+    // If nothing was joined, the others did not fit the first pass, which needs no reason itself.
     if (out_.objects.empty()) out_.reasons[0].clear();
     for (std::size_t k = 0; k < passes_.size(); ++k)
       if (!left[k].empty() && left[k].size() < tables_[k].objects.size())
@@ -355,7 +357,7 @@ class PassSearch {
 
   const std::vector<PassOfMany>& passes_;
   std::vector<MeasuredTable> tables_;
-  std::map<std::size_t, std::string> unmeasured_;  // why
+  std::map<std::size_t, std::string> unmeasured_;  // with reasons
   PassPlaces out_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace workflow;
 
-constexpr double kFirstMove = 0.25;  // of a candidates' step, by which trials vary the best plan
+constexpr double kFirstMove = 0.25;  // in candidate steps: how far trials vary the best plan
 constexpr std::size_t kMinMoves = 2;
 
 Plan plan_of(const PlanRequest& request, const PlanField& field, const ChosenRig& chosen) {
@@ -39,7 +39,7 @@ Plan plan_of(const PlanRequest& request, const PlanField& field, const ChosenRig
   return plan;
 }
 
-/// The plans as they come into being: rigs, and what was found of each.
+/// The plans under construction: rigs, and the results for each.
 class PlanRun {
  public:
   PlanRun(const PlanRequest& request, const PlanField& field, const RunContext& context)
@@ -66,8 +66,8 @@ class PlanRun {
   }
 
  private:
-  /// As many as are asked for: those chosen for their area, and of these the ones with the fewest
-  /// turns, come first.
+  /// Takes as many as requested: those optimised for area come first, and among these the ones with
+  /// the fewest turns.
   void take_simplest() {
     std::stable_sort(rigs_.begin(), rigs_.end(), [](const ChosenRig& a, const ChosenRig& b) {
       if (a.error_first != b.error_first) return b.error_first;
@@ -76,7 +76,7 @@ class PlanRun {
     rigs_.resize(std::min(rigs_.size(), std::size_t(request_.options.plans)));
   }
 
-  /// How many simulated scans a trial of a plan takes.
+  /// Number of simulated scans that a trial of a plan takes.
   std::size_t each() const { return field_.objects.size(); }
   std::size_t left() const {
     const auto all = std::size_t(request_.options.trials);
@@ -115,7 +115,7 @@ class PlanRun {
     const std::vector<ChosenRig> first(rigs_.begin(), rigs_.begin() + std::ptrdiff_t(n));
     TURNSCAN_ASSIGN(const auto trials, tried(first, "plan"));
     for (std::size_t k = 0; k < n; ++k) trials_[k] = trials[k];
-    // What gave no mesh comes last.
+    // Plans without a mesh come last.
     std::vector<std::size_t> order(rigs_.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_partition(order.begin(), order.end(), [&](std::size_t k) {
@@ -134,8 +134,8 @@ class PlanRun {
     return trial.covered * double(worth_of(trial.median_error_m, std::nullopt, prefer));
   }
 
-  /// What is left of the trials goes to the best plan: its sensors a little nearer, farther, higher
-  /// and lower.
+  /// Spends the remaining trials on the best plan, with its sensors a little closer, farther,
+  /// higher and lower.
   Result<> vary_best() {
     const std::size_t n = std::min<std::size_t>(left(), 4 * rigs_.front().rig.places.size());
     if (n < kMinMoves || !trials_.front()) return {};
@@ -216,7 +216,7 @@ class PlanRun {
   std::size_t simulations_ = 0;
 };
 
-/// Plans of an earlier run, of which there may have been more.
+/// Removes the plans of an earlier run, which may have been more.
 void remove_earlier(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {

@@ -76,8 +76,8 @@ struct PlanRequest {
   std::vector<ScannerEntry> scanners;  ///< available models; each may be used several times
   SceneDescription scene = plan_scene();
   PlanOptions options;
-  std::string
-      folder;  ///< for output files; empty: none are written, and trials run in this process
+  /// For output files; empty: none are written, and trials run in this process.
+  std::string folder;
   BatchRunOptions engine;         ///< for trials with a folder
   std::filesystem::path program;  ///< the turnscan executable for these
   std::function<void(const std::string&)> on_status{};

@@ -18,8 +18,8 @@ constexpr double kMargin_m = 0.02;
 constexpr double kFarther_m = 0.5;
 constexpr std::size_t kMaxDirections = 48;
 
-/// Tip and lean after which a direction of the mesh points down: the placement leans about Z, then
-/// tips about X.
+/// Tip and lean after which this direction of the mesh points down: the placement leans about Z,
+/// then tips about X.
 PassEntry laid(const Vec3d& down) {
   const double lean = std::atan2(-down.x(), -down.y());
   const double tip = std::atan2(down.z(), std::hypot(down.x(), down.y()));
@@ -27,8 +27,8 @@ PassEntry laid(const Vec3d& down) {
           {"lean", format_quantity(lean, Quantity::kAngle)}};
 }
 
-/// Directions of a mesh, as it lies in the file, that can point down: those on which it stands by
-/// itself, the lowest centre of mass first; else, or where those are few, head and sides.
+/// Directions of a mesh, in the frame of its file, that can point down: those of its stable poses,
+/// the lowest centre of mass first; else, or if there are few, head and sides.
 std::vector<Vec3d> further_downs(const TriangleMesh& first, const Eigen::Matrix3d& to_file) {
   std::vector<Vec3d> downs{-Vec3d::UnitY()};
   const auto add = [&](const Vec3d& down) {
@@ -46,7 +46,7 @@ std::vector<Vec3d> further_downs(const TriangleMesh& first, const Eigen::Matrix3
   return downs;
 }
 
-/// As a scan has it: with the body of the platter.
+/// As in a scan: with the body of the platter.
 Result<Scene> bench_scene(const TriangleMesh& mesh, const PlatterOptions& platter) {
   std::vector<TriangleMesh> turning{mesh};
   if (platter.visible && platter.thickness_m > 0.0)

@@ -19,7 +19,7 @@ constexpr double kFromBelow_rad = -35.0 * kRadiansPerDegree;
 constexpr double kSeenFrom_rad = 25.0 * kRadiansPerDegree;
 constexpr Rgb kBadColor{205, 30, 40}, kNeverColor{85, 85, 90};
 constexpr double kYellowMedians = 3.0;
-constexpr double kWorthSaying = 0.002;  // of the surface
+constexpr double kWorthSaying = 0.002;  // share of the surface
 
 Rgb error_color(double share) {
   constexpr std::array<Rgb, 4> kStops{
@@ -33,7 +33,7 @@ Rgb error_color(double share) {
           mixed(kStops[i].b, kStops[i + 1].b)};
 }
 
-/// Error of each spot by the whole rig; negative: not seen.
+/// Error of each spot for the whole rig; negative: not seen.
 std::vector<double> spot_errors(const PlanField& field, std::size_t object, const Rig& rig) {
   const PlanObject& it = field.objects[object];
   std::vector<planning::SpotSight> all(it.surface.spots.size());
@@ -139,7 +139,7 @@ Result<ColorImage> plan_picture(const PlanField& field, std::size_t object, cons
     if (max_error_m && error > *max_error_m) return kBadColor;
     return error_color(error / (kYellowMedians * std::max(median, 1e-9)));
   };
-  // Faces take the colour of the nearest spot that faces the same way.
+  // Faces take the colour of the nearest spot with a similar normal.
   std::vector<Vec3f> points;
   for (const planning::Spot& spot : it.surface.spots) points.push_back(spot.middle.p);
   const KdTree tree(points);

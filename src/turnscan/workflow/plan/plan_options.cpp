@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kPlanFrames = 36;
 
-/// Parts of a scene that stay as they are in all plans.
+/// Parts of a scene that are the same in all plans.
 bool kept_by_plans(const std::string& table) {
   return table == "object" || table == "motion" || table == "table" || table == "noise";
 }

@@ -10,11 +10,12 @@ namespace turnscan::workflow {
 namespace {
 
 constexpr double kErrorScale_m = 1e-3;
-constexpr double kCoveredShare = 0.997, kErrorShare = 0.5;  // of the worth, whatever the error
+// Share of a spot's value that does not depend on its error.
+constexpr double kCoveredShare = 0.997, kErrorShare = 0.5;
 constexpr int kRefineRounds = 3;
 constexpr double kSameShare = 5e-4, kSameError = 0.02;
 
-/// Subsets of {1, ..., n - 1} with k members, 0 before each, in lexicographic order.
+/// Subsets of {1, ..., n - 1} with k members, each preceded by 0, in lexicographic order.
 std::vector<std::vector<std::uint32_t>> subsets(std::size_t n, std::size_t k) {
   std::vector<std::vector<std::uint32_t>> out;
   std::vector<std::uint32_t> set{0};
@@ -131,7 +132,7 @@ std::vector<planning::ChoiceGroup> PlanSearch::groups(
     const PlanObject& object = field_.objects[m];
     const std::size_t spots = object.surface.spots.size();
     planning::ChoiceGroup& group = out.emplace_back();
-    // In square millimetres a spot, so that objects count by their area.
+    // In square millimetres per spot, so that objects are weighted by their area.
     group.weight =
         std::uint64_t(std::max(1.0, std::round(1e8 * object.surface.area_m2 / double(spots))));
     poses.push_back(subsets(object.poses.size(), passes - 1));
@@ -162,7 +163,8 @@ Result<ChosenRig> PlanSearch::choose_one(std::size_t sensors, std::size_t passes
   ChosenRig out;
   for (const std::uint32_t c : choice.candidates) {
     PlanPlace& place = out.rig.places.emplace_back(field_.places[c]);
-    // Beside each other, not face to face; a full turn makes it no difference.
+    // Sensors are placed side by side, not opposite each other; over a full turn the azimuth makes
+    // no difference.
     place.placement.azimuth_rad =
         kTurn * double(out.rig.places.size() - 1) / double(choice.candidates.size() + 1);
   }
@@ -174,7 +176,7 @@ Result<ChosenRig> PlanSearch::choose_one(std::size_t sensors, std::size_t passes
   double full = 0.0;
   for (const planning::ChoiceGroup& group : worth)
     full += double(group.weight) * double(group.alternatives.front().points) * kFullWorth;
-  // Each covered spot is worth the sure share at least.
+  // Each covered spot has at least the guaranteed share of its value.
   const double sure = prefer == Prefer::kCovered ? kCoveredShare : kErrorShare;
   out.most_covered = std::min(1.0, double(choice.bound) / (full * sure));
   return out;
@@ -188,7 +190,7 @@ Result<std::vector<ChosenRig>> PlanSearch::choose_all(const RunContext& context)
     for (std::size_t s = 1; s <= sensors; ++s) {
       for (const Prefer prefer : {Prefer::kCovered, Prefer::kError}) {
         TURNSCAN_ASSIGN(ChosenRig rig, choose_one(s, p, prefer, context));
-        // Fewer sensors do as much: it is there already.
+        // If fewer sensors suffice, that rig is already in the list.
         if (rig.rig.places.size() == s) all.push_back(std::move(rig));
         context.advance();
       }
@@ -198,7 +200,7 @@ Result<std::vector<ChosenRig>> PlanSearch::choose_all(const RunContext& context)
     return fail(ErrorCode::kInvalidOption,
                 "plan: from no place tried is anything seen well enough; widen the ranges of "
                 "distance and elevation, or the error");
-  // A bound of the area holds for rigs of the same size whatever they were chosen for.
+  // An upper bound of the area holds for all rigs of the same size, whatever their preference.
   for (ChosenRig& rig : all)
     for (const ChosenRig& other : all)
       if (!other.error_first && other.passes == rig.passes &&
@@ -216,7 +218,7 @@ RigScore PlanSearch::score(const Rig& rig, Prefer prefer) {
     const std::size_t spots = object.surface.spots.size();
     std::vector<planning::SpotSight> all(spots);
     std::vector<std::uint16_t> worth(spots, 0);
-    std::vector<double> missed(spots, 1.0);  // by all that see it well enough
+    std::vector<double> missed(spots, 1.0);  // probability that all of them miss it
     std::vector<std::vector<planning::SpotSight>> views(rig.places.size() * rig.poses[m].size());
     parallel_for(views.size(), 1, [&](std::size_t i) {
       const PlanPose& pose = object.poses[rig.poses[m][i % rig.poses[m].size()]];

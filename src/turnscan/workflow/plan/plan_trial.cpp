@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr int kJudgedSamples = 40000;
 constexpr std::uint64_t kTaskBytes = 600u << 20;
 
-/// Seen in any of the passes; points in the table's frame of the first.
+/// Seen in any of the passes; points are in the table's frame of the first.
 SeenTest seen_in_any(const Simulation& simulation, const RunContext& context) {
   return
       [&simulation, &context](std::span<const Vec3f> points,
@@ -51,7 +51,7 @@ Result<double> median_error(const TriangleMesh& mesh, const Simulation& simulati
   return result.accuracy.median;
 }
 
-/// A trial of what has a scan; made() gives its mesh.
+/// Trial of a recorded scan; made() returns its mesh.
 template <class Made>
 Result<PlanTrial> judged(const Simulation& simulation, const Made& made,
                          const RunContext& context) {
@@ -88,7 +88,7 @@ Result<std::vector<PlanTrial>> TrialRunner::run_here(const std::vector<TrialScen
                                           run_reconstruction(simulation.scan, request, context));
                           if (!run.reconstruction.objects.empty())
                             return run.reconstruction.objects.front().mesh;
-                          TURNSCAN_TRY(check_joined(run.apart));  // passes, each a mesh apart
+                          TURNSCAN_TRY(check_joined(run.apart));  // no separate passes
                           return fail(ErrorCode::kMissingData, "no object was found");
                         },
                         context));

@@ -5,11 +5,14 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kBeforeTheEnd = 0.995;   // most that is said of a run that goes on
-constexpr double kUnplannedShare = 0.02;  // of the plan's weight, of a phase that is not in it
-constexpr double kMinKnown = 0.05;  // of a phase or the whole, before a time is told from its pace
-constexpr double kLongestGuess = 0.9;  // of a phase that cannot say how far it is
-constexpr double kCatchUp_s = 3.0;     // in which the time left follows a shorter estimate
+constexpr double kBeforeTheEnd = 0.995;  // maximum that is shown while the run is in progress
+// Share of the plan's weight for a phase that is not in it.
+constexpr double kUnplannedShare = 0.02;
+constexpr double kMinKnown = 0.05;     // share of a phase or the whole that must be done before its
+                                       // pace is used for an estimate
+constexpr double kLongestGuess = 0.9;  // maximum for a phase that does not report its fraction
+// Time constant with which the displayed time follows a shorter estimate.
+constexpr double kCatchUp_s = 3.0;
 constexpr double kFarOff = 1.5, kFarOff_s = 5.0;
 
 double total(const PhasePlan& plan, std::size_t begin) {
@@ -38,7 +41,7 @@ double OverallProgress::later_weight() const { return total(plan_, next_); }
 double OverallProgress::weight_of(const std::string& name) {
   const auto is_it = [&](const PlannedPhase& phase) { return phase.name == name; };
   const auto rest = plan_.begin() + std::ptrdiff_t(next_);
-  // The same again is another part of it unless the plan has it twice in a row.
+  // A repetition of the current phase is another part of it, unless the plan has it twice in a row.
   const bool again = name == name_ && !(rest != plan_.end() && is_it(*rest));
   const auto ahead = again ? plan_.end() : std::find_if(rest, plan_.end(), is_it);
   if (ahead != plan_.end()) {

@@ -4,7 +4,7 @@
 #include <turnscan/workflow/passes/joined_frames.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 
-// Weights are seconds as measured with the built-in doll, a turn of 920 depth images of 512 x 424
+// Weights are seconds measured with the built-in doll, a turn of 920 depth images of 512 x 424
 // pixels, on two cores.
 
 namespace turnscan {
@@ -23,7 +23,7 @@ namespace {
 constexpr int kFramesOfATurn = 920;
 constexpr double kReadFrame = 0.015, kRecordTurn = 30.0, kTexture = 8.0;
 
-/// What is recorded of the turntable is checked.
+/// Checks of the recorded turntable.
 PhasePlan check_phases() {
   return joined({platter_phases(),
                  {{"sample frames", 0.6},
@@ -34,7 +34,7 @@ PhasePlan check_phases() {
                   {"sample frames", 0.6}}});
 }
 
-/// Where the turntable is found in the recording, or what is recorded of it is checked.
+/// The turntable is found in the recording, or the recorded one is checked.
 PhasePlan calibration_phases(const FrameSequence& frames, const ReconstructRequest& request) {
   if (request.calibration == "motion" ||
       (request.calibration == "auto" &&
@@ -43,7 +43,7 @@ PhasePlan calibration_phases(const FrameSequence& frames, const ReconstructReque
   return check_phases();
 }
 
-/// Advice for the next pass, and what the verdict asks.
+/// Advice for the next pass, and the inputs of the verdict.
 PhasePlan judge_phases() {
   return joined({{{"advise", 2.0}}, platter_phases(), {{"coverage", 1.0}}});
 }

@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kAtOnce = 4;
-/// A place that was found from a small part of a turn, by which a surface would be smeared.
+/// Limits above which the axis, found from a small part of a turn, would smear the surface.
 constexpr double kMaxCenterSigma_m = 0.004, kMaxAxisSigma_rad = 0.02;
 
 bool known_well(const Calibration& shown) {
@@ -44,7 +44,7 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
     out.speed_rad_s = speed_rad_s;
   } else if (shown && shown->table.speed_rad_s) {
     out.speed_rad_s = shown->table.speed_rad_s;
-    // The sign belongs to the axis that it was found with.
+    // The sign belongs to the axis with which it was found.
     if (shown->table.axis.dot(out.table.axis) < 0.0) out.speed_rad_s = -*out.speed_rad_s;
     out.start_s = std::max(first_s, shown->start_s.value_or(first_s));
   } else if (!has_angles) {
@@ -55,7 +55,7 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
 
 LiveSurface::LiveSurface(SequenceHeader header)
     : header_(std::move(header)), thread_([this] {
-        process::lower_thread_priority();  // frames must not be dropped for the sake of a preview
+        process::lower_thread_priority();  // a preview must not cause dropped frames
         run_on_this_thread([this] { run(); });
       }) {}
 
@@ -75,7 +75,7 @@ void LiveSurface::add(const Frame& frame) {
   const std::uint64_t number = came_++;
   if (number % every_ != 0) return;
   Frame copy = frame;
-  copy.color = ColorImage();  // a preview has the colours of what was seen
+  copy.color = ColorImage();  // the preview is coloured by coverage instead
   kept_.push_back({number, std::make_shared<const Frame>(std::move(copy))});
   if (kept_.size() > kMaxFrames) {
     every_ *= 2;
@@ -111,7 +111,7 @@ bool LiveSurface::wait_for_work(std::vector<Kept>& batch, std::optional<LiveMoti
   };
   const auto ready = [&] { return closing_ || (motion_ && (anew_ || first() != kept_.end())); };
   if (pending_) {
-    // The last frames are to be seen, too, when none comes after them.
+    // Includes the last frames, even if none follows them.
     wake_.wait_for(lock, std::chrono::duration<double>(kMinPause_s), ready);
   } else {
     wake_.wait(lock, ready);
@@ -135,7 +135,7 @@ Result<> LiveSurface::work(const std::vector<Kept>& batch, const std::optional<L
     placed_ = *anew;
     SequenceHeader header = header_;
     header.turntable = placed_.table;
-    header.turntable->speed_rad_s.reset();  // it is in the angles
+    header.turntable->speed_rad_s.reset();  // included in the angles
     TURNSCAN_ASSIGN(stream_, ReconstructionStream::create(header, {}));
     added_ = 0;
   }
@@ -157,7 +157,7 @@ void LiveSurface::run() {
   bool failed = false;
   while (wait_for_work(batch, anew)) {
     if (anew) failed = false;
-    // What cannot be placed or summed shows in the reconstruction; here there is no mesh then.
+    // Errors will appear in the reconstruction; here there is just no mesh.
     if (!failed) failed = !work(batch, anew).has_value();
     pending_ = !failed;
     if (failed || Clock::now() - last < std::chrono::duration<double>(kMinPause_s)) continue;

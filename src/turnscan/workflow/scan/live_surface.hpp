@@ -78,8 +78,8 @@ class LiveSurface {
   mutable std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
   std::vector<Kept> kept_;
-  std::uint64_t came_ = 0, every_ = 1,
-                next_ = 0;  ///< next_: number of the first frame not yet added
+  /// next_: number of the first frame not yet added.
+  std::uint64_t came_ = 0, every_ = 1, next_ = 0;
   std::optional<LiveMotion> motion_;
   bool anew_ = false, closing_ = false;
   std::optional<Update> update_;

@@ -30,14 +30,14 @@ namespace {
 namespace fs = std::filesystem;
 using workflow::LiveReconstruction;
 
-/// Of the whole process.
+/// Processor time of the whole process.
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-/// From the last frame of a pass on.
+/// Measures time since the last frame of a pass.
 class AfterClock {
  public:
   void tell(ScanOutcome& out) const {
@@ -50,7 +50,7 @@ class AfterClock {
   double processor_before_s_ = processor_seconds();
 };
 
-/// Whether somebody, or the source, can lay what it sees another way.
+/// Whether the user, or the source, can reposition the object.
 bool can_be_laid(const FrameSource& source, const std::vector<std::string>& devices) {
   if (source.info().lays_object) return true;
   return std::none_of(devices.begin(), devices.end(), [](const std::string& device) {
@@ -59,7 +59,7 @@ bool can_be_laid(const FrameSource& source, const std::vector<std::string>& devi
   });
 }
 
-/// One scan, step by step.
+/// A scan as a sequence of steps.
 class ScanRun {
  public:
   ScanRun(ScanRequest request, const ScanHooks& hooks, const RunContext& context)
@@ -117,7 +117,7 @@ class ScanRun {
     return write_beside_meshes(source.info());
   }
 
-  /// Mesh first, then what is known of it.
+  /// Makes the mesh first, then the results derived from it.
   Result<> reconstruct_first(const SourceInfo& info, const AfterClock& after) {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
     std::optional<workflow::PlacedRecording> placed;
@@ -144,7 +144,7 @@ class ScanRun {
     return workflow::conclude_run(all, {}, request(), context_, out_.run);
   }
 
-  /// Whether frames lie elsewhere than the recording alone says.
+  /// Whether the choice changes the frames' poses compared to the recording alone.
   static bool moves_frames(const CalibrationChoice& choice) {
     return choice.calibration || !choice.poses.empty() || !choice.left_out.empty();
   }
@@ -181,8 +181,8 @@ class ScanRun {
         [&] { context_.begin_phase("wait for an object on the platter", 0); }, context_);
   }
 
-  /// While it records: reconstructs where poses are known before all frames are there. (The platter
-  /// of the first frames is seen from one side only; what turns on it is seen from all.)
+  /// Reconstructs during recording if poses are known before all frames have arrived. (The platter
+  /// of the first frames is seen from one side only; the turning object is seen from all.)
   Result<> begin_live(bool table_known) {
     const auto& table = setup().header.turntable;
     if (table_known && table->speed_rad_s) {
@@ -190,7 +190,7 @@ class ScanRun {
                       ReconstructionStream::create(setup().header, request_.reconstruct));
       live_ = std::make_unique<LiveReconstruction>(std::move(stream));
     }
-    // Place, speed and angles are to come from the motion of what one sensor sees.
+    // Axis, speed and angles have to be found from the motion seen by one sensor.
     const bool speed_known = setup().options.speed_rad_s || (table && table->speed_rad_s);
     if (request_.ahead.share && setup().header.sensors.size() == 1 && !speed_known)
       ahead_ =
@@ -222,7 +222,7 @@ class ScanRun {
     return {};
   }
 
-  /// What ScanAhead made, where it is kept.
+  /// The result of ScanAhead, if it is kept.
   Result<std::optional<workflow::PlacedRecording>> finish_ahead(const Recording& recording) {
     if (!ahead_) return std::nullopt;
     TURNSCAN_ASSIGN(ScanAhead::Outcome ahead, ahead_->finish(context_));
@@ -238,26 +238,27 @@ class ScanRun {
     return placed;
   }
 
-  /// From the recorded images, to meshes that were made while they were written.
+  /// Adds textures from the recorded images to meshes made during recording.
   Result<> add_textures(const FrameSequence& placed, Reconstruction& made) const {
     ReconstructOptions options = request_.reconstruct;
     if (!options.texture.texture) return {};
-    if (!live_) options.merge.speed_rad_s.reset();  // it is in the angles
+    if (!live_) options.merge.speed_rad_s.reset();  // included in the angles
     TURNSCAN_TRY(texture::check_colors(placed));
     return texture::texture_objects(placed, options, {}, made, context_);
   }
 
-  /// For the next scan with this device. That it cannot be kept is no reason to fail.
+  /// Stores the calibration for the next scan with this device. Failing to store it is not an
+  /// error.
   void keep_found(const SourceInfo& info, const CalibrationChoice& choice) {
     if (!choice.calibration || info.identities.empty()) return;
     Calibration found = *choice.calibration;
-    found.others.clear();  // they were there this time
+    found.others.clear();  // valid for this scan only
     found.made_at = date_of_calibration(info);
     if (auto kept = keep_calibration(info.identities.front(), found); !kept)
       out_.notes.push_back("the calibration could not be kept: " + kept.error().text());
   }
 
-  /// Picture, report and page, of all passes so far.
+  /// Writes picture, report and page for all passes so far.
   Result<> write_beside_meshes(const SourceInfo& info) {
     TURNSCAN_ASSIGN(const auto written,
                     with_hint(write_beside(files(), out_.run,
@@ -268,7 +269,7 @@ class ScanRun {
 
   // --- further passes
 
-  /// Whether there is a further pass; then the object lies as it should.
+  /// Whether there is a further pass; if so, the object has been repositioned.
   Result<bool> prompt_next_pass(FrameSource& source) {
     const auto pass = std::uint32_t(out_.captured.size());
     const bool asks = !request_.passes, by_itself = source.info().lays_object;
@@ -321,7 +322,7 @@ class ScanRun {
     return write_beside_meshes(source.info());
   }
 
-  /// Frames of how the object lay before.
+  /// Discards frames of the object's previous pose.
   Result<> take_what_waits(FrameSource& source) const {
     for (;;) {
       TURNSCAN_ASSIGN(const Delivery delivery, source.next(0.0, context_));
@@ -329,7 +330,7 @@ class ScanRun {
     }
   }
 
-  /// Where no pass was joined the mesh stays what it was.
+  /// If no pass was joined, the mesh remains as it was.
   Result<> write_passes(const ReconstructRun& run, const std::vector<std::string>& before) {
     out_.files.clear();
     if (!run.reconstruction.objects.empty()) {
@@ -345,7 +346,7 @@ class ScanRun {
                                                     pass.reconstruction, request_.mesh_options));
       out_.files.insert(out_.files.end(), own.begin(), own.end());
     }
-    // A pass that did not fit until now has no mesh of its own any more.
+    // A pass that now fits no longer has a separate mesh.
     for (const std::string& file : before) {
       std::error_code ignored;
       if (!is_beside(file) &&
@@ -367,7 +368,7 @@ class ScanRun {
     return file == request_.report || file == request_.page || file == request_.advice_picture;
   }
 
-  /// Whatever fails now, the recording is there.
+  /// The recording exists, whatever fails from here on.
   template <class T>
   Result<T> with_hint(Result<T> result) const {
     if (result) return result;
@@ -383,7 +384,7 @@ class ScanRun {
   ScanOutcome out_;
   std::unique_ptr<LiveReconstruction> live_;
   std::unique_ptr<ScanAhead> ahead_;
-  bool laid_ = false;  ///< the object can be laid another way
+  bool laid_ = false;  ///< the object can be repositioned
 };
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace turnscan {
 
 /// Processing during the recording (see ScanAhead).
 struct AheadOptions {
-  std::optional<double> share =
-      0.8;  ///< share of the recording at which processing begins; nullopt: at its end
+  /// Share of the recording at which processing begins; nullopt: at its end.
+  std::optional<double> share = 0.8;
 };
 /// Option `ahead`.
 OptionTable describe(AheadOptions& options);
@@ -33,10 +33,10 @@ struct ScanRequest {
   std::string page;       ///< .html, see make_page(); empty: none
   /// Number of passes; nullopt: asks ScanHooks::another_side after each.
   std::optional<int> passes;
-  std::string
-      advice_picture;  ///< .png, replaced after each pass; see next_pass_picture(). Empty: none
-  bool wait = true;    ///< until an object is on the platter, if that can be detected
-  bool allow_open = false;            ///< accept a mesh that is not watertight
+  /// .png, replaced after each pass; see next_pass_picture(). Empty: none.
+  std::string advice_picture;
+  bool wait = true;         ///< until an object is on the platter, if that can be detected
+  bool allow_open = false;  ///< accept a mesh that is not watertight
   bool overwrite_unfinished = false;  ///< remove an existing unfinished recording
 };
 

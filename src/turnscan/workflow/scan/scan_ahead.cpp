@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kBatch = 64;
-/// The views one turn apart disagree by their noise, too: a tenth of that of one depth value.
+/// Views one turn apart also differ by their noise: by a tenth of that of one depth value.
 constexpr double kClosureShare = 0.25;
 constexpr double kMinLimit_m = 2e-4;
 
@@ -44,7 +44,7 @@ Result<> add_frames(ReconstructionStream& stream, const FrameSequence& sequence,
   return {};
 }
 
-/// What the thread leaves.
+/// Result of the thread.
 struct Begun {
   Calibration calibration;
   ReconstructionStream stream;
@@ -57,7 +57,7 @@ struct ScanAhead::Parts {
   ReconstructOptions options;
   double share;
   std::size_t came = 0, first = 0;
-  RunContext quiet;  ///< of the thread: it is not the phase that people are told about
+  RunContext quiet;  ///< for the thread: its phases are not shown to the user
   std::future<Result<Begun>> begun;
 
   /// Waits until the frames are in the recording.
@@ -89,7 +89,7 @@ struct ScanAhead::Parts {
     return begun.get();
   }
 
-  /// Calibration and stream go on to the end of the recording, if they fit it.
+  /// Extends calibration and stream to the end of the recording, if they fit it.
   Result<> complete(Begun& ahead, Outcome& out, const RunContext& context) const {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
     TURNSCAN_ASSIGN(ContinuedMotion all,
@@ -114,7 +114,7 @@ ScanAhead::ScanAhead(std::string recording, const ReconstructOptions& options, d
     : parts_(std::make_unique<Parts>()) {
   parts_->folder = std::move(recording);
   parts_->options = options;
-  parts_->options.merge.speed_rad_s.reset();  // it is in the angles
+  parts_->options.merge.speed_rad_s.reset();  // included in the angles
   parts_->share = share;
 }
 

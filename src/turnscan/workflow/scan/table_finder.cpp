@@ -12,13 +12,13 @@ namespace {
 
 constexpr int kDetectFrames = 20;
 
-/// Whether the error says that there is nothing to be seen, rather than that something broke.
+/// Whether the error means that nothing was detected, rather than a failure.
 bool nothing_seen(const Error& error) {
   return error.code == ErrorCode::kMissingData || error.code == ErrorCode::kTooFewPoints ||
          error.code == ErrorCode::kUnsupported;
 }
 
-/// The table in the frame of a sensor that stands there.
+/// The table in the frame of a sensor with this pose.
 TurntableInfo table_seen_from(const Pose& T_table_sensor) {
   TurntableInfo table;
   table.axis = T_table_sensor.linear().transpose() * Vec3d::UnitY();
@@ -32,14 +32,14 @@ Result<bool> TableFinder::find(FrameSource& source, const RunContext& context) {
   const bool stated = setup_.header.turntable && setup_.places_known();
   if (stated && setup_.turntable_file.empty()) return true;
   if (!stated && setup_.devices.size() > 1) {
-    // A platter tells where each sensor stands, but not in which direction from each other.
+    // A platter determines each sensor's pose relative to it, but not the azimuths between sensors.
     notes_.push_back("where the sensors stand comes from the object's motion alone");
     return false;
   }
   context.begin_phase("look for the turntable", 0);
   const auto scan = mean_of_next(source, 0, kDetectFrames, context);
   if (!scan && !nothing_seen(scan.error())) return tl::unexpected<Error>(scan.error());
-  if (!scan) return stated;  // nothing to be seen yet
+  if (!scan) return stated;  // nothing visible yet
   if (stated) {
     TURNSCAN_TRY(check_stated(source, *scan, context));
     return true;
@@ -65,7 +65,7 @@ Result<> TableFinder::detect(const FrameSource& source, const AveragedScan& scan
   return {};
 }
 
-/// The speed of another day says nothing about today's.
+/// A speed from an earlier day does not apply now.
 void TableFinder::set_table(const TurntableInfo& table, const std::string& made_at) {
   note_calibration_date(made_at, setup_.settings);
   setup_.header.turntable = table;
@@ -100,7 +100,7 @@ Result<bool> TableFinder::take_kept(const FrameSource& source, const AveragedSca
   const auto& identities = source.info().identities;
   if (identities.empty()) return false;
   const auto kept = kept_calibration(identities.front());
-  // Without a home there is nothing to be kept in.
+  // Without a home there is no stored calibration.
   if (!kept && kept.error().code != ErrorCode::kNotFound)
     notes_.push_back("the calibration that was kept of this device is not used: " +
                      kept.error().text());

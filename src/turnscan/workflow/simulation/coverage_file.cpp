@@ -14,7 +14,7 @@ namespace turnscan {
 
 namespace {
 
-constexpr double kHoleToMention = 1e-3;  // of all the area
+constexpr double kHoleToMention = 1e-3;  // share of the total area
 
 constexpr std::string_view kCoverageHeader =
     "ply\nformat binary_little_endian 1.0\ncomment coverage by a virtual scan; metres\n"

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kBuiltin = "builtin:";
 constexpr std::string_view kEmptyTable = "builtin:empty";
 
-/// The scan, every frame of which is also shown. Both must outlive it.
+/// The scan, with every frame also passed to the watcher. Both must outlive it.
 SequenceView watched(const VirtualPasses& scan, const FrameWatcher& watcher) {
   SequenceView out(scan);
   if (watcher)
@@ -44,9 +44,9 @@ Result<VirtualPasses> make_passes(const std::vector<PlacedObject>& placed,
     TURNSCAN_ASSIGN(VirtualScan scan, VirtualScan::create(std::move(meshes), options));
     for (VirtualScanner& scanner : options.scanners) {
       if (!scanner.placement.aim_height_m) scanner.placement.aim_height_m = scan.aim_height_m();
-      scanner.placement.knock.at_s = 0.0;  // it stays as it is
+      scanner.placement.knock.at_s = 0.0;  // it remains in effect
     }
-    // It is warmer when the next pass begins.
+    // The sensor is warmer when the next pass begins.
     options.measure.warm_up_m *=
         std::exp(-scan.frames().back().time_s / options.measure.warm_up_time_s);
     ++options.record.pass;
@@ -66,7 +66,7 @@ Result<Simulation> ready(const SceneDescription& scene, VirtualScanOptions optio
                     std::nullopt};
 }
 
-/// Removes a recording that lacks its truth; a folder that was there before stays.
+/// Removes a recording without ground truth; a folder that existed before is kept.
 void discard(const fs::path& folder, bool existed) {
   std::error_code ignored;
   if (!existed) {

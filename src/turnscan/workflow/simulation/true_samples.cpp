@@ -37,7 +37,7 @@ constexpr std::string_view kPlatterComment =
 
 constexpr std::string_view kHandComment = "comment body 3: the hand, the room's frame\n";
 
-/// Of bodies that there are only in some scans.
+/// Of bodies that exist only in some scans.
 std::string more_bodies(const TrueSamples& samples) {
   const auto has = [&](BodyKind kind) {
     return std::find(samples.bodies.begin(), samples.bodies.end(), kind) != samples.bodies.end();

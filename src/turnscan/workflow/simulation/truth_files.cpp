@@ -76,7 +76,7 @@ std::string truth_json(const VirtualPasses& scan, const std::vector<PlacedObject
   for (std::size_t k = 0; k < scan.header().sensors.size(); ++k) {
     auto sensor = Json::object();
     sensor["model"] = scan.header().sensors[k].model;
-    // The frames of the first instant come in the order of the sensors.
+    // The frames of the first instant are ordered by sensor.
     sensor["T_table_sensor"] = matrix_json(scan.pass(0).T_table_sensor(k));
     out["sensors"].push_back(std::move(sensor));
   }

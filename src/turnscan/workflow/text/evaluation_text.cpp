@@ -12,7 +12,7 @@ void add_errors(workflow::TextTable& table, const std::string& name, const Error
   table.add({name, plain_mm(e.mean), plain_mm(e.median), plain_mm(e.p95), plain_mm(e.max)});
 }
 
-/// Signed.
+/// With a sign.
 std::string mm(double value_m) { return fmt::format("{:+.3f}", value_m * 1e3); }
 
 std::string deviation_text(const Evaluation& e) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kMax_m = 1.0;
 
-/// That an error is less than so many times the expected one (Abramowitz and Stegun 26.7.3, five
-/// degrees of freedom).
+/// Probability that an error is less than `ratio` times the expected one (Abramowitz and Stegun
+/// 26.7.3, five degrees of freedom).
 double probability_within(double ratio) {
   constexpr double kScale = 1.1105;
   const double angle = std::atan(kScale * ratio / std::sqrt(5.0)), c = std::cos(angle);

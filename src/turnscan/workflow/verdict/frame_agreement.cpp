@@ -28,7 +28,7 @@ std::optional<double> median_of(std::vector<double> values) {
   return median(values);
 }
 
-/// The frame after each, of the same sensor and pass; its own position where there is none.
+/// The next frame of the same sensor and pass for each frame; its own position if there is none.
 std::vector<std::size_t> next_of_each(const std::vector<FrameResidual>& residuals) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> last;
   std::vector<std::size_t> next(residuals.size());
@@ -41,8 +41,8 @@ std::vector<std::size_t> next_of_each(const std::vector<FrameResidual>& residual
   return next;
 }
 
-/// Of frames that look from where another one of the same sensor and pass looked before, with a
-/// way of more than half the circle in between.
+/// For frames that view from the same direction as an earlier one of the same sensor and pass, with
+/// more than half a turn in between.
 std::optional<double> turn_apart(const std::vector<FrameResidual>& residuals,
                                  const std::vector<std::size_t>& next) {
   std::vector<double> differences;
@@ -61,7 +61,7 @@ std::optional<double> turn_apart(const std::vector<FrameResidual>& residuals,
   return median_of(std::move(differences));
 }
 
-/// The two groups whose medians differ most.
+/// Difference between the two groups whose medians differ most.
 std::optional<double> groups_apart(
     const std::vector<FrameResidual>& residuals,
     const std::function<std::uint32_t(const FrameResidual&)>& group_of) {

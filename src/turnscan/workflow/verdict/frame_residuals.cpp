@@ -19,17 +19,18 @@ namespace {
 
 constexpr std::size_t kMaxFrames = 128, kMaxPoints = 800, kMinPoints = 50;
 constexpr double kFarthest_m = 0.010, kFarthestNoises = 10.0;
-/// Above the table, where the platter's own points end.
+/// Height above the table at which the platter's own points end.
 constexpr double kAbove_m = 0.004, kAboveNoises = 3.0;
 constexpr int kRounds = 6;
-/// Holds what the normals do not determine: 2 % of the points say that nothing moved.
+/// Weight of the regularisation of what the normals do not determine, as if 2 % of the points
+/// indicated no motion.
 constexpr double kHold = 0.02;
 
-/// A shift in x, y and z, and a turn about +y times the reach.
+/// Translation in x, y and z, and rotation about +y times the mesh's rms distance from the axis.
 using Motion = Eigen::Vector4d;
 
 struct Sample {
-  Motion answer;  ///< how its distance answers to a motion
+  Motion answer;  ///< derivative of its distance with respect to the motion
   double distance_m;
 };
 
@@ -39,7 +40,7 @@ double spread_of(const std::vector<Sample>& samples, const Motion& moved) {
   return estimation::mad_sigma(sizes);
 }
 
-/// By least squares, weighted anew round by round.
+/// Iteratively reweighted least squares.
 Motion motion_of(const std::vector<Sample>& samples) {
   Motion moved = Motion::Zero();
   for (int round = 0; round < kRounds; ++round) {
@@ -55,7 +56,7 @@ Motion motion_of(const std::vector<Sample>& samples) {
   return moved;
 }
 
-/// The mesh, made ready for many points.
+/// The mesh, prepared for many queries.
 class Surface {
  public:
   Surface(const ObjectResult& object, double farthest_m)
@@ -75,13 +76,13 @@ class Surface {
     reach_m_ = std::max(std::sqrt(squares / std::max(area, 1e-12)), 1e-4);
   }
 
-  /// Whether a point may be of the mesh.
+  /// Whether a point may belong to the mesh.
   bool is_near(const Vec3d& p) const {
     return ((p - box_.min).array() > -farthest_m_).all() &&
            ((box_.max - p).array() > -farthest_m_).all();
   }
 
-  /// nullopt where the nearest surface is far, or was not measured.
+  /// nullopt if the nearest surface is too far away, or was not measured.
   std::optional<Sample> sample_at(const Vec3d& p) const {
     const auto hit = distance_.closest(p, farthest_m_);
     if (hit.triangle == MeshDistance::kNone) return std::nullopt;
@@ -103,7 +104,7 @@ class Surface {
   double farthest_m_, reach_m_ = 1.0;
 };
 
-/// A frame of a source that is looked at.
+/// A frame of a source that is evaluated.
 struct ChosenFrame {
   const MeshFrames* source;
   std::size_t position;

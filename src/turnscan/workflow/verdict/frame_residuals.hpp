@@ -25,12 +25,12 @@ struct FrameResidual {
   std::uint32_t frame = 0, sensor = 0, pass = 0;             ///< as in its FrameInfo
   double time_s = std::numeric_limits<double>::quiet_NaN();  ///< as in its FrameInfo
   Vec3d shift_m = Vec3d::Zero();                             ///< mesh frame
-  double turn_m =
-      0.0;  ///< rotation about +y through the mesh, times the mesh's rms distance from that axis
+  /// Rotation about +y through the mesh, times the mesh's rms distance from that axis.
+  double turn_m = 0.0;
   double spread_m = 0.0;   ///< residual spread of the measurements along the normals: one sigma
   double outward_m = 0.0;  ///< median of the signed distances, positive outside
-  Vec3d seen_from =
-      Vec3d::Zero();  ///< position of the sensor, mesh frame; for parallel rays their direction
+  /// Position of the sensor, mesh frame; for parallel rays their direction.
+  Vec3d seen_from = Vec3d::Zero();
   std::size_t points = 0;  ///< that were compared
 
   /// Total offset.

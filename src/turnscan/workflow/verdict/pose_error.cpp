@@ -9,7 +9,7 @@ namespace turnscan {
 
 namespace {
 
-/// Of a deviation across the axis, whatever its direction, the part in a given one.
+/// Share of a deviation perpendicular to the axis, of unknown direction, along a given direction.
 constexpr double kOneDirection = std::numbers::sqrt2 / 2.0;
 
 }  // namespace

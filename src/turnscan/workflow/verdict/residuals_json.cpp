@@ -6,7 +6,7 @@ namespace turnscan::workflow {
 
 namespace {
 
-/// To a tenth of a micrometre.
+/// Rounded to a tenth of a micrometre.
 double millimetres(double value_m) { return std::round(value_m * 1e7) / 1e4; }
 
 nlohmann::ordered_json columns_of(const std::vector<FrameResidual>& residuals) {

@@ -11,7 +11,7 @@ constexpr double kHalfTurn = 0.5;
 constexpr double kFewDropped = 0.5;
 /// Frames that disagree by more, beyond what their noise explains, blur the mesh.
 constexpr double kAgreed_m = 0.001;
-/// Share of the frames that may lie elsewhere than the rest: they are outvoted, since enough others
+/// Share of frames that may be displaced from the others: they are outvoted, since enough others
 /// see the same surface.
 constexpr double kOutvoted = 0.1;
 
@@ -33,7 +33,7 @@ std::string platter_text(const RigCheck& check) {
       1e3 * check.shift_m, check.tilt_rad * kDegreesPerRadian);
 }
 
-/// The calibration that was there before.
+/// Adds findings on the calibration stored in the recording.
 void add_recorded(const ScanKnowledge& known, Findings& out) {
   const auto& offset = known.choice->checks.axis_offset;
   std::vector<std::string> parts;
@@ -46,7 +46,7 @@ void add_recorded(const ScanKnowledge& known, Findings& out) {
   parts.push_back(known.platter ? platter_text(*known.platter)
                                 : "no platter was seen in it to check the calibration by");
   parts.push_back("the calibration: " + age_text(known.dates));
-  // The motion of the object is the better witness where there is one.
+  // The motion of the object is the more reliable evidence, if available.
   const bool moved = !offset && known.platter && known.platter->moved;
   const Level level = offset && offset->significant() ? Level::kBad
                       : moved                         ? Level::kFair
@@ -79,8 +79,8 @@ void add_turn(const ScanKnowledge& known, Findings& out) {
   if (!known.turn) return;
   const TurnSeen& turn = *known.turn;
   const bool whole = turn.share >= kWholeTurn;
-  // A gap that leaves every upright side in sight costs the surface that is then not seen, which
-  // counts by itself.
+  // A gap that leaves every upright side visible only costs the unseen surface, which is counted
+  // separately.
   const Level level = whole || looked_from_all_sides(turn) ? Level::kGood
                       : turn.share >= kHalfTurn            ? Level::kFair
                                                            : Level::kBad;
@@ -138,7 +138,7 @@ void add_agreement(const std::vector<FrameResidual>& residuals, Findings& out) {
   if (a.apart.empty()) return;
   std::size_t count = 0;
   for (const FramesApart& apart : a.apart) count += apart.last - apart.first + 1;
-  // A few among many that agree are outvoted; many show a surface of their own.
+  // A few among many that agree are outvoted; many form a surface of their own.
   const bool many = double(count) > kOutvoted * double(a.frames);
   out.push_back({"apart",
                  many    ? Level::kBad
@@ -153,7 +153,7 @@ void add_dropped(const Reconstruction& run, Findings& out) {
   const std::size_t all = run.frames + run.dropped_frames;
   if (run.dropped_frames == 0 || all == 0) return;
   const double share = double(run.dropped_frames) / double(all);
-  // What they would have shown is missing elsewhere, in turn and surface seen.
+  // What they would have shown is counted as missing in the turn and in the seen surface.
   out.push_back({"frames", share > kFewDropped ? Level::kFair : Level::kGood,
                  fmt::format("{} of {} frames were dropped", run.dropped_frames, all),
                  100.0 * share, "%"});

@@ -7,8 +7,8 @@
 namespace turnscan {
 
 struct TurnSeen {
-  double share =
-      0.0;  ///< share of a full turn, 0 to 1: directions less than 20 degrees from a frame's
+  /// Share of a full turn, 0 to 1: directions less than 20 degrees from a frame's.
+  double share = 0.0;
   double turns = 0.0;           ///< total rotation of the table
   double widest_gap_rad = 0.0;  ///< between neighbouring directions, regardless of the 20 degrees
 };

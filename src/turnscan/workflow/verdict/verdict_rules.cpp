@@ -19,24 +19,25 @@ namespace turnscan {
 namespace {
 
 constexpr double kTolerance_m = 0.001;
-/// Of what was seen, within the tolerance. F, which they stand for, is a hundredth higher.
+/// Share of the seen surface within the tolerance. The F-score, which it approximates, is a
+/// hundredth higher.
 constexpr double kGoodShare = 0.96, kFairShare = 0.84;
-/// Of the surface, that hardly a frame could see. Where that is not known what was not measured
-/// counts, which is 4 % more on average.
+/// Share of the surface visible in hardly any frame. If that is not known, the unmeasured surface
+/// is used, which is 4 % more on average.
 constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04;
 constexpr double kFewFrames = 6.0;
-/// Frames that see a place; more do not help as much as a nearer sensor.
+/// Number of frames that see a point; more do not help as much as a closer sensor.
 constexpr int kManyFrames = 40;
 constexpr double kNozzle_m = 0.0008;
-constexpr double kShownWorth = 0.03;  ///< of the surface, that another pass would show
+constexpr double kShownWorth = 0.03;  ///< share of the surface that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
-/// Of a frame's spread, that its place is uncertain by; and which share of how far frames lie off
-/// stays in a surface that is their mean, since frames near each other err alike
+/// Uncertainty of a frame's pose as a share of its spread; and the share of the frames' offsets
+/// that remains in a surface that is their mean, since neighbouring frames err alike
 /// (bench/expected_error).
 constexpr double kOffNoise = 0.1, kSharedOff = 0.2;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
 
-/// How far frames lie off each other beyond what the spread of their points explains.
+/// Offsets between frames beyond what the spread of their points explains.
 double disagreement_m(const std::vector<FrameResidual>& residuals) {
   const FrameAgreement a = frame_agreement(residuals);
   const double noise = kOffNoise * a.spread_m;
@@ -52,7 +53,7 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   return out;
 }
 
-/// The smallest value that so much of the weight does not exceed.
+/// Weighted quantile: the smallest value that this share of the weight does not exceed.
 int weighted_quantile(std::vector<std::pair<int, double>> values, double share) {
   std::sort(values.begin(), values.end());
   double all = 0.0, sum = 0.0;
@@ -66,7 +67,7 @@ int weighted_quantile(std::vector<std::pair<int, double>> values, double share) 
 
 class Judge {
  public:
-  /// known: of the object at that position.
+  /// position: of the object in `known`.
   Judge(ObjectResult& object, std::size_t position, const Reconstruction& run,
         const ScanKnowledge& known)
       : object_(object),
@@ -101,7 +102,8 @@ class Judge {
     out_.sentences.push_back({std::move(topic), level, std::move(text), value, std::move(unit)});
   }
 
-  /// What the calibration leaves open; and where frames disagree the surface lies between them.
+  /// Adds the uncertainty left by the calibration, and by frames that disagree, with the surface
+  /// between them.
   void add_pose_errors() {
     if (object_.quality.empty()) return;
     const PoseError error = pose_error(known_);
@@ -154,7 +156,7 @@ class Judge {
         *median_m * 1e3, "mm");
   }
 
-  /// Of what frames could see; where that is not known, of what they measured.
+  /// Of the surface that frames could see; if that is not known, of what they measured.
   ErrorShares error_shares() const {
     ErrorShares out;
     if (seen_ != nullptr) {
@@ -169,7 +171,7 @@ class Judge {
     return out;
   }
 
-  /// Share of the vertices' area that hardly a frame could see.
+  /// Share of the vertices' area visible in hardly any frame.
   std::optional<double> hidden_share() const {
     if (seen_ == nullptr || seen_->vertices.empty()) return std::nullopt;
     double hidden = 0.0, all = 0.0;
@@ -235,7 +237,7 @@ class Judge {
         text + largest, 100.0 * invented, "%");
   }
 
-  /// Share of the surface, from some of the vertices.
+  /// Share of the surface, estimated from a subset of the vertices.
   double share_thinner_than(double thickness_m, const quality::ThinWalls& walls) const {
     const std::size_t stride = std::max<std::size_t>(1, areas_.size() / kThicknessSamples);
     double thin = 0.0, all = 0.0;
@@ -284,14 +286,14 @@ class Judge {
       say("mesh", Level::kGood, "it is watertight and can be printed");
   }
 
-  /// What another pass would show; nullptr where there is no advice worth the work.
+  /// The best pose for another pass; nullptr if no advice is worth the effort.
   const NextPose* best_pose() const {
     if (next_pass_ == nullptr || next_pass_->poses.empty()) return nullptr;
     const NextPose& best = next_pass_->poses.front();
     return best.shows_m2 > kShownWorth * surface_area(object_.mesh) ? &best : nullptr;
   }
 
-  /// Passes that made the largest object.
+  /// Number of passes that made the largest object.
   std::size_t passes() const {
     const auto made = std::count_if(run_.passes.begin(), run_.passes.end(),
                                     [](const FusedPass& pass) { return pass.object <= 0; });
@@ -349,7 +351,7 @@ class Judge {
   std::vector<Vec3f> normals_;
   std::vector<double> areas_;
   std::vector<std::uint8_t> measured_;
-  double hidden_ = 0.0;  ///< share of the surface that hardly a frame could see
+  double hidden_ = 0.0;  ///< share of the surface visible in hardly any frame
   Verdict out_;
 };
 
