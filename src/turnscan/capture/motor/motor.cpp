@@ -14,11 +14,13 @@ namespace {
 
 constexpr auto kArrivalPoll = std::chrono::milliseconds(50);
 constexpr double kWatchEvery_s = 0.3;
-constexpr double kStall_s = 1.5;      ///< over which progress is judged
-constexpr double kStallShare = 0.25;  ///< of the way that the speed promises
-constexpr double kRampShare = 3.0;    ///< a move may take so many times as long as its speed says
+constexpr double kStall_s = 1.5;      ///< interval over which progress is judged
+constexpr double kStallShare = 0.25;  ///< of the expected angle
+/// Maximum ratio of a move's duration to that expected from its speed.
+constexpr double kRampShare = 3.0;
 
-/// Does the angle grow as the speed says? Looks at the last seconds, so that a ramp is no stall.
+/// Checks whether the angle grows at the expected speed. Considers the last seconds, so that a ramp
+/// is not mistaken for a stall.
 class Advance {
  public:
   void begin(double speed_deg_s) {
@@ -39,7 +41,7 @@ class Advance {
   std::deque<std::pair<Clock::time_point, double>> samples_;
 };
 
-/// Text lines that came while the board started; the first banner, or empty.
+/// Reads the lines sent while the board starts; returns the first banner, or an empty string.
 Result<std::string> wait_for_banner(SerialPort& port, double boot_s, const RunContext& context) {
   const auto begin = Clock::now();
   while (seconds_since(begin) < boot_s) {
@@ -127,13 +129,13 @@ struct Motor::State {
   std::unique_ptr<MotorBoard> board;
   double start_deg = 0.0;
   bool spinning = false;
-  bool may_turn = false;  ///< told to turn, and not yet seen to stand
+  bool may_turn = false;  ///< commanded to turn, and not yet seen standing still
   Advance progress;
   Clock::time_point watched;
 
   double sign() const { return options.reversed ? -1.0 : 1.0; }
 
-  /// Passes results on; after a failure the table is stopped, and the error says so.
+  /// Passes results through; after a failure the table is stopped, and the error says so.
   template <class T>
   Result<T> guard(Result<T> result) {
     if (result) return result;
@@ -168,7 +170,7 @@ struct Motor::State {
   Result<> look();
 };
 
-/// Until the table stands at the target.
+/// Waits until the table stands still at the target.
 Result<> Motor::State::wait_until_there(double target_deg, double speed_deg_s, double most_s,
                                         const RunContext& context) {
   progress.begin(speed_deg_s);

@@ -34,8 +34,8 @@ std::string_view name_of(MotorState state);
 
 struct MotorStatus {
   MotorState state = MotorState::kIdle;
-  double angle_rad =
-      std::numeric_limits<double>::quiet_NaN();  ///< relative to the start of the board
+  /// Relative to the start of the board.
+  double angle_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A connected motor. Angles and speeds are signed: counter-clockwise seen from above is positive.

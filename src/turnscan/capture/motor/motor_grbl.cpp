@@ -1,7 +1,7 @@
 // Boards that understand GRBL: lines of G-code, each answered by "ok" or "error:N", and single
-// bytes that work at once ('?' status, '!' hold, 0x18 reset). Source: the interface description of
-// Grbl 1.1 (doc/markdown/interface.md and commands.md in its repository); 0.9 and the boards
-// derived from it differ in the status line only.
+// bytes that take effect at once ('?' status, '!' hold, 0x18 reset). Source: the interface
+// description of Grbl 1.1 (doc/markdown/interface.md and commands.md in its repository); 0.9 and
+// the boards derived from it differ only in the status line.
 
 #include <chrono>
 #include <cmath>
@@ -15,9 +15,10 @@ namespace turnscan::motor {
 
 namespace {
 
-constexpr double kPiece_s = 0.5;  ///< a spin is sent in pieces of so long; the board joins them
+/// A spin is sent in pieces of this duration; the board joins them.
+constexpr double kPiece_s = 0.5;
 constexpr auto kStopPoll = std::chrono::milliseconds(30);
-constexpr double kBannerTwice_s = 0.05;  ///< a board may say its first line twice
+constexpr double kBannerTwice_s = 0.05;  ///< a board may repeat its first line
 
 struct GrblStatus {
   std::string state;
@@ -50,7 +51,7 @@ class GrblBoard : public MotorBoard {
 
   const std::string& name() const override { return name_; }
 
-  /// After a reset: unlocked, distances relative.
+  /// Setup after a reset: unlocks, and selects relative distances.
   Result<> prepare() {
     TURNSCAN_ASSIGN(const GrblStatus now, query());
     if (now.state.starts_with("Alarm")) TURNSCAN_TRY(command("$X"));
@@ -90,7 +91,7 @@ class GrblBoard : public MotorBoard {
     return keep_spinning(now.angle_deg);
   }
 
-  /// Tops up what the board has still to do.
+  /// Refills the board's queue of pieces.
   Result<> keep_spinning(double angle_deg) override {
     const double piece = spin_deg_s_ * kPiece_s;
     while (std::abs(sent_deg_ - angle_deg) < std::abs(spin_deg_s_) * kSpinAhead_s) {
@@ -105,7 +106,7 @@ class GrblBoard : public MotorBoard {
         fmt::format("G1X{:.4f}F{:.3f}", deg * units_per_deg_, deg_per_s * units_per_deg_ * 60.0));
   }
 
-  /// A hold slows down without losing steps; the reset then forgets what was left of the way.
+  /// A hold decelerates without losing steps; the reset then discards the rest of the motion.
   Result<> stop() override {
     TURNSCAN_TRY(port_.write("!"));
     last_x_.reset();
@@ -113,7 +114,7 @@ class GrblBoard : public MotorBoard {
     for (;;) {
       TURNSCAN_ASSIGN(const GrblStatus now, query());
       if (now.state == "Idle" || now.state == "Hold:0" || now.state.starts_with("Alarm")) break;
-      // 0.9 says only "Hold": it stands when it does not go on.
+      // 0.9 only reports "Hold": the table stands still if the position no longer changes.
       if (now.state == "Hold" && last_x_ == now.x) break;
       last_x_ = now.x;
       if (seconds_since(begin) > kStopTimeout_s)
@@ -161,7 +162,8 @@ class GrblBoard : public MotorBoard {
                 request, shown(strange_));
   }
 
-  /// What may come at any time. Fails for what means that the table is no longer as it was.
+  /// Handles messages that may arrive at any time. Fails for those after which the table's state is
+  /// no longer valid.
   Result<> take_unasked(const std::string& line) {
     if (line.starts_with("ALARM"))
       return fail(ErrorCode::kIo, "the table reports '{}'", shown(line));
@@ -170,7 +172,7 @@ class GrblBoard : public MotorBoard {
     return {};
   }
 
-  /// What came since the last answer: nothing, or what the board says of its own.
+  /// Reads what arrived since the last answer: nothing, or unsolicited messages.
   Result<> drain() {
     for (std::size_t lines = 0; lines < kMaxLines; ++lines) {
       TURNSCAN_ASSIGN(const auto line, port_.read_line(0.0));
@@ -218,10 +220,10 @@ class GrblBoard : public MotorBoard {
   double timeout_s_;
   double units_per_deg_;
   std::string name_;
-  std::string strange_;  ///< the last thing that came instead of an answer
+  std::string strange_;  ///< the last line received instead of an answer
   bool resetting_ = false;
   double spin_deg_s_ = 0.0;
-  double sent_deg_ = 0.0;  ///< where the pieces sent so far lead
+  double sent_deg_ = 0.0;  ///< end position of the pieces sent so far
   std::optional<double> last_x_;
 };
 

@@ -79,9 +79,9 @@ class TextBoard : public MotorBoard {
   Result<> halt() override {
     Result<> done;
     for (int i = 0; i < kHaltTries; ++i) {
-      // A line end first: half a command must not swallow what follows.
+      // Begins with a line end, so that a partial command does not swallow it.
       TURNSCAN_TRY(port_.write("!\n!"));
-      greeted_ = false;  // a board that restarted stands, too
+      greeted_ = false;  // a board that restarted stands still, too
       done = ask_for_nothing("stop", timeout_s_);
       if (done) return done;
     }
@@ -102,7 +102,7 @@ class TextBoard : public MotorBoard {
                 request, timeout_s, why);
   }
 
-  /// The answer's text behind "ok".
+  /// The text of the answer after "ok".
   Result<std::string> ask(const std::string& request, double timeout_s) {
     const unsigned number = ++number_;
     const std::string text = fmt::format("{} {}", number, request);
@@ -147,7 +147,7 @@ class TextBoard : public MotorBoard {
     const auto at = static_cast<std::size_t>(words[1].data() - text->data()) + words[1].size();
     std::string rest(text->substr(std::min(text->size(), at + 1)));
     if (of == 0) return unasked(words[1], rest);
-    if (of != number) {  // late, or twice
+    if (of != number) {  // late, or a duplicate
       strange_ = line;
       return std::optional<std::string>();
     }
@@ -156,7 +156,7 @@ class TextBoard : public MotorBoard {
     return not_understood(line);
   }
 
-  /// What a board says of its own: number 0.
+  /// Handles unsolicited messages: number 0.
   Result<std::optional<std::string>> unasked(std::string_view word, const std::string& rest) const {
     if (word == "ready" && greeted_)
       return fail(ErrorCode::kIo, "the table's board restarted by itself; check its power supply");
@@ -169,7 +169,7 @@ class TextBoard : public MotorBoard {
   std::string name_;
   unsigned number_ = 0;
   bool greeted_ = false;
-  std::string strange_;  ///< the last thing that came instead of an answer
+  std::string strange_;  ///< the last line received instead of an answer
 };
 
 }  // namespace

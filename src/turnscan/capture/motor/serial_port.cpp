@@ -1,6 +1,6 @@
-// Bytes go through termios, because libserialport opens only what the system lists as a serial
-// port: not pseudo-terminals, and so neither socat's nor the ones that our tests make. Which ports
-// there are, and what hangs on them, comes from libserialport.
+// Transfers bytes through termios, because libserialport only opens what the system lists as a
+// serial port: not pseudo-terminals, and thus neither socat's nor those of our tests. The list of
+// ports and their descriptions comes from libserialport.
 
 #include <fcntl.h>
 #include <libserialport.h>
@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kLongestLine = 240;
 constexpr int kWriteTimeout_ms = 500;
 
-/// "/dev/ttyUSB0 (CP2102 USB to UART Bridge)", one after the other; "none" where there are none.
+/// "/dev/ttyUSB0 (CP2102 USB to UART Bridge)" for each port; "none" if there are none.
 std::string ports_there() {
   std::string text;
   sp_port** ports = nullptr;
@@ -87,7 +87,7 @@ struct SerialPort::State {
     }
   }
 
-  /// False: nothing came.
+  /// False: nothing arrived.
   Result<bool> receive(int timeout_ms) {
     pollfd wait{descriptor, POLLIN, 0};
     const int ready = ::poll(&wait, 1, timeout_ms);
@@ -96,7 +96,7 @@ struct SerialPort::State {
     std::array<char, 512> bytes{};
     const auto got = ::read(descriptor, bytes.data(), bytes.size());
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return false;
-    // Readable without anything to read: nobody is at the other end.
+    // Readable without data: the other end is closed.
     if (got <= 0) return lost();
     take(std::string_view(bytes.data(), static_cast<std::size_t>(got)));
     return true;
@@ -113,7 +113,7 @@ const std::string& SerialPort::half_line() const { return state_->half; }
 
 namespace {
 
-/// Bytes as they come, 8N1, no flow control. False: not a serial port, or not at that speed.
+/// Raw mode, 8N1, no flow control. False: not a serial port, or the speed is not supported.
 bool make_raw(int descriptor, int baud) {
   termios mode{};
   if (::tcgetattr(descriptor, &mode) != 0) return false;

@@ -16,14 +16,14 @@ struct Span {
   double end = std::numeric_limits<double>::infinity();
 };
 
-/// Where a + b z is between low and high.
+/// The z for which a + b z is between low and high.
 Span slab(double a, double b, double low, double high) {
   if (b == 0.0) return a > low && a < high ? Span{} : Span{1.0, 0.0};
   const double p = (low - a) / b, q = (high - a) / b;
   return {std::min(p, q), std::max(p, q)};
 }
 
-/// Where the point o + d z is nearer to the axis than the radius.
+/// The z for which the point o + d z is closer to the axis than the radius.
 Span tube(double ox, double oz, double dx, double dz, double radius) {
   const double a = dx * dx + dz * dz, b = ox * dx + oz * dz,
                c = ox * ox + oz * oz - radius * radius;
@@ -34,13 +34,13 @@ Span tube(double ox, double oz, double dx, double dz, double radius) {
   return {(-b - root) / a, (-b + root) / a};
 }
 
-/// The raw depths that a pixel keeps. 0 to 0: its ray misses the cylinder.
+/// The raw depths kept for a pixel. 0 to 0: its ray misses the cylinder.
 struct Interval {
   std::uint16_t nearest = 0, farthest = 0;
 };
 
-/// A cylinder is convex: the depths inside it are one interval. Its ends, known to within rounding,
-/// are looked at with the very test and the very point that crop() of points_of() uses.
+/// A cylinder is convex, so that the depths inside it form one interval. Its ends, known to within
+/// rounding, are verified with exactly the test and the point that crop() of points_of() uses.
 class IntervalFinder {
  public:
   IntervalFinder(const SensorInfo& sensor, const Pose& T_table_sensor, const Cylinder& cylinder)
@@ -57,7 +57,7 @@ class IntervalFinder {
     const auto keeps = [&](int raw) {
       return raw >= 1 && raw <= kLargestRaw && this->keeps(ray_x, ray_y, raw);
     };
-    // A few steps outwards, so that neither rounding nor a span that just misses matters.
+    // Widened by a few steps, so that neither rounding nor a narrowly missed interval matters.
     first = std::clamp(first - kSteps, 1, kLargestRaw);
     last = std::clamp(last + kSteps, 1, kLargestRaw);
     while (first <= last && !keeps(first)) ++first;

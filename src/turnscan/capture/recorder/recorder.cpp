@@ -39,13 +39,13 @@ tl::unexpected<Error> too_little_space(const fs::path& folder, double free, doub
 }
 
 struct Job {
-  std::uint64_t number = 0;  ///< counts put()
+  std::uint64_t number = 0;  ///< position in the order of put()
   Frame frame;
   bool by_disk = false;  ///< dropped because the queue was full
   Clock::time_point since;
 };
 
-/// A frame whose files are written.
+/// A frame whose files have been written.
 struct Written {
   FrameInfo info;
   std::string line;
@@ -92,18 +92,19 @@ struct Recorder::State {
   RecorderOptions options;
   std::vector<std::thread> threads;
 
-  std::mutex mutex;  // guards what follows
+  std::mutex mutex;  // guards the following members
   std::condition_variable wake, room;
   std::deque<Job> queue;
-  int waiting_frames = 0;  ///< in the queue, without dropped ones, which cost nothing
+  int waiting_frames = 0;  ///< in the queue, excluding dropped ones, which cost nothing
   std::uint64_t puts = 0;
   std::optional<std::uint32_t> last_index;
-  bool closing = false;  ///< no more frames come
+  bool closing = false;  ///< no further frames will be added
   bool aborting = false;
   std::optional<Error> failed;
   RecorderStatistics counts;
 
-  std::mutex append_mutex;  // guards what follows, and the writer's lines; taken before `mutex`
+  // Guards the following members, and the writer's lines; locked before `mutex`.
+  std::mutex append_mutex;
   std::map<std::uint64_t, Written> ready;
   std::uint64_t next_number = 0;
   Clock::time_point looked_at_disk;
@@ -147,7 +148,7 @@ Result<> Recorder::State::look_at_disk(Clock::time_point now) {
   return too_little_space(folder, double(free), options.min_free_bytes);
 }
 
-/// Called with append_mutex held.
+/// Called with append_mutex locked.
 Result<> Recorder::State::append_ready() {
   for (auto first = ready.begin(); first != ready.end() && first->first == next_number;
        first = ready.begin()) {
@@ -180,7 +181,7 @@ Result<std::string> Recorder::State::write_files(Frame& frame) const {
   return writer.write_files(frame);
 }
 
-/// One frame. False: there will be no more.
+/// Processes one frame. False: there are no more.
 bool Recorder::State::work() {
   std::unique_lock lock(mutex);
   wake.wait(lock, [this] { return closing || !queue.empty(); });
@@ -189,7 +190,7 @@ bool Recorder::State::work() {
   queue.pop_front();
   if (job.frame.info.status != FrameStatus::kDropped) --waiting_frames;
   room.notify_one();
-  // After a failure the lines before it are all there will be: order is part of what is promised.
+  // After a failure no further lines are written: their order is guaranteed.
   const bool skip = failed.has_value();
   lock.unlock();
   if (skip) return true;
@@ -266,7 +267,8 @@ Result<Recorder> Recorder::of(Result<RecordingWriter> writer, const fs::path& fo
   if (!writer) return tl::unexpected<Error>(std::move(writer).error());
   auto state = std::make_unique<State>(std::move(*writer), folder, options);
   if (const auto free = free_space(folder)) state->counts.free_bytes = *free;
-  Recorder recorder(std::move(state));  // joins those that began when one cannot
+  // Joins the threads already started if one cannot be started.
+  Recorder recorder(std::move(state));
   for (int i = 0; i < options.encoders; ++i)
     recorder.state_->threads.emplace_back([raw = recorder.state_.get()] { raw->run(); });
   return recorder;

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kPoll_s = 0.1;
-constexpr double kMaxUnknown_s = 60.0;  ///< of recording without knowing how fast the table turns
+constexpr double kMaxUnknown_s = 60.0;  ///< of recording while the speed of the table is not known
 constexpr double kBytesPerPixel = 1.2;  ///< of a noisy depth image as PNG, measured
 
 double process_cpu_s() {
@@ -29,7 +29,7 @@ double process_cpu_s() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// What may be wanted on the disk; 0 where that cannot be said.
+/// Estimated size on disk; 0 if it cannot be estimated.
 double expected_bytes(const SequenceHeader& header, const SourceInfo& info,
                       const CaptureOptions& options) {
   double pixels = 0.0;
@@ -43,7 +43,7 @@ double expected_bytes(const SequenceHeader& header, const SourceInfo& info,
   return pixels * kBytesPerPixel * frames;
 }
 
-/// What a source counted that was used for earlier passes.
+/// Statistics since an earlier state, for a source that was used for earlier passes.
 SourceStatistics counted_since(const SourceStatistics& before, SourceStatistics now) {
   now.delivered -= before.delivered;
   now.dropped_by_sensor -= before.dropped_by_sensor;
@@ -52,7 +52,7 @@ SourceStatistics counted_since(const SourceStatistics& before, SourceStatistics 
   return now;
 }
 
-/// One recording on its way.
+/// A recording in progress.
 class Session {
  public:
   Session(FrameSource& source, std::filesystem::path folder, const SequenceHeader& header,
@@ -110,7 +110,7 @@ class Session {
     if (options_.speed_rad_s) return options_.speed_rad_s;
     return header_.turntable ? header_.turntable->speed_rad_s : std::nullopt;
   }
-  /// Of the settings of a further pass.
+  /// Prefix of the settings of a further pass.
   std::string prefix_of_pass() const {
     return options_.add_pass ? fmt::format("pass_{}_", pass_) : "";
   }
@@ -118,7 +118,7 @@ class Session {
     return options_.limits.turns.value_or(1.0) * kTurn + options_.limits.overlap_rad;
   }
 
-  /// The new frames come behind those of the passes that are there.
+  /// Numbers the new frames after those of the existing passes.
   Result<> continue_recording() {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
     const auto is_same = [](const SensorInfo& one, const SensorInfo& other) {
@@ -142,7 +142,7 @@ class Session {
 
   // --- taking frames
 
-  /// The next frame, whenever it comes. nullopt: the source has ended.
+  /// The next frame, with no time limit. nullopt: the source has ended.
   Result<std::optional<Frame>> take() {
     for (;;) {
       TURNSCAN_ASSIGN(Delivery delivery, source_.next(kPoll_s, context_));
@@ -163,7 +163,7 @@ class Session {
 
   Result<> create_recorder() {
     const double bytes = expected_bytes(header_, source_.info(), options_);
-    // What is replayed began when it was recorded.
+    // A replayed recording began when it was recorded.
     if (source_.info().driver != "replay")
       settings_[prefix_of_pass() + kStartedAt] = utc_text(utc_now_s());
     auto recorder = options_.add_pass
@@ -214,7 +214,7 @@ class Session {
     TURNSCAN_TRY(hooks_.motor->spin(*options_.speed_rad_s));
     const auto begin = Clock::now();
     while (seconds_since(begin) < options_.motor_ramp_s) {
-      TURNSCAN_TRY(source_.next(0.02, context_));  // nobody wants the frames of the ramp
+      TURNSCAN_TRY(source_.next(0.02, context_));  // discards the frames of the ramp
       TURNSCAN_TRY(hooks_.motor->watch());
     }
     return {};
@@ -250,7 +250,7 @@ class Session {
     result_.seconds = std::max(result_.seconds, info.time_s - *first_time_);
   }
 
-  /// A frame that is no longer wanted ends the recording.
+  /// A frame beyond the limits ends the recording.
   bool is_beyond() {
     const CaptureLimits& limits = options_.limits;
     const std::size_t sensors = header_.sensors.size();
@@ -296,7 +296,7 @@ class Session {
     return {};
   }
 
-  /// Throws away what was seen while the table turned.
+  /// Discards frames taken while the table turned.
   Result<> settle() {
     while (source_.info().live) {
       TURNSCAN_ASSIGN(const Delivery delivery, source_.next(0.0, context_));
@@ -376,7 +376,7 @@ class Session {
   CaptureResult result_;
   const SourceStatistics before_ = options_.add_pass ? source_.statistics() : SourceStatistics();
   std::uint32_t next_index_ = 0, pass_ = 0;
-  std::uint32_t count_ = 0;  // of frames recorded
+  std::uint32_t count_ = 0;  // of recorded frames
   std::optional<double> first_time_, first_angle_;
   Clock::time_point last_frame_ = Clock::now();
 };

@@ -19,8 +19,8 @@ struct CaptureLimits {
   std::optional<int> frames;      ///< per sensor
   bool until_stopped = false;
   double overlap_rad = 0.069813170;  ///< added to the turns, so that the first view is seen again
-  double device_timeout_s =
-      10.0;  ///< time without a frame after which the device is considered lost
+  /// Time without a frame after which the device is considered lost.
+  double device_timeout_s = 10.0;
 };
 /// Options turns, seconds, frames, until-stopped, overlap, device-timeout.
 OptionTable describe(CaptureLimits& limits);

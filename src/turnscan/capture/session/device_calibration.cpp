@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMinReturns = 1000;
 
 Result<fs::path> state_folder() {
-  // The specification tells to ignore a path that is not absolute.
+  // The specification requires relative paths to be ignored.
   if (const char* set = std::getenv("XDG_STATE_HOME"); set != nullptr && *set == '/')
     return fs::path(set);
   if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
@@ -32,7 +32,7 @@ double at_least(double limit, double sigma) {
   return std::isfinite(sigma) ? std::max(limit, 4.0 * sigma) : limit;
 }
 
-/// The platter as it is seen now, against the calibration.
+/// Compares the currently visible platter with the calibration.
 RigCheck compare(const DetectedPlatter& now, const Calibration& calibration) {
   const TurntableInfo& then = calibration.table;
   const Vec3d axis = then.axis.normalized();
@@ -54,7 +54,7 @@ RigCheck compare(const DetectedPlatter& now, const Calibration& calibration) {
   return check;
 }
 
-/// Without the rim: how high the surface lies that is seen where the platter was.
+/// Without the rim: compares the height of the surface seen at the platter's position.
 RigCheck compare_height(const AveragedScan& scan, const Calibration& calibration,
                         const Pose& T_table_sensor, const std::string& why) {
   RigCheck check;

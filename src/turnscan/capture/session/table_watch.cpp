@@ -16,7 +16,7 @@ constexpr std::size_t kMinPixels = 100;
 constexpr int kMinFrames = 5;
 constexpr double kWait_s = 10.0;
 
-/// The next frame of the sensor that is not lost.
+/// The sensor's next frame that is not dropped.
 Result<Frame> next_frame(FrameSource& source, std::uint32_t sensor, const RunContext& context) {
   for (;;) {
     TURNSCAN_ASSIGN(Delivery delivery, source.next(kWait_s, context));
@@ -31,7 +31,7 @@ Result<Frame> next_frame(FrameSource& source, std::uint32_t sensor, const RunCon
   }
 }
 
-/// By the sensor's time, or by our own where its frames have none.
+/// Uses the sensor's time, or this machine's if its frames have none.
 class WaitClock {
  public:
   double waited_s(const FrameInfo& info) {
@@ -74,7 +74,7 @@ Result<> wait_for_object(FrameSource& source, const SequenceHeader& header,
   WaitClock clock;
   for (int seen = 0; seen < kMinFrames;) {
     TURNSCAN_ASSIGN(Frame frame, next_frame(source, 0, context));
-    if (frame.depth.empty()) return {};  // of a scanner that gives points nothing is known here
+    if (frame.depth.empty()) return {};  // scanners that deliver points are not supported here
     crop.apply(frame.depth);
     const auto pixels =
         std::count_if(frame.depth.pixels.begin(), frame.depth.pixels.end(),

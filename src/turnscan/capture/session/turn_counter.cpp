@@ -11,10 +11,11 @@ namespace turnscan::session {
 namespace {
 
 constexpr double kFirstAttempt_s = 4.0;
-constexpr double kLater = 1.5;                    ///< each attempt looks at so many times as long
-constexpr std::size_t kMaxKept = 64;              ///< frames in memory, spread over the time so far
-constexpr double kGoodSigma = 0.02;               ///< of the speed, relative
-constexpr double kWell_rad = 3.1415926535897932;  ///< after which the speed is found once more
+constexpr double kLater = 1.5;        ///< ratio of the intervals used by successive attempts
+constexpr std::size_t kMaxKept = 64;  ///< frames in memory, spread over the time so far
+constexpr double kGoodSigma = 0.02;   ///< relative standard deviation of the speed
+/// Angle after which the speed is estimated again.
+constexpr double kWell_rad = 3.1415926535897932;
 
 }  // namespace
 
@@ -26,7 +27,8 @@ TurnCounter::TurnCounter(const SequenceHeader& header, std::optional<double> spe
       wait_(wait),
       attempt_s_(kFirstAttempt_s) {
   if (speed_) found_ = "stated speed";
-  if (header_.sensors.size() > 1) header_.sensors.resize(1);  // the first one shows the speed
+  // The first sensor determines the speed.
+  if (header_.sensors.size() > 1) header_.sensors.resize(1);
 }
 
 TurnCounter::~TurnCounter() {
@@ -61,7 +63,7 @@ void TurnCounter::look_for_speed(const Frame& frame) {
     copy.color = ColorImage();
     kept_.push_back(std::make_shared<const Frame>(std::move(copy)));
   }
-  if (kept_.size() > kMaxKept) {  // every second one, from now on
+  if (kept_.size() > kMaxKept) {  // from now on, keep only every second one
     for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = kept_[2 * i];
     kept_.resize((kept_.size() + 1) / 2);
     every_ *= 2;
@@ -73,7 +75,7 @@ void TurnCounter::look_for_speed(const Frame& frame) {
     process::lower_thread_priority();
     FromMotionOptions options;
     options.use_angles = false;
-    // A context of its own: this is not the phase that people are told about.
+    // A separate context: its phases are not shown to the user.
     const RunContext quiet;
     return calibrate_from_motion(MemoryFrames(header, kept), options, DetectOptions(), quiet);
   });

@@ -17,7 +17,7 @@ OptionTable describe(QueueOptions& o) {
   return table;
 }
 
-/// Takes what every source understands out of the URI.
+/// Removes the parameters common to all sources from the URI.
 Result<QueueOptions> take_queue(SourceUri& uri) {
   QueueOptions options;
   const OptionTable table = describe(options);

@@ -6,7 +6,7 @@ namespace turnscan::source {
 
 namespace {
 
-constexpr double kRecordedUnit_m = 1e-4;  // of depth that comes in metres
+constexpr double kRecordedUnit_m = 1e-4;  // for depth delivered in metres
 constexpr std::int32_t kLargestImage = 16384;
 
 ErrorCode code_of(std::int32_t status) {
@@ -144,7 +144,7 @@ class PluginGrabber : public Grabber {
     return {};
   }
 
-  /// 65535 has a meaning of its own in a recording; no sensor sees so far.
+  /// 65535 has a special meaning in a recording; no sensor reaches that far.
   static void take_steps(const std::uint16_t* from, DepthImage& to) {
     std::transform(from, from + to.pixels.size(), to.pixels.begin(),
                    [](std::uint16_t raw) { return raw == kOutsideCrop ? kNoReturn : raw; });
@@ -158,7 +158,7 @@ class PluginGrabber : public Grabber {
     });
   }
 
-  /// Colour that does not fit what the driver described is left out.
+  /// Colour that does not match the driver's description is dropped.
   void take_color(const turnscan_frame& from, Frame& to) const {
     const SensorInfo& sensor = info_.header.sensors.front();
     const CameraIntrinsics& camera =
@@ -171,7 +171,8 @@ class PluginGrabber : public Grabber {
       to.color.pixels[i] = {from.color[3 * i], from.color[3 * i + 1], from.color[3 * i + 2]};
   }
 
-  /// Where the sensor's own count jumps, a lost frame comes first: one for a gap of any length.
+  /// If the sensor's frame counter skips, a dropped frame is delivered first: a single one for a
+  /// gap of any length.
   Delivery after_gap(Delivery delivery, std::uint64_t number) {
     const bool gap = number != 0 && last_number_ != 0 && number > last_number_ + 1;
     last_number_ = number;

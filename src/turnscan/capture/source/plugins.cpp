@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kPrefix = "turnscan-", kSuffix = ".so";
 constexpr std::int32_t kMaxDevices = 64;
 
-/// Debian's packages of the libraries that drivers need.
+/// Debian packages of the libraries that drivers need.
 const std::map<std::string, std::string>& packages() {
   static const std::map<std::string, std::string> names{{"openni2", "libopenni2-0"},
                                                         {"freenect", "libfreenect0.5"}};
@@ -32,8 +32,9 @@ std::string name_of(const fs::path& file) {
 }
 
 struct PluginFiles {
-  std::map<std::string, fs::path> by_name;  ///< of the driver; the first folder that has one counts
-  std::string problem;                      ///< of a folder that cannot be listed
+  /// By name of the driver; the first folder that has one counts.
+  std::map<std::string, fs::path> by_name;
+  std::string problem;  ///< a folder that cannot be listed
 };
 
 PluginFiles plugin_files() {
@@ -51,7 +52,7 @@ PluginFiles plugin_files() {
   return files;
 }
 
-/// What to do about the dynamic loader's message.
+/// Turns the dynamic loader's message into advice.
 std::string load_failure(const std::string& scheme, std::string why) {
   constexpr std::string_view kMissing =
       ": cannot open shared object file: No such file or directory";
@@ -139,7 +140,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> plugin_folders() {
   const auto given = process::folders_of_variable("TURNSCAN_PLUGINS");
-  if (!given) return {};  // load_plugin() says why
+  if (!given) return {};  // load_plugin() reports the reason
   if (!given->empty()) return *given;
   std::vector<fs::path> folders;
   std::error_code error;

@@ -7,7 +7,7 @@ namespace turnscan::source {
 
 namespace {
 
-constexpr double kGrabSlice_s = 0.02;  // how long a cancelled call may take to notice
+constexpr double kGrabSlice_s = 0.02;  // maximum delay until a call notices cancellation
 
 }  // namespace
 
@@ -52,7 +52,7 @@ Result<> QueuedSource::start() {
 void QueuedSource::stop() {
   if (!thread_.joinable()) return;
   stopping_ = true;
-  // A source that waits for a free place gives up; what is in the queue can still be taken.
+  // Unblocks a source that waits for a free slot; frames in the queue can still be taken.
   queue_.close(std::nullopt);
   thread_.join();
   grabber_->stop();

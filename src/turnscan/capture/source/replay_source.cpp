@@ -1,4 +1,4 @@
-// A recording, or what another program recorded, as a source of frames.
+// A recording, possibly imported from another program, as a source of frames.
 
 #include <cmath>
 #include <turnscan/capture/source/pacer.hpp>
@@ -10,7 +10,7 @@ namespace turnscan::source {
 
 namespace {
 
-constexpr double kUnknownRate = 30.0;  // frames a second, where a recording has no times
+constexpr double kUnknownRate = 30.0;  // frames per second, for a recording without times
 
 struct ReplayOptions {
   std::string speed = "1";
@@ -34,7 +34,7 @@ Result<double> rate_of(const std::string& text) {
   return *rate;
 }
 
-/// What is played.
+/// The replayed sequence.
 struct Film {
   std::unique_ptr<FrameSequence> frames;
   CaptureSettings settings;
@@ -104,7 +104,7 @@ class ReplayGrabber : public Grabber {
     return lap_s_ + (std::isfinite(time_s) && timed_ ? time_s : double(position) / info_.fps);
   }
 
-  /// Rate of one sensor, from the times of its frames.
+  /// Determines the frame rate of one sensor from the times of its frames.
   void find_rate() {
     std::size_t count = 0;
     double first_s = 0.0, last_s = 0.0;
@@ -121,7 +121,7 @@ class ReplayGrabber : public Grabber {
                          : double(recording_.frames().size()) / info_.fps;
   }
 
-  /// By how much the table turns in a round: as if the first frame followed the last one.
+  /// Rotation of the table per replay loop, as if the first frame followed the last one.
   void find_turn() {
     std::size_t count = 0;
     double first_rad = 0.0, last_rad = 0.0;
@@ -144,7 +144,8 @@ class ReplayGrabber : public Grabber {
   std::size_t next_ = 0;
 };
 
-/// The parameters that are the replay's own, and those of an import. "speed" is the replay's.
+/// Splits the parameters into the replay's own and those of an import. "speed" belongs to the
+/// replay.
 std::pair<SourceUri, SourceUri> split_parameters(const SourceUri& uri, const OptionTable& own,
                                                  const OptionTable& import) {
   SourceUri of_replay{uri.scheme, uri.address, {}}, of_import = of_replay;

@@ -1,4 +1,4 @@
-// Several sensors before one turntable, as one source.
+// Several sensors in front of one turntable, as one source.
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,16 @@ namespace turnscan::source {
 
 namespace {
 
-constexpr std::size_t kClockFrames = 20;  // of each source, by which its clock is set
-constexpr double kClockPatience_s = 3.0;  // for them
-constexpr double kOrderPatience_s = 0.3;  // for the next frame of a source that is late
+constexpr std::size_t kClockFrames = 20;  // per source, to determine its clock offset
+constexpr double kClockPatience_s = 3.0;  // maximum wait for these
+constexpr double kOrderPatience_s = 0.3;  // maximum wait for the next frame of a late source
 constexpr double kMemberSlice_s = 0.01;
 
 struct Member {
   std::unique_ptr<FrameSource> source;
   std::uint32_t first_sensor = 0;
   ClockOffset clock;
-  double shift_s = 0.0;  ///< to the clock of the first source
+  double shift_s = 0.0;  ///< added to convert to the clock of the first source
   std::deque<Delivery> waiting;
   bool ended = false;
   double last_came_s = 0.0;
@@ -78,7 +78,8 @@ class SeveralSources : public FrameSource {
   }
 
  private:
-  /// Gets a frame of each source that has none waiting, or as many as setting its clock takes.
+  /// Gets a frame from each source that has none waiting, or as many as needed for its clock
+  /// offset.
   Result<> fill(const RunContext& context) {
     for (Member& member : members_) {
       const std::size_t want = clocks_set_ ? 1 : kClockFrames;
@@ -114,8 +115,8 @@ class SeveralSources : public FrameSource {
     return member.waiting.front().frame.info.time_s + member.shift_s;
   }
 
-  /// The source whose frame comes next; nullptr while one must be waited for, whose frame may be
-  /// earlier. A source that is silent for long holds up nobody.
+  /// The source whose frame is next; nullptr if a frame that may be earlier has to be waited for. A
+  /// source that stays silent does not hold up the others.
   Member* earliest() {
     if (!clocks_set_) return nullptr;
     Member* first = nullptr;
@@ -146,8 +147,9 @@ class SeveralSources : public FrameSource {
   std::uint32_t next_index_ = 0;
 };
 
-/// The sensors' places before the turntable of the first source: each source's own table frame has
-/// a heading of its own, so that they are known only where both sources have more in common.
+/// The sensors' poses relative to the turntable of the first source: the azimuth of each source's
+/// own table frame is arbitrary, so that the poses are known only if both sources have more in
+/// common.
 std::vector<SensorInfo> sensors_before(const SourceInfo& first, const SourceInfo& one) {
   std::vector<SensorInfo> sensors = one.header.sensors;
   for (std::size_t k = 0; k < sensors.size(); ++k) {
@@ -183,7 +185,7 @@ Result<> add_to(SourceInfo& sum, const SourceInfo& one) {
   sum.frame_count = sum.frame_count && one.frame_count
                         ? std::optional(*sum.frame_count + *one.frame_count)
                         : std::nullopt;
-  sum.lays_object = false;  // each would lay one of its own
+  sum.lays_object = false;  // each would reposition a separate object
   return {};
 }
 

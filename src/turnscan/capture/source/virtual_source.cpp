@@ -1,4 +1,4 @@
-// The simulator as a sensor: it knows no more of the table than a real one, unless told to.
+// The simulator as a sensor: it reveals no more about the table than a real one, unless asked to.
 
 #include <cmath>
 #include <deque>
@@ -57,7 +57,7 @@ bool given(const SourceUri& uri, std::string_view name) {
   return false;
 }
 
-/// As a real sensor: nothing is known of the table. Without an end unless one is asked for.
+/// Like a real sensor: the table is not known. Endless unless a duration is given.
 Result<Description> describe_uri(const SourceUri& uri) {
   Description d;
   d.scene.record.calibration = RecordedCalibration::kNone;
@@ -101,7 +101,7 @@ Result<std::vector<TriangleMesh>> load_objects(const SourceUri& uri, const Descr
   return objects;
 }
 
-/// Half the height of the objects, to which scanners look: the same with and without them there.
+/// Half the height of the objects, at which scanners aim: the same with and without the objects.
 double middle_of(const std::vector<TriangleMesh>& objects) {
   float top = 0.0f;
   for (const TriangleMesh& mesh : objects)
@@ -123,9 +123,9 @@ tl::unexpected<Error> refusal(VirtualFault::Kind kind) {
   }
 }
 
-constexpr double kPause_s = 1.0;  ///< between two passes, of the sensor's time
+constexpr double kPause_s = 1.0;  ///< between two passes, in sensor time
 
-/// A way in which the object lies.
+/// One pose of the object.
 struct Laid {
   VirtualScan scan;
   double start_s = 0.0;  ///< of the scan, in the source's time
@@ -215,12 +215,12 @@ class VirtualGrabber : public Grabber {
 
  private:
   const VirtualScan& scan() const { return laid_.back().scan; }
-  /// Of a frame, in the source's time without the error of its clock.
+  /// Time of a frame in the source's time, without its clock error.
   double time_of(std::size_t position) const {
     return laid_.back().start_s + scan().frames()[position].time_s;
   }
 
-  /// As FrameSource::lay_object() says, in the frame in which objects are given to a scan.
+  /// See FrameSource::lay_object(); in the frame in which a scan takes its objects.
   static std::vector<TriangleMesh> turned(const VirtualScan& scan, std::size_t position,
                                           const Eigen::Matrix3d& rotation) {
     const Eigen::Matrix3d turn_table_sensor = rotation_about_y(scan.angle_rad(position)).linear() *
@@ -254,7 +254,7 @@ class VirtualGrabber : public Grabber {
     return nullptr;
   }
 
-  /// Nothing comes; the frames of that time never do.
+  /// Delivers nothing; the frames of that interval are lost.
   Delivery stalled(const VirtualFault& fault, double timeout_s) {
     if (pacer_.live()) {
       if (!pacer_.wait(fault.begin_s + fault.length_s, timeout_s)) return {};
@@ -303,7 +303,7 @@ class VirtualGrabber : public Grabber {
     return {};
   }
 
-  /// The frame next_, as the sensor sends it; lost where the simulator could not keep up.
+  /// The frame next_, as sent by the sensor; dropped if the simulator could not keep up.
   Frame take(double time_s) {
     Frame frame;
     if (!prepared_.empty()) {
@@ -330,13 +330,13 @@ class VirtualGrabber : public Grabber {
 
   VirtualOptions options_;
   VirtualScanOptions scan_options_;
-  std::vector<Laid> laid_;            ///< the last one is seen; never empty
-  std::optional<VirtualScan> empty_;  ///< the table before the object is there
+  std::vector<Laid> laid_;            ///< the last one is current; never empty
+  std::optional<VirtualScan> empty_;  ///< the table before the object is placed
   std::vector<VirtualFault> faults_;
   SourceInfo info_;
   Pacer pacer_;
   std::size_t next_ = 0;
-  std::deque<Frame> ahead_;  ///< from next_ on
+  std::deque<Frame> ahead_;  ///< rendered frames from next_ on
   std::deque<Frame> prepared_;
 };
 
