@@ -34,7 +34,7 @@ void keep_only(std::vector<T>& values, const std::vector<std::int32_t>& new_plac
   values.resize(kept);
 }
 
-/// Scanners write NaN where they saw nothing.
+/// Scanners write NaN for points without a return.
 void drop_points_that_are_not_finite(CloudFile& file) {
   const std::vector<Vec3f>& points = file.cloud.points;
   std::vector<std::int32_t> new_place(points.size(), -1);

@@ -29,7 +29,8 @@ class Unpacker {
     return true;
   }
 
-  /// Length in the upper 3 bits (7: plus the next byte), distance in the rest and another byte.
+  /// Length in the upper 3 bits (7: plus the next byte), distance in the remaining bits and another
+  /// byte.
   bool copy_earlier(unsigned control) {
     std::size_t length = control >> 5;
     if (packed_.size() - in_ < (length == 7 ? 2U : 1U)) return false;
@@ -37,7 +38,7 @@ class Unpacker {
     length += 2;
     const std::size_t distance = ((control & 31U) << 8 | next()) + 1;
     if (distance > out_ || size_ - out_ < length) return false;
-    // The copied part may overlap what it makes: byte by byte.
+    // Source and target may overlap: byte by byte.
     for (std::size_t i = 0; i < length; ++i, ++out_) target_[out_] = target_[out_ - distance];
     return true;
   }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr bool kSwap = std::endian::native == std::endian::big;
 
-/// The first value of a field of all points.
+/// First value of a field, and the stride from point to point.
 struct Column {
   const char* first = nullptr;  ///< nullptr: there is no such field
   std::size_t stride = 0;
@@ -42,7 +42,7 @@ struct Column {
   }
 };
 
-/// Finds the fields in unpacked data: point after point, or field after field.
+/// Locates the fields in unpacked data, stored point by point or field by field.
 class Table {
  public:
   Table(const PcdHeader& header, const char* data) : header_(header), data_(data) {}
@@ -80,8 +80,8 @@ class Table {
 /// 0xAARRGGBB, as an integer of 4 bytes or as the bits of a float.
 std::uint32_t packed_color(const Column& column, std::size_t i) {
   const auto bits = file::load<std::uint32_t, kSwap>(column.first + i * column.stride);
-  // In texts integers, too, are declared F. The bits of a colour make a float below 1e-37 or, with
-  // a full alpha, a huge negative one or NaN.
+  // Text files declare even integers as F. The bits of a colour make a float below 1e-37 or, with
+  // an opaque alpha, a huge negative one or NaN.
   const auto value = std::bit_cast<float>(bits);
   const bool integer_in_text = column.type == 'F' && value >= 1.0F && value < 4294967296.0F;
   return integer_in_text ? static_cast<std::uint32_t>(value) : bits;
@@ -138,7 +138,7 @@ bool append_row(text::TextCursor& cursor, const PcdHeader& header, std::string& 
   return cursor.at_line_end();
 }
 
-/// A text as the binary data that it stands for.
+/// Converts text data to the equivalent binary data.
 Result<std::string> binary_of_text(std::string_view bytes, const PcdHeader& header) {
   std::string data;
   data.reserve(header.points * header.point_bytes());

@@ -63,7 +63,7 @@ Descriptor open_to_read(const fs::path& path) {
   return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
 }
 
-/// Right after open_to_read, whose failure it tells.
+/// Call right after open_to_read, whose failure it reports.
 Result<std::uint64_t> size_of_regular_file(const Descriptor& descriptor, const fs::path& path) {
   if (descriptor.get() < 0) return system_error(path, "cannot open", errno);
   struct stat status {};
@@ -74,7 +74,7 @@ Result<std::uint64_t> size_of_regular_file(const Descriptor& descriptor, const f
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-/// The file that a symbolic link leads to, also when it does not exist yet.
+/// The target of a symbolic link, even if it does not exist yet.
 fs::path follow_links(fs::path path) {
   std::error_code error;
   for (int depth = 0; depth < 40 && fs::is_symlink(path, error); ++depth) {
@@ -94,7 +94,7 @@ fs::path temporary_beside(const fs::path& path) {
 void sync_folder(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // Not every file system can sync a folder; the content itself is on the disk by now.
+  // Not every file system can sync a folder; the content itself is already on disk.
   if (descriptor.get() >= 0) (void)::fsync(descriptor.get());
 }
 
@@ -155,13 +155,13 @@ Result<> FileSink::write_through(const char* data, std::size_t size) {
   return state_;
 }
 
-/// One file being written: the temporary one is gone unless commit() succeeded.
+/// A file being written: the temporary file is removed unless commit() succeeded.
 class AtomicFile {
  public:
   explicit AtomicFile(const fs::path& path) : path_(follow_links(path)) {
     std::error_code error;
     if (fs::exists(path, error) && !fs::equivalent(path, path_, error)) {
-      // /dev/stdout may lead to a file that has no name, or no longer has it.
+      // /dev/stdout may refer to a file without a name, or one that was renamed.
       path_ = path;
       nameless_ = true;
     }
@@ -172,7 +172,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// verify, when given: looks at the temporary file before it takes the name.
+  /// verify: if given, checks the temporary file before it is renamed.
   Result<> write(const std::function<Result<>(FileSink&)>& body, Durability durability,
                  const std::function<Result<>(const fs::path&)>& verify = {}) {
     std::error_code error;
@@ -193,7 +193,7 @@ class AtomicFile {
   }
 
  private:
-  /// -1 with errno. A process of the same number, which was killed, may have left the first name.
+  /// -1 with errno set. A killed process with the same id may have left a file with the first name.
   int create_temporary() {
     for (int tries = 0;; ++tries) {
       temporary_ = temporary_beside(path_);
@@ -204,7 +204,7 @@ class AtomicFile {
   }
 
   Result<> refuse(int error) {
-    temporary_.clear();  // it is not ours
+    temporary_.clear();  // not created by us
     return system_error(path_, "cannot write", error);
   }
 

@@ -26,7 +26,8 @@ void from_file(const FileFrame& frame, std::vector<Vec3f>& points, std::vector<V
 }
 
 std::string mark_of(const FileFrame& frame, double units_per_metre) {
-  // Nine digits hold any float, and fit with what stands before them into the header of an STL.
+  // Nine digits represent any float, and fit into the header of an STL together with the preceding
+  // text.
   return frame.z_up ? fmt::format("{}{:.9g}", kMark, frame.base * units_per_metre) : "";
 }
 

@@ -16,7 +16,7 @@ std::string words_of_errno(int number) { return std::generic_category().message(
 }  // namespace
 
 Result<RandomAccessFile> RandomAccessFile::open(const std::filesystem::path& path) {
-  // A pipe without a writer must not block.
+  // Opening a pipe without a writer must not block.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
     const int error = errno;

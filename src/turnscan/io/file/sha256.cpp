@@ -85,7 +85,7 @@ std::string Sha256::finish() {
   return digest;
 }
 
-// The names are the standard's (FIPS 180-4, 6.2.2).
+// The names follow the standard (FIPS 180-4, 6.2.2).
 void Sha256::add_block(const char* block) {
   std::array<std::uint32_t, 64> w{};
   for (std::size_t i = 0; i < 64; ++i)

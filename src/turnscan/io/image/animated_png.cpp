@@ -25,7 +25,7 @@ void append_chunk(std::string& out, std::string_view type, std::string_view data
   append_32(out, libdeflate_crc32(0, out.data() + begin, out.size() - begin));
 }
 
-/// What is left of an image in an animation.
+/// The parts of an image that go into an animation.
 struct Parts {
   std::string_view header;             ///< content of its IHDR
   std::vector<std::string_view> data;  ///< contents of its IDATs
@@ -46,16 +46,16 @@ Result<Parts> parts_of(std::string_view png) {
   return fail(ErrorCode::kFormat, "damaged PNG image: it has no end");
 }
 
-/// The whole picture, in place of the one before.
+/// Frame control of an image that covers the whole canvas and replaces the previous one.
 std::string frame_control(std::uint32_t sequence, std::string_view header, int milliseconds) {
   std::string out;
   append_32(out, sequence);
   out += header.substr(0, 8);  // width, height
-  append_32(out, 0);           // its place
+  append_32(out, 0);           // its position
   append_32(out, 0);
   append_16(out, std::uint32_t(milliseconds));
   append_16(out, 1000);
-  out.append(2, '\0');  // leave what is there, overwrite it
+  out.append(2, '\0');  // keep the previous image, and overwrite it
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
-// jpeglib.h needs the two above.
+// jpeglib.h requires the two includes above.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -15,8 +15,8 @@ namespace turnscan::image {
 
 namespace {
 
-// libjpeg reports errors by longjmp out of a callback. Between setjmp and the jump only plain data
-// may live: the functions below take and keep nothing else.
+// libjpeg reports errors by longjmp out of a callback. Only plain data may live between setjmp and
+// the jump: the functions below use nothing else.
 
 struct Errors {
   jpeg_error_mgr manager;
@@ -32,7 +32,7 @@ void on_error(j_common_ptr codec) {
   std::longjmp(errors.back, 1);
 }
 
-/// A truncated file is only a warning for libjpeg, which then makes up the rest in grey.
+/// A truncated file is only a warning for libjpeg, which then fills the rest with grey.
 bool harmless(int code) {
   return code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_JFIF_MAJOR;
 }
@@ -157,7 +157,7 @@ bool looks_like_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd
 bool is_jpeg_file(std::string_view bytes) {
   using namespace std::string_view_literals;
   if (!looks_like_jpeg(bytes) || !bytes.ends_with("\xff\xd9"sv)) return false;
-  // The segments before the first scan, each with its length.
+  // Walks over the segments before the first scan, each with its length.
   bool tables = false;
   for (std::size_t at = 2; at + 4 <= bytes.size() && bytes[at] == '\xff';) {
     const auto byte = [&](std::size_t i) { return std::size_t(std::uint8_t(bytes[at + i])); };

@@ -15,13 +15,13 @@ namespace turnscan::image {
 
 namespace {
 
-// libpng reports errors by longjmp. Between setjmp and the jump only plain data may live: all C++
+// libpng reports errors by longjmp. Only plain data may live between setjmp and the jump: all C++
 // objects belong to the caller of decode_rows.
 
 struct Source {
   const unsigned char* data;
   std::size_t left;
-  std::size_t allowed;  // further bytes that may be taken
+  std::size_t allowed;  // number of further bytes that may be read
 };
 
 constexpr std::size_t kMaxBehindRows = 64 * 1024;
@@ -83,7 +83,7 @@ bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_byte
   const png_uint_32 height = png_get_image_height(png, info);
   for (int pass = 0; pass < passes; ++pass) {
     for (png_uint_32 y = 0; y < height; ++y) {
-      // With the last row libpng unpacks whatever is left of the data, a thousandfold at worst.
+      // With the last row libpng unpacks all remaining data, which may expand a thousandfold.
       if (pass + 1 == passes && y + 1 == height) source->allowed = row_bytes + kMaxBehindRows;
       png_read_row(png, rows[y], nullptr);
     }
@@ -94,7 +94,7 @@ bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_byte
   return true;
 }
 
-/// Deflate cannot make data shorter than about a 1032nd (zlib, technical details).
+/// Deflate compresses to no less than about a 1032nd (zlib, technical details).
 bool can_hold(std::size_t file_bytes, const PngInfo& info) {
   const std::uint64_t bits = static_cast<std::uint64_t>(info.width) *
                              static_cast<std::uint64_t>(info.channels() * info.bit_depth);

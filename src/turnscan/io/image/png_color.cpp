@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::size_t kChannels = 3;
 
-/// a where `first` is 1, b where it is 0.
+/// a if `first` is 1, b if it is 0.
 int either(int first, int a, int b) { return b ^ ((a ^ b) & -first); }
 
-/// PNG (second edition, ISO/IEC 15948), 9.4: of left, above and corner that which is nearest to
-/// left + above - corner. Without branches: with noise they are guessed wrong half of the time.
+/// Paeth predictor of PNG (second edition, ISO/IEC 15948), 9.4: left, above or corner, whichever is
+/// closest to left + above - corner. Branchless: with noise, branches are mispredicted half of the
+/// time.
 unsigned char paeth_of(int left, int above, int corner) {
   const int a = std::abs(above - corner), b = std::abs(left - corner);
   const int c = std::abs(left + above - 2 * corner);
@@ -24,7 +25,7 @@ unsigned char paeth_of(int left, int above, int corner) {
   return static_cast<unsigned char>(either(int(a <= b) & int(a <= c), left, nearer));
 }
 
-/// The three channels wait for nothing of each other.
+/// The three channels have no data dependencies on each other.
 void undo_paeth_rgb(unsigned char* row, const unsigned char* above, std::size_t size) {
   std::array<int, kChannels> left{}, corner{};
   for (std::size_t i = 0; i < size; i += kChannels)
@@ -64,7 +65,7 @@ std::string encode_rgb(const unsigned char* pixels, std::uint32_t width, std::ui
     const unsigned char* row = pixels + y * row_bytes;
     unsigned char* out = filtered.data() + y * (row_bytes + 1);
     *out++ = kPaeth;
-    // Of a copied row nothing is left.
+    // A repeated row becomes all zeros.
     if (y > 0 && std::memcmp(row, above, row_bytes) == 0) {
       out[-1] = kUp;
       std::memset(out, 0, row_bytes);

@@ -19,17 +19,18 @@ struct Free {
   void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 
-// Higher levels make noisy depth no smaller (measured on Kinect v1 and v2, D435 and virtual
+// Higher levels do not make noisy depth smaller (measured on Kinect v1 and v2, D435 and virtual
 // images), and take up to four times as long.
 constexpr int kLevel = 1;
 
-/// Of one thread: images of a recording have one size, so that nothing is allocated for the next.
+/// Buffers of one thread: the images of a recording have the same size, so that later ones need no
+/// allocation.
 struct Scratch {
   std::unique_ptr<libdeflate_decompressor, Free> decompressor{libdeflate_alloc_decompressor()};
   std::unique_ptr<libdeflate_compressor, Free> compressor{libdeflate_alloc_compressor(kLevel)};
   std::vector<unsigned char> packed;
-  std::vector<unsigned char> filtered;  // rows, each after the number of its filter
-  std::vector<unsigned char> nothing;   // the row above the first
+  std::vector<unsigned char> filtered;  // rows, each preceded by its filter type
+  std::vector<unsigned char> nothing;   // the row above the first, all zeros
 };
 
 Scratch& scratch_of_this_thread() {
@@ -43,7 +44,7 @@ struct Chunk {
   std::string_view content;
 };
 
-/// Takes the next chunk off `rest`; false where none is whole.
+/// Removes the next chunk from `rest`; false if it is incomplete.
 bool next_chunk(std::string_view& rest, Chunk& chunk) {
   if (rest.size() < 12) return false;
   const std::size_t length = big_endian_32(rest, 0);
@@ -56,8 +57,8 @@ bool next_chunk(std::string_view& rest, Chunk& chunk) {
   return true;
 }
 
-/// The compressed image: a part of `bytes` where there is one IDAT chunk, `joined` where there are
-/// more. Empty where something is amiss or a chunk changes what pixels mean.
+/// The compressed image: a part of `bytes` if there is a single IDAT chunk, `joined` if there are
+/// several. Empty if the file is damaged or a chunk changes the meaning of pixels.
 std::string_view image_data(std::string_view bytes, std::vector<unsigned char>& joined) {
   std::string_view rest = bytes.substr(kPngSignature.size()), first;
   Chunk chunk;
@@ -99,7 +100,7 @@ bool all_zero(const unsigned char* eight) {
   return word == 0;
 }
 
-/// Most of an object's depth image holds nothing, so runs of nothing are stepped over.
+/// Most of an object's depth image is empty, so runs of zeros are skipped.
 void undo_paeth(unsigned char* row, const unsigned char* above, std::size_t size) {
   int left0 = 0, left1 = 0, corner0 = 0, corner1 = 0;
   for (std::size_t i = 0; i < size;) {
@@ -153,11 +154,11 @@ std::string header_of(std::uint32_t width, std::uint32_t height, PlainPng kind) 
   put_big_endian(header, height);
   header += kind == PlainPng::kGrey16 ? '\x10' : '\x08';
   header += kind == PlainPng::kGrey16 ? '\0' : '\x02';
-  return header.append("\0\0\0", 3);  // deflate, filters by row, one pass
+  return header.append("\0\0\0", 3);  // deflate, filter per row, not interlaced
 }
 
-/// Each row less the one above it: as small as Paeth's filter (within 4 % on noisy depth), and
-/// undone without waiting for the pixel before.
+/// Filters each row as the difference to the one above: as small as with the Paeth filter (within 4
+/// % on noisy depth), and decoded without a dependency on the previous pixel.
 void filter_up(const unsigned char* pixels, std::size_t width, std::size_t height,
                Scratch& scratch) {
   const std::size_t row_bytes = 2 * width;

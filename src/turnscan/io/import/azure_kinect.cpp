@@ -10,9 +10,9 @@ namespace turnscan::importers {
 namespace {
 
 constexpr std::string_view kBrownConrady = "CALIBRATION_LensDistortionModelBrownConrady";
-constexpr double kDefaultRadius = 1.7;  // the SDK's, where the calibration does not know it
+constexpr double kDefaultRadius = 1.7;  // the SDK's default, if the calibration does not state it
 
-/// Images of a mode: the sensor's pixels, binned to so many, cropped from there on.
+/// Images of a mode: the sensor's pixels after binning, cropped from this offset.
 struct CameraMode {
   std::string_view name;
   int binned_width, binned_height, left, top, width, height;
@@ -37,7 +37,7 @@ const CameraMode* mode_with(const std::array<CameraMode, kCount>& modes, const I
 }
 
 struct RawCamera {
-  CameraIntrinsics lens;  ///< fx, fy, cx, cy in widths and heights; size of the sensor
+  CameraIntrinsics lens;  ///< fx, fy, cx, cy relative to width and height; size of the sensor
   double radius = kDefaultRadius;
   Pose T_camera_world = Pose::Identity();
 };
@@ -81,7 +81,7 @@ Result<RawCamera> parse_camera(const text::JsonObject& object) {
   return out;
 }
 
-/// An older calibration of colour cameras is of the 16:9 part of their 4:3 sensor.
+/// Older calibrations of colour cameras refer to the 16:9 part of their 4:3 sensor.
 void widen_to_4_3(CameraIntrinsics& c) {
   if (c.width * 9 / 16 != c.height) return;
   c.cy = (c.cy * 2304.0 + 384.0) / 3072.0;
@@ -89,7 +89,7 @@ void widen_to_4_3(CameraIntrinsics& c) {
   c.height = c.width * 3 / 4;
 }
 
-/// In pixels of the mode's images, from the centre of the first one.
+/// In pixels of the mode's images, relative to the centre of the first one.
 Result<CameraIntrinsics> in_mode(const CameraIntrinsics& unit, const CameraMode& mode) {
   CameraIntrinsics out = unit;
   out.width = mode.width, out.height = mode.height;

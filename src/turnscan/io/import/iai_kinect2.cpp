@@ -36,7 +36,7 @@ Result<CameraIntrinsics> parse_camera(std::string_view text, int width, int heig
   return camera;
 }
 
-/// From the depth to the colour camera, as OpenCV's stereo calibration gives it.
+/// From the depth to the colour camera, as in OpenCV's stereo calibration.
 Result<Pose> parse_stereo_pose(std::string_view text) {
   TURNSCAN_ASSIGN(const auto r, text::opencv_matrix(text, "rotation", 9, 9));
   TURNSCAN_ASSIGN(const auto t, text::opencv_matrix(text, "translation", 3, 3));
@@ -60,7 +60,7 @@ Result<double> parse_shift(std::string_view text) {
   return shift_mm * 1e-3;
 }
 
-/// What `parse` makes of the file; its error gets the path. Numbers that make no sense are damage.
+/// Applies `parse` to the file; adds the path to its error. Implausible numbers count as damage.
 template <class Parse>
 auto parsed(const std::filesystem::path& path, const Parse& parse) -> decltype(parse("")) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));

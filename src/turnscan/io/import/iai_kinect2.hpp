@@ -10,8 +10,8 @@ namespace turnscan {
 /// What the folder contains; at least one of them.
 struct Kinect2Calibration {
   std::optional<DepthCorrection> depth;  ///< depthShift of calib_depth.yaml
-  std::optional<CameraCorrection>
-      camera;  ///< calib_ir.yaml; also the colour camera if its files are present
+  /// calib_ir.yaml; also the colour camera if its files are present.
+  std::optional<CameraCorrection> camera;
 };
 
 /// Reads calib_depth.yaml (depthShift, millimetres, which is added to every depth), calib_ir.yaml

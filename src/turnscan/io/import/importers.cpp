@@ -20,7 +20,7 @@ using Opener = OpenResult (*)(const fs::path&, const ImportOptions&);
 struct Importer {
   ImporterInfo info;
   Opener open;
-  /// Options that have a meaning for the layout, beside "format" and the turntable's.
+  /// Options that apply to the layout, in addition to "format" and the turntable's.
   std::vector<std::string_view> options;
 };
 
@@ -98,8 +98,8 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   return ImportFormat::kAuto;
 }
 
-/// By the first bytes; kAuto: not recognised.
-/// Of many files that are zip archives (3MF, documents) by the name of its first entry.
+/// Recognises a file by its first bytes; kAuto: not recognised.
+/// Since many files are zip archives (3MF, documents), the name of the first entry is checked.
 bool begins_as_record3d(std::string_view begin) {
   constexpr std::size_t kNameAt = 30;  // in a local header
   if (!begin.starts_with("PK\3\4") || begin.size() <= kNameAt) return false;
@@ -127,7 +127,7 @@ bool is_mesh_name(const fs::path& path) {
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-/// For the error about a path that is not recognised.
+/// Description of an unrecognised path for the error.
 Result<std::string> what_is_there(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) {
@@ -191,7 +191,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   return stated;
 }
 
-/// An option that would be ignored in silence is a mistake.
+/// An option that would be silently ignored is an error.
 Result<> check_meaning(const Importer& importer, const ImportOptions& options) {
   for (const std::string_view name : stated_options(options)) {
     const auto& used = importer.options;

@@ -55,8 +55,8 @@ struct ImportOptions {
   std::string turntable_axis;    ///< "x,y,z", up, frame of sensor 0
   std::string turntable_center;  ///< "x,y,z" with units, frame of sensor 0
   std::optional<double> turntable_radius_m;
-  std::optional<double>
-      platter_height_m;  ///< height of the platter above the given point on the axis
+  /// Height of the platter above the given point on the axis.
+  std::optional<double> platter_height_m;
   std::optional<double> speed_rad_s;
 
   Result<> check() const;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStillPosition = 0.005;                        // metres
 constexpr double kStillAngle = 0.5 * std::numbers::pi / 180.0;  // radians
-constexpr double kGap = 1.6;                                    // times the median interval
+constexpr double kGap = 1.6;                                    // relative to the median interval
 
 double middle(std::vector<double> values) {
   const auto at = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -19,14 +19,14 @@ double middle(std::vector<double> values) {
   return *at;
 }
 
-/// What 19 of 20 values do not exceed.
+/// The value that 19 of 20 do not exceed.
 double nearly_largest(std::vector<double> values) {
   const auto at = values.begin() + std::ptrdiff_t((values.size() * 19 + 19) / 20 - 1);
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
-/// Median of each coordinate of the positions and of the quaternions (turned to one side).
+/// Median of each coordinate of the positions and of the quaternions (with consistent signs).
 Pose median_of(const std::vector<Pose>& poses) {
   std::array<std::vector<double>, 7> columns;
   const Eigen::Quaterniond first(poses.front().linear());
@@ -39,7 +39,7 @@ Pose median_of(const std::vector<Pose>& poses) {
   Eigen::Quaterniond rotation(middle(columns[6]), middle(columns[3]), middle(columns[4]),
                               middle(columns[5]));
   Pose out = Pose::Identity();
-  // Rotations all over the place have a median of no length: any will do.
+  // The median of widely scattered rotations is nearly zero: any rotation will do.
   if (rotation.norm() > 1e-3) out.linear() = rotation.normalized().toRotationMatrix();
   for (int i = 0; i < 3; ++i) out.translation()[i] = middle(columns[std::size_t(i)]);
   return out;
@@ -50,7 +50,7 @@ struct Spread {
   bool still() const { return position_m <= kStillPosition && angle_rad <= kStillAngle; }
 };
 
-/// How far 19 of 20 poses lie from the median.
+/// Distance of 19 of 20 poses from the median.
 Spread spread_of(const std::vector<Pose>& poses) {
   const Pose median = median_of(poses);
   std::vector<double> distances, angles;
@@ -67,7 +67,7 @@ std::string text_of(const Spread& spread) {
                      spread.position_m * 1e3, spread.angle_rad * 180.0 / std::numbers::pi);
 }
 
-/// Whether the poses are kept; says why.
+/// Whether the poses are kept; notes the reason.
 bool keeps_poses(DevicePoses wish, const std::vector<Pose>& known, SequenceHeader& header) {
   if (wish == DevicePoses::kIgnore) {
     add_note(header, "the poses of the device were ignored, as --device-poses says");
@@ -142,7 +142,7 @@ DepthImage depth_of_floats(std::string_view bytes, int width, int height) {
     float metres = 0.0f;
     std::memcpy(&metres, bytes.data() + 4 * i, 4);
     const double steps = double(metres) / kFloatDepthUnit;
-    // Also false for what is not a number.
+    // Also false for NaN.
     if (steps >= 0.5 && steps < 65534.5) depth.pixels[i] = std::uint16_t(steps + 0.5);
   }
   return depth;
@@ -181,7 +181,7 @@ std::vector<std::uint32_t> missing_before(std::span<const double> times_s) {
     if (!(intervals[i] > kGap * median) || !(median > 0.0)) continue;
     const double count = std::round(intervals[i] / median) - 1.0;
     all += count;
-    // A pause rather than drops.
+    // Treated as a pause rather than as dropped frames.
     if (!(all <= double(times_s.size()))) return std::vector<std::uint32_t>(times_s.size(), 0);
     missing[i + 1] = std::uint32_t(count);
   }

@@ -1,4 +1,4 @@
-// A folder of scans with a table of angles or times.
+// Imports a folder of scans with a table of angles or times.
 
 #include <algorithm>
 #include <numbers>
@@ -99,7 +99,8 @@ Result<std::vector<ForeignFrame>> parse_table(const fs::path& path, const fs::pa
   return frames;
 }
 
-/// By pass, then by time or angle: the order in which the scans were taken, as far as it is known.
+/// Sorts by pass, then by time or angle: the order in which the scans were taken, as far as it is
+/// known.
 void put_in_order(std::vector<ForeignFrame>& frames) {
   const bool timed = std::all_of(frames.begin(), frames.end(),
                                  [](const ForeignFrame& f) { return !std::isnan(f.info.time_s); });
@@ -113,7 +114,7 @@ void put_in_order(std::vector<ForeignFrame>& frames) {
     frames[i].info.index = static_cast<std::uint32_t>(i);
 }
 
-/// As stated, else as the first file says, else the origin of the scans' frame.
+/// As stated, else from the first file, else the origin of the scans' frame.
 Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
                                const ImportOptions& options, double metres_per_unit,
                                SequenceHeader& header) {

@@ -1,7 +1,7 @@
-// Scans of the Stanford 3D Scanning Repository: a .conf file with one line per scan,
-// `bmesh FILE tx ty tz qx qy qz qw`. With R the rotation of the quaternion as usually written, the
-// scan's point p lies at transpose(R) * p + t in the world; with R itself the bunny's scans miss
-// each other by centimetres. Coordinates are metres.
+// Imports scans of the Stanford 3D Scanning Repository: a .conf file with one line per scan, `bmesh
+// FILE tx ty tz qx qy qz qw`. With R the rotation of the quaternion in the usual convention, a
+// point p of the scan is at transpose(R) * p + t in the world; with R itself the bunny's scans are
+// misaligned by centimetres. Coordinates are metres.
 
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
@@ -44,11 +44,11 @@ Result<Pose> parse_stanford_pose(const std::vector<std::string_view>& words) {
   return pose_from(Vec3d(v[0], v[1], v[2]), -v[3], -v[4], -v[5], v[6]);
 }
 
-/// Nothing for a line that is not about a scan.
+/// nullopt for a line that does not describe a scan.
 Result<std::optional<ForeignFrame>> parse_line(std::string_view text, const fs::path& folder,
                                                const ImportOptions& options) {
   const auto words = text::words_of(text);
-  if (words[0] == "camera") return std::optional<ForeignFrame>();  // of a viewer
+  if (words[0] == "camera") return std::optional<ForeignFrame>();  // for a viewer
   if (words[0] != "bmesh" && words[0] != "mesh")
     return fail(ErrorCode::kFormat, "'{}' is none of bmesh, mesh, camera", words[0]);
   if (words.size() != 9)

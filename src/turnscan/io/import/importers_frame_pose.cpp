@@ -1,6 +1,6 @@
-// The layout of 7-Scenes (Microsoft Research) and of andyzeng/tsdf-fusion: frame-N.depth.png with
-// frame-N.pose.txt (4x4, camera to world), frame-N.color.png or .jpg, camera-intrinsics.txt (3x3).
-// A pose that is not finite marks a frame whose tracking was lost.
+// Imports the layout of 7-Scenes (Microsoft Research) and of andyzeng/tsdf-fusion:
+// frame-N.depth.png with frame-N.pose.txt (4x4, camera to world), frame-N.color.png or .jpg,
+// camera-intrinsics.txt (3x3). A pose that is not finite marks a frame with lost tracking.
 
 #include <algorithm>
 #include <charconv>
@@ -21,7 +21,7 @@ constexpr std::string_view kPrefix = "frame-";
 constexpr std::string_view kDepthSuffix = ".depth.png";
 constexpr std::uint32_t kMaxFileNumber = 4000000000;
 
-/// Whether the text has 16 numbers of which one is not finite.
+/// Whether the text has 16 numbers, at least one of which is not finite.
 bool lost_tracking(std::string_view text) {
   const auto words = text::words_of(text);
   bool lost = false;
@@ -34,7 +34,7 @@ bool lost_tracking(std::string_view text) {
   return lost && words.size() == 16;
 }
 
-/// Nothing when there is no pose, or one that is not finite.
+/// nullopt if there is no pose, or one that is not finite.
 Result<std::optional<Pose>> read_pose(const fs::path& path) {
   TURNSCAN_ASSIGN(const bool there, file::is_there(path));
   if (!there) return std::optional<Pose>();
@@ -89,7 +89,7 @@ Result<> check_indices(const std::vector<ForeignFrame>& frames) {
               std::next(twice)->info.file);
 }
 
-/// Frames without a pose are of no use among frames that have one.
+/// Frames without a pose cannot be used together with frames that have one.
 void drop_unplaced(std::vector<ForeignFrame>& frames, SequenceHeader& header) {
   const auto unplaced = static_cast<std::size_t>(std::count_if(
       frames.begin(), frames.end(), [](const ForeignFrame& f) { return !f.info.T_table_sensor; }));

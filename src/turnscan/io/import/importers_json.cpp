@@ -1,4 +1,4 @@
-// Depth images described by one JSON file; docs/importing.md lists its fields.
+// Imports depth images described by one JSON file; docs/importing.md lists its fields.
 
 #include <algorithm>
 #include <charconv>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMaxViews = 1000000;
 constexpr std::string_view kDepth = "depth";
 
-/// The lists of the file, each empty or one entry per view.
+/// The lists in the file, each empty or with one entry per view.
 struct Views {
   std::size_t count = 0;
   std::vector<double> angles_rad;
@@ -77,7 +77,7 @@ Result<std::vector<Pose>> parse_poses(const text::JsonObject& root, const Import
   return poses;
 }
 
-/// All lists that are there must be equally long.
+/// All non-empty lists must have the same length.
 Result<> agree_on_count(Views& views) {
   const auto agree = [&](const char* name, std::size_t size) -> Result<> {
     if (size == 0 || size == views.count) return {};
@@ -98,7 +98,7 @@ Result<> agree_on_count(Views& views) {
   return {};
 }
 
-/// "depth_7.png", "depth-0007.png", "depth7.png" in the order of their numbers.
+/// Sorts "depth_7.png", "depth-0007.png", "depth7.png" by their numbers.
 Result<std::vector<std::string>> numbered_depth_images(const fs::path& folder) {
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(folder));
   std::map<std::uint64_t, std::string> numbered;
@@ -122,7 +122,7 @@ Result<std::vector<std::string>> numbered_depth_images(const fs::path& folder) {
   return out;
 }
 
-/// Without any list, the views are the numbered depth images of the folder.
+/// Without any list, the views are the numbered depth images in the folder.
 Result<> list_images_if_none_are(Views& views, const fs::path& folder, SequenceHeader& header) {
   if (views.count != 0) return {};
   TURNSCAN_ASSIGN(views.depth_files, numbered_depth_images(folder));
@@ -174,8 +174,8 @@ Result<SensorInfo> parse_sensor(const text::JsonObject& root, const ImportOption
   return sensor;
 }
 
-/// +1 or -1: the sign that makes the axis point up, for a camera that is held upright (y down) or
-/// looks down on the platter; 0 when neither can tell.
+/// +1 or -1: the sign for which the axis points up, assuming a camera that is held upright (y down)
+/// or looks down on the platter; 0 if both are ambiguous.
 int up_sign(const Vec3d& axis) {
   constexpr double kTenDegrees = 0.1736;  // sine
   if (std::abs(axis.y()) > kTenDegrees) return axis.y() < 0.0 ? 1 : -1;
@@ -199,7 +199,7 @@ void turn_axis_up(TurntableInfo& table, Views& views, SequenceHeader& header) {
            "of the angles with it");
 }
 
-/// Sets header.turntable if the file has one; true: its centre lies on the platter.
+/// Sets header.turntable if the file has one; returns whether its centre is on the platter.
 Result<bool> parse_turntable(const text::JsonObject& root, Views& views, SequenceHeader& header) {
   if (!root.has("axis_dir") && !root.has("axis_point")) return true;
   TurntableInfo table;
@@ -217,7 +217,7 @@ Result<bool> parse_turntable(const text::JsonObject& root, Views& views, Sequenc
   return height.has_value();
 }
 
-/// "color_007.png" of "depth_007.png"; of another name by the view's position.
+/// "color_007.png" for "depth_007.png"; for other names by the view's position.
 std::string color_beside(const std::string& depth, std::size_t view) {
   if (depth.starts_with(kDepth)) return "color" + depth.substr(kDepth.size());
   return fmt::format("color_{}.png", view);

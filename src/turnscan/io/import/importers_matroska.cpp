@@ -1,7 +1,8 @@
-// Recordings of an Azure Kinect, and of the Femto Bolt and Mega through Orbbec's library of the
-// same interface, in a Matroska file. Tracks and tags: Microsoft, "Use Azure Kinect Sensor SDK to
-// record file format" (learn.microsoft.com/previous-versions/azure/kinect-dk/record-file-format).
-// Depth is in millimetres.
+// Imports recordings of an Azure Kinect, and of the Femto Bolt and Mega made with Orbbec's library
+// of the same interface, in a Matroska file. Tracks and tags: Microsoft, "Use Azure Kinect Sensor
+// SDK to record file format"
+// (learn.microsoft.com/previous-versions/azure/kinect-dk/record-file-format). Depth is in
+// millimetres.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 
-/// How the frames of a track are packed: the code of a BITMAPINFOHEADER.
+/// Encoding of a track's frames: the code in a BITMAPINFOHEADER.
 enum class Packing { kUnknown, kDepth16BigEndian, kPng, kJpeg, kNv12, kYuy2, kBgra };
 
 std::string_view four_characters(const Track& track) {
@@ -50,7 +51,7 @@ std::string shown_codec(const Track& track) {
   return code.empty() ? track.codec : fmt::format("{} {}", track.codec, code);
 }
 
-/// The track that a tag names by its UID, else the one of that name.
+/// The track whose UID is given by a tag, else the one with that name.
 const Track* track_named(const MatroskaFile& file, std::string_view name, std::string_view tag) {
   for (const matroska::Tag& t : file.tags()) {
     if (t.name != tag) continue;
@@ -80,12 +81,13 @@ Result<const Track*> depth_track(const MatroskaFile& file) {
   return track;
 }
 
-/// The columns [begin, end) of each row that the lens's calibration covers.
+/// The columns [begin, end) of each row that the lens calibration covers.
 struct Columns {
   int begin = 0, end = 0;
 };
 
-/// Empty: all of them. Without the lens's tangential part, which is of a few hundredths of a pixel.
+/// Empty: all of them. Ignores the lens's tangential distortion, which is a few hundredths of a
+/// pixel.
 std::vector<Columns> covered_columns(const CameraIntrinsics& camera, double radius) {
   double x = std::min(radius, std::sqrt(camera.lens().largest_r2)), y = 0.0;
   BrownConrady<double> lens = camera.lens();
@@ -108,7 +110,7 @@ std::vector<Columns> covered_columns(const CameraIntrinsics& camera, double radi
   return out;
 }
 
-/// What a frame is read from.
+/// The blocks of one frame.
 struct FrameBlocks {
   Block depth, color;
   bool has_color = false;
@@ -116,7 +118,7 @@ struct FrameBlocks {
 
 struct Frames {
   std::vector<FrameInfo> infos;
-  std::vector<FrameBlocks> blocks;  ///< of each; of dropped ones without meaning
+  std::vector<FrameBlocks> blocks;  ///< one per frame; meaningless for dropped ones
   Packing depth = Packing::kUnknown, color = Packing::kUnknown;
 };
 
@@ -225,7 +227,7 @@ Result<std::optional<std::string>> calibration_of(const MatroskaFile& file) {
 }
 
 /// Both write the same files. Serial numbers of the Femto Bolt and Mega begin with CL, those of the
-/// Azure Kinect are digits.
+/// Azure Kinect are numeric.
 std::string model_of(const MatroskaFile& file) {
   return file.tag("K4A_DEVICE_SERIAL_NUMBER").starts_with("CL") ? "orbbec-femto" : "azure-kinect";
 }
@@ -275,7 +277,7 @@ Result<Sensor> sensor_of(const MatroskaFile& file, const Track& depth, const Tra
   return out;
 }
 
-/// Nothing where the file has none that can be read.
+/// nullptr if the file has none that can be read.
 const Track* color_track(const MatroskaFile& file, SequenceHeader& header) {
   const Track* track = track_named(file, "COLOR", "K4A_COLOR_TRACK");
   if (track == nullptr || track->blocks.empty()) return nullptr;
@@ -290,9 +292,9 @@ const Track* color_track(const MatroskaFile& file, SequenceHeader& header) {
 
 // ---- the frames
 
-constexpr double kMaxGap = 1.5;  // of the time between frames
+constexpr double kMaxGap = 1.5;  // relative to the frame interval
 
-/// Stated, else the middle of the times between the frames; 0: there is only one.
+/// As stated, else the median interval between frames; 0: there is only one.
 double frame_time_of(const Track& track, const std::vector<Block>& blocks) {
   if (track.frame_time_ns > 0) return double(track.frame_time_ns);
   std::vector<std::int64_t> times;
@@ -310,8 +312,8 @@ std::vector<Block> in_order(std::vector<Block> blocks) {
   return blocks;
 }
 
-/// How many frames are missing before each: of which as many are told as there are frames, and a
-/// thousand; a longer gap is a pause.
+/// The number of frames missing before each one, limited to the number of frames plus a thousand; a
+/// longer gap is a pause.
 std::vector<std::uint32_t> missing_before(const std::vector<Block>& blocks, double frame_time_ns) {
   std::vector<std::uint32_t> out(blocks.size(), 0);
   double left = double(blocks.size()) + 1000.0;
@@ -326,7 +328,7 @@ std::vector<std::uint32_t> missing_before(const std::vector<Block>& blocks, doub
   return out;
 }
 
-/// The one nearest in time, within the time between two frames.
+/// The nearest in time, within one frame interval.
 void find_color(const std::vector<Block>& colors, double frame_time_ns, FrameBlocks& frame) {
   const auto after =
       std::lower_bound(colors.begin(), colors.end(), frame.depth.time_ns,

@@ -1,8 +1,9 @@
-// Folders that Open3D's recorders leave: color/NNNNN.jpg and depth/NNNNN.png, depth aligned to
-// colour, beside intrinsic.json (azure_kinect_mkv_reader, RGBDVideoReader) or camera_intrinsic.json
-// (realsense_recorder). Fields as in Open3D 0.19: camera::PinholeCameraIntrinsic, whose matrix
-// stands column by column, and t::io::RGBDVideoMetadata (depth_scale: steps a metre, fps). Without
-// a scale of their own Open3D's programs take 1000 steps a metre.
+// Imports folders written by Open3D's recorders: color/NNNNN.jpg and depth/NNNNN.png, depth aligned
+// to colour, with intrinsic.json (azure_kinect_mkv_reader, RGBDVideoReader) or
+// camera_intrinsic.json (realsense_recorder). Fields as in Open3D 0.19:
+// camera::PinholeCameraIntrinsic, whose matrix is stored column by column, and
+// t::io::RGBDVideoMetadata (depth_scale: steps per metre, fps). Open3D's programs default to 1000
+// steps per metre.
 
 #include <algorithm>
 #include <map>
@@ -22,7 +23,7 @@ namespace {
 constexpr std::uint32_t kMaxImageNumber = 4000000000;
 constexpr double kStepsPerMetre = 1000.0;
 
-/// What the JSON files of the folder say.
+/// Content of the folder's JSON files.
 struct Open3dFolder {
   CameraIntrinsics camera;
   std::optional<double> steps_per_metre, fps;
@@ -92,7 +93,7 @@ std::string model_of_device(const std::string& device) {
   return lower.substr(0, 64);
 }
 
-/// Files NNNNN.png or .jpg of a subfolder by their numbers; others are left alone.
+/// Files NNNNN.png or .jpg of a subfolder by number; others are ignored.
 Result<std::map<std::uint32_t, fs::path>> numbered_images(const fs::path& folder) {
   std::map<std::uint32_t, fs::path> out;
   TURNSCAN_ASSIGN(const bool there, file::is_there(folder));

@@ -1,4 +1,4 @@
-// Several data sets that are the passes of one object.
+// Imports several data sets as passes of one object.
 
 #include <algorithm>
 #include <map>
@@ -40,7 +40,7 @@ bool same_rig(const SequenceHeader& a, const SequenceHeader& b) {
                     same_sensor);
 }
 
-/// The data sets one after another, their passes counted through.
+/// Concatenates the data sets, numbering their passes consecutively.
 class PassSequence : public FrameSequence {
  public:
   void add(const fs::path& path, std::unique_ptr<FrameSequence> set) {
@@ -51,7 +51,7 @@ class PassSequence : public FrameSequence {
         numbers.size() == 1 ? fmt::format("pass {} is", passes_ - 1)
                             : fmt::format("passes {} to {} are",
                                           passes_ - std::uint32_t(numbers.size()), passes_ - 1);
-    // The first line of the source is its origin, the others are assumptions.
+    // The first line of the source states its origin, the others are assumptions.
     const std::string& source = set->header().source;
     const std::size_t line = std::min(source.find('\n'), source.size());
     if (sets_.empty()) {

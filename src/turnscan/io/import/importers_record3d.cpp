@@ -1,8 +1,8 @@
-// Recordings of Record3D (record3d.app), .r3d: a zip with `metadata` (JSON) and rgbd/N.jpg,
-// rgbd/N.depth and rgbd/N.conf, as its author describes them
-// (github.com/marek-simonik/record3d, issues 7, 30, 39, 93, 108): depth as LZFSE of 32-bit floats
-// in metres, confidence as LZFSE of bytes 0 to 2 (Apple: low, medium, high), both registered to
-// colour. LZ4, the other packing of Apple's library, is taken in its place.
+// Imports recordings of Record3D (record3d.app), .r3d: a zip with `metadata` (JSON) and rgbd/N.jpg,
+// rgbd/N.depth and rgbd/N.conf, as its author describes them (github.com/marek-simonik/record3d,
+// issues 7, 30, 39, 93, 108): depth as LZFSE-compressed 32-bit floats in metres, confidence as
+// LZFSE-compressed bytes 0 to 2 (Apple: low, medium, high), both registered to colour. LZ4, the
+// other compression in Apple's library, is accepted as well.
 
 #include <algorithm>
 #include <charconv>
@@ -60,8 +60,8 @@ std::map<std::uint32_t, R3dFrame> frames_in(const zip::Directory& directory) {
   return frames;
 }
 
-/// Bytes packed by LZFSE or LZ4, or as they are; a stored image may begin like either, so that what
-/// has the right size already is left alone.
+/// Bytes compressed by LZFSE or LZ4, or stored; a stored image may begin like either, so that data
+/// of the right size are not decompressed.
 Result<std::string> unpacked_bytes(const fs::path& path, std::string bytes, std::size_t most,
                                    std::size_t right_size) {
   if (bytes.size() == right_size) return bytes;
@@ -74,7 +74,7 @@ Result<std::string> unpacked_bytes(const fs::path& path, std::string bytes, std:
 
 Result<std::string> unpacked(const file::RandomAccessFile& file, const zip::Entry& entry,
                              std::size_t size) {
-  // What cannot be packed is stored, with a few bytes a block more.
+  // Incompressible data are stored, with a few additional bytes per block.
   TURNSCAN_ASSIGN(std::string packed, zip::read_entry(file, entry, size + size / 16 + 4096));
   TURNSCAN_ASSIGN(std::string bytes, unpacked_bytes(file.path(), std::move(packed), size, size));
   if (bytes.size() == size) return bytes;
@@ -141,17 +141,17 @@ class Record3dSequence : public FrameSequence {
   std::uint8_t least_;
 };
 
-/// Of an image, held upright or not.
+/// Side lengths of an image in either orientation.
 struct Sides {
   int shorter = 0, longer = 0;
   bool operator==(const Sides&) const = default;
 };
 Sides sides_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Depth of the two sensors, as Apple delivers it.
+/// Depth images of the two sensors as delivered by Apple.
 constexpr Sides kLidar{192, 256}, kTrueDepth{480, 640};
 
-/// Older recordings do not state the size of depth: by the number of its pixels.
+/// Older recordings do not state the size of depth: it is derived from the number of pixels.
 Result<> size_by_content(const R3dFile& data, record3d::Metadata& metadata) {
   if (metadata.depth_width != 0) return {};
   const auto first = std::find_if(data.frames.begin(), data.frames.end(),
@@ -176,7 +176,8 @@ Result<> size_by_content(const R3dFile& data, record3d::Metadata& metadata) {
                  bytes.size());
 }
 
-/// TrueDepth (structured light, 640 x 480) and LiDAR (time of flight, 256 x 192) by the size.
+/// Distinguishes TrueDepth (structured light, 640 x 480) and LiDAR (time of flight, 256 x 192) by
+/// the size.
 std::string model_of(int width, int height, bool has_confidence) {
   const Sides sides = sides_of(width, height);
   if (sides == kLidar) return "iphone-lidar";
@@ -215,7 +216,7 @@ Result<> describe_sensor(const R3dFile& data, const record3d::Metadata& metadata
   return {};
 }
 
-/// Times and poses from the metadata, by the number of the frame.
+/// Assigns times and poses from the metadata by frame number.
 Result<> place_frames(const ImportOptions& options, record3d::Metadata& metadata,
                       std::vector<R3dFrame>& frames, SequenceHeader& header) {
   if (!times_from_first(metadata.times_s)) metadata.times_s.clear();
@@ -265,7 +266,7 @@ Result<record3d::Metadata> read_metadata(const file::RandomAccessFile& file,
   return metadata;
 }
 
-/// Frames with depth, in the order of their numbers, which stand in info.index.
+/// Frames with depth, sorted by their numbers, which are in info.index.
 Result<R3dFile> collect(file::RandomAccessFile file, const zip::Directory& directory,
                         std::size_t stated, SequenceHeader& header) {
   R3dFile data{std::move(file), {}};

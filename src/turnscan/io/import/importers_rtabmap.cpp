@@ -1,5 +1,5 @@
-// What `rtabmap-export --images_id --poses_camera DATABASE.db` writes (introlab/rtabmap,
-// tools/Export/main.cpp and corelib/src/CameraModel.cpp), and rtabmap-databaseViewer's "Extract
+// Imports the output of `rtabmap-export --images_id --poses_camera DATABASE.db` (introlab/rtabmap,
+// tools/Export/main.cpp and corelib/src/CameraModel.cpp), and of rtabmap-databaseViewer's "Extract
 // images": NAME_depth/ID.png (16 bit, millimetres, registered to colour), NAME_rgb/ID.jpg,
 // NAME_calib/ID.yaml (OpenCV's fields camera_matrix, projection_matrix, image_width, image_height)
 // and NAME_camera_poses.txt, lines of `stamp x y z qx qy qz qw id` (poses format 11: the camera in
@@ -57,7 +57,7 @@ Result<std::string> prefix_in(const fs::path& folder) {
   return found[0].substr(0, found[0].size() - kDepthFolder.size());
 }
 
-/// The number that a file is named by: all of the name before the ending.
+/// The number in a file's name: everything before the extension.
 std::optional<double> number_of(std::string_view name, std::string_view ending) {
   if (!name.ends_with(ending)) return std::nullopt;
   name.remove_suffix(ending.size());
@@ -132,7 +132,7 @@ Result<std::vector<StampedPose>> read_camera_poses(const fs::path& folder,
   return poses;
 }
 
-/// By the id that the file is named by, or by the stamp. Sets times where stamps are known.
+/// Matches poses by the id in the file name, or by the stamp. Sets times if stamps are known.
 void match_poses(std::vector<StampedPose> poses, std::vector<RtabmapFrame>& frames) {
   const bool by_id = std::all_of(frames.begin(), frames.end(), [](const RtabmapFrame& f) {
     return f.name == std::floor(f.name) && f.name < 1e8;
@@ -151,7 +151,7 @@ void match_poses(std::vector<StampedPose> poses, std::vector<RtabmapFrame>& fram
   }
 }
 
-/// Of the colour image. Distortion is 0: the export holds rectified images.
+/// For the colour image. Distortion is 0: the export contains rectified images.
 Result<CameraIntrinsics> read_calibration(const fs::path& path) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   const bool rectified = text::opencv_has(text, "projection_matrix");
@@ -212,7 +212,7 @@ Result<> place_rtabmap_frames(ImportOptions options, std::vector<RtabmapFrame>& 
     info.T_table_sensor = poses[i];
     info.time_s = timed ? times[i] : std::numeric_limits<double>::quiet_NaN();
   }
-  // The map keeps some frames only: gaps in the times are no drops.
+  // The map keeps only some of the frames: gaps in the times are not drops.
   drop_without_pose(frames, header);
   return {};
 }

@@ -1,8 +1,10 @@
-// Laan Labs' 3D Scanner App for iPhones and iPads (3dscannerapp.com), "Share > All data": of each
-// frame frame_00012.json (intrinsics: 3x3, row by row, of the colour image; cameraPoseARFrame: 4x4,
-// row by row, ARKit's camera to its world, y up; time), depth_00012.png (16 bit, millimetres,
-// registered to colour), conf_00012.png (0 to 2) and of some frames frame_00012.jpg.
-// The names are those of such exports and of programs that read them; the maker has no description.
+// Imports exports of Laan Labs' 3D Scanner App for iPhones and iPads (3dscannerapp.com), "Share >
+// All data": for each frame frame_00012.json (intrinsics: 3x3, row by row, of the colour image;
+// cameraPoseARFrame: 4x4, row by row, ARKit's camera to its world, y up; time), depth_00012.png (16
+// bit, millimetres, registered to colour), conf_00012.png (0 to 2) and for some frames
+// frame_00012.jpg.
+// The names are taken from such exports and from programs that read them; the vendor publishes no
+// description.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -20,13 +22,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint32_t kMaxFrameNumber = 4000000;
-/// Of ARKit's images, where none says their size.
+/// Size of ARKit's images, if none states it.
 constexpr int kColorWidth = 1920, kColorHeight = 1440;
 
 struct AppFrame {
   FrameInfo info;
   fs::path depth, color, confidence;
-  CameraIntrinsics camera;  ///< of the colour image, from its corner; without its size
+  CameraIntrinsics camera;  ///< of the colour image, relative to its corner; without its size
   std::optional<Pose> pose;
 };
 
@@ -72,14 +74,14 @@ Result<> parse_app_frame(const fs::path& path, AppFrame& frame) {
   frame.camera.cy = k[5];
   TURNSCAN_ASSIGN(frame.info.time_s,
                   root.number_or("time", std::numeric_limits<double>::quiet_NaN()));
-  // One that is no pose: tracking was lost.
+  // An invalid pose: tracking was lost.
   if (root.has("cameraPoseARFrame")) {
     if (const auto pose = root.pose("cameraPoseARFrame")) frame.pose = from_gl_camera(*pose);
   }
   return {};
 }
 
-/// Frames that have depth, in the order of their numbers, which stand in info.index.
+/// Frames with depth, sorted by their numbers, which are in info.index.
 Result<std::vector<AppFrame>> list_app_frames(const fs::path& folder) {
   TURNSCAN_ASSIGN(const std::vector<std::string> list, names_in(folder));
   const std::set<std::string, std::less<>> names(list.begin(), list.end());
@@ -117,7 +119,7 @@ double middle_of(const std::vector<AppFrame>& frames, double CameraIntrinsics::*
   return values[values.size() / 2];
 }
 
-/// The middle of the cameras of all frames: the focus moves.
+/// The median of the cameras of all frames, because the focus varies.
 Result<SensorInfo> describe_app_sensor(const std::vector<AppFrame>& frames,
                                        SequenceHeader& header) {
   CameraIntrinsics camera;

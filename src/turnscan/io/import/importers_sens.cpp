@@ -1,5 +1,5 @@
-// ScanNet's and SUN3D's .sens (io/sens/sens_file.hpp). Depth points map to the colour camera by the
-// extrinsics of depth and colour; poses are those of the base frame, camera to world.
+// Imports ScanNet's and SUN3D's .sens (io/sens/sens_file.hpp). The extrinsics of depth and colour
+// map depth points to the colour camera; poses are those of the base frame, camera to world.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -100,7 +100,7 @@ class SensSequence : public FrameSequence {
   std::vector<sens::FramePlace> places_;
 };
 
-/// Identity where the file has none (zeros).
+/// Identity if the file has none (zeros).
 Result<Pose> extrinsics_of(const sens::Matrix& rows, const char* name) {
   if (std::all_of(rows.begin(), rows.end(), [](float v) { return v == 0.0f; }))
     return Pose::Identity();
@@ -111,7 +111,7 @@ Result<Pose> extrinsics_of(const sens::Matrix& rows, const char* name) {
   return *pose;
 }
 
-/// sensor.T_color_sensor, and T_base_depth as the value.
+/// Sets sensor.T_color_sensor, and returns T_base_depth.
 Result<Pose> describe_cameras(const sens::Header& sens, SensorInfo& sensor) {
   sensor.model = sens.sensor_name;
   sensor.depth_unit_m = 1.0 / double(sens.depth_shift);
@@ -136,7 +136,7 @@ std::optional<Pose> pose_of(const sens::Matrix& rows, const Pose& T_base_depth) 
   return Pose(*pose * T_base_depth);
 }
 
-/// Of depth where it has times, else of colour. Microseconds.
+/// Times of depth if present, else of colour. Microseconds.
 std::vector<double> times_of(const std::vector<sens::FramePlace>& places) {
   std::vector<double> times;
   const bool depth_timed =

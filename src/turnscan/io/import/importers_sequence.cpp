@@ -10,8 +10,8 @@ namespace turnscan::importers {
 
 namespace {
 
-/// Foreign images mark missing depth with 0 or 65535; only turnscan's own crop writes 65535 for
-/// "a return, but outside".
+/// Images of other programs mark missing depth with 0 or 65535; only turnscan's own crop writes
+/// 65535 for "a return, but outside".
 Result<DepthImage> read_foreign_depth(const std::filesystem::path& path) {
   TURNSCAN_ASSIGN(DepthImage image, read_depth_png(path));
   std::replace(image.pixels.begin(), image.pixels.end(), kOutsideCrop, kNoReturn);

@@ -1,6 +1,6 @@
-// Folders of the TUM RGB-D benchmark (Sturm et al. 2012): depth.txt and rgb.txt list
+// Imports folders of the TUM RGB-D benchmark (Sturm et al. 2012): depth.txt and rgb.txt list
 // `time file`, groundtruth.txt lists `time tx ty tz qx qy qz qw` (camera to world).
-// https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats: depth images have 5000 steps a
+// https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats: depth images have 5000 steps per
 // metre and are registered to colour; for them the page recommends the uncalibrated intrinsics
 // fx = fy = 525, cx = 319.5, cy = 239.5 without distortion ("ROS default").
 
@@ -72,7 +72,7 @@ Result<TimedPose> parse_tum_pose(const std::vector<std::string_view>& words) {
   return TimedPose{v[0], pose.translation(), Eigen::Quaterniond(pose.linear())};
 }
 
-/// The entry nearest in time within the limit, or nullptr. Entries are sorted by time.
+/// The entry nearest in time within the limit, or nullptr. Entries must be sorted by time.
 template <class Entry>
 const Entry* nearest(const std::vector<Entry>& entries, double time_s) {
   const auto after = std::lower_bound(entries.begin(), entries.end(), time_s,
@@ -89,7 +89,7 @@ const Entry* nearest(const std::vector<Entry>& entries, double time_s) {
   return best;
 }
 
-/// Between the neighbours in time where both are near, else the nearest, else nothing.
+/// Interpolated between the neighbours in time if both are near, else the nearest, else nullopt.
 std::optional<Pose> pose_at(const std::vector<TimedPose>& poses, double time_s) {
   const auto after = std::lower_bound(poses.begin(), poses.end(), time_s,
                                       [](const TimedPose& p, double t) { return p.time_s < t; });

@@ -10,7 +10,7 @@ bool asks_for_turntable(const ImportOptions& o) {
          o.platter_height_m || o.speed_rad_s;
 }
 
-/// Axis and centre as stated, or as they are in the data set already.
+/// Axis and centre as stated, or from the data set.
 Result<TurntableInfo> stated_turntable(const ImportOptions& options,
                                        const std::optional<TurntableInfo>& known) {
   if (!known && (options.turntable_axis.empty() || options.turntable_center.empty()))

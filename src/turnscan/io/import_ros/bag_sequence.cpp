@@ -17,11 +17,12 @@ namespace {
 using rosbag::Bag;
 using rosbag::MessagePlace;
 
-constexpr std::size_t kHeaderBytes = 512;   // hold a message's header
-constexpr std::int64_t kLongestGap = 1000;  // frames; a larger one is a new beginning
-constexpr double kNear = 0.75;              // of the time between two frames
-constexpr double kNearest_s = 0.02;         // is near at any rate
-constexpr double kGap = 1.6;                // times between two frames, that one is missing
+constexpr std::size_t kHeaderBytes = 512;   // contain a message's header
+constexpr std::int64_t kLongestGap = 1000;  // frames; a larger one starts a new sequence
+constexpr double kNear = 0.75;              // relative to the frame interval
+constexpr double kNearest_s = 0.02;         // always counts as near
+// Relative to the frame interval; a larger gap means that frames are missing.
+constexpr double kGap = 1.6;
 
 struct Shot {
   MessagePlace place;
@@ -30,8 +31,8 @@ struct Shot {
   bool good = false;
 };
 
-/// The messages of two topics with what their headers say; those that cannot be read are not good.
-/// In the order of the file, so that each chunk is unpacked once.
+/// The messages of two topics with the content of their headers; unreadable ones are not good. In
+/// the order of the file, so that each chunk is unpacked once.
 std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& streams) {
   std::array<std::vector<Shot>, 2> shots;
   std::vector<Shot*> in_file;
@@ -59,7 +60,7 @@ std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& stre
 
 double seconds(std::int64_t ns) { return double(ns) / 1e9; }
 
-/// Whether the headers' times can be used: all there, and none runs back.
+/// Whether the headers' times can be used: all are present, and none decreases.
 bool stamped(const std::vector<Shot>& shots) {
   for (std::size_t i = 0; i < shots.size(); ++i)
     if (shots[i].stamp_ns <= 0 || (i > 0 && shots[i].stamp_ns < shots[i - 1].stamp_ns))
@@ -76,7 +77,8 @@ double median_step_s(const std::vector<std::int64_t>& times_ns) {
   return seconds(*middle);
 }
 
-/// Whether the numbers count the frames: most go up by one, none down or by very much.
+/// Whether the sequence numbers count frames: most increase by one, none decreases or jumps very
+/// far.
 bool counts_frames(const std::vector<Shot>& shots) {
   std::size_t ones = 0;
   for (std::size_t i = 1; i < shots.size(); ++i) {
@@ -87,7 +89,7 @@ bool counts_frames(const std::vector<Shot>& shots) {
   return shots.size() > 1 && 2 * ones >= shots.size() - 1;
 }
 
-/// How many frames are missing before each, by their numbers or else by their times.
+/// The number of frames missing before each one, by sequence numbers or else by times.
 std::vector<std::int64_t> missing_before(const std::vector<Shot>& shots,
                                          const std::vector<std::int64_t>& times_ns) {
   std::vector<std::int64_t> out(shots.size(), 0);
@@ -108,8 +110,8 @@ struct Timeline {
   std::vector<std::int64_t> depth_ns, color_ns;
 };
 
-/// Depth and colour by the same clock: the headers' where both have it and they overlap, else the
-/// recorder's.
+/// Depth and colour times on the same clock: the headers' if both have one and they overlap, else
+/// the recorder's.
 Timeline timeline_of(const std::vector<Shot>& depth, const std::vector<Shot>& color,
                      SequenceHeader& header) {
   const bool own = stamped(depth);
@@ -122,7 +124,8 @@ Timeline timeline_of(const std::vector<Shot>& depth, const std::vector<Shot>& co
                       depth.front().stamp_ns <= color.back().stamp_ns;
   Timeline out;
   for (const Shot& shot : depth) out.depth_ns.push_back(own ? shot.stamp_ns : shot.place.time_ns);
-  // On the recorder's clock colours are moved to the depth's by the first frames of both.
+  // On the recorder's clock, colour times are shifted to those of depth by the first frames of
+  // both.
   const std::int64_t moved =
       own && !shared ? depth.front().stamp_ns - depth.front().place.time_ns : 0;
   for (const Shot& shot : color)
@@ -144,7 +147,7 @@ class BagSequence : public FrameSequence {
   static constexpr std::uint32_t kNone = 0xffffffff;
   struct Places {
     MessagePlace depth;
-    std::uint32_t color = kNone;  ///< in colors_
+    std::uint32_t color = kNone;  ///< index into colors_
   };
 
   void add_frames(const std::vector<Shot>& shots, const std::vector<std::int64_t>& times_ns);
@@ -157,7 +160,7 @@ class BagSequence : public FrameSequence {
   BagStreams streams_;
   SequenceHeader header_;
   std::vector<FrameInfo> frames_;
-  std::vector<Places> places_;  ///< of each frame
+  std::vector<Places> places_;  ///< one per frame
   std::vector<MessagePlace> colors_;
 };
 
@@ -232,7 +235,7 @@ void BagSequence::match_colors(const std::vector<Shot>& shots, const Timeline& t
   }
 }
 
-/// The size of the images has to be that of their cameras.
+/// The size of the images must match that of their cameras.
 Result<> BagSequence::look_at_first() {
   CameraIntrinsics& camera = header_.sensors.front().intrinsics;
   for (std::size_t i = 0; i < frames_.size(); ++i) {

@@ -1,4 +1,4 @@
-// ROS 1 bags: recordings of a RealSense by librealsense, and others with images of depth.
+// Imports ROS 1 bags: RealSense recordings made by librealsense, and others with depth images.
 
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/import_ros/bag_sequence.hpp>

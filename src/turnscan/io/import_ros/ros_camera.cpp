@@ -10,12 +10,12 @@ namespace {
 using rosbag::CameraInfoMessage;
 
 constexpr double kMaxMisfit_px = 0.3;
-constexpr int kGrid = 24;  // image points a side, to which a lens is fitted
+constexpr int kGrid = 24;  // image points per side to which a lens is fitted
 
 using Coefficients = Eigen::Matrix<double, 5, 1>;  // k1 k2 p1 p2 k3
 using Rows = Eigen::Matrix<double, 2, 5>;
 
-/// What each coefficient adds to the point.
+/// Contribution of each coefficient to the point.
 Rows terms_of(const Eigen::Vector2d& p) {
   const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
   Rows rows;
@@ -24,7 +24,7 @@ Rows terms_of(const Eigen::Vector2d& p) {
   return rows;
 }
 
-/// The lens that takes the undistorted points back, by least squares.
+/// The lens that maps undistorted points back, by least squares.
 Result<Coefficients> inverted(const Coefficients& inverse, const CameraIntrinsics& camera) {
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
   Coefficients right = Coefficients::Zero();

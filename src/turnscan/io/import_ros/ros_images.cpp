@@ -19,10 +19,10 @@ enum class Layout { kRgb, kBgr, kGrey, kYuyv, kUyvy };
 struct Encoding {
   std::string_view name;
   Layout layout;
-  std::uint32_t bytes;  ///< of a pixel
+  std::uint32_t bytes;  ///< per pixel
 };
 
-// 8UC3 is what OpenCV's users write: blue first.
+// 8UC3 is written by users of OpenCV: blue first.
 constexpr std::array<Encoding, 16> kEncodings = {{{"rgb8", Layout::kRgb, 3},
                                                   {"bgr8", Layout::kBgr, 3},
                                                   {"8UC3", Layout::kBgr, 3},
@@ -46,7 +46,7 @@ const Encoding* encoding_of(std::string_view name) {
   return found == kEncodings.end() ? nullptr : &*found;
 }
 
-/// Whether the rows lie within the data.
+/// Checks that the rows are within the data.
 Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes) {
   const std::uint64_t row = std::uint64_t(image.width) * pixel_bytes;
   const bool sized = image.width > 0 && image.height > 0 && image.width <= 65535 &&
@@ -62,7 +62,7 @@ Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes) {
 
 std::uint16_t steps_of(float metres, float per_metre) {
   const float steps = metres * per_metre;
-  // Not a number fails, too.
+  // Also kNoReturn for NaN.
   return steps >= 0.5f && steps <= kMaxSteps ? std::uint16_t(std::lround(steps)) : kNoReturn;
 }
 
@@ -82,7 +82,7 @@ void take_floats(const char* row, std::uint16_t* out, std::uint32_t width, float
 
 std::uint8_t clamped(int value) { return std::uint8_t(std::clamp(value, 0, 255)); }
 
-/// Full-range ITU-R BT.601, as JPEG has it.
+/// Full-range ITU-R BT.601, as in JPEG.
 Rgb rgb_of(int y, int u, int v) {
   const int d = u - 128, e = v - 128;
   return {clamped(y + (359 * e + 128) / 256), clamped(y - (88 * d + 183 * e - 128) / 256),
@@ -150,7 +150,7 @@ std::string_view compressed_depth_encoding(std::string_view format) {
 }
 
 Result<DepthImage> ros_depth(const CompressedImageMessage& image, double unit_m) {
-  // What was chosen to pack it, and two parameters of inverse depth, before the PNG.
+  // The compression method and two parameters of inverse depth precede the PNG.
   constexpr std::size_t kConfigBytes = 12;
   const std::string_view encoding = compressed_depth_encoding(image.format);
   if (encoding.empty() || image.data.size() < kConfigBytes)

@@ -13,7 +13,7 @@ using rosbag::Bag;
 
 constexpr std::string_view kData = "/image/data";
 
-/// "/device_0/sensor_0/Depth_0" of its images' topic; empty for others.
+/// "/device_0/sensor_0/Depth_0" from its images' topic; empty for other topics.
 std::string_view stream_of(std::string_view topic, std::string_view kind) {
   if (!topic.starts_with("/device_") || !topic.ends_with(kData)) return {};
   const std::string_view stream = topic.substr(0, topic.size() - kData.size());
@@ -21,7 +21,7 @@ std::string_view stream_of(std::string_view topic, std::string_view kind) {
   return stream.substr(slash + 1).starts_with(kind) ? stream : std::string_view();
 }
 
-/// The streams of a kind that have images, sorted.
+/// The streams of this kind that contain images, sorted.
 std::vector<std::string> streams_of(const Bag& bag, std::string_view kind) {
   std::vector<std::string> out;
   for (const auto& connection : bag.connections()) {
@@ -45,7 +45,7 @@ std::string device_fact(const Bag& bag, std::string_view stream, std::string_vie
   return {};
 }
 
-/// The preset of the model where there is one, else the model in the device's words.
+/// The model's preset if there is one, else the device's own model name.
 std::string model_of(const std::string& name) {
   for (const char* number : {"D405", "D435", "D455"})
     if (name.find(number) != std::string::npos)
@@ -53,7 +53,7 @@ std::string model_of(const std::string& name) {
   return name;
 }
 
-/// The shortest decimal that is the same number with 24 bits: 0.001, not 0.0010000000474974513.
+/// The shortest decimal with the same 24-bit value: 0.001, not 0.0010000000474974513.
 Result<double> metres_of(float unit) {
   if (!(unit > 0.0f && unit < 1.0f))
     return fail(ErrorCode::kFormat, "the depth unit {} m is none; state it with --depth-unit",
@@ -86,7 +86,7 @@ Result<CameraIntrinsics> camera_of(const Bag& bag, std::string_view stream) {
 }
 
 /// T_stream_reference and the reference's number, from the topic tf/REFERENCE: librealsense's
-/// device::get_extrinsics() gives what takes points of the reference to the stream.
+/// device::get_extrinsics() returns the transformation from the reference to the stream.
 std::optional<std::pair<std::string, Pose>> place_of(const Bag& bag, std::string_view stream) {
   const std::string begin = std::string(stream) + "/tf/";
   for (const auto& connection : bag.connections()) {

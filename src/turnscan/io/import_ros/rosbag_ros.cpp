@@ -12,16 +12,16 @@ namespace {
 using rosbag::Bag;
 
 constexpr double kMillimetre = 1e-3;
-constexpr double kFloatStep = 1e-4;  // as live floating-point depth is rounded
-constexpr int kMaxLinks = 64;        // of a chain of frames
+constexpr double kFloatStep = 1e-4;  // the step to which live floating-point depth is rounded
+constexpr int kMaxLinks = 64;        // in a chain of frames
 
-/// A topic of images, as its first message shows it.
+/// A topic of images, as described by its first message.
 struct ImageTopic {
   std::string topic;
   bool compressed = false;
   std::string encoding;
   std::string frame_id;
-  std::uint32_t width = 0, height = 0;  ///< 0: not known before it is unpacked
+  std::uint32_t width = 0, height = 0;  ///< 0: not known until it is unpacked
 };
 
 bool contains(std::string_view text, std::string_view part) {
@@ -68,7 +68,7 @@ bool holds_depth(const ImageTopic& topic) {
   return is_integer_depth(topic.encoding) || is_float_depth(topic.encoding);
 }
 
-/// 16 bits are depth or the brightness of infrared: then the name decides.
+/// 16 bits are depth or infrared intensity: then the name decides.
 bool looks_like_depth(const ImageTopic& topic) {
   if (!holds_depth(topic)) return false;
   if (contains(topic.topic, "depth")) return true;
@@ -136,11 +136,11 @@ Result<CameraIntrinsics> depth_camera(const Bag& bag, const ImageTopic& topic,
                  camera_of_topic(topic), topic.topic);
 }
 
-/// The frames of reference: of each its parent, and where it is in that.
+/// The coordinate frames: parent of each, and the pose in it.
 std::map<std::string, rosbag::TransformStamped> transforms_of(const Bag& bag) {
   std::map<std::string, rosbag::TransformStamped> out;
   for (const char* topic : {"/tf_static", "tf_static", "/tf", "tf"}) {
-    constexpr std::size_t kMaxMessages = 1000;  // what moves is not asked for
+    constexpr std::size_t kMaxMessages = 1000;  // moving frames are not needed
     const auto places = bag.messages(topic);
     for (std::size_t i = 0; i < std::min(places.size(), kMaxMessages); ++i) {
       const auto message = bag.read(places[i]);
@@ -153,7 +153,7 @@ std::map<std::string, rosbag::TransformStamped> transforms_of(const Bag& bag) {
   return out;
 }
 
-/// What takes points of `from` to `to`, if a chain of frames joins them.
+/// The transformation from `from` to `to`, if a chain of frames connects them.
 std::optional<Pose> T_between(const std::map<std::string, rosbag::TransformStamped>& transforms,
                               const std::string& to, const std::string& from) {
   // From each frame up to its root.
@@ -177,7 +177,7 @@ std::optional<Pose> T_between(const std::map<std::string, rosbag::TransformStamp
   return std::nullopt;
 }
 
-/// Takes the topic as colour, or says why not.
+/// Uses the topic as colour, or returns the reason why not.
 std::string take_color(const Bag& bag, const ImageTopic& depth, const ImageTopic& color,
                        BagStreams& out) {
   const auto camera = camera_of(bag, color);
@@ -200,7 +200,7 @@ std::string take_color(const Bag& bag, const ImageTopic& depth, const ImageTopic
   return {};
 }
 
-/// The first topic of colours that can be used; those registered to depth come first.
+/// The first usable topic of colour images; those registered to depth come first.
 void add_color(const Bag& bag, const ImageTopic& depth, const std::vector<ImageTopic>& topics,
                BagStreams& out) {
   std::vector<ImageTopic> colors;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kFrame("\x04\x22\x4d\x18", 4);
 constexpr std::size_t kFirstRoom = std::size_t(16) << 20;
-constexpr std::size_t kMaxPerByte = 255;  // a byte of a match's length stands for so many
+constexpr std::size_t kMaxPerByte = 255;  // bytes represented by one byte of a match's length
 constexpr std::size_t kWindow = std::size_t(64) << 10;
 
 tl::unexpected<Error> damaged(std::string_view why) {
@@ -35,9 +35,10 @@ Result<std::string> decode_frame(std::string_view bytes, std::size_t max_bytes) 
   std::string out;
   std::size_t made = 0, left = 1;
   LZ4F_decompressOptions_t options{};
-  options.stableDst = max_bytes <= kFirstRoom ? 1 : 0;  // it never moves: no need to copy it
+  // The output never moves: no need to copy it.
+  options.stableDst = max_bytes <= kFirstRoom ? 1 : 0;
   while (left != 0) {
-    // Room for more, doubled each time, so that a size that is not true costs little.
+    // Grows by doubling, so that a false size costs little.
     if (made == out.size() && made < max_bytes)
       out.resize(std::min(max_bytes, std::max(kFirstRoom, 2 * out.size())));
     std::size_t room = out.size() - made, taken = bytes.size();
@@ -54,7 +55,7 @@ Result<std::string> decode_frame(std::string_view bytes, std::size_t max_bytes) 
   return out;
 }
 
-/// Takes a number of 32 bits off the front.
+/// Removes a 32-bit number from the front.
 std::size_t take_number(std::string_view& bytes) {
   std::size_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value |= std::size_t(std::uint8_t(bytes[i])) << (8 * i);

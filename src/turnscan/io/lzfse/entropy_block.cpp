@@ -7,13 +7,13 @@ namespace turnscan::lzfse {
 
 namespace {
 
-/// A symbol stands for base + so many bits as they are.
+/// A symbol represents base plus this many extra bits.
 struct SymbolValue {
   std::uint32_t base = 0;
   std::uint8_t bits = 0;
 };
 
-/// Values that follow each other without gaps, from the numbers of their extra bits.
+/// Consecutive value ranges without gaps, from the numbers of their extra bits.
 template <std::size_t count>
 constexpr std::array<SymbolValue, count> values_of(const std::array<std::uint8_t, count>& bits) {
   std::array<SymbolValue, count> values{};
@@ -29,14 +29,14 @@ constexpr auto kLValues =
     values_of<kLengthSymbols>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 3, 5, 8});
 constexpr auto kMValues =
     values_of<kLengthSymbols>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 5, 8, 11});
-/// Four distances each of 0, 1, 2, ... 15 bits.
+/// Four distances for each of 0, 1, 2, ... 15 extra bits.
 constexpr auto kDValues = [] {
   std::array<std::uint8_t, kDistanceSymbols> bits{};
   for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::uint8_t(i / 4);
   return values_of(bits);
 }();
 
-/// A decoder of values: states of a table and the current one.
+/// Decoder of values: a table of states and the current one.
 template <std::size_t states>
 class ValueDecoder {
  public:
@@ -49,7 +49,7 @@ class ValueDecoder {
   std::uint32_t next(BackwardBits& bits, const std::array<SymbolValue, count>& values) {
     const FseState& state = table_[state_];
     const SymbolValue& value = values[state.symbol];
-    // The extra bits stand below those of the next state.
+    // The extra bits are below those of the next state.
     state_ = std::uint16_t(state.base + bits.take(state.bits));
     return value.base + bits.take(value.bits);
   }
@@ -60,7 +60,7 @@ class ValueDecoder {
   bool good_ = false;
 };
 
-/// Four coders take turns. False when the payload does not hold as many.
+/// Four interleaved decoders. False if the payload is too short.
 bool unpack_literals(const EntropyHeader& header, std::span<const std::uint16_t> frequencies,
                      std::string_view payload, std::vector<char>& literals) {
   std::array<FseState, 1024> table;
@@ -97,7 +97,7 @@ bool unpack_entropy(const EntropyHeader& header, std::string_view payload, Block
   for (std::uint32_t i = 0; i < header.sequences; ++i) {
     const std::size_t l = length.next(bits, kLValues), m = match.next(bits, kMValues),
                       d = distance.next(bits, kDValues);
-    if (d != 0) back = d;  // 0: the distance before
+    if (d != 0) back = d;  // 0: repeat the previous distance
     if (bits.failed() || l > literals.size() - used ||
         !output.literals(literals.data() + used, l) || !output.match(back, m))
       return false;

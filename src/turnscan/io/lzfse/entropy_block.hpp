@@ -8,8 +8,8 @@
 
 namespace turnscan::lzfse {
 
-inline constexpr std::size_t kLengthSymbols =
-    20;  ///< of L (literal lengths) and of M (match lengths)
+/// Of L (literal lengths) and of M (match lengths).
+inline constexpr std::size_t kLengthSymbols = 20;
 inline constexpr std::size_t kDistanceSymbols = 64;
 inline constexpr std::size_t kLiteralSymbols = 256;
 inline constexpr std::size_t kAllSymbols = 2 * kLengthSymbols + kDistanceSymbols + kLiteralSymbols;

@@ -28,8 +28,8 @@ std::optional<EntropyHeader> if_plausible(const EntropyHeader& header) {
   return plausible(header) ? std::optional(header) : std::nullopt;
 }
 
-/// Frequencies in a prefix code that is read from the lowest bit on. As written, the highest bit
-/// first, with x for the bits of the value:
+/// Reads frequencies in a prefix code, from the lowest bit up. Written with the highest bit first,
+/// and x for the bits of the value:
 ///   x0       0 or 1
 ///   x01      2 or 3
 ///   xx011    4 to 7
@@ -51,7 +51,7 @@ class FrequencyReader {
     return value(24, 4, 10);
   }
 
-  /// Everything was used but for the rest of the last byte.
+  /// Everything was consumed except the rest of the last byte.
   bool ended_well() const { return !failed_ && at_ == bytes_.size() && bits_ < 8; }
 
  private:
@@ -89,7 +89,7 @@ std::optional<EntropyHeader> parse_header_v1(std::string_view bytes) {
   h.literal_bytes = word(20);
   h.sequence_bytes = word(24);
   if (word(8) != h.payload()) return std::nullopt;
-  // The numbers of bits are negative: -7 to 0.
+  // The numbers of bits are stored as negative: -7 to 0.
   h.literal_unused = 0U - word(28);
   for (std::size_t i = 0; i < 4; ++i) h.literal_state[i] = half(32 + 2 * i);
   h.sequence_unused = 0U - word(40);

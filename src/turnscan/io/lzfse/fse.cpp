@@ -27,8 +27,8 @@ bool make_states(std::span<const std::uint16_t> frequencies, std::span<FseState>
     const std::size_t frequency = frequencies[symbol];
     if (frequency == 0) continue;
     if (frequency > states.size() - next) return false;
-    // The symbol's states, counted on from its frequency, are shifted up until they lie between
-    // once and twice the number of states: the lower ones by one bit more.
+    // The states of a symbol, counted from its frequency, are shifted up until they are between
+    // once and twice the number of states; the lower ones by one bit more.
     const int shift = log_states - (std::bit_width(frequency) - 1);
     const std::size_t long_ones = (2 * states.size() >> shift) - frequency;
     for (std::size_t i = 0; i < frequency; ++i) {

@@ -1,11 +1,11 @@
-// LZVN: each instruction names how many bytes follow as they are (L), and how many (M) are repeated
-// from which distance (D). Its first byte, from the highest bit:
+// LZVN: each instruction states how many literal bytes follow (L), and how many bytes (M) are
+// repeated from which distance (D). Its first byte, from the highest bit:
 //   LLMMMDDD DDDDDDDD            small distance (MMM + 3)
-//   LLMMM110                     the distance before
+//   LLMMM110                     the previous distance
 //   LLMMM111 D (16 bit)          large distance
 //   101LLMMM DDDDDDMM DDDDDDDD   medium distance (MMMMM + 3)
-//   1110LLLL, 11100000 L         bytes only: 1 to 15, or 16 and the next byte
-//   1111MMMM, 11110000 M         a match at the distance before
+//   1110LLLL, 11100000 L         literals only: 1 to 15, or 16 plus the next byte
+//   1111MMMM, 11110000 M         a match at the previous distance
 //   00000110 and seven bytes     the end;  00001110, 00010110: nothing
 
 #include <cstdint>

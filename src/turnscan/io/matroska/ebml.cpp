@@ -22,7 +22,7 @@ tl::unexpected<Error> refuse_read(const std::filesystem::path& path, int reason)
 Result<PositionedFile> PositionedFile::open(const std::filesystem::path& path) {
   PositionedFile out;
   out.path_ = path;
-  // Without O_NONBLOCK a pipe would be waited for.
+  // Without O_NONBLOCK, opening a pipe would block.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return refuse_read(path, errno);
   out.descriptor_ = std::shared_ptr<const int>(new int(descriptor), [](const int* owned) {
@@ -47,7 +47,7 @@ Result<std::string> PositionedFile::read(std::uint64_t at, std::uint64_t size) c
         ::pread(*descriptor_, out.data() + done, out.size() - done, static_cast<off_t>(at + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return refuse_read(path_, errno);
-    if (got == 0) break;  // it was cut while it was open
+    if (got == 0) break;  // truncated while open
     done += static_cast<std::size_t>(got);
   }
   out.resize(done);

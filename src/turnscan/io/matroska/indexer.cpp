@@ -92,8 +92,8 @@ Result<> Indexer::read_ebml_header() {
   if (!segment || segment->id != kSegment)
     return fail_at(file_.path().string(), ErrorCode::kFormat,
                    "byte {}: there is no segment behind the header", header->begin + header->size);
-  // What a recorder that was killed left as the segment's length is not to be trusted: its elements
-  // are followed to the end of the file.
+  // The length that a killed recorder left for the segment is not reliable: its elements are
+  // followed to the end of the file.
   window_at_ = segment->begin;
   window_.clear();
   if (segment->known_size && segment->size > file_.size() - segment->begin)
@@ -101,8 +101,8 @@ Result<> Indexer::read_ebml_header() {
   return {};
 }
 
-/// Segment, clusters and groups of blocks are entered, everything else is passed over: so one loop
-/// sees all levels, and a cluster of unknown length needs no special care.
+/// Enters segment, clusters and block groups, and skips everything else: a single loop thus covers
+/// all levels, and a cluster of unknown length needs no special handling.
 Result<> Indexer::walk() {
   std::uint64_t at = window_at_;
   while (at < file_.size() && !stopped_) {
@@ -159,7 +159,7 @@ Result<> Indexer::read_info(std::string_view payload) {
   ChildElements children(payload);
   while (const auto child = children.next()) {
     if (child->id != kTimestampScale || frames_ > 0) continue;
-    cluster_time_ = 0;  // its bound was that of another scale
+    cluster_time_ = 0;  // it was limited by another time scale
     time_scale_ns_ = unsigned_number(child->payload).value_or(0);
     if (time_scale_ns_ < 1 || time_scale_ns_ > 1000000000)
       return fail_at(file_.path().string(), ErrorCode::kFormat,
@@ -254,7 +254,7 @@ void Indexer::read_tags(std::string_view payload) {
   }
 }
 
-/// The contents of the attachments are left where they are.
+/// Only records the positions of the attachments' contents.
 Result<> Indexer::read_attachments(const Element& element) {
   const std::uint64_t end = element.begin + element.size;
   std::uint64_t at = element.begin;
@@ -287,7 +287,7 @@ Track* Indexer::track_of(std::uint64_t number) {
   return nullptr;
 }
 
-/// A block: number of its track, time after its cluster's (16 bits), flags, payload.
+/// A block: track number, time relative to its cluster (16 bits), flags, payload.
 Result<> Indexer::read_block(const Element& element) {
   TURNSCAN_ASSIGN(const std::string_view bytes, peek(element.begin));
   const auto number = parse_variable_number(bytes);

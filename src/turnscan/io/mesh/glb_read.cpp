@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxNesting = 64;
 
-/// tinygltf copies nested values by recursion.
+/// tinygltf copies nested values recursively.
 bool nested_too_deeply(std::string_view bytes) {
   int depth = 0;
   bool in_text = false;
@@ -29,7 +29,7 @@ bool nested_too_deeply(std::string_view bytes) {
   return false;
 }
 
-/// Newer versions of tinygltf keep their own callbacks unless this one is given, too.
+/// Newer versions of tinygltf keep their own callbacks unless this one is set, too.
 template <class Callbacks>
 void forbid_file_sizes(Callbacks& callbacks) {
   if constexpr (requires { callbacks.GetFileSizeInBytes; })
@@ -38,7 +38,7 @@ void forbid_file_sizes(Callbacks& callbacks) {
     };
 }
 
-/// Pictures are decoded later, by our own reader, and a GLB file has all of its content in itself.
+/// Images are decoded later, by our own reader, and a GLB file is self-contained.
 void forbid_files_and_images(tinygltf::TinyGLTF& loader) {
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                            const unsigned char*, int, void*) { return true; },
@@ -107,7 +107,7 @@ class SceneReader {
     Eigen::Affine3d transform;
   };
 
-  /// In reverse, because the last of the list is visited first.
+  /// In reverse, because the last element is visited first.
   std::vector<int> roots() const {
     const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
     if (scene >= model_.scenes.size()) return {};
@@ -136,8 +136,8 @@ class SceneReader {
     return nullptr;
   }
 
-  /// If all of the mesh has texture coordinates in the same picture. What is wrong with a picture
-  /// costs the mesh its texture, not its shape.
+  /// If all parts of the mesh have texture coordinates in the same image. An invalid image costs
+  /// the mesh its texture, not its shape.
   void add_texture(const tinygltf::Mesh& source, TriangleMesh& mesh) {
     const auto uvs = std::exchange(uvs_, {});
     if (uvs.size() != mesh.vertices.size() || source.primitives.empty()) return;
@@ -157,7 +157,7 @@ class SceneReader {
     if (has_texture(mesh)) weld_seams(mesh);
   }
 
-  /// Of the base colour, on the first set of texture coordinates; -1 where there is none.
+  /// The base colour image that uses the first set of texture coordinates; -1 if there is none.
   int picture_of(const tinygltf::Primitive& primitive) const {
     if (primitive.material < 0 ||
         static_cast<std::size_t>(primitive.material) >= model_.materials.size())
@@ -232,10 +232,10 @@ class SceneReader {
                                srgb_from_linear(colors->at(i, 2))});
   }
 
-  /// Leaves normals as they are, bit by bit, where nothing turns.
+  /// Leaves normals bitwise unchanged if there is no rotation.
   static Vec3f turned(const Vec3d& normal, const Eigen::Matrix3d& linear) {
     if (linear.isIdentity(0.0)) return normal.cast<float>();
-    // The cofactors are the inverse transposed times the determinant; they exist always.
+    // The cofactor matrix is the inverse transpose times the determinant; it always exists.
     Eigen::Matrix3d cofactors;
     for (int i = 0; i < 3; ++i)
       cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
@@ -274,7 +274,7 @@ class SceneReader {
   std::vector<Open> open_;
   std::vector<TriangleMesh> meshes_;
   TextureBudget budget_;
-  std::vector<Eigen::Vector2f> uvs_;  // in the picture, of the vertices of the mesh being read
+  std::vector<Eigen::Vector2f> uvs_;  // in the image, for the vertices of the mesh being read
 };
 
 }  // namespace

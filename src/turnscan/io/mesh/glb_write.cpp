@@ -35,7 +35,7 @@ class Builder {
     }
   }
 
-  /// The pictures follow all arrays, whose numbers must lie at multiples of four bytes.
+  /// The images follow all arrays, whose numbers must be aligned to four bytes.
   Result<> add_pictures() {
     for (const auto& [mesh, picture] : pictures_) {
       TURNSCAN_ASSIGN(const std::string png, encode_color_png(*picture));
@@ -62,7 +62,7 @@ class Builder {
   const tinygltf::Model& model() const { return model_; }
 
  private:
-  /// Without it, viewers take the surface for metal, which looks black.
+  /// Without it, viewers assume a metallic surface, which looks black.
   void add_material(int texture) {
     tinygltf::Material& material = model_.materials.emplace_back();
     material.pbrMetallicRoughness.baseColorTexture.index = texture;
@@ -70,7 +70,7 @@ class Builder {
     material.pbrMetallicRoughness.roughnessFactor = 0.9;
   }
 
-  /// Places beyond the picture repeat it, as in memory.
+  /// Texture coordinates outside the image repeat it, as in memory.
   void add_sampler() {
     if (!model_.samplers.empty()) return;
     tinygltf::Sampler& sampler = model_.samplers.emplace_back();
@@ -79,7 +79,7 @@ class Builder {
     sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_REPEAT;
   }
 
-  /// Colours of vertices would be multiplied with the texture.
+  /// Vertex colours would be multiplied with the texture.
   void add(const TriangleMesh& mesh, const std::vector<Eigen::Vector2f>* uvs) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -115,7 +115,7 @@ class Builder {
     return index;
   }
 
-  /// Linear, 16 bits: enough for all 8-bit sRGB values to come back.
+  /// Linear, 16 bits: enough to restore all 8-bit sRGB values.
   int add_colors(const TriangleMesh& mesh) {
     std::array<std::uint16_t, 256> linear;
     for (std::size_t i = 0; i < 256; ++i)
@@ -158,10 +158,10 @@ class Builder {
   }
 
   tinygltf::Model model_;
-  std::vector<std::pair<std::size_t, const ColorImage*>> pictures_;  ///< of meshes, by position
+  std::vector<std::pair<std::size_t, const ColorImage*>> pictures_;  ///< of meshes, by index
 };
 
-/// The lengths in the file have 32 bits.
+/// Lengths in the file are 32-bit.
 bool fits(std::span<const TriangleMesh> meshes) {
   std::uint64_t bytes = 0;
   for (const TriangleMesh& mesh : meshes)

@@ -36,7 +36,7 @@ constexpr std::array<ReadFormat, 4> kReadFormats{{{"ply", kMetre, mesh_io::decod
 struct WriteFormat {
   std::string_view extension;
   Result<> (*write)(FileSink&, std::span<const TriangleMesh>, const file::FileFrame&);
-  bool for_printers = false;  ///< z is up by default, and with z up the object stands on z = 0
+  bool for_printers = false;  ///< z is up by default, and with z up the object is placed on z = 0
 };
 constexpr std::array<WriteFormat, 5> kWriteFormats{{{"ply", mesh_io::write_ply_mesh},
                                                     {"obj", mesh_io::write_obj},
@@ -52,7 +52,7 @@ auto find_format(const Formats& formats, const fs::path& path) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-/// Checks coordinates, scales to metres and leaves out objects without triangles.
+/// Checks coordinates, scales to metres and removes objects without triangles.
 mesh_io::Meshes finish(std::vector<TriangleMesh> meshes, double metres_per_unit) {
   std::erase_if(meshes, [](const TriangleMesh& mesh) { return mesh.empty(); });
   if (meshes.empty()) return fail(ErrorCode::kTooFewPoints, "the file holds no triangles");
@@ -140,7 +140,7 @@ std::vector<TriangleMesh> in_frame(const file::FileFrame& frame,
   return out;
 }
 
-/// Of meshes that were checked and lie in the file's frame.
+/// Writes checked meshes in the file's frame.
 Result<> write_placed(const fs::path& path, const WriteFormat& format,
                       std::span<const TriangleMesh> meshes, const file::FileFrame& frame) {
   const auto beside = texture_files(path, meshes);
@@ -201,7 +201,7 @@ Result<> write_meshes(const fs::path& path, std::span<const TriangleMesh> meshes
 
 std::vector<fs::path> texture_files(const fs::path& path, std::span<const TriangleMesh> meshes) {
   if (file::lower_extension(path) != "obj") return {};
-  // Pipes and devices have nothing beside them.
+  // Pipes and devices have no accompanying files.
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) return {};

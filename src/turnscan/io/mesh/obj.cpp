@@ -9,21 +9,21 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Everything of the file; objects are runs of triangles.
+/// Content of the file; objects are ranges of triangles.
 struct ObjContent {
   struct Object {
     std::string name;
     std::size_t first_triangle = 0;
   };
   std::vector<Vec3f> vertices;
-  std::vector<Rgb> colors;  ///< of the vertices so far, as long as all have one
+  std::vector<Rgb> colors;  ///< of the vertices so far, while all of them have one
   std::vector<Vec3f> normals;
-  std::vector<std::uint32_t> normal_of;  ///< per vertex, kNone where no face says
+  std::vector<std::uint32_t> normal_of;  ///< per vertex, kNone if no face specifies it
   bool one_normal_each = true;           ///< no vertex has different normals in different faces
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Object> objects;
-  std::vector<Eigen::Vector2f> uvs;                 ///< in pictures, from the lower left corner
-  std::vector<std::array<std::uint32_t, 3>> uv_of;  ///< per triangle, kNone where no face says
+  std::vector<Eigen::Vector2f> uvs;  ///< in images, relative to the lower left corner
+  std::vector<std::array<std::uint32_t, 3>> uv_of;  ///< per triangle, kNone if no face specifies it
   std::vector<std::uint32_t> material_of;           ///< per triangle
   std::vector<std::string> materials{""}, libraries;
 };
@@ -94,7 +94,8 @@ class ObjReader {
   const char* place() {
     Eigen::Vector2f at;
     for (int i = 0; i < 2; ++i)
-      if (!cursor_.floating(at[i])) at[i] = 0.0F;  // one number is a place in a line of colours
+      // A single number is a coordinate in a 1D texture.
+      if (!cursor_.floating(at[i])) at[i] = 0.0F;
     content_.uvs.push_back(at);
     return nullptr;
   }
@@ -120,7 +121,7 @@ class ObjReader {
     return nullptr;
   }
 
-  /// v, v/vt, v//vn or v/vt/vn; negative numbers count from the last one back.
+  /// v, v/vt, v//vn or v/vt/vn; negative numbers count back from the last one.
   const char* corner(std::string_view text) {
     const std::size_t slash = text.find('/');
     const std::uint32_t vertex = index(text.substr(0, slash), content_.vertices.size());
@@ -179,7 +180,7 @@ TriangleMesh whole_mesh(ObjContent&& content) {
   return mesh;
 }
 
-/// Cuts triangles [begin, end) out of a mesh, with the vertices that they use, in their order.
+/// Extracts triangles [begin, end) from a mesh, with the vertices that they use, in their order.
 class Cutter {
  public:
   explicit Cutter(const TriangleMesh& mesh) : mesh_(mesh), place_(mesh.vertices.size(), kNone) {}
@@ -215,11 +216,11 @@ class Cutter {
   }
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> place_;  ///< kNone outside of cut()
+  std::vector<std::uint32_t> place_;  ///< kNone except during cut()
   std::vector<std::uint32_t> used_;
 };
 
-/// Places of the triangles [begin, end), if all have some and are of one material.
+/// Texture coordinates of the triangles [begin, end), if all have them and use one material.
 ObjTexCoords uvs_of(const ObjContent& content, std::size_t begin, std::size_t end) {
   ObjTexCoords out;
   for (std::size_t t = begin; t < end; ++t) {
@@ -274,7 +275,7 @@ std::string join_lines(std::string_view bytes) {
   return text;
 }
 
-/// As write_obj() marks it at the file's beginning.
+/// As marked by write_obj() at the beginning of the file.
 file::FileFrame frame_of(std::string_view bytes) {
   constexpr std::string_view kStart = "# turnscan, unit metre, ";
   return bytes.starts_with(kStart) ? file::frame_of_mark(bytes.substr(kStart.size()))

@@ -38,7 +38,7 @@ std::map<std::string, std::string> pictures_of_materials(std::string_view mtl) {
     const std::string line = without_spaces_about(mtl.substr(0, end));
     mtl.remove_prefix(std::min(end + 1, mtl.size()));
     if (line.starts_with("newmtl ")) material = without_spaces_about(line.substr(7));
-    // Options stand before the name: "-clamp on".
+    // Options precede the name: "-clamp on".
     if (line.starts_with("map_Kd ") && line.find(" -") == line.npos)
       out[material] = without_spaces_about(line.substr(7));
   }

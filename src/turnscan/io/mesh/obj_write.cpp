@@ -20,7 +20,7 @@ void append_vertex(fmt::memory_buffer& text, const TriangleMesh& mesh, std::size
   text.push_back('\n');
 }
 
-/// uvs: numbers of the corners' texture coordinates, or nullptr.
+/// uvs: indices of the corners' texture coordinates, or nullptr.
 void append_face(fmt::memory_buffer& text, const std::array<std::uint32_t, 3>& triangle,
                  std::uint64_t first, bool normals, const std::array<std::uint64_t, 3>* uvs) {
   text.push_back('f');
@@ -66,7 +66,7 @@ Result<> write_obj(FileSink& sink, std::span<const TriangleMesh> meshes,
   if (frame.z_up) TURNSCAN_TRY(sink.write(", " + file::mark_of(frame)));
   TURNSCAN_TRY(sink.write("\n"));
   if (!library.empty()) TURNSCAN_TRY(sink.write("mtllib " + library + "\n"));
-  // Normals have the numbers of their vertices: all objects have them or none.
+  // Normals use the indices of their vertices: either all objects have them or none.
   const bool normals = std::none_of(meshes.begin(), meshes.end(),
                                     [](const TriangleMesh& m) { return m.normals.empty(); });
   std::uint64_t first = 1, first_uv = 1;

@@ -19,7 +19,7 @@ class OffReader {
     std::int64_t faces = 0;
     skip_comments();
     if (!cursor_.integer(vertices) || !cursor_.integer(faces)) return damaged("the counts");
-    cursor_.skip_line();  // the number of edges may be left out
+    cursor_.skip_line();  // the number of edges may be omitted
     const auto left = static_cast<std::int64_t>(size_ - cursor_.position()) + 1;
     if (vertices < 0 || faces < 0 || vertices > left / 6 || faces > left / 2 ||
         vertices > std::numeric_limits<std::int32_t>::max())

@@ -25,7 +25,7 @@ std::uint64_t promised_triangles(std::string_view bytes) {
   return bytes.size() < kHeaderBytes ? 0 : file::load<std::uint32_t, kSwap>(bytes.data() + 80);
 }
 
-/// A binary file may begin with "solid" too: its length tells, and what follows the first line.
+/// A binary file may also begin with "solid": its length decides, and what follows the first line.
 bool is_text(std::string_view bytes) {
   if (bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + promised_triangles(bytes) * kTriangleBytes)
@@ -57,7 +57,7 @@ Meshes decode_binary(std::string_view bytes) {
   meshes[0].triangles.resize(count);
   VertexMerger merger(count / 2);
   for (std::uint64_t i = 0; i < count; ++i) {
-    const char* from = bytes.data() + kHeaderBytes + i * kTriangleBytes + 12;  // behind the normal
+    const char* from = bytes.data() + kHeaderBytes + i * kTriangleBytes + 12;  // after the normal
     for (std::uint32_t& corner : meshes[0].triangles[i]) {
       corner = merger.index_of({file::load<float, kSwap>(from), file::load<float, kSwap>(from + 4),
                                 file::load<float, kSwap>(from + 8)});
@@ -106,7 +106,7 @@ class TextReader {
   }
 
   const char* end_solid() {
-    // Its corners are numbered within this solid.
+    // Corners are indexed within this solid.
     if (corners_ != 0) return "a solid ends within a facet";
     open_ = false;
     meshes_.back().vertices = merger_.take();

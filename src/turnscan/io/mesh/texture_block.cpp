@@ -16,7 +16,7 @@ std::span<const std::byte> bytes_of(const void* data, std::size_t size) {
   return {static_cast<const std::byte*>(data), size};
 }
 
-/// A positive number up to 65535 and the character behind it; 0 where there is none.
+/// Parses a positive number up to 65535 and the character after it; 0 if there is none.
 int take_number(std::string_view& text, char end) {
   int value = 0;
   const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -10,12 +10,12 @@ namespace turnscan::mesh_io {
 
 namespace {
 
-constexpr int kMaxDepth = 32;  // of objects made of objects
-// An object may be placed as often as the file says, and one that is made of others, too: what
-// comes of it grows as a power of the file's length.
+constexpr int kMaxDepth = 32;  // of nested objects
+// An object may be placed any number of times, including one composed of others: the result may
+// grow as a power of the file's length.
 constexpr std::size_t kMaxPlaced = 100000;
 constexpr std::size_t kMaxElements = 10000000;  // vertices and triangles
-constexpr std::size_t kMaxElementsPerByte = 4;  // of a large file
+constexpr std::size_t kMaxElementsPerByte = 4;  // for a large file
 constexpr std::uint64_t kMaxPictureBytes = std::uint64_t(256) << 20;
 
 double metres_of(unsigned unit) {
@@ -96,7 +96,8 @@ class ThreemfReader {
     return {};
   }
 
-  /// get(buffer, size, needed) asks lib3mf for a text. Empty where it fails or the text is long.
+  /// get(buffer, size, needed) queries a text from lib3mf. Empty if it fails or the text is too
+  /// long.
   template <class Get>
   static std::string text_of(const Get& get) {
     ULONG needed = 0;
@@ -180,7 +181,7 @@ class ThreemfReader {
     if (target.colors.size() == first) add_colors(object, triangles, vertex_count, target);
   }
 
-  /// Places of an object's triangles, if all have one in the same picture.
+  /// Texture coordinates of an object's triangles, if all have them in the same image.
   void add_uvs(const Lib3mfHandle& object, std::size_t count, bool mirrored) {
     Lib3mfHandle handler;
     std::vector<NMR::MODELMESHTEXTURE2D> uvs(count);
@@ -199,7 +200,7 @@ class ThreemfReader {
     }
   }
 
-  /// To the item that was read. What is wrong with a picture costs it its texture, not its shape.
+  /// Adds the texture to the item just read. An invalid image costs it its texture, not its shape.
   void add_texture(TriangleMesh& mesh) {
     auto corners = std::exchange(uvs_, {});
     const DWORD id = std::exchange(texture_id_, 0);
@@ -236,7 +237,7 @@ class ThreemfReader {
     }
   }
 
-  /// Only if all corners have one, and the same at each vertex; transparent means none.
+  /// Only if all corners have one, and the same at each vertex; transparent counts as none.
   static void add_colors(const Lib3mfHandle& object,
                          const std::vector<NMR::MODELMESHTRIANGLE>& triangles,
                          std::size_t vertex_count, TriangleMesh& target) {

@@ -15,7 +15,7 @@ namespace turnscan::mesh_io {
 
 namespace {
 
-/// A file in memory: lib3mf goes back to complete what it wrote.
+/// A file in memory: lib3mf seeks back to complete what it wrote.
 struct Target {
   std::string bytes;
   std::size_t position = 0;
@@ -40,7 +40,7 @@ unsigned seek(unsigned long long position, Target* target) {
   return 0;
 }
 
-/// lib3mf would take random ones, and the same mesh shall give the same bytes.
+/// lib3mf would use random ones, but the same mesh must give the same bytes.
 std::string uuid(unsigned kind, std::size_t number) {
   return fmt::format("{:08x}-0000-4000-8000-{:012x}", kind, number);
 }
@@ -49,8 +49,9 @@ bool is_degenerate(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// lib3mf writes texture coordinates through streams, which take the global locale: while it lives,
-/// that one has points. Programs that leave it alone see no change.
+/// lib3mf writes texture coordinates through streams, which use the global locale: while this
+/// object lives, its decimal separator is a point. Programs that never set the locale see no
+/// change.
 class ClassicStreams {
  public:
   explicit ClassicStreams(std::span<const TriangleMesh> meshes) {
@@ -139,7 +140,7 @@ class Writer {
             object);
   }
 
-  /// A colour group; the default property, which the format wants beside it, is its first colour.
+  /// A colour group; its first colour is the default property, which the format requires.
   void add_colors(const Lib3mfHandle& object, const TriangleMesh& mesh) {
     std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> colors(triangles_.size());
     for (std::size_t i = 0; i < colors.size(); ++i)
@@ -157,8 +158,8 @@ class Writer {
             fallback);
   }
 
-  /// A picture in the package, whose origin is the lower left corner. The default property is the
-  /// place of the first corner.
+  /// An image in the package, whose origin is the lower left corner. The default property is the
+  /// texture coordinate of the first corner.
   void add_texture(const Lib3mfHandle& object, const TriangleMesh& mesh, std::size_t number) {
     const auto png = encode_color_png(mesh.texture->image);
     if (!png) throw Lib3mfFailure(png.error().message);
@@ -198,7 +199,7 @@ class Writer {
 
   Lib3mfHandle model_;
   std::vector<NMR::MODELMESHTRIANGLE> triangles_;  ///< of the mesh being added
-  std::vector<std::size_t> kept_;                  ///< their positions in it
+  std::vector<std::size_t> kept_;                  ///< their indices in it
 };
 
 }  // namespace

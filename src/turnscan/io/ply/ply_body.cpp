@@ -36,7 +36,7 @@ void store(PlyColumn::Kind kind, double value, double scale, char* target) {
   }
 }
 
-/// One column of rows of equal length.
+/// Copies one column of rows of equal length.
 template <class T, bool kSwap>
 void gather(const char* from, std::size_t row_bytes, std::uint64_t rows, const PlyColumn& column,
             PlyType type) {
@@ -53,7 +53,7 @@ void gather(const char* from, std::size_t row_bytes, std::uint64_t rows, const P
           target + i * column.stride);
 }
 
-/// Rows without lists are all equally long: read column by column.
+/// Rows without lists have equal length and are read column by column.
 template <bool kSwap>
 Result<std::size_t> read_table(std::string_view bytes, std::size_t position,
                                const PlyElement& element, const PlyWanted& wanted) {
@@ -75,7 +75,7 @@ Result<std::size_t> read_table(std::string_view bytes, std::size_t position,
   return position + element.count * row_bytes;
 }
 
-/// Walks through rows whose length is only known once they are read.
+/// Walks through rows whose length is only known after reading them.
 template <class Rows>
 class RowReader {
  public:

@@ -10,7 +10,7 @@ namespace turnscan::ply {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = std::size_t(1) << 20;
-constexpr std::size_t kMaxProperties = 1024;  // in all elements together
+constexpr std::size_t kMaxProperties = 1024;  // of all elements together
 
 struct TypeName {
   std::string_view name;
@@ -129,9 +129,9 @@ class HeaderParser {
     return {};
   }
 
-  /// The counts against the length of the file, before anything is allocated for them.
+  /// Checks the counts against the length of the file, before anything is allocated for them.
   Result<> check_elements() const {
-    // The last line of a text need not end.
+    // The last line of a text need not be terminated.
     std::uint64_t left = bytes_.size() - header_.body + (header_.format == PlyFormat::kAscii);
     for (const PlyElement& element : header_.elements) {
       if (element.count == 0) continue;

@@ -17,7 +17,7 @@ class VertexColumns {
   VertexColumns(const PlyElement& element, PlyWanted& wanted)
       : element_(element), wanted_(wanted) {}
 
-  /// Adds the properties if the file has all of them as scalars, and makes room for them.
+  /// Adds the properties if the file has all of them as scalars, and allocates memory for them.
   template <class T>
   bool add(std::vector<T>& target, Kind kind, std::initializer_list<Names> properties) {
     std::vector<int> found;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kChunkRows = 4096;
 
-/// Appends `value` in little-endian order and moves on.
+/// Appends `value` in little-endian order and advances.
 template <class T>
 void append(char*& at, T value) {
   auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
@@ -26,7 +26,7 @@ void put_vector(char*& at, const Vec3f& v) {
   append(at, v.z());
 }
 
-/// Writes n rows of at most max_row_bytes each; fill(at, i) puts row i and moves `at`.
+/// Writes n rows of at most max_row_bytes each; fill(at, i) writes row i and advances `at`.
 template <class Fill>
 Result<> write_rows(FileSink& sink, std::size_t n, std::size_t max_row_bytes, const Fill& fill) {
   std::vector<char> buffer(std::min(n, kChunkRows) * max_row_bytes);

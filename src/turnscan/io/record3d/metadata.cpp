@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 
-/// A list of lists of `width` numbers each; empty where there is none.
+/// A list of lists of `width` numbers each; empty if there is none.
 Result<std::vector<std::vector<double>>> rows_of(const text::JsonObject& root, const char* key,
                                                  std::size_t width) {
   std::vector<std::vector<double>> rows;
@@ -33,7 +33,7 @@ Result<std::vector<std::vector<double>>> rows_of(const text::JsonObject& root, c
   return rows;
 }
 
-/// The focus moves, and with it the camera: the middle of all, and by how much it varies.
+/// The focus varies, and with it the camera: takes the median of all, and their variation.
 Result<> take_cameras_of_frames(const text::JsonObject& root, Metadata& out) {
   TURNSCAN_ASSIGN(const auto rows, rows_of(root, "perFrameIntrinsicCoeffs", 4));
   if (rows.empty()) return {};
@@ -48,7 +48,7 @@ Result<> take_cameras_of_frames(const text::JsonObject& root, Metadata& out) {
   return {};
 }
 
-/// K stands column by column.
+/// K is stored column by column.
 Result<> parse_camera(const text::JsonObject& root, Metadata& out) {
   CameraIntrinsics& camera = out.camera;
   TURNSCAN_ASSIGN(camera.width, root.integer("w", 1, kMaxSide));
@@ -63,7 +63,7 @@ Result<> parse_camera(const text::JsonObject& root, Metadata& out) {
   return camera.check();
 }
 
-/// qx qy qz qw x y z. A pose of zeros is none: tracking was not on.
+/// qx qy qz qw x y z. A pose of zeros means that there was no tracking.
 Result<std::vector<std::optional<Pose>>> parse_poses(const text::JsonObject& root) {
   TURNSCAN_ASSIGN(const auto rows, rows_of(root, "poses", 7));
   std::vector<std::optional<Pose>> poses;

@@ -20,8 +20,8 @@ struct Metadata {
   int depth_width = 0, depth_height = 0;  ///< 0: not stated
   double fps = 0.0;                       ///< 0: not stated
   std::vector<double> times_s;            ///< of each frame, as stored; may be empty
-  std::vector<std::optional<Pose>>
-      poses;  ///< camera to world, in OpenGL's camera convention; may be empty
+  /// Camera to world, in OpenGL's camera convention; may be empty.
+  std::vector<std::optional<Pose>> poses;
 };
 
 /// Fails with kFormat if a field is missing or wrong.

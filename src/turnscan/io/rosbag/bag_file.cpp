@@ -8,18 +8,19 @@ namespace turnscan::rosbag {
 namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
-constexpr std::size_t kCached = 4;                               // chunks
-constexpr std::uint32_t kCachedBytes = 32U << 20;                // of each, at most
-constexpr std::uint64_t kScannedBytes = std::uint64_t(1) << 30;  // on opening, and
-constexpr std::uint64_t kScannedTimes = 16;                      // so often the file's size
-constexpr std::uint64_t kMaxByLz4 = 255;                         // times as long unpacked
-constexpr std::size_t kFirstPiece = 512;                         // most headers are shorter
+constexpr std::size_t kCached = 4;                 // chunks
+constexpr std::uint32_t kCachedBytes = 32U << 20;  // maximum for each
+// At most this many bytes, plus kScannedTimes times the file's size, are scanned on opening.
+constexpr std::uint64_t kScannedBytes = std::uint64_t(1) << 30;
+constexpr std::uint64_t kScannedTimes = 16;  // see kScannedBytes
+constexpr std::uint64_t kMaxByLz4 = 255;     // maximum expansion
+constexpr std::size_t kFirstPiece = 512;     // most headers are shorter
 
 std::uint32_t little_u32(const char* at) { return file::load<std::uint32_t, false>(at); }
 
 }  // namespace
 
-/// A record in the file: its header's bytes, and where its data are.
+/// A record in the file: its header's bytes, and the position of its data.
 struct Bag::Head {
   std::string bytes;
   std::uint64_t data_at = 0;
@@ -27,7 +28,8 @@ struct Bag::Head {
   Result<RecordHeader> fields() const { return RecordHeader::parse(bytes); }
 };
 
-/// Chunks that were unpacked last. Large ones are not kept, and only one at a time is unpacked.
+/// The most recently unpacked chunks. Large ones are not kept, and only one of them is unpacked at
+/// a time.
 struct Bag::Cache {
   std::mutex guard, one_large;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const std::string>>> chunks;
@@ -113,7 +115,7 @@ Result<> Bag::take(const Head& head, std::uint64_t& next) {
     return take_connection(head.bytes, data);
   }
   if (Op(*op) != Op::kMessage) return {};
-  // Outside of a chunk: the recorder was at one that it never closed.
+  // A message outside of a chunk: the recorder never closed the current one.
   const auto connection = fields.u32("conn");
   const auto time_ns = fields.time_ns("time");
   if (!connection || !time_ns)
@@ -133,8 +135,8 @@ Result<> Bag::take_chunk(const Head& head, std::uint64_t& next) {
   if (!size) return fail(ErrorCode::kFormat, "a chunk does not say its size");
   auto packing = packing_of(fields.text("compression"));
   if (!packing) return tl::unexpected<Error>(at_chunk(packing.error(), 0));
-  // A recorder fills the sizes in when it closes the chunk. What is in it can be read all the same
-  // where it is not packed: as records of the file.
+  // A recorder fills in the sizes when it closes the chunk. If it is not compressed, its content
+  // can still be read as records of the file.
   const bool open = head.data_bytes == 0 && *size == 0;
   if (open && *packing == Packing::kNone) return {};
   const std::uint64_t there = file_.size() - head.data_at;
@@ -158,7 +160,7 @@ Result<> Bag::take_chunk(const Head& head, std::uint64_t& next) {
   if (chunks_.size() >= kMaxMessages)
     return fail_at(path().string(), ErrorCode::kResourceLimit, "the bag has more than {} chunks",
                    kMaxMessages);
-  if (head.data_bytes > there) {  // its records can be read as far as they are whole
+  if (head.data_bytes > there) {  // its complete records can be read
     next = head.data_at;
     return {};
   }
@@ -212,8 +214,8 @@ Result<> Bag::add_message(MessagePlace place) {
   return {};
 }
 
-/// Chunks without an index are read for their messages, others where a connection is told nowhere
-/// else: of a bag that was not closed.
+/// Scans chunks without an index for messages, and others for connections that are not defined
+/// elsewhere, as in a bag that was not closed.
 Result<> Bag::look_into_chunks() {
   std::vector<char> wanted(chunks_.size(), 0);
   for (std::size_t i = 0; i < chunks_.size(); ++i)
@@ -330,7 +332,7 @@ Result<std::shared_ptr<const std::string>> Bag::unpacked(std::uint32_t chunk) co
   return out;
 }
 
-/// Straight from the file.
+/// Directly from the file.
 Result<Payload> Bag::read_plain(const MessagePlace& place, std::size_t most) const {
   const Chunk& chunk = chunks_[place.chunk];
   TURNSCAN_ASSIGN(const Head head, head_at(chunk.data_at + place.offset));

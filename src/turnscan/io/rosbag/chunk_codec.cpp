@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFirstRoom = std::size_t(16) << 20;
 
-/// Room for more, doubled each time, so that a size that is not true costs little.
+/// Grows by doubling, so that a false size costs little.
 void widen(std::string& out, std::size_t size) {
   out.resize(std::min(size, std::max(kFirstRoom, 2 * out.size())));
 }
@@ -38,7 +38,7 @@ Result<std::string> unpack_bz2(std::string_view bytes, std::size_t size) {
   int state = BZ_OK;
   while (state == BZ_OK) {
     if (made == out.size() && made < size) widen(out, size);
-    if (made == out.size()) break;  // as long as its header says
+    if (made == out.size()) break;  // reached the size in its header
     const unsigned room = static_cast<unsigned>(out.size() - made);
     stream.next_out = out.data() + made;
     stream.avail_out = room;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMaxTransforms = 10000;
 
-/// Takes one field after another. After the end everything is zero, and good() false.
+/// Reads fields sequentially. Beyond the end everything is zero, and good() is false.
 class Fields {
  public:
   explicit Fields(std::string_view bytes) : rest_(bytes) {}

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::uint64_t kFrameHeaderBytes = 64 + 4 * 8;
 constexpr std::uint64_t kMaxFrames = 4000000;
 
-/// Fields one after another.
+/// Reads fields sequentially.
 class Fields {
  public:
   explicit Fields(std::string_view bytes) : bytes_(bytes) {}
@@ -45,7 +45,7 @@ bool good_sizes(const Header& h) {
          h.color_height <= kMaxSide;
 }
 
-/// The header, and where the frames begin.
+/// The header, and the position of the first frame.
 Result<std::pair<Header, std::uint64_t>> read_header(const file::RandomAccessFile& file) {
   TURNSCAN_ASSIGN(const std::string begin, file.read(0, std::uint64_t(12)));
   const auto version = value_at<std::uint32_t>(begin, 0);

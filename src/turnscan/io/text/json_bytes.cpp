@@ -7,7 +7,7 @@ namespace turnscan::text {
 
 namespace {
 
-/// The closing quote of the string that begins at `open`, or the text's end.
+/// The closing quote of the string that begins at `open`, or the end of the text.
 std::size_t end_of_string(std::string_view text, std::size_t open) {
   std::size_t i = open + 1;
   while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
@@ -16,7 +16,7 @@ std::size_t end_of_string(std::string_view text, std::size_t open) {
 
 bool is_white(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// Walks down into a valid JSON text.
+/// Descends into a valid JSON text.
 class JsonWalk {
  public:
   explicit JsonWalk(std::string_view text) : text_(text) {
@@ -26,8 +26,8 @@ class JsonWalk {
 
   std::size_t at() const { return at_; }
 
-  /// From the beginning of a list or an object to that of one of its values; false, and no step,
-  /// where there is none.
+  /// Steps from the beginning of a list or an object to that of one of its values; false, without a
+  /// step, if it does not exist.
   bool enter_member(std::string_view key) {
     return enter('{', [&](std::size_t) {
       const std::size_t open = at_;
@@ -44,7 +44,7 @@ class JsonWalk {
   }
 
  private:
-  /// is_wanted(i): goes to the i-th value and tells whether it is the one.
+  /// is_wanted(i): advances to the i-th value and returns whether it is the one.
   template <class IsWanted>
   bool enter(char open, const IsWanted& is_wanted) {
     const std::size_t begin = at_;
@@ -93,7 +93,7 @@ class MemberScan {
     std::size_t begin = 0, end = 0;
   };
   std::optional<Span> value() const { return value_; }  ///< of the last member with the key
-  std::size_t last_end() const { return last_end_; }    ///< behind the last member, or the brace
+  std::size_t last_end() const { return last_end_; }    ///< after the last member, or the brace
   bool empty() const { return empty_; }
 
  private:
@@ -129,7 +129,7 @@ class MemberScan {
 
   std::string_view text_, key_, name_;
   int depth_ = 0;
-  std::optional<std::size_t> begin_;  ///< of the value of the member that is being walked over
+  std::optional<std::size_t> begin_;  ///< of the value of the current member
   std::optional<Span> value_;
   std::size_t last_end_ = 0;
   bool empty_ = true;
@@ -153,7 +153,7 @@ Result<> check_json_depth(std::string_view text) {
 
 std::string line_and_column(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
-  const std::size_t begin = before.rfind('\n') + 1;  // 0 where there is none
+  const std::size_t begin = before.rfind('\n') + 1;  // 0 if there is none
   const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
   return fmt::format(
       "line {}, column {}", 1 + std::count(before.begin(), before.end(), '\n'),

@@ -43,7 +43,7 @@ Result<Pose> pose_from_json(const Json& value, const JsonPlace& place) {
   return pose;
 }
 
-/// Where the word, number or string begins whose last byte is at `last`.
+/// Beginning of the word, number or string whose last byte is at `last`.
 std::size_t begin_of_token(std::string_view text, std::size_t last) {
   std::size_t i = std::min(last, text.size());
   if (i == text.size() || i == 0) return i;
@@ -56,7 +56,7 @@ std::size_t begin_of_token(std::string_view text, std::size_t last) {
   return i;
 }
 
-/// What the parser says of a text that is no JSON, with the place in front.
+/// The parser's error message for a text that is not JSON, preceded by the position.
 std::string syntax_error_of(std::string_view text) {
   try {
     const Json ignored = Json::parse(text.begin(), text.end());
@@ -111,7 +111,7 @@ void write(const OrderedJson& value, const std::string& indent, std::string& out
 
 Result<Json> parse_json(std::string_view text) {
   TURNSCAN_TRY(check_json_depth(text));
-  // The parser takes a zero byte for the end, and leaves what follows it unread.
+  // The parser treats a zero byte as the end, and does not read what follows.
   if (text.find('\0') != std::string_view::npos)
     return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
   Json value = Json::parse(text.begin(), text.end(), nullptr, false);

@@ -7,7 +7,7 @@ namespace turnscan::text {
 
 namespace {
 
-/// Where the line "name: ..." begins; npos: nowhere.
+/// Beginning of the line "name: ..."; npos: there is none.
 std::size_t line_of(std::string_view text, std::string_view name) {
   const std::string key = fmt::format("{}:", name);
   for (auto at = text.find(key); at != text.npos; at = text.find(key, at + 1)) {
@@ -31,7 +31,7 @@ Result<std::vector<double>> opencv_matrix(std::string_view text, std::string_vie
   const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
   if (count < least || count > most)
     return fail(ErrorCode::kFormat, "the matrix {} has {} numbers, not {}", name, count, least);
-  // OpenCV writes whole numbers with a point and nothing behind it.
+  // OpenCV writes integers with a trailing point.
   std::string clean;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     clean += numbers[i];

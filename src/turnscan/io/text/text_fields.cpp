@@ -7,10 +7,10 @@ namespace turnscan::text {
 
 namespace {
 
-constexpr std::size_t kMaxFields = 1000;  // of a line, so that a line of commas takes no memory
+constexpr std::size_t kMaxFields = 1000;  // per line, which limits the memory for a line of commas
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
-/// Takes one field off the front of rest, and the comma after it.
+/// Removes one field from the front of rest, and the comma after it.
 Result<std::string> take_field(std::string_view& rest) {
   std::string field;
   const std::size_t begin = std::min(rest.find_first_not_of(" \t"), rest.size());

@@ -16,7 +16,7 @@ constexpr std::size_t kLongestLine = 4096;
 constexpr int kMaxDots = 32;
 constexpr int kDeepest = 32;
 
-/// What the library parses by recursion, or in a time that grows with the square of a key's length.
+/// Rejects what the library parses recursively, or in a time quadratic in a key's length.
 std::string excess_of(std::string_view line, int& depth) {
   if (line.size() > kLongestLine) return fmt::format("has more than {} bytes", kLongestLine);
   int dots = 0;
@@ -24,7 +24,7 @@ std::string excess_of(std::string_view line, int& depth) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (quote == '"' && c == '\\') {
-      ++i;  // what is escaped ends no text
+      ++i;  // an escaped character does not end a text
       continue;
     }
     if (quote == '\0' && (c == '"' || c == '\'')) {

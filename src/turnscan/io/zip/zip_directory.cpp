@@ -15,8 +15,8 @@ struct ListPlace {
   std::uint64_t at = 0, size = 0;
 };
 
-/// Replaces the 64-bit fields that the extra field of a header gives for those that are all ones.
-/// fields: in the order of the format. False when one is missing.
+/// Replaces those 64-bit fields that are all ones by the values in the extra field of a header.
+/// fields: in the order of the format. False if one is missing.
 bool take_zip64(std::string_view extra, std::initializer_list<std::uint64_t*> fields) {
   std::size_t wanted = 0;
   for (const std::uint64_t* field : fields) wanted += *field == 0xffffffff ? 1 : 0;
@@ -40,7 +40,7 @@ bool take_zip64(std::string_view extra, std::initializer_list<std::uint64_t*> fi
   return false;
 }
 
-/// From the record at the end, or from its 64-bit twin before it.
+/// From the end record, or from its 64-bit counterpart before it.
 std::optional<ListPlace> find_list(const file::RandomAccessFile& file) {
   const std::uint64_t tail_size = std::min<std::uint64_t>(file.size(), kEndBytes + kMaxComment);
   const std::uint64_t tail_at = file.size() - tail_size;
@@ -53,7 +53,7 @@ std::optional<ListPlace> find_list(const file::RandomAccessFile& file) {
       return place;
     if (tail_at + at < 20) return std::nullopt;
     const auto locator = file.read(tail_at + at - 20, std::uint64_t(20));
-    // Ones may also be meant as they stand.
+    // All ones may also be the literal value.
     if (!locator || word_at(*locator, 0) != kEnd64Locator) return place;
     const auto end = file.read(number_at(*locator, 8, 8), std::uint64_t(56));
     if (!end || word_at(*end, 0) != kEnd64) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<ListPlace> find_list(const file::RandomAccessFile& file) {
   return std::nullopt;
 }
 
-/// Nothing when the list is damaged.
+/// nullopt if the central directory is damaged.
 std::optional<std::vector<NamedEntry>> parse_list(std::string_view list, std::uint64_t file_size) {
   std::vector<NamedEntry> entries;
   while (!list.empty()) {
@@ -87,8 +87,8 @@ std::optional<std::vector<NamedEntry>> parse_list(std::string_view list, std::ui
   return entries;
 }
 
-/// The entries whose local headers follow each other from the beginning, as far as they are whole.
-/// Those whose sizes stand behind their data cannot be passed over and end the search.
+/// The complete entries whose local headers follow each other from the beginning. An entry whose
+/// sizes are stored after its data cannot be skipped and ends the search.
 Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file) {
   std::vector<NamedEntry> entries;
   std::uint64_t at = 0;

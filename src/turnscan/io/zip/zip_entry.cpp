@@ -31,7 +31,8 @@ Result<std::string> inflate(const file::RandomAccessFile& file, const Entry& ent
   return out;
 }
 
-/// Where the entry's data begin: its local header may differ in length from the list's.
+/// Beginning of the entry's data: its local header may differ in length from that in the central
+/// directory.
 Result<std::uint64_t> data_at(const file::RandomAccessFile& file, const Entry& entry) {
   TURNSCAN_ASSIGN(const std::string header,
                   file.read(entry.header_at, std::uint64_t(kLocalHeaderBytes)));
