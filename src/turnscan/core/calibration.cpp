@@ -11,7 +11,7 @@ bool same_size(const CameraIntrinsics& a, const CameraIntrinsics& b) {
   return a.width == b.width && a.height == b.height;
 }
 
-/// Header and sensors as the calibration has them.
+/// Applies the calibration to header and sensors.
 Result<> correct_header(const Calibration& calibration, SequenceHeader& header) {
   if (header.sensors.empty()) return {};
   header.sensors[0].T_table_sensor.reset();

@@ -23,10 +23,10 @@ Eigen::Vector2d distorted_point(const Distortion& d, double x, double y) {
   return {x, y};
 }
 
-/// The radial factor of the rational model and its derivative, by s = r^2.
+/// The radial factor of the rational model and its derivative with respect to s = r^2.
 struct RadialFactor {
   double value, slope, denominator;
-  /// Derivative of the distorted radius r * value by r.
+  /// Derivative of the distorted radius r * value with respect to r.
   double growth(double s) const { return value + 2.0 * s * slope; }
   bool covers(double s) const { return denominator > 0.0 && value > 0.0 && growth(s) > 0.0; }
 };
@@ -39,13 +39,13 @@ RadialFactor radial_factor(const Distortion& d, double s) {
   return {a / b, (da * b - a * db) / (b * b), b};
 }
 
-/// Radii between which the distorted radius grows to a value.
+/// Interval of radii in which the distorted radius reaches a value.
 struct RadiusBracket {
   double low, high;
-  bool reached;  ///< false: it does not grow so far; low is where the model ends
+  bool reached;  ///< false: it does not grow that far; low is where the model ends
 };
 
-/// Marches outwards until the distorted radius is reached or ceases to grow.
+/// Steps outwards until the distorted radius is reached or stops growing.
 RadiusBracket bracket(const Distortion& d, double distorted) {
   constexpr int kSteps = 100;
   const auto covered = [&](double r) { return radial_factor(d, r * r).covers(r * r); };
@@ -67,7 +67,7 @@ RadiusBracket bracket(const Distortion& d, double distorted) {
   return {kMaxSlope, kMaxSlope, false};
 }
 
-/// The radius of which r * factor is `distorted`, by Newton's method between the two.
+/// The radius for which r * factor is `distorted`, by Newton's method between the two bounds.
 double undistorted_radius(const Distortion& d, double distorted, double low, double high) {
   double r = 0.5 * (low + high);
   for (int i = 0; i < kMaxUndistortSteps; ++i) {
@@ -81,7 +81,7 @@ double undistorted_radius(const Distortion& d, double distorted, double low, dou
   return r;
 }
 
-/// The derivative of the distorted point by the point.
+/// The derivative of the distorted point with respect to the point.
 Eigen::Matrix2d distortion_jacobian(const Distortion& d, double x, double y) {
   const RadialFactor factor = radial_factor(d, x * x + y * y);
   const double p1 = d[2], p2 = d[3], across = 2.0 * (x * y * factor.slope + p1 * x + p2 * y);
@@ -93,8 +93,8 @@ Eigen::Matrix2d distortion_jacobian(const Distortion& d, double x, double y) {
 
 Vec3d not_covered() { return Vec3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
-/// The ray of a rational lens through the distorted point at z = 1: first as if it were radial
-/// only.
+/// The ray of a rational lens through the distorted point at z = 1; starts with purely radial
+/// distortion.
 Vec3d rational_ray(const Distortion& d, double xd, double yd) {
   constexpr int kSteps = 30;
   const double distorted = std::hypot(xd, yd);
@@ -156,7 +156,7 @@ Vec3d CameraIntrinsics::ray(double u, double v) const {
   const double xd = (u - cx) / fx, yd = (v - cy) / fy;
   if (!distorted()) return {xd, yd, 1.0};
   if (rational()) return rational_ray(distortion, xd, yd);
-  // Converges where the distortion is monotone; strong distortion makes it slow, not wrong.
+  // Converges if the distortion is monotone; strong distortion makes it slow, not wrong.
   double x = xd, y = yd, squared_error = 1.0;
   for (int i = 0; i < kMaxUndistortSteps && squared_error > 1e-20; ++i) {
     const Eigen::Vector2d error = distorted_point(distortion, x, y) - Eigen::Vector2d(xd, yd);

@@ -32,8 +32,8 @@ bool share_face(int edge_a, int edge_b) {
   return false;
 }
 
-/// For each edge that is crossed, the next one along the surface's border in the cube, else -1. On
-/// each face, every run of corners inside is cut off by its own line.
+/// For each crossed edge, the next one along the surface's border in the cube, else -1. On each
+/// face, every run of inside corners is separated by its own line.
 std::array<int, kCubeEdges> successors(unsigned inside) {
   std::array<int, kCubeEdges> next;
   next.fill(-1);
@@ -51,8 +51,8 @@ std::array<int, kCubeEdges> successors(unsigned inside) {
 
 using Triangles = std::vector<CubeTriangle>;
 
-/// Whether the fan of `loop` about its vertex `apex` has no diagonal on a face of the cube, where
-/// the neighbour might draw the same one.
+/// Whether the fan of `loop` around its vertex `apex` has no diagonal on a face of the cube, where
+/// the neighbour might have the same diagonal.
 bool fan_is_safe(const std::vector<int>& loop, std::size_t apex) {
   const std::size_t n = loop.size();
   for (std::size_t k = 2; k + 1 < n; ++k)
@@ -60,7 +60,7 @@ bool fan_is_safe(const std::vector<int>& loop, std::size_t apex) {
   return true;
 }
 
-/// Each of the 256 cases has such a fan for each of its loops (the tests look).
+/// Each of the 256 cases has such a fan for each of its loops (verified by the tests).
 void add_loop(const std::vector<int>& loop, Triangles& out) {
   const std::size_t n = loop.size();
   std::size_t apex = 0;

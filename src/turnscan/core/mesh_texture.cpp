@@ -8,7 +8,7 @@ namespace turnscan {
 
 namespace {
 
-/// Everything of a vertex, bit by bit; -0 equals 0.
+/// All attributes of a vertex, bitwise; -0 equals 0.
 struct VertexKey {
   std::array<std::uint32_t, 7> words{};
   bool operator==(const VertexKey&) const = default;
@@ -39,7 +39,7 @@ VertexKey key_of(const TriangleMesh& mesh, std::uint32_t v) {
   return key;
 }
 
-/// New vertices, named by the vertices of another mesh.
+/// Copies vertices, given by their indices in another mesh.
 void take_vertices(const TriangleMesh& from, const std::vector<std::uint32_t>& names,
                    TriangleMesh& to) {
   to.vertices.clear();
@@ -53,7 +53,8 @@ void take_vertices(const TriangleMesh& from, const std::vector<std::uint32_t>& n
 }
 
 int wrapped(int i, int n) {
-  if (i >= 0 && i < n) return i;  // nearly always, and a division takes longer than all else here
+  // Almost always, and a division takes longer than everything else here.
+  if (i >= 0 && i < n) return i;
   i %= n;
   return i < 0 ? i + n : i;
 }
@@ -67,7 +68,7 @@ bool has_texture(const TriangleMesh& mesh) {
 
 Vec3f texture_at(const ColorImage& image, const Eigen::Vector2f& uv) {
   const float u = uv.x() - std::floor(uv.x()), v = uv.y() - std::floor(uv.y());
-  // The right and lower edges are places of their own, not those of the left and upper ones.
+  // The right and lower edges are distinct positions; they do not wrap to the left and upper ones.
   const float x = (uv.x() == 1.0f ? 1.0f : u) * float(image.width) - 0.5f;
   const float y = (uv.y() == 1.0f ? 1.0f : v) * float(image.height) - 0.5f;
   const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
@@ -90,7 +91,7 @@ SplitMesh split_at_seams(const TriangleMesh& mesh) {
   SplitMesh out;
   out.mesh.name = mesh.name;
   std::vector<std::uint32_t> names;
-  // Of each vertex the new ones, chained.
+  // For each vertex a chain of its new copies.
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::vector<std::uint32_t> first(mesh.vertices.size(), kNone), next;
   out.mesh.triangles.reserve(mesh.triangles.size());

@@ -24,7 +24,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> near_name(std::string_view name, const std::vector<std::string>& names) {
   std::optional<std::string> nearest;
-  // A third of the letters: "fps" is no mistake for "pass".
+  // A third of the letters: "fps" is not a misspelling of "pass".
   std::size_t least = name.size() / 3 + 1;
   for (const std::string& other : names) {
     const bool begins_so = name.size() >= 3 && other.starts_with(name);

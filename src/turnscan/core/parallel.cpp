@@ -67,8 +67,8 @@ namespace turnscan {
 void set_thread_count(int count) {
   using oneapi::tbb::global_control;
   static std::mutex mutex;
-  // Never destroyed: after TBB has failed to allocate within a lock of its own, its destructor
-  // waits for that lock for ever, and the process would not end.
+  // Never destroyed: after TBB has failed to allocate while holding one of its locks, its
+  // destructor would wait for that lock forever, and the process would not end.
   static auto& control = *new std::unique_ptr<global_control>;
   std::lock_guard lock(mutex);
   control.reset();

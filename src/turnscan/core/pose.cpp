@@ -41,7 +41,7 @@ Result<Pose> pose_from(const Eigen::Matrix4d& matrix) {
   Pose pose = Pose::Identity();
   pose.linear() = r;
   pose.translation() = matrix.topRightCorner<3, 1>();
-  // What is a rotation stays so to the last bit: a pose that was written reads back as it was.
+  // A valid rotation is not changed at all: a pose that was written is read back identically.
   if (error < 1e-14) return pose;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   pose.linear() = svd.matrixU() * svd.matrixV().transpose();

@@ -8,8 +8,8 @@ namespace turnscan {
 
 namespace {
 
-/// A unit vector across two opposite ones: the last column of the Q of their QR decomposition with
-/// pivoting, to the last bit as Eigen::ColPivHouseholderQR has it.
+/// A unit vector perpendicular to two opposite ones: the last column of the Q of their QR
+/// decomposition with pivoting, bitwise identical to Eigen::ColPivHouseholderQR.
 Vec3d across(const Vec3d& a, const Vec3d& b) {
   Eigen::Matrix<double, 3, 2> both;
   both << a, b;

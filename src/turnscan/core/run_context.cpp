@@ -16,7 +16,7 @@ struct RunContext::State {
   std::atomic<std::uint64_t> done{0};
   std::atomic<std::uint64_t> total{0};
   std::atomic<Clock::rep> next_report{0};
-  std::mutex mutex;  // guards what follows
+  std::mutex mutex;  // guards the following members
   std::string phase;
   int phase_number = 0;
   Listener listener;

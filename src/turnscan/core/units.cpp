@@ -55,10 +55,10 @@ std::string_view trimmed(std::string_view text) {
 
 struct Split {
   double value;
-  std::string_view rest;  // what follows the number, trimmed
+  std::string_view rest;  // the text after the number, trimmed
 };
 
-// from_chars takes no leading plus sign, people write one.
+// from_chars accepts no leading plus sign, but users write one.
 std::optional<Split> split_number(std::string_view text) {
   std::string_view t = trimmed(text);
   if (t.starts_with('+') && !t.starts_with("+-")) t.remove_prefix(1);
@@ -109,7 +109,7 @@ std::string format_quantity(double value_si, Quantity quantity) {
     case Quantity::kNone:
       break;
   }
-  // People count in digits; from a million on the shortest form would have an exponent.
+  // Integers are written without an exponent; the shortest form would have one from a million on.
   const bool whole = std::abs(value_si) < 1e12 && value_si == std::floor(value_si);
   return whole ? fmt::format("{:.0f}", value_si) : fmt::format("{:.6g}", value_si);
 }

@@ -11,7 +11,7 @@ namespace {
 
 namespace chrono = std::chrono;
 
-/// Digits from a position on; -1 where there is something else.
+/// Parses digits from a position on; -1 if there are other characters.
 int number_at(std::string_view text, std::size_t at, std::size_t digits) {
   int value = 0;
   for (std::size_t i = at; i < at + digits; ++i) {
@@ -21,7 +21,7 @@ int number_at(std::string_view text, std::size_t at, std::size_t digits) {
   return value;
 }
 
-/// Of what follows the seconds: nothing, or a point and digits, then Z.
+/// Checks the text after the seconds: nothing, or a point and digits, then Z.
 bool ends_well(std::string_view rest) {
   if (rest.empty() || rest.back() != 'Z') return false;
   rest.remove_suffix(1);
@@ -80,7 +80,7 @@ std::optional<std::int64_t> utc_seconds(std::string_view text) {
 std::string duration_text(double seconds) {
   for (const Unit& unit : kUnits) {
     const double count = std::round(seconds / unit.seconds);
-    // Two of a smaller unit say more than one of a larger.
+    // Two of a smaller unit are more precise than one of a larger.
     if (count >= 2.0 || unit.seconds == 1.0)
       return fmt::format("{:.0f} {}{}", count, unit.name, count == 1.0 ? "" : "s");
   }

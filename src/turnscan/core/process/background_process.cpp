@@ -19,9 +19,9 @@ namespace turnscan::process {
 
 namespace {
 
-constexpr int kCannotStart = 127;  // as shells say it
+constexpr int kCannotStart = 127;  // the shells' convention
 
-/// In the child, between fork and exec: nothing that takes a lock or memory.
+/// In the child, between fork and exec: must not take locks or allocate memory.
 [[noreturn]] void become(char* const* words, const char* log, const char* folder, pid_t parent) {
   ::setpgid(0, 0);
   (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -100,7 +100,7 @@ std::optional<ProcessEnd> BackgroundProcess::poll() {
 
 void BackgroundProcess::stop(bool now) const {
   if (child_ < 0) return;
-  // SIGTERM to the program alone, which ends its own children in order.
+  // SIGTERM only to the program, which terminates its own children in order.
   if (now) ::kill(-child_, SIGKILL);
   ::kill(child_, now ? SIGKILL : SIGTERM);
 }

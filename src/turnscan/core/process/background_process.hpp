@@ -15,8 +15,8 @@ namespace turnscan::process {
 struct ProcessEnd {
   int exit_code = -1;  ///< -1 if a signal ended it
   int signal = 0;
-  std::uint64_t peak_bytes =
-      0;  ///< largest resident set of the program or of a child that it waited for
+  /// Largest resident set of the program or of a child that it waited for.
+  std::uint64_t peak_bytes = 0;
   double cpu_seconds = 0.0;  ///< including the children that it waited for
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A file in memory: it never blocks the child as a pipe would.
+/// A file in memory: unlike a pipe, it never blocks the child.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : descriptor_(::memfd_create(name, MFD_CLOEXEC)) {}
@@ -32,7 +32,7 @@ class MemoryFile {
 
   int descriptor() const { return descriptor_; }
 
-  /// Once: gives the file its content, to be read from the start.
+  /// Sets the content of the file, to be read from the start. Call once.
   bool fill(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
@@ -63,8 +63,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// What posix_spawn shall do in the child: a group of its own, so that Ctrl-C in the terminal
-/// reaches only us, and no signal blocked or ignored.
+/// Settings of posix_spawn for the child: its own process group, so that Ctrl-C in the terminal
+/// reaches only this process, and no blocked or ignored signals.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output, int errors) {
@@ -112,7 +112,7 @@ void kill_and_reap(pid_t child) {
   }
 }
 
-/// The status of waitpid once the child has ended by itself.
+/// The status from waitpid once the child has ended by itself.
 Result<int> wait_for(pid_t child, const std::filesystem::path& program, double seconds,
                      const RunContext& ctx) {
   const auto start = Clock::now();
@@ -142,7 +142,7 @@ Result<int> wait_for(pid_t child, const std::filesystem::path& program, double s
 Result<ChildResult> run_child(const std::filesystem::path& program,
                               std::span<const std::string> arguments, double seconds,
                               const RunContext& ctx, std::string_view input_bytes) {
-  // A short program may end before it is first looked at.
+  // A short program may end before the first poll.
   TURNSCAN_TRY(ctx.check());
   MemoryFile input("input");
   if (!input.fill(input_bytes))

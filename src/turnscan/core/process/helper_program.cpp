@@ -27,7 +27,7 @@ constexpr bool kSanitized = false;
 constexpr bool kSanitized = false;
 #endif
 
-/// Fails where there is one that may not be run, or where that cannot be told.
+/// Fails if there is one that cannot be executed, or if that cannot be determined.
 Result<bool> is_program(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -40,7 +40,7 @@ Result<bool> is_program(const fs::path& path) {
                  std::generic_category().message(errno));
 }
 
-/// The program in the first of the folders that has it. Fails when it is not to be trusted there.
+/// The program in the first of the folders that has it. Fails if it is not trusted there.
 Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
                                         const std::string& name) {
   for (const fs::path& folder : folders) {
@@ -52,7 +52,7 @@ Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
   return std::optional<fs::path>();
 }
 
-/// hard: where the process is killed outright, and nobody learns what for.
+/// hard: limit at which the process is killed outright, without any message.
 void limit(int resource, rlim_t value, rlim_t hard) {
   const rlimit both{value, hard};
   (void)::setrlimit(static_cast<__rlimit_resource_t>(resource), &both);

@@ -19,7 +19,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
   return rest == folder.end();
 }
 
-/// A group that is the user's alone, as Debian and Fedora make one for each user.
+/// A private group of the user, as Debian and Fedora create for each user.
 bool is_private_group(gid_t group) {
   const passwd* user = ::getpwuid(::geteuid());
   return user != nullptr && user->pw_gid == group && group == ::geteuid();
@@ -69,8 +69,8 @@ Result<> check_trusted(const fs::path& path) {
   if (error)
     return fail_at(path.string(), ErrorCode::kNotFound, "it cannot be found ({}); check the path",
                    error.message());
-  // Who can write to a folder above the program could replace the program itself: a checkout that
-  // is another user's is no danger beyond that.
+  // Whoever can write to a folder above the program could replace the program itself: a checkout
+  // owned by another user adds no further risk.
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   for (; !is_inside(program, at); at = at.parent_path()) {
     struct stat status {};

@@ -12,7 +12,7 @@ namespace turnscan::process {
 
 void lower_thread_priority() {
 #ifdef __linux__
-  // Linux keeps a niceness for each thread, where POSIX has one for the process; 0 is the caller.
+  // Linux keeps a niceness per thread, where POSIX has one per process; 0 is the caller.
   constexpr int kNiceness = 5;
   if (::getpriority(PRIO_PROCESS, 0) < kNiceness) ::setpriority(PRIO_PROCESS, 0, kNiceness);
 #endif
@@ -28,7 +28,7 @@ void lower_worker_priority() {
       lowered = lowered || is_worker;
     }
   };
-  // Never destroyed: workers may outlive the static objects.
+  // Never destroyed: workers may outlive static objects.
   alignas(Lower) static std::byte storage[sizeof(Lower)];
   static const Lower* const lower = new (storage) Lower;
   static_cast<void>(lower);
