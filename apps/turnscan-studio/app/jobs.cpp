@@ -8,7 +8,7 @@ namespace turnscan::studio {
 
 struct JobRunner::Job {
   QString title;
-  QPointer<QObject> owner;  // read on the thread of the window only
+  QPointer<QObject> owner;  // accessed on the window's thread only
   Work work;
   OnError on_error;
   PhasePlan plan;
@@ -17,7 +17,7 @@ struct JobRunner::Job {
 
 JobRunner::JobRunner(QObject* parent)
     : QObject(parent), thread_([this] {
-        process::lower_thread_priority();  // the window answers, whatever a job takes
+        process::lower_thread_priority();  // keeps the window responsive, whatever a job uses
         run();
       }) {}
 
@@ -79,11 +79,11 @@ void JobRunner::run_job(const std::shared_ptr<Job>& job) {
     try {
       result = job->work(job->context);
     } catch (const std::exception& failure) {
-      // Memory may run out, and a file may ask for what nobody foresaw; the window lives on.
+      // Memory may run out, and files may cause unforeseen exceptions; the window must survive.
       result = fail(ErrorCode::kLibrary, "{}", failure.what());
     }
   }
-  // The work may hold much memory, which must not be released on the thread of the window.
+  // The work may hold much memory, which must not be released on the window's thread.
   job->work = nullptr;
   auto shared = std::make_shared<Result<Finish>>(std::move(result));
   QMetaObject::invokeMethod(
@@ -124,7 +124,7 @@ void JobRunner::watch(Job& job) {
 
 void JobRunner::end(const std::shared_ptr<Job>& job, Result<Finish> result) {
   --open_jobs_;
-  // Before the error itself, which may go to the same line.
+  // Emitted before the error itself, which may be shown in the same line.
   if (!result && result.error().code == ErrorCode::kCancelled) {
     Q_EMIT cancelled(job->title);
   } else if (!result) {

@@ -55,7 +55,7 @@ void install_language(QCoreApplication& app, const QString& code) {
       delete translator;
     }
   };
-  // Qt's own dialogs, where its translations are installed.
+  // Translates Qt's own dialogs, if its translations are installed.
   auto* qt = new QTranslator(&app);
   install(qt, qt->load("qtbase_" + code, QLibraryInfo::location(QLibraryInfo::TranslationsPath)));
   auto* own = new QTranslator(&app);

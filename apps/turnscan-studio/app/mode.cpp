@@ -56,7 +56,7 @@ void Mode::set_footer(std::initializer_list<QWidget*> parts) {
 }
 
 void Mode::reveal(QWidget* part) {
-  // Once the layout has made room for it.
+  // After the layout has made room for it.
   QTimer::singleShot(0, part, [this, part] { area_->ensureWidgetVisible(part, 0, 24); });
 }
 

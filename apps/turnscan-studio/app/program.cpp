@@ -8,7 +8,8 @@
 #include <clocale>
 #include <turnscan/core/process/thread_priority.hpp>
 
-/// Of a static library, resources are only there when somebody asks for them, in no namespace.
+/// The resources of a static library are only linked if they are requested, outside of any
+/// namespace.
 static void load_resources() {
   Q_INIT_RESOURCE(studio);
 #ifdef TURNSCAN_STUDIO_TRANSLATED
@@ -32,7 +33,7 @@ void prepare_application() {
 void name_application() {
   QCoreApplication::setOrganizationName("turnscan");
   QCoreApplication::setApplicationName("studio");
-  // Numbers are written and read the same way everywhere.
+  // Numbers are written and read independently of the locale.
   std::setlocale(LC_NUMERIC, "C");
 }
 

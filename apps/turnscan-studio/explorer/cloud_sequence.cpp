@@ -7,7 +7,7 @@ namespace turnscan::studio {
 
 namespace {
 
-/// Towards the 26 neighbours of a cell.
+/// Directions to the 26 neighbours of a cell.
 std::vector<Viewpoint> directions() {
   std::vector<Viewpoint> out;
   for (int z = -1; z <= 1; ++z)

@@ -20,7 +20,7 @@ namespace turnscan::studio {
 
 namespace {
 
-/// Cells of a row of a table, the first to the left, the others to the right.
+/// Cells of a table row, the first left-aligned, the others right-aligned.
 QString row_of(const QStringList& cells, const QString& tag) {
   QString row = "<tr>";
   for (int i = 0; i < cells.size(); ++i)
@@ -36,7 +36,7 @@ QString errors_of(const QString& name, const ErrorStatistics& e) {
   return row_of({name, mm(e.mean), mm(e.median), mm(e.p95), mm(e.max)}, "td");
 }
 
-/// The figures of `turnscan evaluate`, as narrow as the panel.
+/// The results of `turnscan evaluate`, fitted to the width of the panel.
 QString html_of(const Evaluation& e) {
   const auto percent = [](double share) { return QString("%1 %").arg(100.0 * share, 0, 'f', 2); };
   QString html = "<table cellspacing='0'>";
@@ -169,10 +169,10 @@ void ComparePanel::fill() {
     box->setCurrentIndex(at >= 0 ? at : otherwise);
   };
   choose_id(reference_, reference, 0);
-  // The newest, until something else is chosen.
+  // The newest, until another one is selected.
   const bool chosen = compared != reference;
   choose_id(compared_, chosen ? compared : 0, compared_->count() - 1);
-  // A model that comes is to be seen, and a pair of which one has gone is none.
+  // A new model should be visible, and a pair ends when one of its models is removed.
   const bool more =
       std::any_of(now.begin(), now.end(), [this](int id) { return known_.count(id) == 0; });
   const bool fewer = now.count(reference) == 0 || now.count(compared) == 0;
@@ -181,7 +181,7 @@ void ComparePanel::fill() {
   enable();
 }
 
-/// Only what would work can be pressed, and a note says why not, or what to look at.
+/// Enables only buttons that would work; a note gives the reason, or what to look at.
 void ComparePanel::enable() {
   const Model* left = store_.find(reference());
   const Model* right = store_.find(compared());

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBins = 48;
 constexpr std::size_t kHistogramSamples = 60000;
 
-/// Area-uniform points of a mesh, or the points of a cloud, thinned.
+/// Area-uniform samples of a mesh, or the points of a cloud, thinned.
 Result<std::vector<Vec3f>> probe(const ModelData& data, const RunContext& context) {
   if (data.kind == ModelKind::kMesh) {
     TURNSCAN_ASSIGN(SurfaceSamples samples,

@@ -123,7 +123,7 @@ void ExplorerMode::connect_panels() {
   connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
   connect(compare_, &ComparePanel::changed, this, &ExplorerMode::sync);
   connect(compare_, &ComparePanel::distance_wanted, this, &ExplorerMode::run_comparison);
-  // Colours that were chosen under the verdict come back when those of the deviations go.
+  // Colours selected in the verdict panel are restored when those of the deviations are removed.
   connect(deviations_, &DeviationPanel::changed, this, &ExplorerMode::color_selected);
   connect(deviations_, &DeviationPanel::said, this, &Mode::status);
   connect(measure_, &MeasurePanel::said, this, &Mode::status);
@@ -146,7 +146,7 @@ void ExplorerMode::connect_panels() {
 }
 
 ExplorerMode::~ExplorerMode() {
-  delete session_;  // before the store that it looks at
+  delete session_;  // before the store that it uses
 }
 
 void ExplorerMode::shut_down() { stages_->store(); }
@@ -224,13 +224,13 @@ std::pair<const Model*, const Model*> ExplorerMode::side_by_side() const {
   return {store_->find(compare_->reference()), store_->find(compare_->compared())};
 }
 
-/// In its own colours, or in those of its deviations.
+/// In its own colours, or coloured by its deviations.
 DrawablePtr ExplorerMode::drawable_of(const Model& model) const {
   const DrawablePtr colored = deviations_->drawable_of(model);
   return colored ? colored : model.data->drawable;
 }
 
-/// The selected mesh in the colours that were chosen for it lies in its own place.
+/// The coloured version of the selected mesh replaces it in place.
 void ExplorerMode::draw_colored() {
   const Model* model = store_->find(list_->selected());
   const bool wanted =
@@ -291,13 +291,13 @@ ItemStyle ExplorerMode::style_of(const Model& model) const {
   const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
   style.visible = left || right;
   style.pane = right && !left ? 1 : 0;
-  // A smaller one within it is seen through it.
+  // A smaller model inside it is visible through it.
   if (compare_->way() == ComparePanel::kOverlay && model.id == compare_->enclosing())
     style.opacity = std::min(style.opacity, 0.35);
   return style;
 }
 
-/// Over the selected mesh, while that is shown.
+/// Drawn over the selected mesh, while that is visible.
 void ExplorerMode::draw_missing() {
   const Model* model = store_->find(list_->selected());
   const bool wanted = model && model->data->missing && model->data->missing->drawable &&

@@ -1,4 +1,4 @@
-// What the Explorer starts on the worker's thread: loading, stages, comparison, edits, saving.
+// Jobs that the Explorer runs on the worker thread: loading, stages, comparison, edits, saving.
 
 #include <QFileInfo>
 #include <turnscan/evaluation/colormap.hpp>
@@ -74,12 +74,12 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then,
           if (then) then();
         });
       },
-      // Of several files each that is bad is named.
+      // If several files are loaded, each bad one is named.
       [this](const QString& text) { stages_->add_error(text); });
 }
 
 void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
-  // All recordings lie on the same table: what was made before would stand in the new object.
+  // All recordings are on the same table: earlier results would overlap the new object.
   load(
       folder,
       [this, reconstruct] {
@@ -122,7 +122,7 @@ void ExplorerMode::run_stage(const QString& stage) {
                 tr("%1\nAnother side, Join by points shows how it lay.").arg(run.not_joined));
             join_section_->set_open(true);
           }
-          view().fit_unless_moved();  // of a recording it has shown the table, too
+          view().fit_unless_moved();  // a recording also shows the table
         });
       },
       [this](const QString& text) { stages_->show_error(text); },
@@ -161,7 +161,7 @@ void ExplorerMode::run_comparison() {
         TURNSCAN_ASSIGN(Comparison made, compare(*a.data, *b.data, options, 0.0, context));
         return Finish([this, a, b, made = std::move(made)] {
           const QString pair = tr("%1 to %2").arg(a.name, b.name);
-          // Alone, for others may lie before it.
+          // Alone, because other models may hide it.
           const int id =
               store_->add_instead({{pair, made.colored}}, visible_models(), tr("distances"))
                   .front();
@@ -205,7 +205,7 @@ void ExplorerMode::color_selected() {
       [this, data = model->data, way](const RunContext& context) -> Result<Finish> {
         context.begin_phase("prepare the view", 0);
         return Finish([this, data, way, made = color_mesh(*data->quality, way)] {
-          if (verdict_->color_way() != way) return;  // another was chosen meanwhile
+          if (verdict_->color_way() != way) return;  // another one has been selected meanwhile
           colored_ = {0, data, made.drawable, made.legend};
           draw_colored();
         });

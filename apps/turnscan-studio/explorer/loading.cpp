@@ -48,8 +48,8 @@ QString cloud_report(const PointCloud& cloud) {
   return text;
 }
 
-/// The first whole frame, so that a recording shows something before it is merged: at its place on
-/// the table, or upright as its camera saw it.
+/// Preview of a recording before it is merged: the first complete frame, at its pose on the table,
+/// or upright as seen by the camera.
 Result<PointCloud> preview(const FrameSequence& recording, const RunContext& context) {
   PointCloud out;
   const auto& frames = recording.frames();
@@ -58,7 +58,7 @@ Result<PointCloud> preview(const FrameSequence& recording, const RunContext& con
     if (frames[i].status == FrameStatus::kDropped) continue;
     const SensorInfo& sensor = recording.header().sensors[frames[i].sensor];
     auto frame = recording.read(i);
-    if (!frame) continue;  // the summary says so
+    if (!frame) continue;  // the summary reports it
     auto points = points_of(*frame, sensor, RayTable(sensor.intrinsics));
     if (!points) continue;
     const Pose upright(Eigen::AngleAxisd(EIGEN_PI, Vec3d::UnitX()));
@@ -112,7 +112,7 @@ Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& 
 
 namespace {
 
-/// Notes with what unit a file was read, where that was told.
+/// Notes the unit with which a file was read, if it was specified.
 ModelDataPtr told_unit(const ModelDataPtr& data, std::optional<double> metres_per_unit) {
   if (!metres_per_unit) return data;
   auto told = std::make_shared<ModelData>(*data);

@@ -23,7 +23,7 @@ namespace turnscan::studio {
 namespace {
 
 constexpr int kIdRole = Qt::UserRole;
-constexpr int kMinRows = 3, kMaxRows = 8;  // that are seen at once
+constexpr int kMinRows = 3, kMaxRows = 8;  // visible at once
 
 QIcon swatch(const Model& model) {
   QPixmap picture(28, 28);
@@ -117,7 +117,7 @@ QMenu* ModelList::make_edit_menu(QWidget* parent) {
   });
   auto* duplicate = menu->addAction(tr("Duplicate"));
   duplicate->setShortcut(QKeySequence("Ctrl+D"));
-  addAction(duplicate);  // a shortcut of a menu alone works only while that is open
+  addAction(duplicate);  // a shortcut of a menu alone only works while the menu is open
   connect(duplicate, &QAction::triggered, this, [this] { store_.duplicate(selected()); });
   menu->addSeparator();
   act(tr("Delete\tDel"), [this] { store_.remove(selected()); });
@@ -167,7 +167,7 @@ void ModelList::fill() {
   Q_EMIT selection_changed(selected());
 }
 
-/// As high as what is in it: the verdict below is what people look for.
+/// Fits the height to the content, because users look for the verdict below.
 void ModelList::fit_height() {
   const int rows = std::clamp(tree_->topLevelItemCount(), kMinRows, kMaxRows);
   const int row =
@@ -180,7 +180,7 @@ void ModelList::on_item_changed(QTreeWidgetItem* item, int column) {
   const int id = item->data(0, kIdRole).toInt();
   const Model* model = store_.find(id);
   if (!model) return;
-  // The list is filled anew by the change: not from within its own signal.
+  // The change refills the list, which must not happen within its own signal.
   const bool visible = item->checkState(0) == Qt::Checked;
   const QString name = item->text(0);
   QMetaObject::invokeMethod(

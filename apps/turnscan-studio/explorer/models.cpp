@@ -22,7 +22,7 @@ QString count_text(const ModelData& data) {
     case ModelKind::kRecording:
       break;
   }
-  // Those that were written, as the Scanner counts, and those that were not.
+  // Written and dropped frames, counted as in the Scanner.
   std::size_t written = 0, dropped = 0;
   if (data.recording)
     for (const FrameInfo& info : data.recording->frames())
@@ -258,7 +258,7 @@ void ModelStore::go_to(std::size_t place) {
 
 std::vector<ModelState> ModelStore::states() const {
   std::vector<ModelState> out = undo_;
-  // A step of redo is named by what leads to it; a state, by what leads away from it.
+  // A redo step is named by what leads to it; a state, by what leads away from it.
   QString next = redo_.empty() ? QString() : redo_.back().what;
   out.push_back({next, models_, selected_});
   for (auto state = redo_.rbegin(); state != redo_.rend(); ++state) {

@@ -8,8 +8,8 @@ Result<std::variant<PointCloud, Reconstruction>> reconstruct_until(
     const std::string& stage, const FrameSequence& frames, const ReconstructOptions& options,
     const RunContext& context) {
   std::optional<PointCloud> reached;
-  // The pipeline stops early only on an error of its sink. This one stays in here: `reached` tells
-  // that it is no failure.
+  // The pipeline only stops early on an error of its sink. This error is not passed on: `reached`
+  // marks it as intended.
   const StageSink stop_at = [&](const std::string& name, const PointCloud& cloud) -> Result<> {
     if (name != stage) return {};
     reached = cloud;

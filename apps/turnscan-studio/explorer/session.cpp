@@ -17,8 +17,8 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr int kPause_ms = 300;         // in which changes gather
-constexpr int kPauseOfLook_ms = 1500;  // the same, of what the camera does
+constexpr int kPause_ms = 300;         // changes within it are written together
+constexpr int kPauseOfLook_ms = 1500;  // the same, for changes of the camera
 QString lock_of(const QString& folder) { return folder + ".lock"; }
 
 void remove_folder(const QString& folder) {
@@ -58,7 +58,7 @@ std::optional<LostSession> SessionKeeper::find_lost(const QString& root) {
     LostSession lost{QDir(root).filePath(name), {}};
     QLockFile lock(lock_of(lost.folder));
     lock.setStaleLockTime(0);
-    if (!lock.tryLock(0)) continue;  // of a process that lives
+    if (!lock.tryLock(0)) continue;  // belongs to a running process
     lock.unlock();
     lost.list = read_list(lost.folder);
     if (!lost.list.states.empty() && !lost.models().empty()) return lost;
@@ -91,7 +91,7 @@ void SessionKeeper::look_changed() {
   if (lock_ && !timer_.isActive()) timer_.start(kPauseOfLook_ms);
 }
 
-/// Locked before it is there: no other start takes it for a lost one.
+/// Locked before it exists, so that no other instance takes it for a lost one.
 bool SessionKeeper::take_folder() {
   if (lock_) return true;
   QDir().mkpath(QFileInfo(folder_).path());
@@ -140,7 +140,7 @@ void SessionKeeper::write() {
     entry.what = state.what;
     for (const Model& model : state.models) {
       KeptModel made = keep(model, kept, files);
-      // A file's models come in its order, all in one step.
+      // The models of a file are in its order, all added in one step.
       auto& order = in_file[made.file];
       const auto at = std::find(order.begin(), order.end(), model.data.get());
       made.place_in_file = int(at - order.begin());
@@ -170,7 +170,7 @@ void SessionKeeper::write() {
       QMetaObject::invokeMethod(
           this,
           [this, reason, replaced] {
-            kept_.clear();  // whatever was not written is tried again with the next change
+            kept_.clear();  // everything not written is retried with the next change
             taken_over_ << replaced;
             report(tr("The session is not kept: %1").arg(reason));
           },
@@ -184,7 +184,7 @@ void SessionKeeper::write() {
 
 namespace {
 
-/// The models of files, each read once.
+/// Reads the models of files, each file once.
 class FileReader {
  public:
   explicit FileReader(const RunContext& context) : context_(context) {}

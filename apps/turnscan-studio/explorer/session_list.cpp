@@ -32,7 +32,7 @@ KeptModel model_of(const QJsonObject& entry, const QString& folder) {
   model.name = entry.value("name").toString();
   model.file = entry.value("file").toString();
   model.in_own_file = entry.value("in_own_file").toBool();
-  // The session's own files lie in its folder.
+  // The session's own files are in its folder.
   if (!model.in_own_file) model.file = QDir(folder).filePath(QFileInfo(model.file).fileName());
   model.place_in_file = std::max(0, entry.value("place_in_file").toInt());
   model.visible = entry.value("visible").toBool(true);
@@ -44,7 +44,7 @@ KeptModel model_of(const QJsonObject& entry, const QString& folder) {
   return model;
 }
 
-/// One byte a triangle, most of which are as the one before.
+/// One byte per triangle, most of them equal to the previous one.
 QString packed(const Selection& selection) {
   const QByteArray bytes(reinterpret_cast<const char*>(selection.data()), int(selection.size()));
   return QString::fromLatin1(qCompress(bytes).toBase64());

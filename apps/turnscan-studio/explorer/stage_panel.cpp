@@ -36,7 +36,7 @@ const std::map<std::string, QString>& titles() {
   return names;
 }
 
-/// Stage of a section -> the cloud that can be made there, and the text of the button.
+/// Stage of a section -> the cloud that it can make, and the text of the button.
 const std::map<std::string, std::pair<std::string, QString>>& outputs() {
   static const std::map<std::string, std::pair<std::string, QString>> made{
       {"merge", {"merged", QObject::tr("Merge the frames")}},
@@ -190,7 +190,7 @@ void StagePanel::store() const {
   for (const auto& [stage, form] : forms_) form->store("stages/" + QString::fromStdString(stage));
 }
 
-/// All are read before the first is set: a change stores them.
+/// All are read before the first is set, because a change stores them.
 void StagePanel::restore() {
   QSettings settings;
   std::vector<QMap<QString, QString>> stored;

@@ -39,7 +39,7 @@ QString source_of(const std::string& stage, const Model& model) {
   return QObject::tr("%1 of %2").arg(QString::fromStdString(stage), model.name);
 }
 
-/// The clouds of these stages are made on the way to a surface by points.
+/// Whether the stage's cloud is made by the point-based methods.
 bool of_points(const std::string& stage) { return stage != kMeshStage && stage != "fitted"; }
 
 StageRun cloud_run(PointCloud cloud, const FrameSequence& frames, const Model& model,
@@ -55,7 +55,7 @@ StageRun cloud_run(PointCloud cloud, const FrameSequence& frames, const Model& m
   return out;
 }
 
-/// What no view saw, a little outside so that it covers the mesh.
+/// The unseen surface, slightly offset outward so that it covers the mesh.
 DrawablePtr unseen_drawable(const ObjectResult& object) {
   constexpr float kOutside_m = 0.0002f;
   TriangleMesh unseen;
@@ -77,10 +77,10 @@ DrawablePtr unseen_drawable(const ObjectResult& object) {
   return unseen.empty() ? nullptr : make_drawable(unseen, Shading::kFlat);
 }
 
-/// Of the largest object of a run on a recording.
+/// For the largest object of a run on a recording.
 std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, const Model& model) {
   auto out = std::make_shared<MissingSurface>();
-  // A pass can be added to a recording, not to a file of another program.
+  // A pass can be added to a recording, but not to a file of another program.
   const bool is_recording = QFileInfo(QDir(model.data->source).filePath("recording.json")).exists();
   if (is_recording) out->side.recording = model.data->source;
   if (!run.next_pass) {
@@ -95,12 +95,12 @@ std::shared_ptr<const MissingSurface> missing_of(const ReconstructRun& run, cons
   return out;
 }
 
-/// What is known of meshes beside their shape.
+/// Properties of meshes besides their shape.
 struct MeshOrigin {
   std::shared_ptr<const PageInput> page;
   std::size_t first_of_page = 0;
   std::shared_ptr<const MissingSurface> missing;  // of the first
-  std::vector<PassesPtr> passes;                  // of each, or none
+  std::vector<PassesPtr> passes;                  // one each, or none
 };
 
 StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context,
@@ -206,7 +206,7 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
     TURNSCAN_ASSIGN(run, run_on(*calibrated.frames, model, stage, std::move(calibrated.options),
                                 calibrated.choice.note, context));
   }
-  // Frames that are damaged, too: what was left out is told with what was made.
+  // The recording's notes, e.g. on damaged frames that were left out, go with the result.
   if (model.data->recording_notes.empty()) return run;
   QString notes;
   for (const std::string& note : model.data->recording_notes)

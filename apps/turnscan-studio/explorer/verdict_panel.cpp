@@ -21,7 +21,7 @@ QString light_text(const Verdict& verdict) {
   return QString("%1  %2").arg(sign_of(verdict.level()), colour.toUpper());
 }
 
-/// As a person reads it who does not use the command line.
+/// Worded for users who do not use the command line.
 QString shown_sentence(const VerdictSentence& sentence) {
   static const QRegularExpression command(R"( \(turnscan [^)]*\))");
   return QString::fromStdString(sentence.text).remove(command).replace("cm2", "cm²");

@@ -11,8 +11,8 @@ namespace turnscan::studio {
 namespace {
 
 constexpr int kRingPieces = 120;
-constexpr double kResidualScale_m = 0.003;  // at the ends of the colours
-constexpr double kPlatterReach_m = 0.008;   // from its plane, what counts as the platter
+constexpr double kResidualScale_m = 0.003;  // at the ends of the colour range
+constexpr double kPlatterReach_m = 0.008;   // maximum distance of platter points from its plane
 constexpr double kRimMargin_m = 0.003;
 
 QColor color_of_residual(double residual_m) {

@@ -9,7 +9,7 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr std::int64_t kCellLimit = 1 << 20;  // per axis, both ways
+constexpr std::int64_t kCellLimit = 1 << 20;  // per axis, in both directions
 
 /// 21 bits per axis.
 std::uint64_t key_of(const Vec3f& p, double cell_m) {

@@ -10,7 +10,7 @@ namespace turnscan::studio {
 
 namespace {
 
-/// From an earlier recording, unless the device itself says where its table is.
+/// From an earlier recording, unless the device itself knows the pose of its table.
 std::shared_ptr<const Calibration> kept_of(const SourceInfo& info) {
   if (info.header.turntable || info.identities.empty()) return nullptr;
   auto kept = kept_calibration(info.identities.front());

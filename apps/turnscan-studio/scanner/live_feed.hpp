@@ -43,8 +43,8 @@ struct LiveState {
   std::shared_ptr<const Calibration> kept;
   DrawablePtr picture;       ///< of the last frame, sensor frame; nullptr once taken
   std::size_t averaged = 0;  ///< number of requested frames collected
-  std::optional<RigCheck>
-      rig;  ///< comparison of the platter with the calibration; nullopt: not checked
+  /// Comparison of the platter with the calibration; nullopt: not checked.
+  std::optional<RigCheck> rig;
 
   bool recording = false;
   CaptureProgress progress;

@@ -7,15 +7,15 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr int kReach = 3;             // pixels; nearer ones show the noise more than the shape
-constexpr float kJump = 0.04f;        // of the depth: what lies behind is another surface
-constexpr Rgb kPlain{104, 150, 176};  // seen face on
+constexpr int kReach = 3;       // pixels; closer neighbours show the noise rather than the shape
+constexpr float kJump = 0.04f;  // relative to depth: a larger step is another surface
+constexpr Rgb kPlain{104, 150, 176};  // seen frontally
 
 Rgb shade(const Vec3f& p, const Vec3f& across, const Vec3f& down, const Rgb& color) {
   const Vec3f normal = across.cross(down);
   const float length = normal.norm() * p.norm();
   if (!(length > 0.0f)) return color;
-  // A little from the left and above, so that walls to both sides differ.
+  // Slightly from the left and above, so that walls on both sides differ.
   const Vec3f lamp = (-p.normalized() + Vec3f(-0.35f, -0.35f, 0.0f)).normalized();
   Vec3f facing = normal / normal.norm();
   if (facing.dot(p) > 0.0f) facing = -facing;
@@ -26,7 +26,7 @@ Rgb shade(const Vec3f& p, const Vec3f& across, const Vec3f& down, const Rgb& col
   return {scaled(color.r), scaled(color.g), scaled(color.b)};
 }
 
-/// Points by their place in the grid.
+/// Neighbouring points in the grid.
 class Neighbours {
  public:
   explicit Neighbours(const FramePoints& points) : points_(points) {

@@ -20,10 +20,12 @@ namespace {
 constexpr double kPictureEvery_s = 0.06, kSeenEvery_s = 0.25, kSilence_s = 2.0;
 constexpr std::size_t kSeenPerFrame = 12000;
 constexpr double kCropMargin_m = 0.006;
-constexpr double kBehind_m = 0.003;  // the picture itself, in the same colours, lies before it
-constexpr double kBefore_m = 0.006;  // a surface lies before the picture, out of its noise
+// The live picture, in the same colours, is drawn in front of it.
+constexpr double kBehind_m = 0.003;
+// A surface is drawn in front of the live picture and its noise.
+constexpr double kBefore_m = 0.006;
 
-/// What stands on the platter; nullopt where that is not known.
+/// Crop to the object on the platter; nullopt if that is not known.
 std::optional<SensorCrop> object_crop(const SequenceHeader& header, std::size_t sensor) {
   if (!header.turntable) return std::nullopt;
   const auto pose = sensor_pose(header, sensor);
@@ -33,7 +35,7 @@ std::optional<SensorCrop> object_crop(const SequenceHeader& header, std::size_t 
   return SensorCrop(Cylinder{kCropMargin_m, 2.0, radius}, *pose);
 }
 
-/// About twice the distance of neighbouring pixels on the table.
+/// About twice the spacing of neighbouring pixels at the table.
 double cell_size(const SequenceHeader& header) {
   const SensorInfo& sensor = header.sensors.front();
   if (sensor.kind != SensorKind::kDepthCamera || !header.turntable) return 0.004;
@@ -68,9 +70,9 @@ SequenceHeader LiveFeed::Session::header_with_table() {
   header.source = source_.info().uri;
   if (const auto known = calibration()) {
     header.turntable = known->table;
-    // A calibration of another mode of the sensor corrects nothing.
+    // A calibration for another mode of the sensor is not applied.
     (void)correct_sensors(*known, header.sensors);
-    // Of several sensors only the first one's place is in a calibration.
+    // A calibration contains only the first sensor's pose.
     header.sensors[0].T_table_sensor.reset();
   }
   return header;
@@ -126,10 +128,10 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
     const std::lock_guard lock(feed_.mutex_);
     feed_.state_.progress = progress;
   };
-  // header_ gets what the motion shows meanwhile.
+  // header_ is updated with the motion found meanwhile.
   const SequenceHeader header = header_;
   auto result = capture(source_, request.folder, header, settings, options, hooks, context);
-  // For the next time that this device is used. That it cannot be kept is no reason to fail.
+  // Stored for the next use of this device. Failing to store it is not an error.
   const auto& identities = source_.info().identities;
   if (const auto known = calibration(); result && result->recorded && known && !identities.empty())
     (void)keep_calibration(identities.front(), *known);
@@ -194,7 +196,7 @@ void LiveFeed::Session::count_seen(const Frame& frame, double turned_rad) {
   const auto& all = points->cloud.points;
   const std::size_t step = all.size() / kSeenPerFrame + 1;
   std::vector<Vec3f> kept;
-  // Another part of the pixels each time, so that all of them come round.
+  // A different subset of the pixels each time, so that all of them are used in turn.
   for (std::size_t i = frame.info.index % step; i < all.size(); i += step)
     if (crop->keeps(all[i])) kept.push_back((back * all[i].cast<double>()).cast<float>());
   seen_->add(kept, turned_rad);
@@ -208,7 +210,7 @@ void LiveFeed::Session::show_seen(double turned_rad) {
   summary.sides = seen_->sides();
   if (auto update = surface_->take()) {
     mesh_ = std::move(update->mesh);
-    // Once a surface: what draws it would look for creases otherwise, each time.
+    // Once per surface: otherwise drawing would search for creases each time.
     if (mesh_.normals.empty()) mesh_.normals = vertex_normals(mesh_);
     ++surfaces_;
   }
@@ -227,8 +229,8 @@ void LiveFeed::Session::show_seen(double turned_rad) {
   feed_.state_.seen = std::move(summary);
 }
 
-/// Coloured by the sides from which each place was seen, and where no frame has seen it by
-/// color_of_sides(0).
+/// Coloured by the number of sides from which each point was seen; color_of_sides(0) where no frame
+/// has seen it.
 DrawablePtr LiveFeed::Session::draw_surface(const TriangleMesh& mesh, const Pose& T_sensor_table,
                                             double& share_missing) const {
   TriangleMesh shown = mesh;
@@ -273,7 +275,7 @@ void LiveFeed::Session::take(const Frame& frame) {
   last_frame_ = Clock::now();
   if (frame.info.status != FrameStatus::kOk) return;
   show(frame);
-  // While it records, the processor is for the recording, whose own frames are checked afterwards.
+  // During a recording, the processor is reserved for it; its own frames are checked afterwards.
   if (!surface_) rig_watch_.take(frame, source_.info().header, calibration());
   const std::lock_guard lock(feed_.mutex_);
   feed_.state_.rig = rig_watch_.found();
@@ -318,7 +320,7 @@ DrawablePtr LiveFeed::Session::draw(const Frame& frame, std::size_t& count) {
   return make_drawable(shown, points->width > 0 && fx > 0.0 ? 1.0 / fx : 0.0);
 }
 
-/// While it records: what was seen of the object so far, on the picture itself.
+/// During a recording: shows the coverage so far on the live picture.
 Tint LiveFeed::Session::tint_of(std::size_t sensor) const {
   if (!seen_ || !T_turned_sensor_.at(sensor)) return {};
   const auto crop = object_crop(header_, sensor);

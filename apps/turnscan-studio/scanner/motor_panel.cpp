@@ -20,12 +20,12 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr double kTrySpeed_rad_s = 0.17453293;  // 10 degrees a second
+constexpr double kTrySpeed_rad_s = 0.17453293;  // 10 degrees per second
 constexpr auto kWatchEvery = std::chrono::milliseconds(20);
 
 QString port_name(const QFileInfo& file) { return file.fileName(); }
 
-/// Turns until it is cancelled, which is how it is meant to end.
+/// Turns until it is cancelled, which is the intended end.
 Result<MotorStatus> turn(const std::string& port, const MotorOptions& options,
                          const RunContext& context) {
   context.begin_phase("connect", 0);

@@ -51,7 +51,7 @@ void RigWatch::collect_result() {
     return;
   auto made = look_.get();
   last_ = Clock::now();
-  // That nothing could be compared is no reason to disturb anybody.
+  // If nothing could be compared, the user is not disturbed.
   if (made && !outdated_) found_ = std::move(*made);
   outdated_ = false;
 }

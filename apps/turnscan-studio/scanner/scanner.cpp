@@ -64,7 +64,7 @@ ScannerMode::~ScannerMode() {
   delete quick_;
 }
 
-/// What to do, or that there is nothing to do but wait.
+/// Instructions, or that there is nothing to do but wait.
 void ScannerMode::show_empty_text() {
   if (feed_->running()) {
     view().set_empty_text(tr("Waiting for the first picture"), {});
@@ -125,7 +125,7 @@ void ScannerMode::build_recording() {
   panel()->addWidget(section);
 }
 
-/// Shown when the platter is not where the calibration has it.
+/// Shown if the platter is not where the calibration has it.
 QWidget* ScannerMode::make_banner() {
   banner_ = new QWidget(this);
   banner_->setObjectName("rig_moved");
@@ -163,7 +163,7 @@ void ScannerMode::show_rig(const std::optional<RigCheck>& rig) {
 
 void ScannerMode::showEvent(QShowEvent* event) {
   Mode::showEvent(event);
-  // Drivers take seconds to look for devices: not before somebody comes here.
+  // Drivers take seconds to search for devices: delayed until this mode is opened.
   if (device_->count() == 0) list_devices();
 }
 
@@ -215,7 +215,7 @@ void ScannerMode::take_device(const QString& uri) {
 void ScannerMode::toggle_play() {
   device_error_->show_text({});
   if (feed_->running()) {
-    // The thread may have frames to write yet; the window does not wait for it.
+    // The thread may still have frames to write; the window does not wait for it.
     feed_->cancel();
     play_->setEnabled(false);
     live_text_->setText(tr("Stopping"));
@@ -325,7 +325,7 @@ void ScannerMode::show_seen(const LiveState& state) {
   view().set_legend(legend_of_sides(state.seen->is_surface));
 }
 
-/// Shows the averaged scan in place of the live picture.
+/// Shows the averaged scan instead of the live picture.
 void ScannerMode::set_still(bool still) {
   still_ = still;
   live_->setVisible(still && feed_->running());

@@ -1,4 +1,4 @@
-// The calibration of the 3D Scanner: averaged scan, detected platter, picked points, files.
+// Calibration in the 3D Scanner: averaged scan, detected platter, picked points, files.
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -106,7 +106,7 @@ QLayout* ScannerMode::make_calibration_files(QWidget* parent) {
   return row;
 }
 
-/// In place of what to do first, which such a device does not need.
+/// Replaces the first instructions, which such a device does not need.
 void ScannerMode::note_known_table() {
   if (calibration_text_->text() == first_steps())
     calibration_text_->setText(tr("The device says itself where its table stands."));
@@ -171,7 +171,7 @@ void ScannerMode::calibrate() {
         TURNSCAN_ASSIGN(const DetectedPlatter platter, detect_platter(*scan, options, context));
         Calibration detected = calibration_of(platter, *scan);
         detected.made_at = made_at;
-        // What is shown is what a file gives back.
+        // Shows the calibration as it is read back from a file.
         TURNSCAN_ASSIGN(Calibration found, parse_calibration(calibration_json(detected)));
         auto shared = std::make_shared<const Calibration>(std::move(found));
         const DrawablePtr residuals = averaged_picture(*scan, &shared->table);
@@ -272,7 +272,7 @@ void ScannerMode::forget_calibration() {
   calibration_text_->setToolTip({});
 }
 
-/// Nobody asked for it: it goes without a question, as `scan` does it.
+/// The user did not ask for it: it is dropped without confirmation, as in `scan`.
 void ScannerMode::drop_kept_calibration() {
   view().remove(ring_item_);
   ring_item_ = 0;

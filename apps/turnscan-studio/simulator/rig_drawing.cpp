@@ -14,7 +14,7 @@ constexpr int kCirclePieces = 96;
 
 std::array<Vec3d, 4> corner_rays(const ScannerModel& model) {
   const CameraIntrinsics& c = model.camera;
-  // The sheet of a line scanner has no width.
+  // The light sheet of a line scanner has no width.
   const bool line = model.kind == ScannerKind::kLine;
   const double left = line ? c.cx : -0.5, right = line ? c.cx : c.width - 0.5;
   std::array<Vec3d, 4> rays{c.ray(left, -0.5), c.ray(right, -0.5), c.ray(right, c.height - 0.5),

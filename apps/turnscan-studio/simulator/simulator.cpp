@@ -222,7 +222,7 @@ void SimulatorMode::run() {
   coverage_item_ = 0;
   view().set_legend({});
   if (folder_->text().trimmed().isEmpty()) folder_->setText("~/simulation");
-  // Nothing is overwritten: the next free name.
+  // Uses the next free name, so that nothing is overwritten.
   const QString folder = free_folder(typed_path(folder_->text()));
   stream_ = std::make_shared<SampleStream>();
   poll_->start();

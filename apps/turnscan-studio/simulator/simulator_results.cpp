@@ -1,4 +1,4 @@
-// What the Simulator shows of a scan: samples as they arrive, coverage, holes.
+// Display of a simulated scan: samples as they arrive, coverage, holes.
 
 #include <QComboBox>
 #include <QHeaderView>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kShownSamples = 600000;
 const QColor kHoleColor(0xff0090);
-constexpr double kSmallestShare = 5e-4;  // of the surface; a smaller reason gets no line
+constexpr double kSmallestShare = 5e-4;  // of the surface; smaller reasons get no line
 
 /// "Missed  12.3 %"
 template <class Category>

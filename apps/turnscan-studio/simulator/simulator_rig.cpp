@@ -1,4 +1,4 @@
-// The scanners of the Simulator: placed by dragging and by numbers, and drawn.
+// The scanners in the Simulator: placed by dragging and by numbers, and drawn.
 
 #include <QFileDialog>
 #include <QFileInfo>
@@ -89,7 +89,7 @@ Vec3d RigTool::position_of(const SimulatorMode::RigScanner& scanner) const {
   return scanner_pose(scanner.placement, mode_.aim_height(), 0.5, Vec3d::UnitY()).translation();
 }
 
-/// Where the line of sight meets the ball about the aim on which the scanner stands.
+/// Intersects the line of sight with the sphere around the aim on which the scanner is placed.
 void RigTool::turn(SimulatorMode::RigScanner& scanner, const QPointF& at) const {
   ScannerPlacement& p = scanner.placement;
   const Vec3d aim(p.aim_x_m, p.aim_height_m.value_or(mode_.aim_height()), p.aim_z_m);
@@ -97,7 +97,7 @@ void RigTool::turn(SimulatorMode::RigScanner& scanner, const QPointF& at) const 
   const double along = (aim - origin).dot(direction);
   const Vec3d nearest = origin + along * direction;
   const double inside = p.distance_m * p.distance_m - (nearest - aim).squaredNorm();
-  // Of the two places the one on whose side it stands already.
+  // Of the two intersections, the one on the scanner's current side.
   const double side = (position_of(scanner) - aim).dot(direction) > 0.0 ? 1.0 : -1.0;
   const Vec3d hit = nearest + side * std::sqrt(std::max(0.0, inside)) * direction;
   const Vec3d way = (hit - aim).normalized();
@@ -149,7 +149,7 @@ void SimulatorMode::build_scanners() {
 void SimulatorMode::add_scanner(const QString& model) {
   if (!add_entry({model.toStdString(), {}})) return;
   RigScanner& scanner = *scanners_.back();
-  // Beside those that are there already.
+  // Next to the existing ones.
   scanner.placement.azimuth_rad = double(scanners_.size() - 1) * 0.5 * std::numbers::pi;
   if (scanner.placement.azimuth_rad > 6.0) scanner.placement.azimuth_rad = 0.8;
   const ScannerModel& m = scanner.model;
@@ -160,7 +160,7 @@ void SimulatorMode::add_scanner(const QString& model) {
   draw_scanner(scanner);
   list_->setCurrentRow(list_->count() - 1);
   place_changed();
-  // It may stand beside what is seen; else the camera stays where somebody has put it.
+  // It may be outside the view; otherwise the camera stays where the user has put it.
   const Vec3d at = scanner_pose(scanner.placement, aim_height(), 0.5, Vec3d::UnitY()).translation();
   const auto pixel = view().project(at);
   if (!pixel || !QRectF(view().rect()).contains(*pixel)) view().reset_camera();
@@ -205,7 +205,7 @@ void SimulatorMode::take_scanner(int row) {
   places_->removeWidget(scanner.form);
   scanner.form->disconnect(this);
   scanner.form->deleteLater();
-  // The options of the form are the scanner's.
+  // The form's options refer to the scanner.
   const std::shared_ptr<RigScanner> gone(std::move(scanners_[std::size_t(row)]));
   connect(scanner.form, &QObject::destroyed, this, [gone] {});
   scanners_.erase(scanners_.begin() + row);
@@ -219,7 +219,7 @@ void SimulatorMode::select_scanner(int row) {
 }
 
 void SimulatorMode::draw_rig() {
-  // What was seen of another scene says nothing about this one.
+  // Results of another scene do not apply to this one.
   clear_samples();
   view().remove(coverage_item_);
   view().remove(hole_item_);
@@ -241,7 +241,7 @@ void SimulatorMode::draw_rig() {
 }
 
 void SimulatorMode::draw_scanner(RigScanner& scanner) {
-  if (object_item_ == 0) return;  // its height is where a scanner looks
+  if (object_item_ == 0) return;  // scanners aim at its height
   const Vec3d axis = table_pose(scene_->table).linear().col(1);
   const Pose pose = scanner_pose(scanner.placement, aim_height(), 0.5, axis);
   const double size = std::clamp(0.06 * scanner.placement.distance_m, 0.01, 0.08);
@@ -264,7 +264,7 @@ void SimulatorMode::draw_scanner(RigScanner& scanner) {
   }
 }
 
-/// The selected scanner's view stands out, so that several do not make a thicket.
+/// The selected scanner's frustum is emphasised, so that several remain legible.
 ItemStyle SimulatorMode::lines_style(const RigScanner& scanner) const {
   const int row = list_->currentRow();
   const bool selected =

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kShownPerFrame = 3000;
 
-/// Shows a part of each frame's points, in the world's frame.
+/// Shows a subset of each frame's points, in the world frame.
 class FrameSampler {
  public:
   FrameSampler(const VirtualPasses& scan, const Pose& T_world_table, const SampleSink& sink)
@@ -111,8 +111,8 @@ Result<SimulationResult> simulate(const SceneDescription& scene, const std::stri
 
 namespace {
 
-/// Whether a ray meets a triangle beyond a start that clears the surface it begins on (Moeller and
-/// Trumbore 1997).
+/// Whether a ray hits a triangle, beyond a minimum distance that excludes the surface on which it
+/// starts (Moeller and Trumbore 1997).
 bool meets(const Vec3d& origin, const Vec3d& direction, const std::array<Vec3f, 3>& corners) {
   constexpr double kClear_m = 1e-3;
   const Vec3d a = corners[0].cast<double>(), ab = corners[1].cast<double>() - a,
@@ -128,7 +128,7 @@ bool meets(const Vec3d& origin, const Vec3d& direction, const std::array<Vec3f, 
   return v >= 0.0 && u + v <= 1.0 && ac.dot(q) / det > kClear_m;
 }
 
-/// The normal, and directions about it, the farther the later.
+/// The normal, and directions around it at increasing angles.
 std::vector<Vec3d> directions_about(const Vec3d& normal) {
   std::vector<Vec3d> out{normal};
   const Vec3d side = normal.unitOrthogonal();
@@ -183,7 +183,7 @@ HoleSurface surface_of_hole(const CoverageMap& map, std::size_t hole, const Pose
 }
 
 Rgb color_of(CoverageState state) {
-  // Of M. Okabe and K. Ito, "Color universal design" (2008): apart for everyone.
+  // Colours of M. Okabe and K. Ito, "Color universal design" (2008): distinguishable by everyone.
   switch (state) {
     case CoverageState::kCovered:
       return {86, 180, 233};

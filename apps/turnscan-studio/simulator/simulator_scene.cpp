@@ -1,4 +1,4 @@
-// The scene of the Simulator: as a description, as a file, in the settings, and its steps of undo.
+// The scene of the Simulator: as a description, as a file, in the settings, and its undo steps.
 
 #include <QLineEdit>
 #include <QListWidget>
@@ -38,7 +38,7 @@ const SceneDescription& SimulatorMode::scene() {
   return *scene_;
 }
 
-/// The scene as it is now is a step of undo, if it differs from the last one.
+/// Makes the current scene an undo step, if it differs from the last one.
 void SimulatorMode::place_changed() {
   const std::string now = scene_toml(scene());
   if (step_ < int(steps_.size()) && steps_[std::size_t(step_)] == now) return;
@@ -79,7 +79,7 @@ void SimulatorMode::restore() {
     if (name == "coverage") form->restore("simulator/coverage");
   SceneDescription scene;
   const std::string text = settings.value("simulator/scene").toString().toStdString();
-  // What does not fit any more is of an older version: then it begins anew.
+  // Invalid settings come from an older version: they are ignored.
   const bool good =
       !text.empty() && parse_scene(text, "settings", scene) && scene.next_passes.empty();
   if (!good) {

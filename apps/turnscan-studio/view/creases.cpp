@@ -8,7 +8,7 @@ namespace turnscan::studio {
 
 namespace {
 
-/// Triangles around each vertex, one list after the other.
+/// Triangles around each vertex, as concatenated lists.
 struct Fans {
   std::vector<std::uint32_t> first, triangles;
 

@@ -26,9 +26,10 @@ namespace turnscan::studio {
 namespace {
 
 constexpr double kCrease_rad = 0.7;             // between two faces; 40 degrees
-constexpr std::size_t kCreasesBelow = 1000000;  // triangles; beyond, edges are small
+constexpr std::size_t kCreasesBelow = 1000000;  // triangles; in larger meshes, edges are small
 
-/// The k-th of n points is the one at k * stride modulo n: any run of them is spread over all.
+/// The k-th of n points is the one at k * stride modulo n: any range of them is spread over the
+/// whole cloud.
 std::uint64_t spread_stride(std::uint64_t n) {
   auto stride = static_cast<std::uint64_t>(0.6180339887498949 * double(n));
   while (stride > 1 && std::gcd(stride, n) != 1) --stride;
@@ -91,7 +92,7 @@ vtkSmartPointer<vtkPolyData> make_chunk(const PointCloud& cloud, std::size_t beg
   return data;
 }
 
-/// Every triangle gets vertices of its own.
+/// Gives every triangle separate vertices.
 TriangleMesh exploded(const TriangleMesh& mesh) {
   TriangleMesh out;
   out.vertices.reserve(3 * mesh.triangles.size());
@@ -128,8 +129,8 @@ vtkSmartPointer<vtkPolyData> make_surface(const TriangleMesh& mesh) {
   return data;
 }
 
-/// Each vertex with its place in the picture; split where the picture has its seams, over which the
-/// normals of the mesh go on.
+/// Each vertex with its texture coordinate; split at the seams of the texture, across which the
+/// normals of the mesh continue.
 vtkSmartPointer<vtkPolyData> make_textured(const TriangleMesh& mesh) {
   const SplitMesh split = split_at_seams(mesh);
   auto data = make_surface(split.mesh);
@@ -144,11 +145,12 @@ vtkSmartPointer<vtkPolyData> make_textured(const TriangleMesh& mesh) {
   return data;
 }
 
-/// Refers to the pixels. Rows from the top, as places count: (0, 0) is the upper left corner.
+/// Refers to the pixels. Rows start at the top, like texture coordinates: (0, 0) is the upper left
+/// corner.
 vtkSmartPointer<vtkImageData> make_picture(const ColorImage& image) {
   vtkNew<vtkUnsignedCharArray> pixels;
   pixels->SetNumberOfComponents(3);
-  // It only reads them.
+  // VTK only reads them.
   auto* first = const_cast<unsigned char*>(&image.pixels.front().r);
   pixels->SetArray(first, vtkIdType(3 * image.pixels.size()), 1);
   auto out = vtkSmartPointer<vtkImageData>::New();

@@ -38,7 +38,7 @@ struct Drawable {
 inline constexpr std::size_t kSmallChunks = 10, kSmallChunkPoints = 10000;
 inline constexpr std::size_t kChunkPoints = 40000;
 inline constexpr std::size_t kCoarseAbove = 150000;  ///< triangles
-inline constexpr std::size_t kCoarseTexturedAbove =
-    1000000;  ///< the same for a textured mesh, which loses its texture
+/// The same for a textured mesh, which loses its texture.
+inline constexpr std::size_t kCoarseTexturedAbove = 1000000;
 
 }  // namespace turnscan::studio

@@ -10,7 +10,7 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr int kPiecePixels = 700000;  // some 8 ms of a software renderer
+constexpr int kPiecePixels = 700000;  // about 8 ms on a software renderer
 
 }  // namespace
 
@@ -32,8 +32,8 @@ void LargeTexture::allocate() {
                       VTK_UNSIGNED_CHAR);
   QOpenGLFunctions& gl = *QOpenGLContext::currentContext()->functions();
   object_->Bind();
-  // All levels, of which Allocate2D() has made the first, are known before that has its pixels: a
-  // driver that had to guess would move them when the others come.
+  // The number of levels, the first of which was made by Allocate2D(), is set before the first has
+  // pixels: a driver that had to guess would move them when the others are added.
   gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(levels_.size()) - 1);
   const auto format = GLint(object_->GetInternalFormat(VTK_UNSIGNED_CHAR, 3, false));

@@ -1,4 +1,4 @@
-// The camera of the view: where it stands, how it flies, and what lies under a pixel.
+// The camera of the view: position, flights, and picking.
 
 #include <vtkMatrix4x4.h>
 
@@ -76,7 +76,7 @@ void SceneView::Parts::aim(const Vec3d& center, double size_m, const Vec3d& from
   from_offset = position - focus;
   to_focus = center;
   Vec3d direction = from.isZero() ? from_offset : from;
-  // Straight from above or below there would be no way up.
+  // Seen exactly from above or below, the up direction would be undefined.
   if (direction.normalized().cross(up).norm() < 0.02)
     direction += 0.03 * direction.norm() * (up.unitOrthogonal());
   const double aspect = double(pixels.width()) / (split ? 2.0 : 1.0) / std::max(1, pixels.height());
@@ -235,7 +235,7 @@ std::optional<Vec3d> SceneView::pick(const QPointF& at) {
   if (!p.canvas->isValid()) return std::nullopt;
   const double ratio = devicePixelRatioF();
   const int x = int(at.x() * ratio), y = int((height() - 1 - at.y()) * ratio);
-  // Between the points of a cloud there is background: the nearest within reach counts.
+  // There is background between the points of a cloud: the nearest point within reach counts.
   constexpr int kReach = 8;
   constexpr int kSide = 2 * kReach + 1;
   if (x < kReach || y < kReach) return std::nullopt;

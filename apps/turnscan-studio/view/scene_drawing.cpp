@@ -1,4 +1,4 @@
-// Frames of the view: a part of the points while it moves, the rest piece by piece.
+// Frames of the view: a subset of the points while it moves, the rest piece by piece.
 
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -12,9 +12,9 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr std::size_t kMovingPoints = 200000;  // drawn at most while the camera moves
+constexpr std::size_t kMovingPoints = 200000;  // maximum while the camera moves
 constexpr double kFrameGoalMs = 45.0;
-constexpr double kPieceGoalMs = 25.0;  // nobody waits for a piece: the hand on the mouse goes first
+constexpr double kPieceGoalMs = 25.0;  // a piece must not delay mouse input
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void SceneView::render_now() {
   draw_coarse();
 }
 
-/// One frame of everything but the points beyond the budget. They follow, piece by piece, when the
+/// Draws everything except the points beyond the budget. They follow, piece by piece, when the
 /// camera rests.
 void SceneView::draw_coarse() {
   Parts& p = *parts_;
@@ -51,7 +51,7 @@ void SceneView::draw_coarse() {
   update_overlay();
 }
 
-/// What costs a software renderer much, only where it shows.
+/// Enables what is expensive for a software renderer only where it is visible.
 void SceneView::Parts::set_up_passes(double scene_size_m) {
   const bool translucent = std::any_of(items.begin(), items.end(), [](const auto& entry) {
     return entry.second.style.visible && entry.second.style.opacity < 1.0;
@@ -69,7 +69,7 @@ void SceneView::Parts::set_up_passes(double scene_size_m) {
   }
 }
 
-/// A slow renderer gets fewer points the next time, a quick one more, if it was given many.
+/// A slow renderer gets fewer points the next time, a fast one more, if it was given many.
 void SceneView::Parts::learn_from(double ms) {
   const double share = kFrameGoalMs / std::max(ms, 1.0);
   if (share > 1.0 && !moving && 4 * points_drawn < budget) return;
@@ -77,8 +77,8 @@ void SceneView::Parts::learn_from(double ms) {
   budget = std::clamp<std::size_t>(std::size_t(wanted), 20000, kMovingPoints);
 }
 
-/// The first picture of each kind of thing compiles its shaders, which takes a software renderer
-/// tenths of a second: that is to happen while the window opens, not when somebody loads or turns.
+/// The first picture of each kind of item compiles its shaders, which takes a software renderer
+/// tenths of a second: this is done while the window opens, not when the user loads or rotates.
 void SceneView::Parts::warm_up() {
   if (warm) return;
   warm = true;
@@ -152,7 +152,7 @@ void SceneView::show_first(bool moving_now) {
   }
 }
 
-/// Adds some of the pending points to the picture that is there.
+/// Adds some of the pending points to the existing picture.
 void SceneView::draw_rest() {
   Parts& p = *parts_;
   if (p.moving || !isVisible()) return;
@@ -184,7 +184,7 @@ void SceneView::draw_rest() {
   if (!p.complete) p.more.start(0);
 }
 
-/// A piece of the first large texture that is still drawn by a smaller picture.
+/// Uploads a piece of the first large texture that is still drawn with a smaller image.
 void SceneView::bring_textures() {
   Parts& p = *parts_;
   for (auto& [id, item] : p.items) {

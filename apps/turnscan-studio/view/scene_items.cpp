@@ -1,4 +1,4 @@
-// The items of the view: their actors, how they look, and their bounding boxes.
+// The items of the view: their actors, appearance, and bounding boxes.
 
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kNormalColors = "NormalColors";
 
-/// -1 to 1 becomes 0 to 255.
+/// Maps -1 to 1 to 0 to 255.
 void add_normal_colors(vtkPolyData& data) {
   vtkDataArray* normals = data.GetPointData()->GetNormals();
   if (!normals || data.GetPointData()->HasArray(kNormalColors)) return;
@@ -136,7 +136,7 @@ void SceneView::style_actor(const Item& item, vtkActor* actor) {
   property->SetLineWidth(float(style.line_width * devicePixelRatioF()));
   property->SetLighting(style.lit && mesh);
   property->SetInterpolationToPhong();
-  // A picture has its own light; little of the view's shows the shape.
+  // A texture contains its own lighting; little of the view's is needed to show the shape.
   property->SetAmbient(pictured ? 0.45 : 0.12);
   property->SetDiffuse(pictured ? 0.55 : 0.85);
   property->SetSpecular(pictured ? 0.0 : 0.12);
@@ -153,7 +153,7 @@ void SceneView::style_actor(const Item& item, vtkActor* actor) {
     p.renderers[std::size_t(pane)]->AddActor(actor);
 }
 
-/// Points that are to touch are as large as they lie apart where the camera looks.
+/// Points that should touch are as large as their spacing at the camera's focus.
 void SceneView::Parts::size_points(Item& item, double ratio, double metres_per_pixel) {
   constexpr double kOverlap = 1.25, kLargest = 48.0;
   const double spacing = item.drawable->spacing_m;

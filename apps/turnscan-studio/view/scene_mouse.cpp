@@ -1,4 +1,4 @@
-// What mouse and keys do in the view.
+// Mouse and keyboard input of the view.
 
 #include <QKeyEvent>
 #include <QMouseEvent>

@@ -1,4 +1,4 @@
-// What is painted above the picture: scale bar, axes, legend, hints.
+// Painted over the picture: scale bar, axes, legend, hints.
 
 #include <QFontMetricsF>
 #include <QLinearGradient>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMargin = 16.0;
 
-/// The largest of 1, 2, 5 times a power of ten that is not above.
+/// The largest of 1, 2, 5 times a power of ten that does not exceed `length`.
 double round_length(double length) {
   const double power = std::pow(10.0, std::floor(std::log10(length)));
   for (const double step : {5.0, 2.0})
@@ -35,7 +35,7 @@ void paint_card(QPainter& painter, const QRectF& rect, const Theme& theme) {
 }
 
 /// The colours of a continuous legend, low values at the bottom; with a histogram a narrow bar, and
-/// its shares beside it.
+/// its shares next to it.
 void paint_color_bar(QPainter& painter, const Legend& legend, const QRectF& bar) {
   std::vector<QColor> colors = legend.bar;
   if (colors.empty())
@@ -139,7 +139,7 @@ void SceneView::paint_legend(QPainter& painter) {
   }
 }
 
-/// Below the text in the middle, while there is nothing else to see.
+/// Below the text in the middle, while nothing else is shown.
 void SceneView::place_actions() {
   QWidget* actions = parts_->empty_actions;
   if (!actions) return;

@@ -13,7 +13,7 @@
 
 namespace turnscan::studio {
 
-/// Scale bar, legend, hints and what tools paint, above the canvas.
+/// Scale bar, legend, hints and what tools paint, over the canvas.
 class ViewOverlay : public QWidget {
  public:
   explicit ViewOverlay(SceneView* view) : QWidget(view), view_(view) {
@@ -134,7 +134,7 @@ void SceneView::set_empty_text(const QString& title, const QString& text) {
 void SceneView::set_empty_actions(const std::vector<Action>& actions) {
   if (parts_->empty_actions) {
     parts_->empty_actions->hide();
-    parts_->empty_actions->deleteLater();  // it may be one of them that was clicked
+    parts_->empty_actions->deleteLater();  // one of them may have been clicked
   }
   auto* row = new QWidget(this);
   auto* layout = new QHBoxLayout(row);
@@ -243,7 +243,7 @@ void SceneView::update_overlay() {
 
 void SceneView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  request_render();  // what changed while it was hidden was not drawn
+  request_render();  // changes made while it was hidden were not drawn
 }
 
 void SceneView::resizeEvent(QResizeEvent* event) {
@@ -252,7 +252,7 @@ void SceneView::resizeEvent(QResizeEvent* event) {
   parts_->overlay->setGeometry(rect());
   parts_->overlay->raise();
   place_actions();
-  // Until somebody moves the camera, everything stays in view.
+  // Until the user moves the camera, everything is kept in view.
   if (!parts_->touched) reset_camera();
   request_render();
 }

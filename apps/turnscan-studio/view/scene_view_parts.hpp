@@ -25,8 +25,8 @@
 
 namespace turnscan::studio {
 
-inline constexpr int kRestAfterMs =
-    180;  ///< time without movement after which the camera is at rest
+/// Time without movement after which the camera is at rest.
+inline constexpr int kRestAfterMs = 180;
 inline constexpr double kViewAngle = 30.0;  ///< degrees, vertical
 inline constexpr double kPointSize = 2.0;   ///< pixels, by default
 

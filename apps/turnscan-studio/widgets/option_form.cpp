@@ -32,7 +32,7 @@ const char* unit_of(Quantity quantity) {
   return "";
 }
 
-/// A number that was typed without its unit gets the one that people use.
+/// Adds the usual unit to a number that was typed without one.
 QString with_unit(const QString& text, Quantity quantity) {
   const std::string plain = text.trimmed().toStdString();
   return parse_number(plain) ? text.trimmed() + unit_of(quantity) : text.trimmed();

@@ -89,14 +89,14 @@ void ParagraphLabel::resizeEvent(QResizeEvent* event) {
   fit();
 }
 
-// Layouts within layouts give a text that wraps less than it needs.
+// In nested layouts, wrapped text gets less height than it needs.
 void ParagraphLabel::fit() {
-  setMinimumHeight(0);  // which a label counts as needed
+  setMinimumHeight(0);  // otherwise included in the height that a label needs
   setMinimumHeight(std::max(0, heightForWidth(width())));
 }
 
-// Each layout asks the one around it for room by an event, one round of the loop after the other:
-// until the last has answered the text lies over what is below it.
+// Each layout requests room from its parent by an event, one event loop iteration after the other:
+// until the last has answered, the text overlaps what is below it.
 void ParagraphLabel::make_room() {
   for (QWidget* around = parentWidget(); around && !around->isWindow() && around->isVisible();
        around = around->parentWidget())

@@ -28,7 +28,7 @@ QString without_mnemonic(QString text) {
   return text.replace("&&", "\u0001").remove('&').replace("\u0001", "&").remove(QChar(0x2026));
 }
 
-/// A dialog with one part that fills it; it goes when it is closed.
+/// A dialog filled by one widget; it is deleted when it is closed.
 QDialog* dialog_with(MainWindow& window, const QString& name, const QString& title, QWidget* part,
                      const QSize& size) {
   auto* dialog = new QDialog(&window);
@@ -51,7 +51,7 @@ QString table_of(const std::vector<KeyLine>& lines) {
   return html + "</table>";
 }
 
-/// The pages of docs/ with their pictures made to fit.
+/// The pages of docs/ with their pictures fitted to the width.
 class ManualBrowser : public QTextBrowser {
  public:
   using QTextBrowser::QTextBrowser;
@@ -94,7 +94,7 @@ void show_keys(MainWindow& window) {
 
 QString manual_file() {
   QStringList folders;
-  // Beside the program as it is installed, and in the source tree, whose data it was given.
+  // Next to the installed program, and in the source tree.
   QDir above(QCoreApplication::applicationDirPath());
   for (int i = 0; i < 4; ++i) {
     folders << above.filePath("share/doc/turnscan/docs");
@@ -121,7 +121,7 @@ void show_manual(MainWindow& window) {
   browser->setAccessibleName(MainWindow::tr("Manual"));
   browser->setOpenExternalLinks(true);
   auto* dialog = dialog_with(window, "manual", MainWindow::tr("Manual"), browser, {860, 700});
-  // Once it has its width, to which pictures are fitted.
+  // After it has its width, to which pictures are fitted.
   dialog->layout()->activate();
   browser->setSource(QUrl::fromLocalFile(file), QTextDocument::MarkdownResource);
 }
@@ -143,7 +143,7 @@ QString about_html() {
   struct Part {
     const char *name, *license;
   };
-  // What the desktop program is linked with, besides the C++ library.
+  // Libraries that the desktop program is linked with, in addition to the C++ library.
   static constexpr Part kParts[] = {{"Qt", "LGPL 3"},
                                     {"VTK", "BSD 3-clause"},
                                     {"Eigen", "MPL 2.0"},

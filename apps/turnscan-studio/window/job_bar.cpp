@@ -70,9 +70,8 @@ void JobBar::show_progress(const QString& phase, double fraction, double seconds
   }
 }
 
-/// That a job of unknown length runs is told by its seconds. A bar that moves all the time would
-/// have the whole window composed 30 times a second, which costs a software renderer a third of a
-/// processor.
+/// A job of unknown length shows its elapsed seconds. A constantly moving bar would recompose the
+/// whole window 30 times a second, which costs a software renderer a third of a processor.
 void JobBar::show_elapsed() {
   if (left_known_) return;
   const auto seconds = since_.elapsed() / 1000;

@@ -29,7 +29,7 @@ struct MenuEntry {
   QKeySequence keys;
 };
 
-/// Returns the actions of the entries that are none but separators.
+/// Returns the actions of the entries except separators.
 std::vector<QAction*> add_entries(MainWindow& window, QMenu& menu,
                                   const std::vector<MenuEntry>& entries) {
   std::vector<QAction*> actions;
@@ -117,7 +117,7 @@ std::vector<QAction*> add_edit_menu(MainWindow& window) {
         QKeySequence(Qt::Key_Escape)}});
 }
 
-/// Widgets keep the texts that they were made with: a choice holds from the next start on.
+/// Widgets keep the texts that they were created with: a choice takes effect at the next start.
 void add_language_menu(MainWindow& window, QMenu& menu) {
   QMenu* made = menu.addMenu(MainWindow::tr("&Language"));
   auto* group = new QActionGroup(made);

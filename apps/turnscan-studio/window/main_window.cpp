@@ -80,7 +80,7 @@ MainWindow::MainWindow()
            simulator_);
   connect(jobs_, &JobRunner::cancelled, this,
           [this](const QString& title) { say(tr("%1: cancelled").arg(title)); });
-  // What the status line said of a job before is no longer so.
+  // The status line's text about an earlier job is outdated.
   connect(jobs_, &JobRunner::failed, this,
           [this](const QString& title) { say(tr("%1: failed").arg(title)); });
   connect(explorer_, &ExplorerMode::file_opened, this, &MainWindow::add_recent);
@@ -88,8 +88,8 @@ MainWindow::MainWindow()
   connect(menu_.recent, &QMenu::aboutToShow, this, &MainWindow::fill_recent);
   connect(settings_, &ViewSettings::changed, this, &MainWindow::apply_settings);
   apply_settings();
-  // As high without a job: the view is not to jump when one begins. With the style, whose edges
-  // count.
+  // The same height without a job, so that the view does not jump when one begins. Polished first,
+  // because the style's edges count.
   job_bar->ensurePolished();
   for (QWidget* part : job_bar->findChildren<QWidget*>()) part->ensurePolished();
   statusBar()->setMinimumHeight(job_bar->sizeHint().height() + 6);
@@ -97,7 +97,7 @@ MainWindow::MainWindow()
 }
 
 MainWindow::~MainWindow() {
-  // Before the modes, to whose widgets the results of jobs go.
+  // Before the modes, whose widgets receive the results of jobs.
   delete jobs_;
   jobs_ = nullptr;
 }
@@ -202,7 +202,7 @@ void MainWindow::fill_recent() {
 
 void MainWindow::apply_settings() {
   menu_.dark->setChecked(settings_->dark());
-  // A new style sheet makes every widget be laid out anew: only when the theme changed.
+  // A new style sheet lays out every widget again: only if the theme changed.
   if (property("theme").toInt() == (settings_->dark() ? 2 : 1)) return;
   setProperty("theme", settings_->dark() ? 2 : 1);
   apply_theme(*static_cast<QApplication*>(QApplication::instance()), settings_->theme());
@@ -219,7 +219,7 @@ void MainWindow::update_undo() {
 void MainWindow::restore_window() {
   const QSettings settings;
   resize(1440, 900);
-  // With its frame, of whose size nothing is known before it is shown.
+  // Including its frame, whose size is not known before it is shown.
   constexpr int kFrame = 48;
   if (const QScreen* on = screen())
     resize(size().boundedTo(on->availableSize() - QSize(kFrame / 3, kFrame)));
@@ -238,7 +238,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
     if (url.isLocalFile() && !mode().open_file(url.toLocalFile())) open(url.toLocalFile());
 }
 
-/// What closing the window would end or lose.
+/// What closing the window would interrupt or lose.
 QStringList MainWindow::at_stake() const {
   QStringList out;
   const QStringList models = explorer_->store().unsaved();

@@ -72,7 +72,7 @@ Error as_usage_error(Error error) {
 }  // namespace
 
 std::string first_sentence(const std::string& text) {
-  constexpr std::string_view kExample = "e.g";  // its dot ends no sentence
+  constexpr std::string_view kExample = "e.g";  // its dot does not end a sentence
   auto end = text.find(". ");
   while (end != std::string::npos && text.substr(0, end).ends_with(kExample))
     end = text.find(". ", end + 1);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestHelp = 70;
 
-/// An option as a shell sees it.
+/// An option as seen by a shell.
 struct ShellOption {
   std::vector<std::string> names;  ///< with dashes
   std::vector<std::string> choices;
@@ -51,7 +51,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// For zsh's _arguments, in single quotes.
+/// Escapes for zsh's _arguments, in single quotes.
 std::string zsh_text(std::string text) {
   for (const char* special : {"\\", "[", "]", ":"})
     text = replaced(text, special, std::string("\\") + special);

@@ -5,8 +5,8 @@
 
 namespace turnscan::cli {
 
-inline constexpr int kExitCancelled =
-    130;  ///< exit code of the process, the shells' convention for SIGINT
+/// Exit code of the process, the shells' convention for SIGINT.
+inline constexpr int kExitCancelled = 130;
 
 /// Turns the first Ctrl-C (SIGINT), SIGTERM or SIGHUP into RunContext::cancel(); the second ends
 /// the process at once with kExitCancelled. Must be constructed before any other thread starts: it

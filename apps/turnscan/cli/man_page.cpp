@@ -6,7 +6,7 @@ namespace turnscan::cli {
 
 namespace {
 
-/// Text that roff prints as it is. Hyphens of options must stay hyphens when they are copied.
+/// Escapes text for roff. Hyphens of options must stay hyphens when they are copied.
 std::string roff_text(const std::string& text) {
   std::string out;
   for (const char c : text) {

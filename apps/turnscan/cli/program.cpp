@@ -45,8 +45,8 @@ OptionTable describe(RunOptions& o) {
   return table;
 }
 
-/// --help with long lines wrapped, the common options in their order, and flags shown without
-/// CLI11's marks.
+/// Formats --help with wrapped lines, the common options in their order, and flags without CLI11's
+/// marks.
 class HelpFormatter : public CLI::Formatter {
  public:
   void put_first(std::vector<const CLI::Option*> options) { first_ = std::move(options); }
@@ -85,7 +85,7 @@ class HelpFormatter : public CLI::Formatter {
   std::vector<const CLI::Option*> first_;
 };
 
-/// "help COMMAND" is short for "COMMAND --help". Reversed, as CLI11 takes them.
+/// Expands "help COMMAND" to "COMMAND --help". Reversed, as CLI11 expects.
 std::vector<std::string> reversed_arguments(int argc, char** argv) {
   std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);
   if (!arguments.empty() && arguments.front() == kHelpCommand) {
@@ -101,14 +101,14 @@ int exit_code_of(ErrorCode code) {
   return code == ErrorCode::kInvalidOption ? kExitUsage : kExitFailed;
 }
 
-/// Whether people write such files, so that they can correct them.
+/// Whether users write such files by hand, and can therefore correct them.
 bool is_text_file(const std::string& path) {
   constexpr std::array<std::string_view, 7> kEndings{".json", ".csv",  ".toml", ".txt",
                                                      ".conf", ".yaml", ".yml"};
   return std::find(kEndings.begin(), kEndings.end(), ending_of(path)) != kEndings.end();
 }
 
-/// What to do about an error whose sentence does not say it.
+/// Advice for errors whose message gives none.
 std::string_view advice_for(const Error& error) {
   switch (error.code) {
     case ErrorCode::kNotFound:
@@ -142,18 +142,18 @@ std::string with_advice(const Error& error) {
   return fmt::format("{}; {}", text, advice_for(error));
 }
 
-/// Takes no memory: it may be what is lacking.
+/// Allocates no memory, which may be what is lacking.
 void put_error(std::string_view text) {
   std::fprintf(stderr, "turnscan: %.*s\n", static_cast<int>(text.size()), text.data());
 }
 
-/// One line whatever a path or a library's message contains.
+/// Prints a single line, whatever a path or a library's message contains.
 void print_error(const std::string& text) { put_error(shown_line(text)); }
 
 std::string text_of_exception(const std::exception& error) {
   const auto* system = dynamic_cast<const std::system_error*>(&error);
   const std::string_view what = error.what();
-  // oneTBB throws a plain error with these words.
+  // oneTBB throws a plain error with this message.
   if ((system != nullptr && system->code() == std::errc::resource_unavailable_try_again) ||
       what.find("pthread_create") != std::string_view::npos)
     return "threads: the system allows no more of them; end other programs, raise the limit "
@@ -175,7 +175,7 @@ int usage_error(const std::string& text, const std::string& command) {
   return kExitUsage;
 }
 
-/// Written at the end, because a full disk shows only when the buffer is flushed.
+/// Flushes at the end, because a full disk is only detected when the buffer is flushed.
 int put_text(const std::string& text) {
   std::fputs(shown_text(text).c_str(), stdout);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
@@ -184,7 +184,7 @@ int put_text(const std::string& text) {
   return kExitFailed;
 }
 
-/// CLI11's words for what a user can do wrong, in the form of our own errors.
+/// CLI11's usage errors in the style of our own messages.
 std::string parse_error_text(const CLI::ParseError& error) {
   std::string text = error.what();
   if (const auto at = text.rfind(" is required"); at != std::string::npos)
@@ -199,7 +199,7 @@ std::string name_of_option(std::string_view argument) {
   return std::string(argument.substr(std::min(argument.find_first_not_of('-'), argument.size())));
 }
 
-/// names: of the options that there are; also_in: the commands that have one of that name.
+/// names: all option names; also_in: the commands that have one with that name.
 std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names,
                              const std::vector<std::string>& also_in) {
   if (argument.rfind('-', 0) != 0)
@@ -225,7 +225,7 @@ struct Program::Entry {
       : help(std::move(help_text)), command(std::move(c)), app(a), line(*a) {
     command->declare(line);
     line.group("run", "Running", describe(run_options));
-    app->allow_extras();  // so that we can name the nearest option ourselves
+    app->allow_extras();  // so that we can suggest the nearest option ourselves
   }
 };
 
@@ -323,7 +323,7 @@ std::vector<std::string> Program::commands_with(const std::string& option) const
 int Program::run_command(Entry& entry) {
   const std::string called = "turnscan " + entry.app->get_name();
   auto extra = entry.app->remaining();
-  std::erase(extra, "--");  // what follows it was taken for arguments
+  std::erase(extra, "--");  // what follows it was treated as arguments
   if (!extra.empty())
     return usage_error(unknown_argument(extra.front(), entry.line.long_names(),
                                         commands_with(name_of_option(extra.front()))),
@@ -350,7 +350,7 @@ int Program::run_command(Entry& entry) {
   if (result) return put;
   const int code = exit_code_of(result.error().code);
   if (code == kExitUsage) return usage_error(result.error().text(), called);
-  // A command that leaves something behind when it is stopped says so itself.
+  // A command that leaves partial results when it is stopped says so itself.
   const bool told = result.error().message.find("; ") != std::string::npos;
   print_error(code == kExitCancelled && !told
                   ? entry.app->get_name() + ": cancelled; run it again to finish"

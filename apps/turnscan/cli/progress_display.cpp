@@ -26,8 +26,8 @@ std::size_t terminal_width() {
   return size.ws_col;
 }
 
-// Not fmt::print: it throws when standard error is closed or full, which must not end a run. And a
-// pipe that nobody reads must not hold up a recording: what it cannot take is not shown.
+// Not fmt::print: it throws if standard error is closed or full, which must not end a run. And a
+// pipe that nobody reads must not block a recording: what does not fit is dropped.
 void put(const std::string& text) {
   pollfd ready{STDERR_FILENO, POLLOUT, 0};
   if (poll(&ready, 1, 0) == 1) std::fputs(text.c_str(), stderr);
@@ -73,7 +73,7 @@ void ProgressDisplay::pause(bool paused) {
   if (paused_)
     paused_at_ = Clock::now();
   else
-    begin_ += Clock::now() - paused_at_;  // whoever was asked took the time
+    begin_ += Clock::now() - paused_at_;  // excludes the time that the user took to answer
   if (paused_ && terminal_) put("\r\033[K");
 }
 
@@ -97,7 +97,7 @@ void ProgressDisplay::on_progress(const Progress& progress) {
   if (terminal_ && !paused_) draw_bar();
 }
 
-// Some phases cannot say how far they are; the ticker keeps their clock going.
+// Some phases cannot report their progress; the ticker updates their elapsed time.
 void ProgressDisplay::tick() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, kTick, [this] { return finished_; })) {

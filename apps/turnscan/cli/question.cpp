@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPoll_ms = 100;
 
-/// A line without its end; nullopt: there is none.
+/// A line without its end; nullopt: end of input.
 Result<std::optional<std::string>> read_line(const RunContext& context) {
   std::string line;
   for (;;) {

@@ -17,7 +17,7 @@ namespace turnscan::cli {
 
 namespace {
 
-constexpr int kFramesForMotion = 920;  // about a turn; half a minute at 30 frames a second
+constexpr int kFramesForMotion = 920;  // about one turn; half a minute at 30 frames per second
 constexpr int kFramesForCheck = 10;
 
 struct DeviceOptions {
@@ -145,7 +145,7 @@ class CalibrateCommand : public Command {
     return {};
   }
 
-  /// Fails when the table has moved since it was calibrated.
+  /// Fails if the table has moved since it was calibrated.
   Result<> check_device(FrameSource& source, Session& session) const {
     const std::string& identity = source.info().identities.front();
     TURNSCAN_ASSIGN(const auto kept, kept_calibration(identity));
@@ -177,7 +177,7 @@ class CalibrateCommand : public Command {
     return calibration;
   }
 
-  /// Fails when something is wrong, after saying what.
+  /// Fails if something is wrong, after reporting it.
   Result<> check(const FrameSequence& recording, Session& session) const {
     TURNSCAN_ASSIGN(
         const auto findings,

@@ -55,7 +55,7 @@ class DemoCommand : public Command {
     const fs::path folder = out_.empty() ? free_folder() : fs::path(out_);
     TURNSCAN_TRY(check_output_folder(folder.string()));
     Result<> result = run_scenes(scenes, folder, session);
-    // What a cancelled demo has made so far is nothing that anybody asked for.
+    // Nobody needs the partial results of a cancelled demo.
     std::error_code error;
     if (!result && result.error().code == ErrorCode::kCancelled) fs::remove_all(folder, error);
     return result;

@@ -23,11 +23,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kErrorScale_m = 0.002;  // last colour of the error view
-constexpr int kFramesOfATurn = 920;      // about, where it follows from the speed
+constexpr int kFramesOfATurn = 920;      // approximate; it follows from the speed
 constexpr double kSecondsPerRecordedFrame = 0.025;
 constexpr std::string_view kPair = "pair";
 
-/// An object of the scene: its truth and what came out.
+/// An object of the scene: its ground truth and the result.
 struct Piece {
   std::string name;
   TriangleMesh truth;
@@ -45,13 +45,13 @@ Result<std::vector<Piece>> make_pieces(const std::string& scene, const RunContex
     TURNSCAN_TRY(add(scene, 0.0, 0.0, 0.0));
     return pieces;
   }
-  // Back to back across the platter, as far apart as it allows.
+  // Back to back across the platter, as far apart as possible.
   TURNSCAN_TRY(add("letter-a", 0.0, 0.065, 0.0));
   TURNSCAN_TRY(add("doll", 0.0, -0.055, M_PI));
   return pieces;
 }
 
-/// Each reconstructed mesh goes to the truth whose box's centre is nearest to its own.
+/// Assigns each reconstructed mesh to the ground truth with the nearest bounding box centre.
 void distribute(const Reconstruction& result, std::vector<Piece>& pieces) {
   std::vector<std::vector<TriangleMesh>> parts(pieces.size());
   for (const ObjectResult& object : result.objects) {
@@ -173,7 +173,7 @@ PhasePlan demo_phases(const std::string& name, const DemoSceneOptions& options) 
   const int frames = options.scan.motion.frames.value_or(kFramesOfATurn);
   PhasePlan plan = joined({{{"write recording", kSecondsPerRecordedFrame * frames}},
                            surface_phases(options.reconstruct, std::size_t(frames))});
-  // Of each object: of the truth, the mesh and the errors.
+  // For each object: pictures of the ground truth, the mesh and the errors.
   const PhasePlan pictures(3, {"render picture", 6.0});
   for (int object = 0; object < (name == kPair ? 2 : 1); ++object)
     plan = joined({plan, evaluate_phases(options.evaluate), seen_phases(), pictures});

@@ -65,7 +65,7 @@ class PlanCommand : public Command {
  private:
   PhasePlan phases() const {
     PhasePlan plan{{"surface", 1.0}, {"candidates", 20.0}, {"choose", 5.0}, {"refine", 3.0}};
-    // What is left of the trials varies the best plan.
+    // The remaining trials vary the best plan.
     const int trials = request_.options.trials, first = std::min(trials, request_.options.plans);
     for (const int tasks : {first, trials - first})
       if (tasks > 0)

@@ -182,7 +182,7 @@ class ReconstructCommand : public Command {
     return check_output_file(files_.stages[stage], ".ply");
   }
 
-  /// "NAME=FILE.ply", or "NAME" for a file beside the mesh.
+  /// "NAME=FILE.ply", or "NAME" for a file next to the mesh.
   std::string stage_file(const std::string& text) const {
     const auto equals = text.find('=');
     if (equals != std::string::npos) return text.substr(equals + 1);

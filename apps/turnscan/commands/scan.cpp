@@ -15,7 +15,7 @@ namespace turnscan::cli {
 
 namespace {
 
-/// Of the object, each of which is a turn of the table.
+/// Number of passes of the object, each one turn of the table.
 struct PassCount {
   std::optional<int> passes;
 };

@@ -76,7 +76,7 @@ class TurntableCommand : public Command {
       if (turn_.seconds && since.count() >= *turn_.seconds) break;
     }
     TURNSCAN_TRY(motor.stop());
-    // Without a time Ctrl-C is how it is meant to end.
+    // Without a duration, Ctrl-C is the intended way to end it.
     return turn_.seconds ? session.context().check() : Result<>();
   }
 

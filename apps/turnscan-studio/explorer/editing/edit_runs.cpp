@@ -1,4 +1,4 @@
-// What the panel of edits starts on the worker's thread.
+// Edits that the panel runs on the worker thread.
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -26,7 +26,7 @@ namespace turnscan::studio {
 namespace {
 
 const QColor kSelectedColor(0xff8a00);
-constexpr double kSmall = 0.05;  // of the largest piece
+constexpr double kSmall = 0.05;  // relative to the largest piece
 
 SmallPieces small_pieces_of(const ModelData& data) {
   return data.kind == ModelKind::kMesh
@@ -100,7 +100,7 @@ Finish EditPanel::take_selection(const ModelDataPtr& of, Selection made) {
   selected.parts = std::make_shared<const Selection>(std::move(made));
   return [this, selected] {
     const Model* model = target();
-    if (!model || model->data != selected.of) return;  // another one is selected by now
+    if (!model || model->data != selected.of) return;  // another one has been selected meanwhile
     parts_.store.select_parts(selected, tr("select"));
   };
 }
@@ -113,7 +113,7 @@ const Selection& EditPanel::selection() const {
                                                                                  : nothing;
 }
 
-/// What is selected is shown while its model is.
+/// The selection is shown while its model is visible.
 void EditPanel::draw_selection() {
   const DrawablePtr wanted = selection().empty() ? nullptr : parts_.store.selected_parts().drawable;
   if (wanted == drawn_) return;
@@ -137,7 +137,7 @@ void EditPanel::follow_model() {
   show_count();
 }
 
-/// One step of undo; the selection ends with the data that it belongs to.
+/// One undo step; the selection ends with the data that it refers to.
 void EditPanel::edit(const QString& what, const Edit& made) {
   const Model* model = target();
   if (!model) return;
@@ -173,7 +173,7 @@ bool EditPanel::delete_selected() {
              tr("%1 of %2").arg(grouped(count_selected(selection)), grouped(selection.size()));
          if (from.kind == ModelKind::kMesh) {
            TURNSCAN_ASSIGN(TriangleMesh rest, without_selected(from.mesh, selection));
-           // Mostly crumbs behind what was selected, which nobody sees from here.
+           // Usually debris behind the selection that is not visible from here.
            const auto before = small_pieces(from.mesh, kSmall).pieces;
            const auto after = small_pieces(rest, kSmall).pieces;
            const QString left = after > before ? tr("; %n small piece(s) left, see Small pieces",

@@ -24,7 +24,7 @@ std::size_t parts_of(const ModelData& data) {
   return data.kind == ModelKind::kMesh ? data.mesh.triangles.size() : data.cloud.size();
 }
 
-/// Of a mesh a little off it on both sides, so that it covers it.
+/// For a mesh, slightly offset on both sides so that it covers the mesh.
 DrawablePtr selection_drawable(const ModelData& data, const Selection& selection) {
   if (count_selected(selection) == 0) return nullptr;
   if (data.kind == ModelKind::kCloud) {

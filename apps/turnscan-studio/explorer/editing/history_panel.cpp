@@ -18,7 +18,7 @@ HistoryPanel::HistoryPanel(ModelStore& store, QWidget* parent)
   list_->setToolTip(tr("A click goes back to that state, or forward again"));
   list_->setFixedHeight(130);
   connect(&store_, &ModelStore::changed, this, &HistoryPanel::fill);
-  // By mouse or by keys; not from within the list's own signal, as it is filled anew.
+  // By mouse or keys; deferred, because the list must not be refilled within its own signal.
   connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {
     QMetaObject::invokeMethod(
         this, [this, row] { store_.go_to(std::size_t(std::max(0, row))); }, Qt::QueuedConnection);

@@ -17,7 +17,7 @@ SelectionTool::SelectionTool(SceneView& view, Shape shape, Done done)
 void SelectionTool::set_radius(double pixels) { radius_px_ = pixels; }
 
 bool SelectionTool::press(const QPointF& at, Qt::KeyboardModifiers keys) {
-  if (keys.testFlag(Qt::AltModifier)) return false;  // the camera
+  if (keys.testFlag(Qt::AltModifier)) return false;  // rotates the camera
   how_ = keys.testFlag(Qt::ShiftModifier)     ? std::optional(SelectHow::kAdd)
          : keys.testFlag(Qt::ControlModifier) ? std::optional(SelectHow::kSubtract)
                                               : std::nullopt;
@@ -39,7 +39,7 @@ void SelectionTool::release(const QPointF& /*at*/) {
   if (!made.points.empty()) done_(made, how_);
 }
 
-/// Nothing where no area is enclosed: of a click without a way.
+/// Empty if no area is enclosed, as for a click without movement.
 ScreenRegion SelectionTool::region() const {
   if (path_.empty()) return {};
   if (shape_ == kBrush) return {path_, radius_px_};
@@ -59,7 +59,7 @@ void SelectionTool::paint(QPainter& painter) {
   for (const auto& p : shown.points) path.lineTo(p.x(), p.y());
   if (shape_ == kBrush) {
     fill.setAlpha(110);
-    path.lineTo(path.currentPosition() + QPointF(0.01, 0.0));  // a click alone is a dot
+    path.lineTo(path.currentPosition() + QPointF(0.01, 0.0));  // a single click is a dot
     painter.setPen(QPen(fill, 2.0 * radius_px_, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(path);

@@ -48,7 +48,7 @@ const std::vector<Vec3f>& points_of(const ModelData& data) {
   return data.kind == ModelKind::kMesh ? data.mesh.vertices : data.cloud.points;
 }
 
-/// Where pairs are sought from: equally dense on a mesh, every n-th point of a cloud.
+/// Start points for the search of pairs: uniformly dense on a mesh, every n-th point of a cloud.
 Result<std::vector<Vec3f>> alignment_points(const ModelData& data, const RunContext& context) {
   if (data.kind == ModelKind::kMesh) {
     TURNSCAN_ASSIGN(SurfaceSamples samples, sample_surface(data.mesh, kAlignPoints, 1, context));
@@ -168,8 +168,7 @@ void DeviationPanel::fill() {
       if (model.data->kind == ModelKind::kMesh) reference_->addItem(model.name, model.id);
     reference_->setCurrentIndex(std::max(0, reference_->findData(before)));
   }
-  // An edit made other data, or the model is gone; an undo may bring it back, but not these
-  // colours.
+  // An edit made new data, or the model was removed; an undo may restore it, but not these colours.
   if (shown_.of && !shown_model()) {
     shown_ = {};
     show_figures();
@@ -285,7 +284,7 @@ void DeviationPanel::recolor() {
         context.begin_phase("prepare the view", 0);
         const double range = range_of(values, wanted);
         return Finish([this, of, range, made = color(*of, values, tolerance, range)] {
-          if (shown_.of != of) return;  // another one is shown by now
+          if (shown_.of != of) return;  // another one is shown meanwhile
           shown_.drawable = made;
           shown_.range_m = range;
           show_figures();

@@ -59,8 +59,8 @@ QString text_with_number(std::size_t number, const Measurement& m) {
       QString::fromStdString(measurement_text(m)).section(',', 0, 0));
 }
 
-/// Of the models that are shown, the one whose surface is nearest to a place on the screen's
-/// picture of them, and that place on it.
+/// The visible model whose surface is nearest to a point picked on the screen, and the nearest
+/// point on it.
 struct Touched {
   const Model* model = nullptr;
   Vec3d place = Vec3d::Zero();
@@ -105,7 +105,7 @@ MeasurePanel::MeasurePanel(const ExplorerParts& parts, DistanceOf distance_of, Q
   fill_list();
 }
 
-// The view outlives its panels, and paints no more of what they keep.
+// The view outlives its panels, and must no longer paint what they keep.
 MeasurePanel::~MeasurePanel() = default;
 
 QWidget* MeasurePanel::make_kinds() {
@@ -196,7 +196,7 @@ void MeasurePanel::show_hint() {
                               : tr("Place %1 of %2").arg(clicked + 1).arg(count));
 }
 
-/// Looks at every triangle, which of large meshes takes a while: not on the window's thread.
+/// Visits every triangle, which takes a while for large meshes: not on the window's thread.
 void MeasurePanel::finish(const std::vector<Vec3d>& places) {
   error_->show_text({});
   std::shared_ptr<const SignedDistance> distance;

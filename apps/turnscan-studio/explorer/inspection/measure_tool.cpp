@@ -19,7 +19,7 @@ std::vector<QPointF> pixels_of(const SceneView& view, const std::vector<Vec3d>& 
   return out;
 }
 
-/// Around a circle, or the patch of a plane.
+/// Outline of a circle, or of the patch of a plane.
 std::vector<Vec3d> ring_of(const Vec3d& center, const Vec3d& normal, double radius) {
   constexpr int kSides = 72;
   const Vec3d u = normal.unitOrthogonal(), v = normal.cross(u);

@@ -37,7 +37,7 @@ DrawablePtr contour_drawable(const turnscan::Section& section) {
 SectionPanel::SectionPanel(const ExplorerParts& parts, QWidget* parent)
     : QWidget(parent),
       parts_(parts),
-      // The cut faces the person who looks from above.
+      // The cut faces a user who looks from above.
       plane_(new PlaneBox("section", PlaneBox::kBelow, this)),
       on_(button(tr("Section"), tr("Cut all models open by a plane, and close the selected one"),
                  this)),
@@ -93,7 +93,7 @@ void SectionPanel::follow_model() {
   if (on_->isChecked() && model->data != of_) show_plane(true);
 }
 
-/// The view is cut at once, contours and cap follow when the plane rests.
+/// The view is clipped at once; contours and cap follow when the plane stops moving.
 void SectionPanel::show_plane(bool on) {
   plane_->setEnabled(on);
   if (on) {
@@ -207,7 +207,7 @@ void SectionPanel::export_drawing(const QString& path) {
        path](const RunContext& context) -> Result<Finish> {
         context.begin_phase("write", 0);
         const bool dxf = path.endsWith(".dxf", Qt::CaseInsensitive);
-        // As the person sees the cut, who looks at it against its own normal.
+        // As seen by the user, who looks at the cut against its normal.
         TURNSCAN_ASSIGN(const turnscan::Section section, cross_section(of->mesh, plane));
         TURNSCAN_ASSIGN(const std::string text, dxf ? section_dxf(section) : section_svg(section));
         TURNSCAN_TRY(write_file_atomically(path.toStdString(), text));

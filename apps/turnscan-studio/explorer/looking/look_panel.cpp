@@ -53,7 +53,7 @@ LookPanel::LookPanel(SceneView& view, ModelStore& store, QWidget* parent)
   surface_->setObjectName("look_surface");
   surface_->addItems({tr("Shaded"), tr("Shaded, with edges"), tr("Wireframe"), tr("Normals")});
   surface_->setFocusPolicy(Qt::StrongFocus);
-  // The longest entry would make the panel wider than it is.
+  // The longest entry would widen the panel.
   surface_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   surface_->setMinimumContentsLength(8);
   surface_->setToolTip(tr("How surfaces are drawn; normals: x red, y green, z blue"));

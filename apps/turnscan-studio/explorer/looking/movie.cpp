@@ -54,7 +54,7 @@ void TurntableMovie::step() {
   if (!view_) return end_with(tr("The view was closed"));
   view_->turn(2.0 * std::numbers::pi / frames_);
   const QString file = file_of(++taken_);
-  constexpr int kQuick = 80;  // of 100: larger files, sooner
+  constexpr int kQuick = 80;  // of 100: larger files, but faster
   if (!view_->screenshot().save(file, "PNG", kQuick))
     return end_with(tr("%1 cannot be written").arg(file));
   Q_EMIT progress(tr("Picture %1 of %2").arg(taken_).arg(frames_));

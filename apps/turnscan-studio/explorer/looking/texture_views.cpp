@@ -13,16 +13,16 @@ namespace turnscan::studio {
 namespace {
 
 constexpr Rgb kNoViewColor{150, 150, 150};
-constexpr std::size_t kMaxListed = 18;  // lines of the legend that a small window has room for
+constexpr std::size_t kMaxListed = 18;  // lines of the legend that fit into a small window
 
-/// Degrees about the mesh's vertical, 0 to 360.
+/// Degrees about the mesh's vertical axis, 0 to 360.
 double azimuth_deg(const Vec3f& eye, const Vec3d& center) {
   const Vec3d from = eye.cast<double>() - center;
   const double angle = std::atan2(from.x(), from.z()) * 180.0 / std::numbers::pi;
   return angle < 0.0 ? angle + 360.0 : angle;
 }
 
-/// Places of the views in the order in which they stand about the mesh.
+/// Indices of the views, sorted by direction around the mesh.
 std::vector<std::size_t> around(const TextureReport& report, const Vec3d& center) {
   std::vector<std::size_t> order(report.used.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -32,7 +32,7 @@ std::vector<std::size_t> around(const TextureReport& report, const Vec3d& center
   return order;
 }
 
-/// Views beside each other are far apart in lightness, which everyone can tell.
+/// Neighbouring views differ strongly in lightness, which everyone can distinguish.
 std::vector<Rgb> colors_of(const std::vector<std::size_t>& order) {
   const std::size_t n = order.size();
   std::size_t stride = std::max<std::size_t>(1, std::size_t(0.382 * double(n)));

@@ -1,4 +1,4 @@
-// What leaves the Explorer: exports, and the queue of recordings.
+// Output of the Explorer: exports, and the queue of recordings.
 
 #include <QDir>
 #include <QFileDialog>
@@ -40,7 +40,7 @@ QString outcome_text(const StageRun& run) {
   return parts.join("; ");
 }
 
-/// The files of a run's meshes: NAME.ply, NAME-2.ply, ...; with a texture .glb.
+/// Writes the meshes of a run: NAME.ply, NAME-2.ply, ...; .glb for a texture.
 Result<QStringList> write_run(const StageRun& run, const QString& folder, const QString& name) {
   if (!QDir().mkpath(folder))
     return fail_at(folder.toStdString(), ErrorCode::kIo, "the folder cannot be made");
@@ -143,7 +143,7 @@ void ExplorerMode::reconstruct_queued(
           for (int i = 0; i < files.size(); ++i)
             store_->set_file(run.models[std::size_t(i)].second, files[i]);
           const auto ids = store_->add_all(run.models, tr("reconstruct %1").arg(name));
-          // All lie in the same place: the last one is seen.
+          // All are in the same place: only the last one is shown.
           for (const int id : queued_results_) store_->set_visible(id, false);
           queued_results_.insert(queued_results_.end(), ids.begin(), ids.end());
           list_->select(ids.front());

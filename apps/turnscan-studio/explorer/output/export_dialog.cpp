@@ -90,7 +90,7 @@ ExportDialog::ExportDialog(const ModelData& model, const QString& name, QWidget*
   choose(*up_, settings.value("export/up", int(UpAxis::kFormat)));
   connect(format_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     choose(*unit_, unit_of_format(ending().toStdString()));
-    colors_->setCurrentIndex(0);  // the best that the format has; follow() finds it
+    colors_->setCurrentIndex(0);  // the best that the format supports; follow() finds it
     follow();
   });
   connect(triangles_, &QLineEdit::textChanged, this, &ExportDialog::follow);
@@ -106,7 +106,7 @@ std::size_t ExportDialog::triangles() const {
   return kind_ == ModelKind::kMesh ? triangles_->text().toULongLong() : 0;
 }
 
-/// What the format cannot keep cannot be chosen, and the note says why.
+/// Disables what the format cannot store; the note gives the reason.
 void ExportDialog::follow() {
   const std::string to = ending().toStdString();
   const bool free = units_are_free(to), glb = to == ".glb";

@@ -11,7 +11,7 @@ namespace turnscan::studio {
 
 namespace {
 
-/// The writers turn metres into unit_of_format(ending).
+/// The writers convert metres to unit_of_format(ending).
 float factor_for(const ExportOptions& options, const std::string& ending) {
   return units_are_free(ending) ? float(unit_of_format(ending) / options.metres_per_unit) : 1.0f;
 }

@@ -23,11 +23,11 @@ namespace turnscan::studio {
 
 namespace {
 
-/// Of the mesh's diagonal: the refinement begins no farther than about a twentieth of the object
-/// away, and clicks a millimetre beside their places turn what is less spread by more.
+/// Share of the mesh's diagonal: the refinement starts at a distance of at most about a twentieth
+/// of the object, and clicks that are off by a millimetre rotate less widely spaced pairs by more.
 constexpr double kShareOfSize = 0.05;
 
-/// As a model that a stage can be run on.
+/// As a model on which a stage can be run.
 Model recording_of(const PassesOfMesh& passes) {
   Model model;
   model.name = QFileInfo(passes.recording->source).fileName();
@@ -40,7 +40,7 @@ bool has_any_of(const PassesOfMesh& passes, const PassesOfMesh& wanted) {
                      [&](const auto& pass) { return passes.T_mesh_table.count(pass.first) > 0; });
 }
 
-/// The two newest that can be joined, that with the earliest pass first.
+/// The two newest that can be joined, the one with the earliest pass first.
 std::pair<const Model*, const Model*> newest_pair(const std::vector<const Model*>& meshes) {
   for (auto a = meshes.rbegin(); a != meshes.rend(); ++a)
     for (auto b = a + 1; b != meshes.rend(); ++b) {
@@ -131,7 +131,7 @@ QWidget* JoinPanel::make_buttons() {
 
 const Model* JoinPanel::chosen(const QComboBox* box) const {
   const Model* model = parts_.store.find(box->currentData().toInt());
-  // An edit takes the passes from a mesh before the boxes are filled anew.
+  // An edit removes the passes from a mesh before the boxes are refilled.
   return model && model->data->passes ? model : nullptr;
 }
 
@@ -163,7 +163,7 @@ void JoinPanel::fill() {
     moved_->setCurrentIndex(b ? moved_->findData(b->id) : 0);
   }
   known_ = meshes.size();
-  // Places lie on meshes that are there no more.
+  // The points are on meshes that no longer exist.
   if (is_picking() &&
       before != std::pair(fixed_->currentData().toInt(), moved_->currentData().toInt()))
     parts_.tools.stop();
@@ -226,7 +226,7 @@ void JoinPanel::join() {
         const PassesOfMesh &so_far = *a.data->passes, &more = *b.data->passes;
         TURNSCAN_ASSIGN(const auto poses, poses_of_passes(so_far, more, T));
         TURNSCAN_ASSIGN(StageRun run, join_stated(recording_of(so_far), poses, options, context));
-        // What is apart now was apart before, and is there.
+        // Passes that are still separate already have models.
         std::erase_if(run.models, [&](const auto& made) {
           const PassesPtr& passes = made.second->passes;
           return !passes || !has_any_of(*passes, so_far) || !has_any_of(*passes, more);
