@@ -8,7 +8,7 @@ class ModelStore;
 class SceneView;
 class ToolButtons;
 
-/// Services used by inspection and editing; they outlive all of these.
+/// Services used by the inspection and editing panels; they must outlive the panels.
 struct ExplorerParts {
   ModelStore& store;
   ModelList& list;

@@ -135,8 +135,8 @@ Result<> Bag::take_chunk(const Head& head, std::uint64_t& next) {
   if (!size) return fail(ErrorCode::kFormat, "a chunk does not say its size");
   auto packing = packing_of(fields.text("compression"));
   if (!packing) return tl::unexpected<Error>(at_chunk(packing.error(), 0));
-  // A recorder fills in the sizes when it closes the chunk. If it is not compressed, its content
-  // can still be read as records of the file.
+  // A recorder fills in the sizes when it closes the chunk. If the chunk is not compressed, its
+  // content can still be read as records of the file.
   const bool open = head.data_bytes == 0 && *size == 0;
   if (open && *packing == Packing::kNone) return {};
   const std::uint64_t there = file_.size() - head.data_at;

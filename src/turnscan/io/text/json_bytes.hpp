@@ -20,9 +20,8 @@ std::string line_and_column(std::string_view text, std::size_t offset);
 /// deepest existing part. For a duplicate key the last one counts. text must be valid.
 std::size_t json_offset(std::string_view text, std::string_view path);
 
-/// The text of a JSON object with one member replaced by or set to a value, itself JSON; all other
-/// bytes are preserved. For a duplicate key the last one counts, as in the parser. text must be
-/// valid.
+/// The text of a JSON object with one member set to a value, which is itself JSON; all other bytes
+/// are preserved. For a duplicate key the last one counts, as in the parser. text must be valid.
 std::string with_json_member(std::string text, std::string_view key, std::string_view value);
 
 }  // namespace turnscan::text

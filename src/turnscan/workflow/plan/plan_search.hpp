@@ -30,7 +30,7 @@ struct ChosenRig {
   std::size_t passes = 1;
 };
 
-/// Value of a spot that is seen with this error and with this probability, in units of kFullWorth:
+/// Value of a spot that is seen with this error and with this probability, at most kFullWorth:
 /// close to that for any error unless the error is preferred. Decreases with the error. 0 beyond
 /// max_error_m.
 std::uint16_t worth_of(double error_m, const std::optional<double>& max_error_m, Prefer prefer,
