@@ -118,6 +118,15 @@ TEST(Calibrate, TakesOneWayAlone) {
   EXPECT_EQ(detected->method, CalibrationMethod::kDetected);
 }
 
+TEST(Calibrate, RefusesWhatWouldDoNothing) {
+  for (const Options& options :
+       {Options{{"depth-also", "elsewhere"}}, {{"gauge-ball", "50mm"}}, {{"depth-bias", "true"}}}) {
+    const auto made = calibrate(cylinder().frames(), options);
+    ASSERT_FALSE(made) << options.front().first;
+    EXPECT_EQ(made.error().code, ErrorCode::kInvalidOption) << options.front().first;
+  }
+}
+
 TEST(Batch, WithoutItsProgramIsNotFound) {
   Batch batch;
   batch.inputs = {"nowhere"};

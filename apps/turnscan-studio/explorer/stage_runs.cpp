@@ -143,10 +143,9 @@ Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions&
   const auto page = std::make_shared<const PageInput>(
       page_input(made, run_report(made, options), model.name.toStdString()));
   std::size_t on_page = made.reconstruction.objects.size();
-  std::optional<std::uint32_t> only;
-  if (options.merge.pass) only = std::uint32_t(*options.merge.pass);
-  const MeshOrigin origin{page, 0, any ? missing_of(made, model) : nullptr,
-                          passes_of_meshes(model.data, made.reconstruction, only)};
+  const MeshOrigin origin{
+      page, 0, any ? missing_of(made, model) : nullptr,
+      passes_of_meshes(model.data, made.reconstruction, options.merge.chosen_pass())};
   StageRun out = mesh_run(std::move(made.reconstruction), model, context, origin);
   QStringList reasons;
   for (PassApart& pass : made.apart) {

@@ -85,20 +85,11 @@ class CalibrateCommand : public Command {
   }
 
   Result<> run(Session& session) override {
-    if (int(!request_.points.empty()) + int(detect_) + int(from_motion_) > 1)
-      return fail(ErrorCode::kInvalidOption,
-                  "--points, --detect and --from-motion are different ways to calibrate; give one "
-                  "of them");
+    TURNSCAN_ASSIGN(request_.way, calibration_way(!request_.points.empty(), detect_, from_motion_));
     if (check_ && !(json_.empty() && save_.empty()))
       return fail(ErrorCode::kInvalidOption,
                   "--check makes no calibration; leave out --json and --save");
-    if (!request_.depth_also.empty() && !request_.depth_bias)
-      return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
-    if (request_.depth_bias && !request_.detect.radius_m && !request_.ball.diameter_m)
-      return fail(ErrorCode::kInvalidOption,
-                  "--depth-bias needs a known size; give --platter-radius or --gauge-ball");
-    if (request_.ball.diameter_m && !request_.depth_bias)
-      return fail(ErrorCode::kInvalidOption, "--gauge-ball is for --depth-bias; give both");
+    TURNSCAN_TRY(request_.check());
     if (recording_.empty() && device_.empty())
       return fail(ErrorCode::kInvalidOption, "RECORDING: missing; give it, or --device URI");
     if (!recording_.empty() && !device_.empty())
@@ -107,10 +98,6 @@ class CalibrateCommand : public Command {
     if (!device_.empty() && !import_.empty())
       return fail(ErrorCode::kInvalidOption,
                   "--import is for files of other programs; leave it out with --device");
-    request_.way = !request_.points.empty() ? CalibrationWay::kPoints
-                   : from_motion_           ? CalibrationWay::kMotion
-                   : detect_                ? CalibrationWay::kPlatter
-                                            : CalibrationWay::kAuto;
     session.plan(phases());
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));

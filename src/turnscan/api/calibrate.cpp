@@ -31,16 +31,6 @@ OptionTable describe(NamedCalibration& named) {
   return table;
 }
 
-Result<CalibrationWay> way_of(const NamedCalibration& named) {
-  const bool points = !named.request.points.empty();
-  if (int(points) + int(named.detect) + int(named.from_motion) > 1)
-    return fail(ErrorCode::kInvalidOption,
-                "points, detect and from-motion are different ways to calibrate; give one of them");
-  if (points) return CalibrationWay::kPoints;
-  if (named.from_motion) return CalibrationWay::kMotion;
-  return named.detect ? CalibrationWay::kPlatter : CalibrationWay::kAuto;
-}
-
 }  // namespace
 
 Result<Calibration> calibrate(const FrameSequence& frames, const Options& options,
@@ -49,7 +39,8 @@ Result<Calibration> calibrate(const FrameSequence& frames, const Options& option
   Options fields = options;
   named.request.iai_folders = api::take(fields, kCameraFolder);
   TURNSCAN_TRY(api::set_fields(describe(named), fields));
-  TURNSCAN_ASSIGN(named.request.way, way_of(named));
+  TURNSCAN_ASSIGN(named.request.way,
+                  calibration_way(!named.request.points.empty(), named.detect, named.from_motion));
   return run_calibration(frames, named.request, context);
 }
 

@@ -72,8 +72,7 @@ std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRe
   if (!made.passes.empty()) return out;
   const CalibratedFrames& calibrated = placed[0].calibrated;
   const MergeOptions& merge = calibrated.options.merge;
-  std::optional<std::uint32_t> pass;
-  if (merge.pass) pass = std::uint32_t(*merge.pass);
+  const std::optional<std::uint32_t> pass = merge.chosen_pass();
   return {{calibrated.frames.get(), pass, merge.speed_rad_s, Pose::Identity(), pass.value_or(0)}};
 }
 
@@ -141,9 +140,7 @@ Result<> conclude_run(const std::vector<PlacedRecording>& placed,
   run.turn = turn_of(*first.frames);
   if (passes.empty()) {
     const MergeOptions& merge = first.options.merge;
-    std::optional<std::uint32_t> pass;
-    if (merge.pass) pass = std::uint32_t(*merge.pass);
-    if (auto views = pass_views(*first.frames, pass, merge.speed_rad_s))
+    if (auto views = pass_views(*first.frames, merge.chosen_pass(), merge.speed_rad_s))
       run.seen_from = std::move(*views);
   }
   if (!run.reconstruction.objects.empty())

@@ -11,8 +11,8 @@ namespace turnscan::estimation {
 inline constexpr double kMadToSigma = 1.4826;
 /// The median of the square of a standard normal variable.
 inline constexpr double kMedianOfSquare = 0.455;
-/// Limits, in standard deviations, at which an estimate is 95 % efficient for normal errors.
-inline constexpr double kHuber95 = 1.345, kTukey95 = 4.685;
+/// Huber's limit, in standard deviations, at which an estimate is 95 % efficient for normal errors.
+inline constexpr double kHuber95 = 1.345;
 
 /// The standard deviation of errors from their absolute values, 0 without any. Reorders them.
 template <class T>

@@ -46,10 +46,6 @@ std::optional<std::uint32_t> RecordHeader::u32(std::string_view name) const {
   return number<std::uint32_t>(text(name));
 }
 
-std::optional<std::uint64_t> RecordHeader::u64(std::string_view name) const {
-  return number<std::uint64_t>(text(name));
-}
-
 std::optional<std::int64_t> RecordHeader::time_ns(std::string_view name) const {
   const std::string_view value = text(name);
   if (value.size() != 8) return std::nullopt;

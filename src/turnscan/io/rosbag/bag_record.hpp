@@ -33,7 +33,6 @@ class RecordHeader {
   /// A field of exactly this size; nullopt otherwise.
   std::optional<std::uint8_t> u8(std::string_view name) const;
   std::optional<std::uint32_t> u32(std::string_view name) const;
-  std::optional<std::uint64_t> u64(std::string_view name) const;
   /// Time stored as seconds and nanoseconds, in nanoseconds.
   std::optional<std::int64_t> time_ns(std::string_view name) const;
 

@@ -74,9 +74,4 @@ std::vector<PosedFrame> FirstFrames::posed_frames() const {
   return posed;
 }
 
-void FirstFrames::clear() {
-  frames_ = {};
-  poses_ = {};
-}
-
 }  // namespace turnscan::estimation

@@ -31,7 +31,6 @@ class FirstFrames {
   /// In the order of frames(), which their positions refer to.
   std::vector<PosedFrame> posed_frames() const;
   std::size_t discarded() const { return discarded_; }
-  void clear();
 
  private:
   const SequenceHeader& header_;

@@ -1,6 +1,7 @@
 #pragma once
 // Options of the stages from frames to candidate points (thesis 3.4).
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <turnscan/core/option_table.hpp>
@@ -12,6 +13,11 @@ struct MergeOptions {
   std::optional<double> speed_rad_s;
   bool cloud_outliers = false;  ///< a second statistical filter, on the merged cloud
   std::optional<int> pass;      ///< only the frames of this pass
+
+  /// The pass as frames count it; nullopt: all.
+  std::optional<std::uint32_t> chosen_pass() const {
+    return pass ? std::optional(std::uint32_t(*pass)) : std::nullopt;
+  }
 };
 OptionTable describe(MergeOptions& options);
 

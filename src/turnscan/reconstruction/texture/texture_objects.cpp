@@ -273,9 +273,8 @@ Result<> texture_objects(const FrameSequence& sequence, const ReconstructOptions
                   frame_poses(sequence.header(), sequence.frames(), options.merge.speed_rad_s));
   std::vector<Pose> T_object_table;
   for (const PassPlacement& pass : passes) T_object_table.push_back(pass.T_object_table);
-  std::optional<std::uint32_t> pass;
-  if (options.merge.pass) pass = std::uint32_t(*options.merge.pass);
-  const auto views = color_views(sequence, poses.T_table_sensor, T_object_table, pass);
+  const auto views =
+      color_views(sequence, poses.T_table_sensor, T_object_table, options.merge.chosen_pass());
   for (ObjectResult& object : reconstruction.objects) {
     TURNSCAN_ASSIGN(object.texture,
                     texture_mesh(sequence, views, options.texture, object.mesh, context));

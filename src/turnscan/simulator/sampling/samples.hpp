@@ -39,7 +39,6 @@ struct Body {
   Pose T_world_body = Pose::Identity();
 };
 inline constexpr std::size_t kMaxBodies = 255;
-inline constexpr std::uint32_t kMaxSceneObjects = 0xfffffe;  ///< in a scene that is sampled
 
 /// Pixels [left, right) x [top, bottom).
 struct PixelRect {

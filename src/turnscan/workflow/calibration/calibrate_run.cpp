@@ -91,11 +91,30 @@ Result<Calibration> calibrate(const FrameSequence& recording, const CalibrateReq
 
 }  // namespace
 
-Result<Calibration> run_calibration(const FrameSequence& sequence, const CalibrateRequest& request,
-                                    const RunContext& context) {
-  if (request.depth_bias && !request.detect.radius_m && !request.ball.diameter_m)
+Result<CalibrationWay> calibration_way(bool points, bool detect, bool from_motion) {
+  if (int(points) + int(detect) + int(from_motion) > 1)
+    return fail(ErrorCode::kInvalidOption,
+                "--points, --detect and --from-motion are different ways to calibrate; give one "
+                "of them");
+  if (points) return CalibrationWay::kPoints;
+  if (from_motion) return CalibrationWay::kMotion;
+  return detect ? CalibrationWay::kPlatter : CalibrationWay::kAuto;
+}
+
+Result<> CalibrateRequest::check() const {
+  if (!depth_also.empty() && !depth_bias)
+    return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
+  if (depth_bias && !detect.radius_m && !ball.diameter_m)
     return fail(ErrorCode::kInvalidOption,
                 "--depth-bias needs a known size; give --platter-radius or --gauge-ball");
+  if (ball.diameter_m && !depth_bias)
+    return fail(ErrorCode::kInvalidOption, "--gauge-ball is for --depth-bias; give both");
+  return {};
+}
+
+Result<Calibration> run_calibration(const FrameSequence& sequence, const CalibrateRequest& request,
+                                    const RunContext& context) {
+  TURNSCAN_TRY(request.check());
   TURNSCAN_ASSIGN(const Calibration correction,
                   workflow::sensor_correction(sequence, request, context));
   TURNSCAN_ASSIGN(const auto corrected, workflow::corrected_sequence(sequence, correction));

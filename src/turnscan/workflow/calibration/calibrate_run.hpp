@@ -20,6 +20,9 @@ enum class CalibrationWay {
   kMotion    ///< from the motion of the object on the platter
 };
 
+/// The way that is asked for; kAuto if none is. Fails with kInvalidOption if several are.
+Result<CalibrationWay> calibration_way(bool points, bool detect, bool from_motion);
+
 struct CalibrateRequest {
   CalibrationWay way = CalibrationWay::kAuto;
   std::string points;  ///< CSV file of the picked points, see docs/calibration.md
@@ -33,11 +36,14 @@ struct CalibrateRequest {
   BallOptions ball;
   FromMotionOptions motion;
   std::string made_at;  ///< when the frames were taken; empty: as the recording says
+
+  /// Fails with kInvalidOption if options contradict each other, or one would do nothing.
+  Result<> check() const;
 };
 
 /// Returns the calibration as it is read back from its file (see write_calibration()). Fails with
-/// kInvalidOption (depth_bias without a known size, more folders than sensors, a depth_also of
-/// other sensors), kFormat (the file of points), kMissingData (no method finds the turntable),
+/// kInvalidOption (as CalibrateRequest::check(), more folders than sensors, a depth_also of other
+/// sensors), kFormat (the file of points), kMissingData (no method finds the turntable),
 /// kCancelled, and as the frames do.
 Result<Calibration> run_calibration(const FrameSequence& sequence, const CalibrateRequest& request,
                                     const RunContext& context);
