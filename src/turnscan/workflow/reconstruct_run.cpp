@@ -6,6 +6,7 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/recording/calibration_file.hpp>
 
 #include <turnscan/workflow/calibration/disturbed_motion.hpp>
 #include <turnscan/workflow/mesh_output.hpp>
@@ -210,6 +211,8 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
 std::string run_report(const ReconstructRun& run, const ReconstructOptions& options) {
   auto report = nlohmann::ordered_json::parse(report_json(run.reconstruction, options));
   workflow::put_frame_residuals(run.frame_residuals, report);
+  const auto& found = run.choice.calibration;
+  report["calibration"] = found ? nlohmann::ordered_json::parse(calibration_json(*found)) : nullptr;
   report["next_pass"] = run.next_pass ? workflow::next_pass_json(*run.next_pass) : nullptr;
   return report.dump(2) + "\n";
 }

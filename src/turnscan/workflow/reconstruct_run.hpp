@@ -132,8 +132,8 @@ Result<std::vector<std::string>> write_outputs(const ReconstructFiles& files,
                                                const ReconstructOptions& options,
                                                const RunContext& context = {});
 
-/// The report that --report writes: report_json() with the advice for the next pass and the fit of
-/// the frames.
+/// The report that --report writes: report_json() with the calibration that was found (null: the
+/// recording's own), the advice for the next pass and the fit of the frames.
 std::string run_report(const ReconstructRun& run, const ReconstructOptions& options);
 
 /// The content of make_page() for a run: all meshes, those of separate passes last. report: see
