@@ -429,7 +429,8 @@ def animal(rng):
     front, back = 0.32 * long, -0.32 * long
     head = (front + rng.uniform(0.1, 0.25) * long, height - 0.17 * height, rng.uniform(-0.1, 0.1) * height)
     size, snout = rng.uniform(0.1, 0.14) * height, rng.uniform(0.08, 0.2) * height
-    tail = (back - rng.uniform(0.1, 0.25) * long, leg + rng.uniform(-0.1, 0.35) * height, rng.uniform(-0.1, 0.1) * height)
+    tail = (back - rng.uniform(0.1, 0.25) * long, leg + rng.uniform(-0.1, 0.35) * height,
+            rng.uniform(-0.1, 0.1) * height)
     steps = [rng.uniform(-0.08, 0.08) * long for _ in range(4)]
 
     def distance(*p):
