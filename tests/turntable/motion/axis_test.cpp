@@ -67,5 +67,47 @@ TEST(CombineNested, ComparesTheAxesAtOneHeight) {
   EXPECT_LT(beside(combine_nested(all, part, covariance(1.0, 0.1)), all), 1e-9);
 }
 
+/// A platter that is known exactly but for what platters differ by.
+DetectedPlatter platter_at(const Vec3d& center) {
+  DetectedPlatter platter;
+  platter.axis = kAxis;
+  platter.center_m = center;
+  return platter;
+}
+
+TEST(WithoutViewShift, GoesBackToThePlatterAlongTheViewOnly) {
+  const AxisEstimate apparent = estimate(1e-4, 1e-5);
+  const Vec3d side = kAxis.cross(Vec3d::UnitZ()).normalized(), view = side.cross(kAxis);
+  const DetectedPlatter platter = platter_at(apparent.center + 0.004 * view + 0.002 * side);
+  const AxisPrior prior{&platter, view, 0.1};
+  const AxisEstimate found = without_view_shift(apparent, prior);
+  const Vec3d moved_by = found.center - apparent.center;
+  EXPECT_NEAR(moved_by.dot(view), 0.004, 1e-6);
+  EXPECT_NEAR(moved_by.dot(side), 0.0, 1e-9);
+}
+
+TEST(WithoutViewShift, WithoutAPlatterOnlyWidensTheCentreAlongTheView) {
+  const AxisEstimate apparent = estimate(1e-4, 1e-5);
+  const Vec3d side = kAxis.cross(Vec3d::UnitZ()).normalized(), view = side.cross(kAxis);
+  const AxisEstimate found = without_view_shift(apparent, {nullptr, view, 0.001});
+  EXPECT_EQ(found.center, apparent.center);
+  const auto [u, v] = tangent_basis(kAxis);
+  const Eigen::Matrix2d shifts = found.covariance.bottomRightCorner<2, 2>();
+  const auto sigma = [&](const Vec3d& along) {
+    const Eigen::Vector2d way(along.dot(u), along.dot(v));
+    return std::sqrt(way.dot(shifts * way));
+  };
+  EXPECT_NEAR(sigma(view), 0.001, 1e-5);
+  EXPECT_NEAR(sigma(side), 1e-5, 1e-9);
+}
+
+TEST(WithoutViewShift, ChangesNothingWhereThereIsNone) {
+  const AxisEstimate apparent = estimate(1e-4, 1e-5);
+  const DetectedPlatter platter = platter_at(apparent.center + Vec3d(0.01, 0.0, 0.0));
+  const AxisEstimate found = without_view_shift(apparent, {&platter, Vec3d::UnitX(), 0.0});
+  EXPECT_EQ(found.center, apparent.center);
+  EXPECT_EQ(found.covariance, apparent.covariance);
+}
+
 }  // namespace
 }  // namespace turnscan::motion

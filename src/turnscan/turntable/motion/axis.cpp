@@ -11,6 +11,24 @@ namespace {
 // over a turn the plane is always perpendicular to the axis.
 constexpr double kPlatterLean = 5e-4, kEccentricity_m = 1e-3;
 
+// Of an axis of which nothing is known but that it is roughly in front of the sensor.
+constexpr double kAnyTilt = 0.35, kAnyPlace_m = 0.2;
+
+/// How a prior's knowledge of the centre and the shift along the view share what is seen of both.
+struct ViewShift {
+  double variance;        ///< of the centre in each direction, without that shift, m^2
+  double share;           ///< of what they sum up to along the view, the shift's
+  Eigen::Matrix2d along;  ///< projects onto the view, in tangent_basis(axis)
+};
+
+ViewShift view_shift(const AxisPrior& prior, const Vec3d& axis) {
+  const double place = prior.platter ? platter_center_sigma_m(*prior.platter) : kAnyPlace_m;
+  const double variance = place * place, shift = std::pow(prior.view_shift_m, 2);
+  const auto [u, v] = tangent_basis(axis);
+  const Eigen::Vector2d view(prior.to_sensor.dot(u), prior.to_sensor.dot(v));
+  return {variance, shift / (shift + variance), view * view.transpose() / view.squaredNorm()};
+}
+
 /// The tilts and shifts from one axis to another, at the height of the first one's centre.
 Eigen::Vector4d way_between(const AxisEstimate& from, const AxisEstimate& to) {
   const auto [u, v] = tangent_basis(from.axis);
@@ -36,20 +54,38 @@ double platter_center_sigma_m(const DetectedPlatter& platter) {
   return std::hypot(platter.center_sigma_m, kEccentricity_m);
 }
 
-void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec3d& center,
-                    double unit, Eigen::Ref<Eigen::Matrix4d> normal,
-                    Eigen::Ref<Eigen::Vector4d> right) {
-  const double tilt = platter != nullptr ? platter_axis_sigma_rad(*platter) : 0.35;
-  const double shift = platter != nullptr ? platter_center_sigma_m(*platter) : 0.2;
-  const Eigen::Vector4d weight =
-      unit * Eigen::Vector4d(1.0 / (tilt * tilt), 1.0 / (tilt * tilt), 1.0 / (shift * shift),
-                             1.0 / (shift * shift));
-  normal.diagonal() += weight;
+void add_axis_prior(const AxisPrior& prior, const Vec3d& axis, const Vec3d& center, double unit,
+                    Eigen::Ref<Eigen::Matrix4d> normal, Eigen::Ref<Eigen::Vector4d> right) {
+  const DetectedPlatter* platter = prior.platter;
+  const double tilt = platter != nullptr ? platter_axis_sigma_rad(*platter) : kAnyTilt;
+  const ViewShift view = view_shift(prior, axis);
+  Eigen::Matrix4d weight = Eigen::Matrix4d::Zero();
+  weight.topLeftCorner<2, 2>().diagonal().setConstant(unit / (tilt * tilt));
+  weight.bottomRightCorner<2, 2>() =
+      unit / view.variance * (Eigen::Matrix2d::Identity() - view.share * view.along);
+  normal += weight;
   if (platter == nullptr) return;
   const auto [u, v] = tangent_basis(axis);
   const Vec3d lean = axis.cross(platter->axis);  // the rotation towards the platter's axis
   const Vec3d off = platter->center_m - center;
-  right += weight.cwiseProduct(Eigen::Vector4d(lean.dot(u), lean.dot(v), off.dot(u), off.dot(v)));
+  right += weight * Eigen::Vector4d(lean.dot(u), lean.dot(v), off.dot(u), off.dot(v));
+}
+
+AxisEstimate without_view_shift(const AxisEstimate& apparent, const AxisPrior& prior) {
+  const ViewShift view = view_shift(prior, apparent.axis);
+  AxisEstimate out = apparent;
+  Eigen::Matrix4d back = Eigen::Matrix4d::Identity();
+  if (prior.platter != nullptr) {
+    back.bottomRightCorner<2, 2>() -= view.share * view.along;
+    const auto [u, v] = tangent_basis(apparent.axis);
+    const Vec3d off = prior.platter->center_m - apparent.center;
+    const Eigen::Vector2d step =
+        view.share * (view.along * Eigen::Vector2d(off.dot(u), off.dot(v)));
+    out.center += step[0] * u + step[1] * v;
+  }
+  out.covariance = back * apparent.covariance * back.transpose();
+  out.covariance.bottomRightCorner<2, 2>() += view.share * view.variance * view.along;
+  return out;
 }
 
 std::pair<Vec3d, Vec3d> tangent_basis(const Vec3d& n) {

@@ -19,11 +19,18 @@ std::pair<double, double> move_axis(const Eigen::Vector4d& step, Vec3d& axis, Ve
 double platter_axis_sigma_rad(const DetectedPlatter& platter);
 double platter_center_sigma_m(const DetectedPlatter& platter);
 
-/// Prior of the axis from the platter; nullptr: roughly in front of the sensor. Adds to the normal
-/// equations of two tilts about and two shifts along tangent_basis(axis); unit: weight of one.
-void add_axis_prior(const DetectedPlatter* platter, const Vec3d& axis, const Vec3d& center,
-                    double unit, Eigen::Ref<Eigen::Matrix4d> normal,
-                    Eigen::Ref<Eigen::Vector4d> right);
+/// What is known of the axis besides the frames' motion.
+struct AxisPrior {
+  const DetectedPlatter* platter =
+      nullptr;                        ///< nullptr: the axis is roughly in front of the sensor
+  Vec3d to_sensor = -Vec3d::UnitZ();  ///< unit, from the object
+  double view_shift_m = 0.0;          ///< view_shift_sigma_m() of the frames
+};
+
+/// Adds to the normal equations of two tilts about and two shifts along tangent_basis(axis); unit:
+/// weight of one. The centre is the apparent one, which view_shift_m moves along the view.
+void add_axis_prior(const AxisPrior& prior, const Vec3d& axis, const Vec3d& center, double unit,
+                    Eigen::Ref<Eigen::Matrix4d> normal, Eigen::Ref<Eigen::Vector4d> right);
 
 struct AxisEstimate {
   Vec3d axis = Vec3d::UnitY();   ///< unit, sensor frame
@@ -31,6 +38,10 @@ struct AxisEstimate {
   /// Covariance of two tilts about and two shifts along tangent_basis(axis), radians and metres.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 };
+
+/// The axis of which `apparent` was estimated with this prior: where the platter says so, the
+/// centre is moved back along the view. The covariance includes what remains unknown of that shift.
+AxisEstimate without_view_shift(const AxisEstimate& apparent, const AxisPrior& prior);
 
 /// Best linear unbiased estimate from `all`, which has besides its noise a systematic error of
 /// covariance `bias`, and `part`, which comes from part of the same data and has none. The

@@ -1,8 +1,10 @@
 #include <cmath>
 #include <limits>
+#include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/axis_fit.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/pairwise_solver.hpp>
+#include <turnscan/turntable/motion/view_shift.hpp>
 
 namespace turnscan::motion {
 
@@ -47,12 +49,16 @@ Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
                   solve_pairwise(data, state, pairs, prior, coarse, context));
   SolveOptions fine = fine_options(data);
   fine.covariance = true;
+  fine.view_shift_m = view_shift_sigma_m(data, rough.state);
   TURNSCAN_ASSIGN(const MotionSolution found,
                   solve_pairwise(data, rough.state, pairs, prior, fine, context));
-  const Eigen::Matrix4d& c = found.covariance;
+  const AxisEstimate axis = without_view_shift(
+      {found.state.axis, found.state.center, found.covariance},
+      {data.platter ? &*data.platter : nullptr, data.to_sensor, fine.view_shift_m});
+  const Eigen::Matrix4d& c = axis.covariance;
   AxisFit out;
-  out.axis = found.state.axis;
-  out.center_m = found.state.center;
+  out.axis = axis.axis;
+  out.center_m = axis.center;
   out.axis_sigma_rad = std::sqrt(c(0, 0) + c(1, 1));
   out.center_sigma_m = std::sqrt(c(2, 2) + c(3, 3));
   out.rms_m = found.rms_m;

@@ -34,7 +34,7 @@ class BundleAdjustment {
         out_(start),
         frames_(frames_with_surface(data, options.max_frames)),
         knots_(spread_subset(frames_, options.max_knots)),
-        system_(data, knots_) {
+        system_(data, knots_, options.view_shift_m) {
     now_.motion = start.state;
     for (const std::size_t f : knots_.frames()) now_.knot_angle.push_back(start.state.angle[f]);
     first_ = now_.knot_angle;

@@ -12,6 +12,7 @@ struct BundleOptions {
   int iterations = 6;
   /// Only axis and heights, from pixels inside the outlines, which mixed pixels do not shift.
   bool axis_only = false;
+  double view_shift_m = 0.0;  ///< as in AxisPrior
 };
 
 /// Refines a solution of solve_pairwise() for depth images. The model consists of surfels of the

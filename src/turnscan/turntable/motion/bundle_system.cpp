@@ -142,8 +142,9 @@ BundleSystem::Dense BundleSystem::with_prior(const BundleState& at, const AngleP
     }
   };
   add_angle_prior(data_, knots_.frames(), at.knot_angle, prior, add);
-  add_axis_prior(data_.platter ? &*data_.platter : nullptr, at.motion.axis, at.motion.center,
-                 variance_, out.matrix.bottomRightCorner<4, 4>(), out.right.tail<4>());
+  add_axis_prior({data_.platter ? &*data_.platter : nullptr, data_.to_sensor, view_shift_m_},
+                 at.motion.axis, at.motion.center, variance_, out.matrix.bottomRightCorner<4, 4>(),
+                 out.right.tail<4>());
   return out;
 }
 

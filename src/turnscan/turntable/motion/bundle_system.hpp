@@ -37,7 +37,9 @@ struct FrameEquations : estimation::NormalEquations<5> {
 
 class BundleSystem {
  public:
-  BundleSystem(const MotionData& data, const AngleKnots& knots) : data_(data), knots_(knots) {}
+  /// view_shift_m: as in AxisPrior.
+  BundleSystem(const MotionData& data, const AngleKnots& knots, double view_shift_m)
+      : data_(data), knots_(knots), view_shift_m_(view_shift_m) {}
 
   /// Linearises the observations of these frames at a state.
   void accumulate(const BundleState& at, const std::vector<std::size_t>& frames,
@@ -78,6 +80,7 @@ class BundleSystem {
 
   const MotionData& data_;
   const AngleKnots& knots_;
+  double view_shift_m_;
   std::size_t residuals_ = 0;
   double rms_m_ = 0.0, variance_ = 1.0;
   Eigen::MatrixXd matrix_;

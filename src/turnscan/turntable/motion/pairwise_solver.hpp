@@ -8,12 +8,13 @@ namespace turnscan::motion {
 
 struct SolveOptions {
   int iterations = 8;
-  double reach_m = 0.02;     ///< initial maximum distance of correspondences
-  double floor_m = 0.0;      ///< residuals up to this have full weight until the end
-  std::size_t stride = 1;    ///< use every stride-th sample
-  bool hold_angles = false;  ///< leave the angles to the prior
-  bool hold_axis = false;    ///< keep axis and centre fixed
-  bool use_platter = true;   ///< as prior of the axis, if one was seen
+  double reach_m = 0.02;      ///< initial maximum distance of correspondences
+  double floor_m = 0.0;       ///< residuals up to this have full weight until the end
+  std::size_t stride = 1;     ///< use every stride-th sample
+  bool hold_angles = false;   ///< leave the angles to the prior
+  bool hold_axis = false;     ///< keep axis and centre fixed
+  bool use_platter = true;    ///< as prior of the axis, if one was seen
+  double view_shift_m = 0.0;  ///< as in AxisPrior
   bool covariance = false;
   std::optional<double> scale_m;      ///< of the residuals, if it is known
   std::optional<double> variance_m2;  ///< as in MotionSolution, if it is known

@@ -8,6 +8,7 @@
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/refinement.hpp>
 #include <turnscan/turntable/motion/speed_profile.hpp>
+#include <turnscan/turntable/motion/view_shift.hpp>
 
 namespace turnscan::motion {
 
@@ -44,8 +45,9 @@ class Refinement {
     options.iterations = 8;
     options.stride = coarse_stride(data_, 4);
     TURNSCAN_TRY(solve(options, false));
-    TURNSCAN_TRY(judge_platter(options));
     TURNSCAN_TRY(judge_turn(options));
+    options.view_shift_m = view_shift_m_ = view_shift_sigma_m(data_, state_);
+    TURNSCAN_TRY(judge_platter(options));
     TURNSCAN_TRY(fit_motor(options));
     options.stride = 1;
     options.iterations = 5;
@@ -60,6 +62,8 @@ class Refinement {
     if (data_.projective && out_.turn_observable && data_.keys.size() >= kMinBundleFrames) {
       TURNSCAN_TRY(adjust());
     }
+    set_axis(without_view_shift(axis_of(out_.solution), {data_.platter ? &*data_.platter : nullptr,
+                                                         data_.to_sensor, view_shift_m_}));
     return std::move(out_);
   }
 
@@ -67,24 +71,30 @@ class Refinement {
   /// Outlines determine rotation and axis best, but their mixed pixels shift the axis. Estimates
   /// the axis once more without them.
   Result<> adjust() {
-    TURNSCAN_ASSIGN(out_.solution, adjust_bundle(data_, out_.solution, out_.prior, {}, context_));
+    BundleOptions options;
+    options.view_shift_m = view_shift_m_;
+    TURNSCAN_ASSIGN(out_.solution,
+                    adjust_bundle(data_, out_.solution, out_.prior, options, context_));
     if (data_.correlated_noise) return {};  // there are no outlines
-    BundleOptions inner;
-    inner.axis_only = true;
-    MotionSolution& all = out_.solution;
+    options.axis_only = true;
     TURNSCAN_ASSIGN(const MotionSolution within,
-                    adjust_bundle(data_, all, out_.prior, inner, context_));
+                    adjust_bundle(data_, out_.solution, out_.prior, options, context_));
     const double tilt = kOutlineTilt * data_.spacing_m / data_.extent_m;
     const double shift = kOutlineShift * data_.spacing_m;
     const Eigen::Vector4d sigma(tilt, tilt, shift, shift);
-    const AxisEstimate best =
-        combine_nested({all.state.axis, all.state.center, all.covariance},
-                       {within.state.axis, within.state.center, within.covariance},
-                       sigma.cwiseAbs2().asDiagonal());
-    all.state.axis = best.axis;
-    all.state.center = best.center;
-    all.covariance = best.covariance;
+    set_axis(
+        combine_nested(axis_of(out_.solution), axis_of(within), sigma.cwiseAbs2().asDiagonal()));
     return {};
+  }
+
+  static AxisEstimate axis_of(const MotionSolution& solution) {
+    return {solution.state.axis, solution.state.center, solution.covariance};
+  }
+
+  void set_axis(const AxisEstimate& axis) {
+    out_.solution.state.axis = axis.axis;
+    out_.solution.state.center = axis.center;
+    out_.solution.covariance = axis.covariance;
   }
 
   Result<> solve(SolveOptions options, bool all_frames) {
@@ -106,12 +116,15 @@ class Refinement {
                                      out_.prior, options, context_);
     if (!free && free.error().code == ErrorCode::kCancelled)
       return tl::unexpected<Error>(free.error());
-    if (free) out_.platter_fits = agrees(*data_.platter, *free);
+    if (free)
+      out_.platter_fits =
+          agrees(*data_.platter,
+                 without_view_shift(axis_of(*free), {nullptr, data_.to_sensor, view_shift_m_}));
     return {};
   }
 
-  static bool agrees(const DetectedPlatter& platter, const MotionSolution& free) {
-    const Vec3d &axis = free.state.axis, &center = free.state.center;
+  static bool agrees(const DetectedPlatter& platter, const AxisEstimate& free) {
+    const Vec3d &axis = free.axis, &center = free.center;
     const double lean = std::atan2(axis.cross(platter.axis).norm(), axis.dot(platter.axis));
     const Vec3d off = platter.center_m - center;
     const double shift = (off - off.dot(platter.axis) * platter.axis).norm();
@@ -182,6 +195,7 @@ class Refinement {
   const MotionData& data_;
   const RunContext& context_;
   MotionState state_;
+  double view_shift_m_ = 0.0;
   std::optional<double> known_speed_rad_s_;
   RefinedMotion out_;
 };
