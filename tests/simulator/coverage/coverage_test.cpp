@@ -48,11 +48,19 @@ Samples samples_on_faces(const TriangleMesh& mesh) {
   return out;
 }
 
-std::vector<std::uint32_t> counts_of(const Scene& scene, const std::vector<CoverageView>& views,
-                                     const Samples& s, std::uint32_t enough = 0) {
+std::vector<float> information_of(const Scene& scene, const std::vector<CoverageView>& views,
+                                  const Samples& s, double enough = 0.0) {
   CoverageOptions options;
   options.enough = enough;
-  return *count_views(scene, views, s.points, s.normals, options, RunContext());
+  return *view_information(scene, views, s.points, s.normals, options, RunContext());
+}
+
+/// Whether any view sees each point.
+std::vector<std::uint32_t> seen_of(const Scene& scene, const std::vector<CoverageView>& views,
+                                   const Samples& s) {
+  std::vector<std::uint32_t> out;
+  for (const float sum : information_of(scene, views, s)) out.push_back(sum > 0.0f ? 1 : 0);
+  return out;
 }
 
 TEST(Coverage, OfASphereIsTheCapThatTheIncidenceAllows) {
@@ -62,7 +70,7 @@ TEST(Coverage, OfASphereIsTheCapThatTheIncidenceAllows) {
   // Triangle of centre, point and eye: the incidence is the outer angle at the point.
   const double cap = kLimit - std::asin(radius / distance * std::sin(kLimit));
   const Samples s = samples_on_sphere(radius, 90);
-  const auto counts = counts_of(scene, {view_from(eye)}, s);
+  const auto counts = seen_of(scene, {view_from(eye)}, s);
   std::size_t seen = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double angle = std::acos(s.normals[i].cast<double>().dot(eye) / distance);
@@ -80,7 +88,7 @@ TEST(Coverage, FromParallelRaysIsTheCapOfTheLimitItself) {
   view.viewpoint = {Vec3d(0, 0, -1), true};
   const Vec3d towards = view.T_table_sensor.linear() * Vec3d(0, 0, -1);
   const Samples s = samples_on_sphere(0.1, 60);
-  const auto counts = counts_of(scene, {view}, s);
+  const auto counts = seen_of(scene, {view}, s);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double angle = std::acos(std::clamp(s.normals[i].cast<double>().dot(towards), -1.0, 1.0));
     if (std::abs(angle - kLimit) < 1e-3) continue;
@@ -98,7 +106,7 @@ TEST(Coverage, LeavesOutWhatLiesInAnotherObjectsShadow) {
     s.points.emplace_back(0.001f * float(i), 0.0f, 0.01f);
     s.normals.push_back(Vec3f::UnitZ());
   }
-  const auto counts = counts_of(scene, {view_from({0, 0, eye})}, s);
+  const auto counts = seen_of(scene, {view_from({0, 0, eye})}, s);
   // The ball's cone of shadow, cut by the wall's plane.
   const double edge = (eye - 0.01) * std::tan(std::asin(0.02 / (eye - 0.2)));
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -121,12 +129,11 @@ TEST(Coverage, LeavesOutWhatIsOutsideTheImage) {
   }
   s.points.emplace_back(0.0f, 0.0f, 1.5f);  // behind the camera
   s.normals.push_back(-Vec3f::UnitZ());
-  EXPECT_EQ(counts_of(scene, {view}, s), (std::vector<std::uint32_t>{1, 0, 1, 0, 0}));
+  EXPECT_EQ(seen_of(scene, {view}, s), (std::vector<std::uint32_t>{1, 0, 1, 0, 0}));
 }
 
-// On a convex object without a platter nothing hides anything: the count is that of the
-// incidences.
-TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
+// On a convex object without a platter nothing hides anything: the sum is that of the incidences.
+TEST(Coverage, OfAConvexObjectAddsTheSquaredCosinesOfTheFramesThatItFaces) {
   const TriangleMesh mesh = *builtin_object("cylinder");
   VirtualScanOptions o = test::plain_scan();
   o.motion.frames = 50;
@@ -134,18 +141,19 @@ TEST(Coverage, OfAConvexObjectCountsTheFramesThatItFaces) {
   const auto scan = VirtualScan::create({mesh}, o);
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
-  const auto counts = counts_of(scan->scene(), *views_of(*scan), s);
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    std::uint32_t expected = 0;
+  const auto sums = information_of(scan->scene(), *views_of(*scan), s);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    double expected = 0.0;
     for (std::size_t f = 0; f < 50; ++f) {
       const Vec3d way = scan->T_table_sensor(f).translation() - s.points[i].cast<double>();
-      expected += s.normals[i].cast<double>().dot(way.normalized()) > std::cos(kLimit) ? 1 : 0;
+      const double cosine = s.normals[i].cast<double>().dot(way.normalized());
+      if (cosine > std::cos(kLimit)) expected += cosine * cosine;
     }
-    ASSERT_EQ(counts[i], expected);
+    ASSERT_NEAR(sums[i], expected, 1e-4);
   }
 }
 
-TEST(Coverage, StopsCountingAtEnough) {
+TEST(Coverage, StopsAtEnough) {
   const TriangleMesh mesh = *builtin_object("letter-a");
   VirtualScanOptions o = test::plain_scan();
   o.motion.frames = 37;
@@ -153,9 +161,16 @@ TEST(Coverage, StopsCountingAtEnough) {
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
   const auto views = *views_of(*scan);
-  const auto all = counts_of(scan->scene(), views, s), some = counts_of(scan->scene(), views, s, 5);
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(some[i], std::min(all[i], 5u));
-  EXPECT_GT(*std::max_element(all.begin(), all.end()), 5u);
+  const auto all = information_of(scan->scene(), views, s),
+             some = information_of(scan->scene(), views, s, 2.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(some[i] >= 2.0f, all[i] >= 2.0f);
+    EXPECT_LT(some[i], 3.0f);
+    if (all[i] < 2.0f) {
+      EXPECT_EQ(some[i], all[i]);
+    }
+  }
+  EXPECT_GT(*std::max_element(all.begin(), all.end()), 3.0f);
 }
 
 TEST(Coverage, IsTheSameForEveryNumberOfThreads) {
@@ -166,9 +181,9 @@ TEST(Coverage, IsTheSameForEveryNumberOfThreads) {
   ASSERT_TRUE(scan);
   const Samples s = samples_on_faces(mesh);
   set_thread_count(1);
-  const auto one = counts_of(scan->scene(), *views_of(*scan), s);
+  const auto one = information_of(scan->scene(), *views_of(*scan), s);
   set_thread_count(4);
-  const auto four = counts_of(scan->scene(), *views_of(*scan), s);
+  const auto four = information_of(scan->scene(), *views_of(*scan), s);
   set_thread_count(0);
   EXPECT_EQ(one, four);
 }
@@ -196,30 +211,43 @@ TEST(Coverage, CanBeCancelled) {
   RunContext context;
   context.cancel();
   const std::vector<CoverageView> views{view_from({0, 0, 1})};
-  const auto counts = count_views(scene, views, s.points, s.normals, {}, context);
-  ASSERT_FALSE(counts);
-  EXPECT_EQ(counts.error().code, ErrorCode::kCancelled);
+  const auto sums = view_information(scene, views, s.points, s.normals, {}, context);
+  ASSERT_FALSE(sums);
+  EXPECT_EQ(sums.error().code, ErrorCode::kCancelled);
 }
 
 TEST(Coverage, ThrowsWhenPointsAndNormalsDiffer) {
   const Scene scene = scene_of({});
   const Samples s = samples_on_sphere(1.0, 4);
-  EXPECT_THROW((void)count_views(scene, {}, s.points, {}, {}, RunContext()), std::invalid_argument);
+  EXPECT_THROW((void)view_information(scene, {}, s.points, {}, {}, RunContext()),
+               std::invalid_argument);
 }
 
 TEST(Coverage, OfNothingIsNothing) {
   const Scene scene = scene_of({});
-  EXPECT_TRUE(counts_of(scene, {view_from({0, 0, 1})}, {}).empty());
+  EXPECT_TRUE(information_of(scene, {view_from({0, 0, 1})}, {}).empty());
   const Samples s = samples_on_sphere(1.0, 4);
-  for (const auto n : counts_of(scene, {}, s)) EXPECT_EQ(n, 0u);
+  for (const float sum : information_of(scene, {}, s)) EXPECT_EQ(sum, 0.0f);
 }
 
-TEST(ViewsNeeded, AreFiveOrAllButOneOfFew) {
-  EXPECT_EQ(views_needed(920), 5u);
-  EXPECT_EQ(views_needed(6), 5u);
-  EXPECT_EQ(views_needed(5), 4u);
-  EXPECT_EQ(views_needed(2), 1u);
-  EXPECT_EQ(views_needed(1), 1u);
+// Six views from around see every side of a cylinder once or twice, at up to 60 degrees.
+TEST(Coverage, CountsAWallAsSeenForFewFramesAndMany) {
+  const TriangleMesh mesh = *builtin_object("cylinder");
+  for (const int frames : {6, 36, 240}) {
+    VirtualScanOptions o = test::plain_scan();
+    o.motion.frames = frames;
+    const auto scan = VirtualScan::create({mesh}, o);
+    ASSERT_TRUE(scan);
+    Samples s;
+    for (int i = 0; i < 90; ++i) {
+      const float angle = 0.0698132f * float(i);
+      s.normals.emplace_back(std::cos(angle), 0.0f, std::sin(angle));
+      s.points.push_back(0.04f * s.normals.back() + Vec3f(0.0f, 0.08f, 0.0f));
+    }
+    const auto seen = seen_mask(scan->scene(), *scan, s.points, s.normals, RunContext());
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(std::count(seen->begin(), seen->end(), 1), 90) << frames;
+  }
 }
 
 /// Frames with poses but without images.

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> order_in_space(std::span<const Vec3f> points) {
 }
 
 /// Order of views in which neighbours are far apart (golden ratio steps), so that a visible point
-/// soon has enough views.
+/// soon is seen enough.
 std::vector<std::size_t> scattered(std::size_t n) {
   std::size_t step = std::max<std::size_t>(1, std::size_t(0.6180339887498949 * double(n)));
   while (std::gcd(step, n) != 1) ++step;
@@ -68,10 +68,10 @@ struct TableView {
   }
 };
 
-class ViewCounter {
+class ViewSums {
  public:
-  ViewCounter(const Scene& scene, std::vector<TableView> views, std::span<const Vec3f> points,
-              std::span<const Vec3f> normals, const CoverageOptions& options)
+  ViewSums(const Scene& scene, std::vector<TableView> views, std::span<const Vec3f> points,
+           std::span<const Vec3f> normals, const CoverageOptions& options)
       : scene_(scene),
         views_(std::move(views)),
         points_(points),
@@ -79,33 +79,37 @@ class ViewCounter {
         options_(options),
         least_cosine_(std::cos(options.max_incidence_rad)) {}
 
-  /// Counts the views of up to kGroup neighbouring points.
-  void count(std::span<const std::uint32_t> group, std::span<std::uint32_t> counts) const {
+  /// Adds the views of up to kGroup neighbouring points.
+  void add(std::span<const std::uint32_t> group, std::span<float> sums) const {
     std::array<Ray, kGroup> rays;
     std::array<std::uint32_t, kGroup> who{};
     std::array<std::uint8_t, kGroup> blocked{};
+    std::array<float, kGroup> worth{};
     for (const TableView& view : views_) {
       std::size_t n = 0;
       bool all_done = true;
       for (const std::uint32_t i : group) {
-        if (done(counts[i])) continue;
+        if (done(sums[i])) continue;
         all_done = false;
-        if (faces(view, i, rays[n])) who[n++] = i;
+        const double cosine = faces(view, i, rays[n]);
+        if (cosine > 0.0) worth[n] = float(cosine * cosine), who[n++] = i;
       }
       if (all_done) return;
       scene_.occluded(std::span(rays).first(n), std::span(blocked).first(n), RayOrder::kCoherent);
-      for (std::size_t k = 0; k < n; ++k) counts[who[k]] += blocked[k] ? 0 : 1;
+      for (std::size_t k = 0; k < n; ++k) sums[who[k]] += blocked[k] ? 0.0f : worth[k];
     }
   }
 
  private:
-  bool done(std::uint32_t count) const { return options_.enough > 0 && count >= options_.enough; }
+  bool done(float sum) const { return options_.enough > 0.0 && double(sum) >= options_.enough; }
 
-  /// Whether only an occluder can prevent the view from seeing the point; ray: towards it.
-  bool faces(const TableView& view, std::uint32_t i, Ray& ray) const {
+  /// Cosine of incidence if only an occluder can prevent the view from seeing the point, else 0;
+  /// ray: towards it.
+  double faces(const TableView& view, std::uint32_t i, Ray& ray) const {
     const Vec3d p = points_[i].cast<double>(), normal = normals_[i].cast<double>();
     const Vec3d to_sensor = view.viewpoint.direction_from(p);
-    if (!(normal.dot(to_sensor) > least_cosine_) || !view.in_field_of_view(p)) return false;
+    const double cosine = normal.dot(to_sensor);
+    if (!(cosine > least_cosine_) || !view.in_field_of_view(p)) return 0.0;
     const Vec3d start = p + options_.offset_m * normal;
     const bool parallel = view.viewpoint.parallel;
     const Vec3d way = parallel ? to_sensor : Vec3d(view.viewpoint.value - start);
@@ -113,7 +117,7 @@ class ViewCounter {
     ray.direction = way.cast<float>();
     ray.t_min = kRayStart_m / std::max(float(way.norm()), kRayStart_m);
     ray.t_max = parallel ? std::numeric_limits<float>::infinity() : 1.0f;
-    return true;
+    return cosine;
   }
 
   const Scene& scene_;
@@ -141,27 +145,29 @@ Result<Pose> pose_of(const FrameInfo& frame, const FrameInfo& first, const Seque
 
 }  // namespace
 
-Result<std::vector<std::uint32_t>> count_views(
-    const Scene& scene, std::span<const CoverageView> views, std::span<const Vec3f> points,
-    std::span<const Vec3f> normals, const CoverageOptions& options, const RunContext& context) {
+Result<std::vector<float>> view_information(const Scene& scene, std::span<const CoverageView> views,
+                                            std::span<const Vec3f> points,
+                                            std::span<const Vec3f> normals,
+                                            const CoverageOptions& options,
+                                            const RunContext& context) {
   if (points.size() != normals.size())
-    throw std::invalid_argument("count_views: points and normals differ in number");
-  std::vector<std::uint32_t> counts(points.size(), 0);
-  if (views.empty() || points.empty()) return counts;
+    throw std::invalid_argument("view_information: points and normals differ in number");
+  std::vector<float> sums(points.size(), 0.0f);
+  if (views.empty() || points.empty()) return sums;
   std::vector<TableView> table_views;
   table_views.reserve(views.size());
   for (const std::size_t i : scattered(views.size())) table_views.emplace_back(views[i]);
-  const ViewCounter counter(scene, std::move(table_views), points, normals, options);
+  const ViewSums views_of_all(scene, std::move(table_views), points, normals, options);
   const std::vector<std::uint32_t> order = order_in_space(points);
   context.begin_phase("coverage", points.size());
   parallel_for((order.size() + kPointsPerTask - 1) / kPointsPerTask, 1, [&](std::size_t chunk) {
     const std::size_t end = std::min(order.size(), (chunk + 1) * kPointsPerTask);
     for (std::size_t i = chunk * kPointsPerTask; i < end && !context.cancelled(); i += kGroup)
-      counter.count(std::span(order).subspan(i, std::min(kGroup, end - i)), counts);
+      views_of_all.add(std::span(order).subspan(i, std::min(kGroup, end - i)), sums);
     context.advance(end - chunk * kPointsPerTask);
   });
   TURNSCAN_TRY(context.check());
-  return counts;
+  return sums;
 }
 
 Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence) {
@@ -181,23 +187,16 @@ Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence) {
   return views;
 }
 
-std::uint32_t views_needed(std::size_t frames) {
-  if (frames >= 6) return 5;
-  return frames >= 2 ? static_cast<std::uint32_t>(frames - 1) : 1;
-}
-
 Result<std::vector<std::uint8_t>> seen_mask(const Scene& scene, const FrameSequence& sequence,
                                             std::span<const Vec3f> points,
                                             std::span<const Vec3f> normals,
                                             const RunContext& context) {
   TURNSCAN_ASSIGN(const std::vector<CoverageView> views, views_of(sequence));
-  CoverageOptions options;
-  options.enough = views_needed(views.size());
-  TURNSCAN_ASSIGN(const std::vector<std::uint32_t> counts,
-                  count_views(scene, views, points, normals, options, context));
-  std::vector<std::uint8_t> seen(counts.size());
-  std::transform(counts.begin(), counts.end(), seen.begin(),
-                 [&](std::uint32_t n) { return std::uint8_t(n >= options.enough ? 1 : 0); });
+  TURNSCAN_ASSIGN(const std::vector<float> sums,
+                  view_information(scene, views, points, normals, {}, context));
+  std::vector<std::uint8_t> seen(sums.size());
+  std::transform(sums.begin(), sums.end(), seen.begin(),
+                 [](float sum) { return std::uint8_t(sum >= kSeenInformation ? 1 : 0); });
   return seen;
 }
 

@@ -20,7 +20,6 @@ constexpr double kMinTip_rad = 10.0 * kRadiansPerDegree;
 constexpr double kLikeness = 0.97;  // poses within this ratio of what they show count as equal: the
                                     // most stable one comes first
 constexpr std::size_t kSamples = 10000, kOverlapStride = 8;
-constexpr std::uint32_t kEnoughViews = 2;
 constexpr std::size_t kMaxPoses = 3;
 
 bool is_unseen(Evidence evidence) {
@@ -141,12 +140,10 @@ class PoseSearch {
   }
 
   Result<double> seen_m2(const AreaSamples& samples, const std::vector<CoverageView>& views) const {
-    CoverageOptions options;
-    options.enough = std::min<std::uint32_t>(kEnoughViews, std::uint32_t(views.size()));
-    TURNSCAN_ASSIGN(const auto counts, count_views(scene_, views, samples.points, samples.normals,
-                                                   options, RunContext()));
-    const auto seen = std::count_if(counts.begin(), counts.end(),
-                                    [&](std::uint32_t n) { return n >= options.enough; });
+    TURNSCAN_ASSIGN(const auto sums, view_information(scene_, views, samples.points,
+                                                      samples.normals, {}, RunContext()));
+    const auto seen = std::count_if(sums.begin(), sums.end(),
+                                    [](float sum) { return double(sum) >= kSeenInformation; });
     return double(seen) * samples.each_m2;
   }
 

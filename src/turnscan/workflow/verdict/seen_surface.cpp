@@ -42,8 +42,7 @@ Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<M
   const std::vector<CoverageView> views = evenly_spread(all, kMaxViews);
   const double share = double(views.size()) / double(std::max<std::size_t>(1, all.size()));
   CoverageOptions options;
-  options.enough =
-      std::uint32_t(std::max(1L, std::lround(share * double(views_needed(all.size())))));
+  options.enough = share * kSeenInformation;
   const auto all_normals = vertex_normals(mesh);
   std::vector<Vec3f> points, normals;
   const std::size_t stride = std::max<std::size_t>(1, mesh.vertices.size() / kMaxVertices);
@@ -53,9 +52,9 @@ Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<M
     normals.push_back(all_normals[v]);
   }
   TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&mesh, 1)));
-  TURNSCAN_ASSIGN(const auto counts, count_views(scene, views, points, normals, options, context));
-  for (const std::uint32_t count : counts)
-    out.seen.push_back(std::uint8_t(count >= options.enough));
+  TURNSCAN_ASSIGN(const auto sums,
+                  view_information(scene, views, points, normals, options, context));
+  for (const float sum : sums) out.seen.push_back(std::uint8_t(double(sum) >= options.enough));
   return out;
 }
 

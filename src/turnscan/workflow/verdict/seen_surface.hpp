@@ -8,7 +8,7 @@ namespace turnscan {
 /// All vertices of a mesh, or a subset spread over it.
 struct SeenVertices {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint8_t> seen;  ///< 1: seen by at least views_needed() frames
+  std::vector<std::uint8_t> seen;  ///< 1: frames tell kSeenInformation of it
 };
 
 /// Determined by rays, as evaluate() determines the seen part of a reference (simulator/coverage):
