@@ -20,7 +20,7 @@ int run(int argc, char** argv) {
   program.add("reconstruct", "Make a watertight mesh of each object in a recording",
               make_reconstruct_command());
   program.add("evaluate", "Measure how far a mesh is from a reference", make_evaluate_command());
-  program.add("report", "Make a page of a scan that can be sent", make_report_command());
+  program.add("report", "Make a report of a scan, as a page in one file", make_report_command());
   program.add("render", "Draw a picture of meshes", make_render_command());
   program.add("devices", "List the sensors that frames can come from", make_devices_command());
   program.add("simulate", "Record an object with virtual scanners", make_simulate_command());
@@ -28,7 +28,8 @@ int run(int argc, char** argv) {
               make_demo_command());
   program.add("plan", "Find where to put sensors, and how many passes to make",
               make_plan_command());
-  program.add("batch", "Reconstruct or simulate many, here or on a cluster", make_batch_command());
+  program.add("batch", "Reconstruct or simulate many inputs, here or on a cluster",
+              make_batch_command());
   program.add_reference();
   return program.run(argc, argv);
 }

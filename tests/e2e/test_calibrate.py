@@ -96,7 +96,7 @@ class Calibrate(harness.TestCase):
         (self.dir / "t.json").write_text(json.dumps(table))
         out = self.ok("reconstruct", "moved", "-o", "m.ply", "--turntable", "t.json",
                       *harness.FAST).stdout
-        self.assertIn("given, --calibration motion makes another", out)
+        self.assertIn("given (--calibration motion estimates another)", out)
         out = self.ok("reconstruct", "moved", "-o", "m.ply", "--speed", "45deg/s",
                       *harness.FAST).stdout
         self.assertIn("slower than stated", out)

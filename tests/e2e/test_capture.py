@@ -170,7 +170,7 @@ class Capture(harness.TestCase):
         self.assert_complete("r", 200)
 
     def test_wrong_usage(self):
-        for args, says in ((("--turns", "1", "--frames", "3"), "different ends"),
+        for args, says in ((("--turns", "1", "--frames", "3"), "exclude each other"),
                            (("--crop",), "calibrate first"), (("--stops", "8"), "no motor"),
                            (("--turns", "0"), "turns")):
             self.refused(USAGE, "capture", "--device", SMALL, "-o", "r", *args, says=says)
@@ -233,7 +233,7 @@ class Scan(harness.TestCase):
                 "12deg/s", *self.FAST)
         self.assert_closed("next.3mf")
         report = json.loads((self.dir / "r.json").read_text())
-        self.assertIn("kept of this device", " ".join(report["notes"]))
+        self.assertIn("stored calibration of this device", " ".join(report["notes"]))
         self.ok("reconstruct", "next.recording", "-o", "again.3mf", "--calibration", "recorded",
                 "--method", "volumetric", "--voxel-size", "3mm", "--quiet")
         self.assertEqual((self.dir / "next.3mf").read_bytes(),

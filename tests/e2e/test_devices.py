@@ -59,7 +59,7 @@ class Devices(harness.TestCase):
         run = {"env": self.env}
         self.refused(1, "calibrate", "--device", RIG, "--check", **run, says=["never calibrated"])
         out = self.ok("calibrate", "--device", RIG, "--detect", **run).stdout
-        self.assertIn("Kept for virtual-kinect-v2-0", out)
+        self.assertIn("Stored for virtual-kinect-v2-0", out)
         kept = self.dir / "state/turnscan/calibrations/virtual-kinect-v2-0.json"
         self.assertTrue(kept.exists())
         out = self.ok("calibrate", "--device", RIG + "&seed=2", "--check", **run).stdout

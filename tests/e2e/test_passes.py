@@ -178,7 +178,7 @@ class Passes(harness.TestCase):
             for j in range(4):
                 self.assertAlmostEqual(found[i][j], true[i][j], delta=0.02 if j < 3 else 0.0015)
         self.refused(FAILED, "reconstruct", "plain", "-o", "n.ply", *COARSE,
-                     says="its shape does not tell")
+                     says="its shape does not determine")
 
     def test_poses_are_of_passes_of_this_recording(self):
         self.ok("simulate", "builtin:skull", "--frames", 4, "--next-pass", "tip=90deg",
@@ -316,7 +316,7 @@ class ScanPasses(harness.TestCase):
         said, code = self.answer("", "q")
         self.assertEqual(code, 0, said)
         self.assertIn("No view saw", said)
-        self.assertIn("Another side? Lay it so and press Enter to record pass 1", said)
+        self.assertIn("Another side? Lay the object like this and press Enter to record pass 1", said)
         self.assertIn("2 passes in one mesh", said)
         self.assertEqual(set(self.frames_of_passes()), {"0", "1"})
 

@@ -114,7 +114,7 @@ class Reconstruct(harness.TestCase):
             notes = [note for o in objects for note in o["notes"] if "that touch" in note]
             self.assertEqual(len(objects), 2 if apart else 1)
             self.assertEqual(len(notes), 0 if apart else 1, notes)
-            self.assertEqual("two things that touch" in out, not apart)
+            self.assertEqual("two objects that touch" in out, not apart)
 
     def test_stl_and_3mf_are_in_millimetres_z_up_and_stand_on_zero(self):
         for name, box in (("m.stl", stl_box_mm), ("m.3mf", threemf_box_mm)):

@@ -57,7 +57,7 @@ std::vector<std::string> notes_of(const Simulation& simulation, const char* mode
 TEST(DeviceNotes, FilledGapsAreToldOfSensorsThatTriangulate) {
   const Simulation simulation = doll_in_a_room();
   EXPECT_THAT(notes_of(simulation, "kinect-v1", false), IsEmpty());
-  EXPECT_THAT(notes_of(simulation, "kinect-v1", true), ElementsAre(HasSubstr("fills gaps")));
+  EXPECT_THAT(notes_of(simulation, "kinect-v1", true), ElementsAre(HasSubstr("fills holes")));
   for (const char* other : {"kinect-v2", "", "no-such-model", "a/kinect-v1.toml"})
     EXPECT_THAT(notes_of(simulation, other, true), IsEmpty()) << other;
 }

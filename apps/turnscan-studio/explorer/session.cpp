@@ -98,7 +98,7 @@ bool SessionKeeper::take_folder() {
   auto lock = std::make_unique<QLockFile>(lock_of(folder_));
   lock->setStaleLockTime(0);
   if (!lock->tryLock(0) || !QDir().mkpath(folder_)) {
-    report(tr("The session is not kept: %1 cannot be made").arg(folder_));
+    report(tr("The session is not saved: %1 cannot be made").arg(folder_));
     return false;
   }
   lock_ = std::move(lock);
@@ -172,7 +172,7 @@ void SessionKeeper::write() {
           [this, reason, replaced] {
             kept_.clear();  // everything not written is retried with the next change
             taken_over_ << replaced;
-            report(tr("The session is not kept: %1").arg(reason));
+            report(tr("The session is not saved: %1").arg(reason));
           },
           Qt::QueuedConnection);
       return;

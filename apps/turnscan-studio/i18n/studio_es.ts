@@ -848,7 +848,7 @@
         <translation>Inalcanzable</translation>
     </message>
     <message>
-        <source>What happens meanwhile</source>
+        <source>Events during the recording</source>
         <translation>Lo que ocurre mientras</translation>
     </message>
     <message>
@@ -1273,7 +1273,7 @@ Nota: %1</translation>
         <translation>Distancia</translation>
     </message>
     <message>
-        <source>Between two places</source>
+        <source>Distance between two places</source>
         <translation>Entre dos lugares</translation>
     </message>
     <message>
@@ -1285,7 +1285,7 @@ Nota: %1</translation>
         <translation>Ángulo</translation>
     </message>
     <message>
-        <source>Between the ways from a corner to two places</source>
+        <source>Angle at a corner between the directions to two places</source>
         <translation>Entre los caminos de un vértice a dos lugares</translation>
     </message>
     <message>
@@ -1321,7 +1321,7 @@ Nota: %1</translation>
         <translation>Espesor</translation>
     </message>
     <message>
-        <source>Of the wall behind a place, square to it</source>
+        <source>Thickness of the wall behind a place, perpendicular to it</source>
         <translation>De la pared detrás de un lugar, en perpendicular a él</translation>
     </message>
     <message>
@@ -1608,7 +1608,7 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>Conectado</translation>
     </message>
     <message>
-        <source>Add all that hangs together with what is selected</source>
+        <source>Add everything that is connected to the selection</source>
         <translation>Añadir todo lo que está unido a lo seleccionado</translation>
     </message>
     <message>
@@ -1632,7 +1632,7 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>Suavizar</translation>
     </message>
     <message>
-        <source>Take waves shorter than this off the selection; without one, off the whole mesh</source>
+        <source>Smooth waves shorter than this in the selection; without one, in the whole mesh</source>
         <translation>Quitar de la selección las ondas más cortas que esto; sin selección, de toda la malla</translation>
     </message>
     <message>
@@ -1640,7 +1640,7 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>Reducir a</translation>
     </message>
     <message>
-        <source>So many triangles, by merging those of the selection; without one, all</source>
+        <source>Reduce to this number by merging triangles of the selection; without one, of the whole mesh</source>
         <translation>Tantos triángulos, uniendo los de la selección; sin selección, todos</translation>
     </message>
     <message>
@@ -1728,7 +1728,7 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>Trozos pequeños</translation>
     </message>
     <message>
-        <source>Select every piece that hangs together with nothing large: below a twentieth of the largest piece</source>
+        <source>Select every separate piece below a twentieth of the largest one</source>
         <translation>Seleccionar todo trozo que no está unido a nada grande: por debajo de una veinteava parte del mayor</translation>
     </message>
     <message numerus="yes">
@@ -2230,7 +2230,7 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Cómo se dibujan las superficies; normales: x rojo, y verde, z azul</translation>
     </message>
     <message>
-        <source>Places that little light reaches are darker, while the view rests; slow without a graphics card</source>
+        <source>Draw recesses darker (ambient occlusion) while the view does not move; slow without a graphics card</source>
         <translation>Los lugares a los que llega poca luz son más oscuros mientras la vista no se mueve; lento sin tarjeta gráfica</translation>
     </message>
     <message>
@@ -2803,7 +2803,7 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Conservar el otro lado</translation>
     </message>
     <message>
-        <source>The axis that the plane is square to</source>
+        <source>The axis that the plane is perpendicular to</source>
         <translation>El eje al que el plano es perpendicular</translation>
     </message>
     <message>
@@ -3296,11 +3296,11 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
 <context>
     <name>turnscan::studio::SessionKeeper</name>
     <message>
-        <source>The session is not kept: %1 cannot be made</source>
+        <source>The session is not saved: %1 cannot be made</source>
         <translation>La sesión no se conserva: no se puede crear %1</translation>
     </message>
     <message>
-        <source>The session is not kept: %1</source>
+        <source>The session is not saved: %1</source>
         <translation>La sesión no se conserva: %1</translation>
     </message>
 </context>
@@ -3394,7 +3394,7 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <translation>Grabación</translation>
     </message>
     <message>
-        <source>Folder to make for the recording; it must not exist or be empty</source>
+        <source>Folder to create for the recording; if it exists, it must be empty</source>
         <translation>Carpeta que se crea para la grabación; no debe existir o debe estar vacía</translation>
     </message>
     <message>

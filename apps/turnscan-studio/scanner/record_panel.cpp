@@ -29,9 +29,9 @@ struct RecordPanel::Options {
   OptionTable speed() {
     OptionTable table;
     table.number("speed", capture.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
-                 "Speed of the table, counter-clockwise seen from above is positive: of the motor "
-                 "(then 10deg/s unless it is given), or where turns are counted. auto: from the "
-                 "frames' angles, the calibration or the motion");
+                 "Speed of the table, counter-clockwise seen from above is positive: sets the "
+                 "motor (10deg/s unless given), or serves to count turns. auto: from the frames' "
+                 "angles, the calibration or the motion");
     return table;
   }
 };

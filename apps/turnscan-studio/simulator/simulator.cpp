@@ -122,7 +122,7 @@ void SimulatorMode::build_run() {
   folder_ = new QLineEdit(section);
   folder_->setObjectName("simulator_folder");
   folder_->setAccessibleName(tr("Folder of the recording"));
-  folder_->setToolTip(tr("Folder to make for the recording; it must not exist or be empty"));
+  folder_->setToolTip(tr("Folder to create for the recording; if it exists, it must be empty"));
   auto* browse = button(tr("…"), tr("Choose the folder"), section);
   browse->setAccessibleName(tr("Choose the folder"));
   row->addWidget(folder_, 1);

@@ -75,7 +75,7 @@ class Session {
 
 /// Help of --overwrite-unfinished, for every command that makes a recording.
 inline constexpr const char* kOverwriteUnfinishedHelp =
-    "Remove what lies at RECORDING when it is a recording that was not finished";
+    "Replace RECORDING if it holds a recording that was not finished";
 
 class Command {
  public:

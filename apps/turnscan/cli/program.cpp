@@ -40,7 +40,7 @@ struct RunOptions {
 OptionTable describe(RunOptions& o) {
   OptionTable table;
   table.number("threads", o.threads, {0, 1024},
-               "How many threads may work; 0 means all cores. The result is the same");
+               "Number of threads; 0 uses all cores. It does not change the result");
   table.flag("quiet", o.quiet, "Show no progress on standard error");
   return table;
 }
@@ -156,8 +156,8 @@ std::string text_of_exception(const std::exception& error) {
   // oneTBB throws a plain error with this message.
   if ((system != nullptr && system->code() == std::errc::resource_unavailable_try_again) ||
       what.find("pthread_create") != std::string_view::npos)
-    return "threads: the system allows no more of them; end other programs, raise the limit "
-           "(ulimit -u), or use --threads 1";
+    return "the system allows no more threads; end other programs, raise the limit (ulimit -u), or "
+           "use --threads 1";
   return shown_line(system != nullptr
                         ? fmt::format("system: {}; check limits and permissions", what)
                         : fmt::format("internal error: {}; please report it with the command that "
@@ -203,7 +203,7 @@ std::string name_of_option(std::string_view argument) {
 std::string unknown_argument(const std::string& argument, const std::vector<std::string>& names,
                              const std::vector<std::string>& also_in) {
   if (argument.rfind('-', 0) != 0)
-    return fmt::format("{}: one argument too many; remove it", argument);
+    return fmt::format("{}: unexpected argument; remove it", argument);
   const std::string plain = argument.substr(0, argument.find('='));
   const std::string none = fmt::format("{}: there is no such option", plain);
   if (const auto near = near_name(name_of_option(plain), names))
@@ -397,7 +397,7 @@ int Program::run(int argc, char** argv) {
     if (app.got_subcommand(entry.app)) return run_command(entry);
   }
   const auto extra = app.remaining();
-  if (extra.empty()) return usage_error("no command: nothing to do", "turnscan");
+  if (extra.empty()) return usage_error("no command was given", "turnscan");
   if (extra.front().rfind('-', 0) == 0)
     return usage_error(unknown_argument(extra.front(), {"help", "version"},
                                         commands_with(name_of_option(extra.front()))),
@@ -409,7 +409,7 @@ int run_guarded(int (*body)(int, char**), int argc, char** argv) {
   try {
     return body(argc, argv);
   } catch (const std::bad_alloc&) {
-    put_error("memory: there is not enough of it; use larger voxels, fewer frames or --threads 1");
+    put_error("out of memory; use larger voxels, fewer frames or --threads 1");
   } catch (const std::exception& error) {
     put_error(text_of_exception(error));
   }

@@ -13,25 +13,27 @@ class BatchCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positional("ACTION", action_,
-                    "run: what is not done; retry: what failed; status: say how it stands; task: "
-                    "one task, which an engine calls");
+                    "run: do the tasks that are not done; retry: repeat those that failed; status: "
+                    "report progress; task: do one task (called by an engine)");
     line.positionals(
         "PATH...", paths_,
-        "run: a table (.csv, .toml), or folders with recordings, with --out; without it the folder "
-        "of a batch to go on with. retry: that folder, and names of tasks (without: all that "
-        "failed). status: that folder");
-    line.option("-o,--out", "FOLDER", out_,
-                "run: folder of the batch, made if need be; what is done in it stays");
+        "run: with --out, a table (.csv, .toml) or folders with recordings; without --out, the "
+        "folder of a batch to continue. retry: the folder of the batch, and the tasks to repeat "
+        "(default: all that failed). status: the folder of the batch");
+    line.option(
+        "-o,--out", "FOLDER", out_,
+        "run: folder of the batch, created if necessary; tasks that are done in it are kept");
     line.option("--command", "COMMAND", source_.command,
-                "run: what is done with each input: reconstruct or simulate (default: the table's, "
-                "else reconstruct)");
+                "run: command for each input, reconstruct or simulate (default: the table's, else "
+                "reconstruct)");
     line.repeatable("--set", "NAME=VALUE", source_.set,
                     "run: an option of every task, e.g. method=volumetric; may be given several "
                     "times");
     line.repeatable("--sweep", "NAME=VALUE,...", source_.sweep,
-                    "run: every task once with each of the values, e.g. voxel-size=1mm,2mm; with "
-                    "several sweeps once with each combination");
-    line.flag("--detach", detach_, "run, retry: hand the tasks to Slurm and do not wait for them");
+                    "run: repeat every task with each of the values, e.g. voxel-size=1mm,2mm; "
+                    "several sweeps give every combination");
+    line.flag("--detach", detach_,
+              "run, retry: submit the tasks to Slurm and do not wait for them");
     line.allow_config();
     line.group("batch", "Engine", describe(options_));
     line.common({"out", "command", "set", "sweep", "jobs", "engine", "task-threads", "detach",
@@ -73,8 +75,8 @@ class BatchCommand : public Command {
       TURNSCAN_TRY(check_one_path());
       if (!source_.set.empty() || !source_.sweep.empty() || !source_.command.empty())
         return fail(ErrorCode::kInvalidOption,
-                    "--out: missing; a batch that is there already has its options, so name the "
-                    "inputs and the folder");
+                    "--out: missing; an existing batch keeps its own options, so give inputs and a "
+                    "new folder");
       return run_folder(paths_.front(), session);
     }
     source_.inputs = paths_;
@@ -93,7 +95,7 @@ class BatchCommand : public Command {
   Result<> check_one_path() const {
     if (paths_.size() == 1) return {};
     return fail(ErrorCode::kInvalidOption,
-                "--out: missing; several inputs need the folder of the batch");
+                "--out: missing; several inputs need a folder for the batch");
   }
 
   Result<> run_folder(const std::string& folder, Session& session) {

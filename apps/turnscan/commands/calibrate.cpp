@@ -27,8 +27,8 @@ struct DeviceOptions {
 OptionTable describe(DeviceOptions& o) {
   OptionTable table;
   table.number("device-frames", o.frames, {1, 20000},
-               "How many frames are taken from the device; automatic: as many as are averaged, "
-               "920 where motion is looked at, 10 with --check");
+               "Number of frames to take from the device; automatic: as many as are averaged, 920 "
+               "to calibrate from motion, 10 with --check");
   return table;
 }
 
@@ -42,8 +42,8 @@ class CalibrateCommand : public Command {
     line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option(
         "--device", "URI", device_,
-        "Take frames from a sensor instead (see turnscan devices); its calibration is kept, "
-        "and used from then on. With --check: say whether the table has moved since");
+        "Take the frames from a sensor instead (see turnscan devices); its calibration is stored, "
+        "and used from then on. With --check: tell whether the table has moved since");
     line.option("--points", "PICKS.csv", request_.points,
                 "Use points on the platter's rim: columns x_mm,y_mm,z_mm (or _m) in the sensor's "
                 "frame, or column,row of the averaged depth image");
@@ -54,19 +54,17 @@ class CalibrateCommand : public Command {
               "First find the constant offset of each sensor's depth, from --platter-radius or "
               "--gauge-ball");
     line.option("--depth-also", "RECORDING", request_.depth_also,
-                "With --depth-bias: the same platter or ball at another distance, which tells the "
-                "scale of the sensor's depth, too");
-    line.repeatable(
-        "--iai-kinect2", "FOLDER", request_.iai_folders,
-        "First take cameras and depth offset from a Kinect v2 calibration in the layout "
-        "of iai_kinect2; given again: of the next sensor of the recording");
-    line.flag(
-        "--check", check_,
-        "Look at closure, direction, speed, slips and warm-up of the recording, and rate each "
-        "as good, WRONG or not known; nothing is calibrated");
+                "With --depth-bias: a recording of the same platter or ball at another distance, "
+                "which also determines the scale of the sensor's depth");
+    line.repeatable("--iai-kinect2", "FOLDER", request_.iai_folders,
+                    "First read the cameras and the depth offset from a Kinect v2 calibration in "
+                    "the layout of iai_kinect2; given again, for the next sensor of the recording");
+    line.flag("--check", check_,
+              "Check closure, direction, speed, slips and sensor warm-up of the recording, and "
+              "rate each as good, WRONG or not known; nothing is calibrated");
     line.option("--json", "FILE.json", json_, "Write the calibration with its standard deviations");
     line.option("--save", "FILE.json", save_,
-                "Keep the calibration as a file for reconstruct --turntable (the same content)");
+                "Write the calibration to a file for reconstruct --turntable (the same content)");
     line.allow_config();
     line.group("device", "Device", describe(device_options_));
     line.group("average", "Averaging", describe(request_.average));
@@ -128,7 +126,7 @@ class CalibrateCommand : public Command {
     TURNSCAN_ASSIGN(const Calibration calibration, calibrate_and_tell(*frames, session));
     TURNSCAN_TRY(keep_calibration(identity, calibration));
     TURNSCAN_ASSIGN(const auto file, kept_calibration_file(identity));
-    session.print("Kept for {} in {}\n", identity, file.string());
+    session.print("Stored for {} in {}\n", identity, file.string());
     return {};
   }
 
@@ -176,12 +174,12 @@ class CalibrateCommand : public Command {
     }
     if (count[Rating::kWrong] > 0)
       return fail(ErrorCode::kMissingData,
-                  "{} of {} checks found something wrong; calibrate anew with 'turnscan calibrate'",
+                  "{} of {} checks failed; calibrate again with 'turnscan calibrate'",
                   count[Rating::kWrong], findings.size());
     if (count[Rating::kGood] > 0) return {};
     return fail(ErrorCode::kMissingData,
-                "nothing could be checked; record a whole turn of an object that does not look the "
-                "same from all sides");
+                "nothing could be checked; record a whole turn of an object that is not "
+                "rotationally symmetric");
   }
 
   static std::string_view word_of(Rating rating) {

@@ -17,11 +17,11 @@ class CaptureCommand : public Command {
   void declare(CommandLine& line) override {
     line.required_repeatable("--device", "URI", setup_.devices,
                              "Sensor to record from, e.g. virtual:doll (see docs/capture.md). May "
-                             "be given several times: one recording of all of them");
+                             "be given several times, for one recording of all of them");
     line.required_option("-o,--out", "RECORDING", out_,
-                         "Folder to make for the recording; it must not exist or be empty");
+                         "Folder to create for the recording; if it exists, it must be empty");
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
-    line.option("--report", "FILE.json", report_, "Write what was recorded and lost as JSON");
+    line.option("--report", "FILE.json", report_, "Write what was recorded and dropped as JSON");
     declare_capture(line, setup_);
     declare_table(line, setup_);
     line.group("limits", "End of the recording", describe(setup_.options.limits));

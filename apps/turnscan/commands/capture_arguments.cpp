@@ -15,8 +15,8 @@ constexpr std::uint64_t kSteps = 1000;  // of the phase "record"
 OptionTable describe_speed(CaptureSetup& setup) {
   OptionTable table;
   table.number("speed", setup.options.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
-               "Speed of the table: of the motor (then 10deg/s unless it is given), or where turns "
-               "are counted. auto: from the frames' angles, the calibration or the motion");
+               "Speed of the table: sets the motor (10deg/s unless given), or serves to count "
+               "turns. auto: from the frames' angles, the calibration or the motion");
   return table;
 }
 
@@ -24,12 +24,12 @@ OptionTable describe_speed(CaptureSetup& setup) {
 
 void declare_capture(CommandLine& line, CaptureSetup& setup) {
   line.option("--turntable", "FILE.json", setup.turntable_file,
-              "Where the turntable stands: a file that turnscan calibrate saved");
+              "Calibration of the turntable: a file saved by turnscan calibrate");
   line.option("--motor", "PORT", setup.motor_port,
-              "Turn the table by the board at this serial port, e.g. /dev/ttyUSB0 (see "
-              "docs/motor.md)");
+              "Turn the table with the motor controller at this serial port, e.g. /dev/ttyUSB0 "
+              "(see docs/motor.md)");
   line.allow_config();
-  line.group("stops", "Stop and go, with --motor", describe(setup.options.stops));
+  line.group("stops", "Recording at stops, with --motor", describe(setup.options.stops));
   line.group("recorder", "Recorder", describe(setup.options.recorder));
   line.group("motor", "Motor", describe(setup.motor));
 }

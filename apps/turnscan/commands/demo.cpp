@@ -23,8 +23,8 @@ OptionTable describe(std::string& object, int& picture_size_px) {
   OptionTable table;
   table
       .text("object", object,
-            fmt::format("What stands on the turntable: {}, pair (letter-a and doll together), or "
-                        "all of these but the gauges, one after the other",
+            fmt::format("Object on the turntable: {}, pair (letter-a and doll together), or all of "
+                        "these but the gauges, one after the other",
                         fmt::join(builtin_object_names(), ", ")))
       .number("picture-size", picture_size_px, {16, 4096},
               "Width and height of each of the picture's three views in pixels");
@@ -35,7 +35,7 @@ class DemoCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.option("-o,--out", "FOLDER", out_,
-                "Folder to make; without it ./turnscan-demo, or the next free number");
+                "Folder to create; default: ./turnscan-demo, or the next free number");
     line.allow_config();
     line.group("demo", "Demo", describe(object_, scene_.picture_size_px));
     line.group("virtual-scan", "Virtual camera", describe(scene_.scan));

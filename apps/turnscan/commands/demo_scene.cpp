@@ -102,7 +102,7 @@ Result<> write_piece(const Piece& piece, const fs::path& folder, int picture_siz
 Result<Evaluation> judge(const Piece& piece, const VirtualScan& scan,
                          const EvaluateOptions& options, const RunContext& context) {
   if (piece.mesh.empty())
-    return fail(ErrorCode::kTooFewPoints, "{}: nothing was reconstructed of it; try more frames",
+    return fail(ErrorCode::kTooFewPoints, "{}: nothing of it was reconstructed; try more frames",
                 piece.name);
   return evaluate(piece.mesh, piece.truth, options, seen_by(scan.scene(), scan, context), context);
 }

@@ -22,8 +22,9 @@ struct ErrorMapOptions {
 
 OptionTable describe(ErrorMapOptions& o) {
   OptionTable table;
-  table.number("error-scale", o.scale_m, Quantity::kLength, {1e-6, 1.0},
-               "Error that gets the last colour of the error map; auto: the largest threshold");
+  table.number(
+      "error-scale", o.scale_m, Quantity::kLength, {1e-6, 1.0},
+      "Error at the end of the colour scale of the error map; auto: the largest threshold");
   return table;
 }
 
@@ -37,10 +38,10 @@ class EvaluateCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positional("MESH", mesh_,
-                    "Mesh to be judged; with --artefact also a point cloud (.ply, .pcd)");
-    line.option("--reference", "MESH", reference_, "The true surface. Needed without --artefact");
+                    "Mesh to evaluate; with --artefact also a point cloud (.ply, .pcd)");
+    line.option("--reference", "MESH", reference_, "The true surface. Required without --artefact");
     line.option("--seen-from", "RECORDING", seen_from_,
-                "Judge completeness over what the frames of this recording saw of the reference, "
+                "Evaluate completeness only where the frames of this recording saw the reference, "
                 "which must lie in the recording's table frame");
     line.option("--json", "FILE.json", json_, "Write the figures as JSON");
     line.option("--error-map", "FILE.ply", error_map_, "Write the mesh coloured by its error");
@@ -65,8 +66,8 @@ class EvaluateCommand : public Command {
     if (artefact_.artefact != Artefact::kNone) return run_artefact(unit, session);
     if (artefact_.diameter_m || artefact_.spacing_m)
       return fail(ErrorCode::kInvalidOption,
-                  "evaluate: --ball-diameter and --ball-spacing are of an artefact; say which with "
-                  "--artefact ball or ball-bar");
+                  "evaluate: --ball-diameter and --ball-spacing describe an artefact; choose one "
+                  "with --artefact ball or ball-bar");
     if (reference_.empty())
       return fail(ErrorCode::kInvalidOption,
                   "evaluate: there is nothing to compare with; give --reference, or --artefact for "
@@ -95,8 +96,8 @@ class EvaluateCommand : public Command {
           std::pair("--error-map", &error_map_)}) {
       if (!value->empty())
         return fail(ErrorCode::kInvalidOption,
-                    "evaluate: {} does not go with --artefact, which is measured by itself; leave "
-                    "one of them out",
+                    "evaluate: {} cannot be combined with --artefact, which needs no reference; "
+                    "leave one of them out",
                     name);
     }
     session.plan({{"artefact"}});

@@ -17,10 +17,10 @@ class ImportCommand : public Command {
   void declare(CommandLine& line) override {
     line.optional_positionals(
         "SOURCE...", sources_,
-        "Data set to read: a folder or a file of a layout that --list shows. Several are the "
-        "passes of one object, in which it lies in several ways");
+        "Data set to read: a folder or a file in a layout that --list shows. Several are passes of "
+        "one object, which is laid differently in each");
     line.option("-o,--out", "RECORDING", out_,
-                "Folder to make for the recording; it must not exist or be empty");
+                "Folder to create for the recording; if it exists, it must be empty");
     line.flag("--list", list_, "Print the layouts that can be imported, and do nothing else");
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.allow_config();

@@ -24,11 +24,10 @@ class InfoCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positional("RECORDING|MESH", path_,
-                    "Recording, mesh or point cloud to look at, or what turnscan import reads");
-    line.flag(
-        "--repair", repair_,
-        "Finish a recording whose program was ended: keep every whole frame, mark it complete "
-        "and say what was lost");
+                    "Recording, mesh or point cloud, or a data set that turnscan import reads");
+    line.flag("--repair", repair_,
+              "Finish an interrupted recording: keep every whole frame, mark it complete and "
+              "report what was lost");
     line.flag("--json", json_, "Print JSON, SI units in the names");
     line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option("--unit", "UNIT", unit_,

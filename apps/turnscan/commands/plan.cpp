@@ -14,17 +14,17 @@ class PlanCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positionals("MESH...", request_.objects,
-                     fmt::format("What is to be scanned, or stands for it: mesh files or {}",
+                     fmt::format("Objects to be scanned, or similar ones: mesh files or {}",
                                  "builtin:NAME, as in simulate"));
     line.required_repeatable(
         "--scanner", "SCANNER,...", scanners_,
-        fmt::format("Sensors at hand: presets ({}) or files FILE.toml, each of which the rig may "
-                    "have several times. What of its place is fixed follows behind commas: "
-                    "kinect-v2,roll=90deg",
-                    fmt::join(scanner_presets(), ", ")));
+        fmt::format(
+            "Available sensors: presets ({}) or files FILE.toml; the rig may have several of each. "
+            "Fixed parts of its placement follow after commas: kinect-v2,roll=90deg",
+            fmt::join(scanner_presets(), ", ")));
     line.required_option("-o,--out", "FOLDER", request_.folder,
-                         "Folder for the plans, made if need be; an earlier run's plans in it are "
-                         "replaced, and its trials used again");
+                         "Folder for the plans, created if necessary; plans of an earlier run in "
+                         "it are replaced, and its trials are reused");
     line.option("--unit", "UNIT", request_.unit,
                 "Unit of MESH if its file does not say it: mm, m, ...");
     line.allow_config();

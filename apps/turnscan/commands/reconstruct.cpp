@@ -20,23 +20,21 @@ namespace {
 class ReconstructCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positionals(
-        "RECORDING...", recordings_,
-        "Recording to reconstruct, or a file or folder of another program (see turnscan import). "
-        "Its passes, in which the object lies in several ways, become one mesh; several recordings "
-        "of an object, too");
+    line.positionals("RECORDING...", recordings_,
+                     "Recording to reconstruct, or a file or folder of another program (see "
+                     "turnscan import). Its passes, in which the object is laid differently, "
+                     "become one mesh, and so do several recordings of one object");
     line.required_option("-o,--out", "MESH", files_.mesh,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm. Several "
                          "objects become OUT-1, OUT-2, ..., or one .3mf or .glb file. Passes that "
                          "cannot be joined become OUT-pass1, ..., and the command fails");
-    line.repeatable("--report", "FILE.json|FILE.html", reports_,
-                    "Write what was done: counts, parameters with their reasons, times, checks. "
-                    ".json: for programs; .html: a page to send, with the model in 3D. Both may be "
-                    "given");
-    line.option(
-        "--advice-picture", "FILE.png", files_.advice_picture,
-        "Draw how the object is to be laid for a next pass, beside how it lay; what no view "
-        "saw is magenta");
+    line.repeatable(
+        "--report", "FILE.json|FILE.html", reports_,
+        "Write a report: counts, parameters with their reasons, times, checks. .json: for "
+        "programs; .html: a page in one file, with the model in 3D. Both may be given");
+    line.option("--advice-picture", "FILE.png", files_.advice_picture,
+                "Draw how to lay the object for the next pass, beside how it lay; surface that no "
+                "view saw is magenta");
     line.repeatable(
         "--save-stage", "NAME[=FILE.ply]", save_stages_,
         fmt::format("Write a stage's cloud, by default beside the mesh: {} (fitted with "
@@ -44,27 +42,25 @@ class ReconstructCommand : public Command {
                     fmt::join(saveable_stages(), ", ")));
     line.repeatable("--import", "NAME=VALUE", import_, kImportOptionsHelp);
     line.option("--keep-recording", "FOLDER", keep_recording_,
-                "Also write what is read from a file of another program to a recording, as "
-                "turnscan import does; it must not exist or be empty");
+                "Folder for a recording of what is read from files of another program, as turnscan "
+                "import writes it; if it exists, it must be empty");
     line.option(
         "--turntable", "FILE.json", request_.turntable,
-        "Turntable to use instead of the recording's: a file that turnscan calibrate saved");
-    line.option(
-        "--calibration", "WAY", request_.calibration,
-        "Where turntable and angles come from: auto, recorded or motion. auto: from the object's "
-        "motion where the "
-        "recording has none, or one that does not fit one turn later");
+        "Calibration to use instead of the recording's: a file saved by turnscan calibrate");
+    line.option("--calibration", "WAY", request_.calibration,
+                "Source of the turntable's pose and the angles: auto, recorded or motion. auto: "
+                "the recording, or the object's motion if the recording has none or they do not "
+                "fit one turn later");
     line.repeatable(
         "--pass-pose", "PASS=POSE", pass_poses_,
-        "Where a pass lies, if its surface does not show it: its number (passes of several "
-        "recordings are counted from 0 on) and the pose of its table in the frame of the first "
-        "pass's table, as a file with the rows of a 4x4 matrix in metres, or as RX,RY,RZ,TX,TY,TZ: "
-        "turned about the fixed axes x, then y, then z, then shifted, e.g. "
+        "Pose of a pass, if its surface does not determine it: the number of the pass (counted "
+        "from 0 across all recordings) and the pose of its table in the frame of the first pass's "
+        "table, either a file with a 4x4 matrix (row by row, in metres) or RX,RY,RZ,TX,TY,TZ: "
+        "rotations about the fixed axes x, y and z in this order, then a translation, e.g. "
         "1=180deg,0deg,30deg,0mm,200mm,0mm; may be given for several passes");
-    line.flag(
-        "--refine-pass-poses", refine_pass_poses_,
-        "A pass lies only about where --pass-pose says: its surface is brought from there onto "
-        "that of the others, and it is not joined where they contradict each other");
+    line.flag("--refine-pass-poses", refine_pass_poses_,
+              "Take the poses of --pass-pose as approximate: each pass is registered to the others "
+              "from there, and is not joined if their surfaces contradict each other");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     line.allow_config();
     line.group("mesh-file", "Mesh file", describe(files_.mesh_options));
@@ -126,11 +122,12 @@ class ReconstructCommand : public Command {
     }
     if (!imported && !import_.empty())
       return fail(ErrorCode::kInvalidOption,
-                  "--import: what is given is a recording already; leave it out");
+                  "--import: the input is a recording already; leave it out");
     if (keep_recording_.empty()) return inputs;
     if (inputs.size() > 1)
-      return fail(ErrorCode::kInvalidOption,
-                  "--keep-recording keeps one; make recordings of several with turnscan import");
+      return fail(
+          ErrorCode::kInvalidOption,
+          "--keep-recording writes one recording; convert several inputs with turnscan import");
     TURNSCAN_ASSIGN(inputs[0], keep_input(recordings_[0], inputs[0], keep_recording_, context));
     return inputs;
   }
@@ -160,7 +157,7 @@ class ReconstructCommand : public Command {
     }
     if (refine_pass_poses_ && pass_poses_.empty())
       return fail(ErrorCode::kInvalidOption,
-                  "--refine-pass-poses refines what --pass-pose says; give that, too");
+                  "--refine-pass-poses refines the poses of --pass-pose; give that, too");
     return {};
   }
 

@@ -16,14 +16,13 @@ class RenderCommand : public Command {
   void declare(CommandLine& line) override {
     line.positionals("MESH...", meshes_, "Meshes to show");
     line.option("-o,--out", "PICTURE.png", out_, "Picture to write");
-    line.option(
-        "--turntable", "FILE.mp4|.png", turning_,
-        "Write the meshes as they turn: .png, an animation that browsers show, or .mp4, for "
-        "which the program ffmpeg must be installed");
+    line.option("--turntable", "FILE.mp4|.png", turning_,
+                "Write an animation of the turning meshes: .png, which browsers show, or .mp4, "
+                "which needs the program ffmpeg");
     line.flag("--side-by-side", side_by_side_, "Show each mesh in a picture of its own, in a row");
     line.allow_config();
     line.group("picture", "Picture", describe(options_));
-    line.group("turn", "Turning picture, with --turntable", describe(turn_));
+    line.group("turn", "Animation, with --turntable", describe(turn_));
     line.common({"out", "turntable", "side-by-side", "picture-width", "picture-height",
                  "picture-azimuth", "picture-elevation", "picture-views", "picture-zoom",
                  "picture-colours", "picture-ground"});
@@ -66,10 +65,9 @@ class RenderCommand : public Command {
     TURNSCAN_TRY(check_output_file(out_, ".png"));
     if (turning_.empty()) return {};
     if (side_by_side_ || options_.views != 1)
-      return fail(
-          ErrorCode::kInvalidOption,
-          "a turning picture has one view; leave --side-by-side and --picture-views out, or "
-          "--turntable");
+      return fail(ErrorCode::kInvalidOption,
+                  "an animation has one view; leave --side-by-side and --picture-views out, or "
+                  "--turntable");
     return check_turning_picture(turning_, context);
   }
 

@@ -70,7 +70,7 @@ class ReportCommand : public Command {
                            path.filename() == "recording.json" || is_foreign(path);
     if (recording && !report_.empty())
       return fail(ErrorCode::kInvalidOption,
-                  "--made-by: it is about a mesh, and {} is a recording; leave it out", path_);
+                  "--made-by belongs to a mesh, and {} is a recording; leave it out", path_);
     return recording ? of_recording(session) : of_mesh(session.context());
   }
 

@@ -24,9 +24,9 @@ OptionTable describe(PassCount& count) {
   OptionTable table;
   table.number(
       "passes", count.passes, {1, 100},
-      "Record the object in so many ways to lie, each for a turn, and join them: before "
-      "each further pass it says what is missing and how to lay the object, and waits for "
-      "Enter. Virtual objects are laid so by themselves. auto: asks at a terminal, else 1");
+      "Number of passes to record and join, each with the object laid differently. Before each "
+      "further pass the program says what is missing and how to lay the object, and waits for "
+      "Enter; virtual objects are laid automatically. auto: asks at a terminal, else 1");
   return table;
 }
 
@@ -39,21 +39,21 @@ class ScanCommand : public Command {
     line.required_option("-o,--out", "MESH", request_.mesh,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm");
     line.option("--recording", "FOLDER", request_.recording,
-                "Folder to make for the recording, by default beside the mesh. It is kept");
+                "Folder to create for the recording, by default beside the mesh. It is kept");
     line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
-              "Remove the recording that lies there when it was not finished");
+              "Replace the recording there if it was not finished");
     line.repeatable("--report", "FILE.json|FILE.html", reports_,
-                    "Write what was recorded and reconstructed. .json: for programs; .html: a page "
-                    "to send, with the model in 3D. Both may be given");
+                    "Write a report of the recording and the mesh. .json: for programs; .html: a "
+                    "page in one file, with the model in 3D. Both may be given");
     line.option("--advice-picture", "FILE.png", request_.advice_picture,
-                "Draw how the object is to be laid for the next pass, beside how it lay; what no "
+                "Draw how to lay the object for the next pass, beside how it lay; surface that no "
                 "view saw is magenta");
     line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
     line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
     declare_capture(line, request_.setup);
     line.group("passes", "Passes", describe(passes_));
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
-    line.group("ahead", "Work while frames come", describe(request_.ahead));
+    line.group("ahead", "Processing while recording", describe(request_.ahead));
     line.group("mesh-file", "Mesh file", describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
     line.common({"device", "out", "passes", "turns", "speed", "motor", "triangles", "up",
@@ -91,14 +91,14 @@ class ScanCommand : public Command {
 
   Result<bool> another_side(Session& session, const std::string& advice, std::uint32_t pass) const {
     TURNSCAN_ASSIGN(const auto answer,
-                    session.ask(fmt::format("{}\nAnother side? Lay it so and press Enter to record "
-                                            "pass {}, or type q to end: ",
+                    session.ask(fmt::format("{}\nAnother side? Lay the object like this and press "
+                                            "Enter to record pass {}, or type q to end: ",
                                             advice, pass)));
     if (answer) return answer->empty() || (answer->front() != 'q' && answer->front() != 'n');
     if (!request_.passes) return false;
     return fail(ErrorCode::kMissingData,
-                "standard input has ended, so that nobody says when the object lies another way; "
-                "the mesh of the passes so far is in {}",
+                "standard input has ended, so that nobody can confirm that the object was laid "
+                "another way; the mesh of the passes so far is in {}",
                 request_.mesh);
   }
 

@@ -21,28 +21,27 @@ class SimulateCommand : public Command {
   void declare(CommandLine& line) override {
     line.optional_positional(
         "OBJECT", object_,
-        fmt::format("What stands on the turntable: a mesh file, {}{}, or {} for the table alone",
+        fmt::format("Object on the turntable: a mesh file, {}{}, or {} for the table alone",
                     kBuiltin, fmt::join(builtin_object_names(), fmt::format(", {}", kBuiltin)),
                     kEmptyTable));
     line.option("-o,--out", "RECORDING", request_.recording,
-                "Folder to make for the recording; it must not exist or be empty");
+                "Folder to create for the recording; if it exists, it must be empty");
     line.flag("--overwrite-unfinished", request_.overwrite_unfinished, kOverwriteUnfinishedHelp);
     line.repeatable(
         "--scanner", "SCANNER", scanners_,
-        fmt::format("A preset ({}) or a file FILE.toml; may be given several times. What of its "
-                    "place is its own follows behind commas: kinect-v2,azimuth=90deg (default: "
-                    "kinect-v2)",
-                    fmt::join(scanner_presets(), ", ")));
+        fmt::format(
+            "A preset ({}) or a file FILE.toml; may be given several times. Options of its own "
+            "placement follow after commas: kinect-v2,azimuth=90deg (default: kinect-v2)",
+            fmt::join(scanner_presets(), ", ")));
     line.repeatable("--next-pass", "NAME=VALUE,...", next_passes_,
-                    "Another pass after the first, in the same recording: how the object lies "
-                    "then, by the options of the object, e.g. tip=90deg,yaw=30deg; may be given "
-                    "several times");
+                    "Add a pass to the recording: how the object lies in it, by the options of the "
+                    "object, e.g. tip=90deg,yaw=30deg; may be given several times");
     line.option("--unit", "UNIT", unit_, "Unit of OBJECT if its file does not say it: mm, m, ...");
     line.option("--coverage", "FILE.ply", request_.coverage,
-                "Write how well the scan covers the object, and why not: a coloured mesh, and "
-                "beside it FILE.json. Without --out nothing is recorded");
+                "Write the coverage of the object, and why parts were missed: a coloured mesh, and "
+                "FILE.json beside it. Without --out nothing is recorded");
     line.flag("--samples", request_.samples,
-              "Also write every sample with what there was to see, into RECORDING/truth/samples");
+              "Also write the true value of every sample to RECORDING/truth/samples");
     line.option("--report", "FILE.json", request_.report,
                 "Write what was done as JSON: options, counts, times");
     line.file_option(

@@ -23,9 +23,9 @@ OptionTable describe(TurnOptions& o) {
       .number("angle", o.angle_rad, Quantity::kAngle, {-628.3, 628.3},
               "rotate: by how much; counter-clockwise seen from above is positive")
       .number("speed", o.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
-              "rotate, speed: how fast; the sign says which way the table turns on and on")
+              "rotate, speed: how fast; with speed the sign gives the direction")
       .number("seconds", o.seconds, Quantity::kNone, {0.0, 1e6},
-              "speed: for how long; without it until Ctrl-C");
+              "speed: for how long; default: until Ctrl-C");
   return table;
 }
 
@@ -33,7 +33,8 @@ class TurntableCommand : public Command {
  public:
   void declare(CommandLine& line) override {
     line.positional("ACTION", action_,
-                    "rotate: by an angle; speed: on and on; stop; status: say what the table does");
+                    "rotate: turn by an angle; speed: turn continuously; stop; status: report what "
+                    "the table does");
     line.required_option("--port", "PORT", port_, "Serial port, e.g. /dev/ttyUSB0");
     line.allow_config();
     line.group("turn", "Turning", describe(turn_));

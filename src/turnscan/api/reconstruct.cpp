@@ -11,7 +11,7 @@ OptionTable describe(ReconstructRequest& request) {
   OptionTable table = describe(request.options);
   table
       .text("calibration", request.calibration,
-            "Where turntable and angles come from: auto, recorded or motion")
+            "Source of the turntable's pose and the angles: auto, recorded or motion")
       .text("turntable", request.turntable,
             "Calibration file to use instead of the recording's turntable")
       .flag("allow-open", request.allow_open, "Accept meshes that are not watertight");

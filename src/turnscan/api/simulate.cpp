@@ -24,7 +24,7 @@ const std::vector<api::RepeatableOption>& repeatable_options() {
   static const std::vector<api::RepeatableOption> kOptions{
       {"scene", "TOML file with the whole scene, which the other options change"},
       {"scanner",
-       "A preset or a file of a scanner, and behind commas what of its place is its own"},
+       "A preset or a file of a scanner, and after commas the options of its own placement"},
       {"next-pass", "How the object lies in another pass, e.g. tip=90deg,yaw=30deg"}};
   return kOptions;
 }

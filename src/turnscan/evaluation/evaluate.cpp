@@ -268,9 +268,10 @@ OptionTable describe(EvaluateOptions& options) {
   table.number("samples", options.samples, {1, 100000000},
                "Points drawn from each of the two surfaces.");
   table.number("sample-seed", options.seed, {0, 2147483647}, "Seed of the points drawn.");
-  table.choice("border", options.border, {"count", "leave-out"},
-               "What of the mesh is nearest to an open edge of the reference, as what closes its "
-               "holes. leave-out: it is judged apart, as what was not seen.");
+  table.choice(
+      "border", options.border, {"count", "leave-out"},
+      "Parts of the mesh that are nearest to an open edge of the reference, such as those that "
+      "close its holes. leave-out: they are evaluated separately, like unseen surface.");
   table.number("tolerance", options.tolerance_m, Quantity::kLength, {1e-6, 1.0},
                "Also give the shares of the mesh within this distance of the reference, above it "
                "(outside) and below it (inside); auto: no tolerance.");

@@ -20,7 +20,7 @@ Result<> check_options(const ReconstructOptions& options) {
     return fail(ErrorCode::kInvalidOption, "voxel-size and voxel-grid are both given; give one");
   if (options.finish.triangles == "all" && options.finish.max_error_m)
     return fail(ErrorCode::kInvalidOption,
-                "triangles = all keeps what max-error would leave out; give one");
+                "triangles = all and max-error exclude each other; give one");
   if (options.finish.holes != Holes::kSmooth && !options.surface.repair &&
       options.surface.method != SurfaceMethod::kVolumetric)
     return fail(ErrorCode::kInvalidOption,

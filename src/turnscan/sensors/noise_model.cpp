@@ -54,14 +54,14 @@ void describe_defects(OptionTable& table, NoiseModel& m) {
       .number("disparity-sigma", m.disparity_sigma_px, Quantity::kNone, kPixels,
               "Noise of the disparity, pixels.")
       .number("disparity-step", m.disparity_step_px, Quantity::kNone, kPixels,
-              "Steps in which the sensor tells the disparity, pixels; 0: none.")
+              "Step to which the sensor quantises the disparity, pixels; 0: none.")
       .number("bias", m.bias_m, Quantity::kLength, {-1.0, 1.0}, "Added to each depth.")
       .number("drop-from", m.drop_from_rad, Quantity::kAngle, kAngle,
               "Incidence from which returns get lost.")
       .number("drop-to", m.drop_to_rad, Quantity::kAngle, kAngle,
               "Incidence from which there is no return.")
       .number("dark-signal", m.dark_signal_per_m2, Quantity::kNone, {0.0, 1e6},
-              "No return where albedo * cos(incidence) / depth^2 (metres) is less.")
+              "There is no return where albedo * cos(incidence) / depth^2 (metres) is less.")
       .number("dark-jitter", m.dark_jitter, Quantity::kNone, {0.0, 1.0},
               "Relative noise of that signal, one sigma.")
       .number("footprint-px", m.footprint_px, Quantity::kNone, {0.0, 8.0},

@@ -68,7 +68,7 @@ OptionTable describe(ScannerParameters& p) {
               {0.01 * kRadiansPerDegree, 179.0 * kRadiansPerDegree},
               "Angle from the top to the bottom of the view; auto: from the focal length.")
       .number("aspect", p.aspect, Quantity::kNone, {1e-3, 1e3},
-              "Width of the view by its height; auto: as wide as it is high for each sample.")
+              "Aspect ratio of the view, width over height; auto: that of square samples.")
       .number("fx", p.fx, Quantity::kNone, {1e-3, 1e6},
               "Focal length in samples, across; auto: as fy.")
       .number("fy", p.fy, Quantity::kNone, {1e-3, 1e6}, "Focal length in samples, downwards.")
@@ -81,9 +81,9 @@ OptionTable describe(ScannerParameters& p) {
       .number("p2", p.p2, Quantity::kNone, {-100.0, 100.0}, "Tangential distortion.")
       .number("k3", p.k3, Quantity::kNone, {-100.0, 100.0}, "Radial distortion, sixth power.")
       .number("k4", p.k4, Quantity::kNone, {-100.0, 100.0},
-              "Of the rational model, which divides by 1 + k4 r^2 + k5 r^4 + k6 r^6.")
-      .number("k5", p.k5, Quantity::kNone, {-100.0, 100.0}, "Of its fourth power.")
-      .number("k6", p.k6, Quantity::kNone, {-100.0, 100.0}, "Of its sixth power.")
+              "Coefficient of the rational model, which divides by 1 + k4 r^2 + k5 r^4 + k6 r^6.")
+      .number("k5", p.k5, Quantity::kNone, {-100.0, 100.0}, "Its coefficient of the fourth power.")
+      .number("k6", p.k6, Quantity::kNone, {-100.0, 100.0}, "Its coefficient of the sixth power.")
       .number("baseline", p.baseline_m, Quantity::kLength, {0.0, 10.0},
               "Distance between emitter and receiver.")
       .number("baseline-direction", p.baseline_direction_rad, Quantity::kAngle,

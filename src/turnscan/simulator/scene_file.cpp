@@ -168,7 +168,9 @@ Result<std::vector<ObjectPlacement>> pass_placements(const SceneDescription& sce
     const OptionTable table = describe(placement);
     for (const auto& [name, value] : pass) TURNSCAN_TRY(table.set(name, value));
     if (placement.height_m != scene.object_placement.height_m)
-      return fail(ErrorCode::kInvalidOption, "a pass: the object keeps its height; leave it out");
+      return fail(
+          ErrorCode::kInvalidOption,
+          "a pass: height scales the object, which is the same in all passes; leave it out");
     placements.push_back(placement);
   }
   return placements;
@@ -215,7 +217,7 @@ std::vector<SceneTable> describe(SceneDescription& scene) {
   tables.push_back({"room", "Room", describe(scene.room)});
   OptionTable events = describe(scene.object_move);
   events.append(describe(scene.hand));
-  tables.push_back({"events", "What happens meanwhile", std::move(events)});
+  tables.push_back({"events", "Events during the recording", std::move(events)});
   tables.push_back({"noise", "Noise", describe(scene.measure)});
   tables.push_back({"recording", "Recording", describe(scene.record)});
   tables.push_back({"colour-camera", "Colour camera", describe(scene.color_camera)});

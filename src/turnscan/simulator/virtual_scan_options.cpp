@@ -51,9 +51,10 @@ OptionTable describe(MeasureOptions& o) {
       .number("wiggling-period", o.wiggling_period_m, Quantity::kLength, {1e-3, 100.0},
               "Range over which it rises and falls once.")
       .number("warm-up", o.warm_up_m, Quantity::kLength, {-1.0, 1.0},
-              "How much too far each scanner measures at the first frame, cold; it fades.")
+              "Error by which each scanner measures too far at the first frame, while it is cold; "
+              "it decays.")
       .number("warm-up-time", o.warm_up_time_s, Quantity::kTime, {1e-3, 1e6},
-              "After which 37 % of it is left.")
+              "Time after which 37 % of that error is left.")
       .number("seed", o.seed, {0, 2147483647}, "Seed of all random numbers.");
   return table;
 }
@@ -66,7 +67,7 @@ OptionTable describe(RecordOptions& o) {
               "(without the table's offset and tilt); or nothing.")
       .flag("angles", o.angles, "Whether the recording says how far the platter has turned.")
       .flag("scan-colour", o.color, "Also record colours.")
-      .number("pass", o.pass, {0, 1000000}, "Number of the way in which the object lies.");
+      .number("pass", o.pass, {0, 1000000}, "Number of the pass.");
   return table;
 }
 

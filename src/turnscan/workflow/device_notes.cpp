@@ -31,11 +31,11 @@ Result<std::vector<std::string>> filled_depth_notes(const FrameSequence& sequenc
     if (!(baseline_m > 0.0)) continue;
     TURNSCAN_ASSIGN(const auto share, filled_share(sequence, i, baseline_m, context));
     if (!share || *share < kTold) continue;
-    notes.push_back(fmt::format(
-        "sensor {} fills gaps: {:.0f} % of what only one of its two eyes can see has a depth; this "
-        "was made up, and hangs beside the object's edges, so switch hole filling off in the "
-        "program that records",
-        i, 100.0 * *share));
+    notes.push_back(
+        fmt::format("sensor {} fills holes: {:.0f} % of what only one of its two cameras can see "
+                    "has a depth; such depth is not measured, and hangs beside the object's edges, "
+                    "so switch hole filling off in the program that records",
+                    i, 100.0 * *share));
   }
   return notes;
 }

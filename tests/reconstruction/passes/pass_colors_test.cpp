@@ -104,7 +104,8 @@ TEST(PassColors, OfAPlainVaseTellNothingHoweverItIsLit) {
     const PassMotion motion = Painted(vase_radius, plain, plain, tip).joined();
     EXPECT_FALSE(motion.joined);
     EXPECT_TRUE(motion.open);
-    EXPECT_NE(motion.reason.find("its shape does not tell"), std::string::npos) << motion.reason;
+    EXPECT_NE(motion.reason.find("its shape does not determine"), std::string::npos)
+        << motion.reason;
   }
 }
 

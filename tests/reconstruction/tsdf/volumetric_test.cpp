@@ -242,7 +242,7 @@ TEST(Volumetric, IsMadeAgainWhenLaterFramesDisagreeMoreThanTheFirst) {
       if (raw > 0) raw = std::uint16_t(raw + 20 * (int(f % 5) - 2));
     }
   }
-  const auto again = ::testing::Contains(HasSubstr("made again"));
+  const auto again = ::testing::Contains(HasSubstr("integrated again"));
   const auto of_first = reconstruct(first, volumetric(), {}, RunContext());
   ASSERT_TRUE(of_first) << of_first.error().text();
   EXPECT_THAT(of_first->notes, ::testing::Not(again));

@@ -142,15 +142,14 @@ QWidget* EditPanel::make_changes() {
                                                : shrunk(of.cloud.points, s, reach(of));
           }));
   of_selection_.push_back(add(
-      "select_connected", tr("Connected"), tr("Add all that hangs together with what is selected"),
+      "select_connected", tr("Connected"), tr("Add everything that is connected to the selection"),
       5, [reach](const ModelData& of, const Selection& s) {
         return of.kind == ModelKind::kMesh ? connected(of.mesh, s)
                                            : connected(of.cloud.points, s, reach(of));
       }));
-  auto* small = named_button("select_small", tr("Small pieces"),
-                             tr("Select every piece that hangs together with nothing large: below "
-                                "a twentieth of the largest piece"),
-                             box);
+  auto* small =
+      named_button("select_small", tr("Small pieces"),
+                   tr("Select every separate piece below a twentieth of the largest one"), box);
   grid->addWidget(small, 2, 0, 1, 3);
   of_any_.push_back(small);
   connect(small, &QPushButton::clicked, this, &EditPanel::select_small_pieces);
@@ -164,13 +163,12 @@ QWidget* EditPanel::make_edits() {
       named_button("edit_delete", tr("Delete selected"), tr("Delete what is selected (Del)"), box);
   auto* fill = named_button("edit_fill", tr("Fill holes"),
                             tr("Close the holes beside the selection; without one, all"), box);
-  auto* smoother = named_button("edit_smooth", tr("Smooth"),
-                                tr("Take waves shorter than this off the selection; without one, "
-                                   "off the whole mesh"),
-                                box);
+  auto* smoother = named_button(
+      "edit_smooth", tr("Smooth"),
+      tr("Smooth waves shorter than this in the selection; without one, in the whole mesh"), box);
   auto* fewer = named_button("edit_reduce", tr("Reduce to"),
-                             tr("So many triangles, by merging those of the selection; without "
-                                "one, all"),
+                             tr("Reduce to this number by merging triangles of the selection; "
+                                "without one, of the whole mesh"),
                              box);
   wavelength_ = new QDoubleSpinBox(box);
   wavelength_->setObjectName("smooth_wavelength");

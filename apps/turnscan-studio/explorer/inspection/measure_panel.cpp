@@ -36,10 +36,11 @@ KindText text_of(MeasurementKind kind) {
       return {QObject::tr("Probe"), QObject::tr("The deviation from the reference at a place"),
               QObject::tr("Click on a model whose deviations are shown")};
     case MeasurementKind::kDistance:
-      return {QObject::tr("Distance"), QObject::tr("Between two places"),
+      return {QObject::tr("Distance"), QObject::tr("Distance between two places"),
               QObject::tr("Click two places on models")};
     case MeasurementKind::kAngle:
-      return {QObject::tr("Angle"), QObject::tr("Between the ways from a corner to two places"),
+      return {QObject::tr("Angle"),
+              QObject::tr("Angle at a corner between the directions to two places"),
               QObject::tr("Click a place, the corner, and another place")};
     case MeasurementKind::kCircle:
       return {QObject::tr("Circle"), QObject::tr("Diameter of the circle through three places"),
@@ -48,7 +49,8 @@ KindText text_of(MeasurementKind kind) {
       return {QObject::tr("Plane"), QObject::tr("How flat the surface around a place is"),
               QObject::tr("Click on a flat part of the selected model")};
     case MeasurementKind::kThickness:
-      return {QObject::tr("Thickness"), QObject::tr("Of the wall behind a place, square to it"),
+      return {QObject::tr("Thickness"),
+              QObject::tr("Thickness of the wall behind a place, perpendicular to it"),
               QObject::tr("Click on the selected model")};
   }
   return {};

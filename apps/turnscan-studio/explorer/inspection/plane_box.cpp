@@ -30,7 +30,7 @@ PlaneBox::PlaneBox(const QString& name, Side stays, QWidget* parent)
   axis_->setObjectName(name + "_axis");
   axis_->addItems({"X", "Y", "Z"});
   axis_->setCurrentIndex(1);
-  axis_->setToolTip(tr("The axis that the plane is square to"));
+  axis_->setToolTip(tr("The axis that the plane is perpendicular to"));
   axis_->setAccessibleName(tr("Axis of the plane"));
   place_->setObjectName(name + "_place");
   place_->setDecimals(2);

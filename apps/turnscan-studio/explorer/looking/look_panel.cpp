@@ -60,7 +60,7 @@ LookPanel::LookPanel(SceneView& view, ModelStore& store, QWidget* parent)
   opacity_->setToolTip(tr("Opacity of the selected model"));
   occlusion_->setObjectName("look_occlusion");
   occlusion_->setToolTip(
-      tr("Places that little light reaches are darker, while the view rests; slow without a "
+      tr("Draw recesses darker (ambient occlusion) while the view does not move; slow without a "
          "graphics card"));
   isolate_->setCheckable(true);
   isolate_->setObjectName("look_isolate");

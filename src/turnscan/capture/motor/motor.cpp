@@ -105,17 +105,17 @@ OptionTable describe(MotorOptions& o) {
   OptionTable table;
   table
       .choice("motor-protocol", o.protocol, {"auto", "turnscan", "grbl"},
-              "What the turntable's board understands: the text protocol of docs/motor.md, or "
-              "G-code as GRBL does; auto: as it says when it starts")
-      .number("motor-baud", o.baud, {300, 4000000}, "Speed of the serial port, bits a second")
+              "Protocol of the turntable's board: the text protocol of docs/motor.md, or G-code as "
+              "GRBL speaks it; auto: recognised from its greeting")
+      .number("motor-baud", o.baud, {300, 4000000}, "Baud rate of the serial port")
       .number("motor-timeout", o.timeout_s, Quantity::kTime, {0.02, 60.0},
-              "In which the board must answer")
+              "Time in which the board must answer")
       .number("motor-boot", o.boot_s, Quantity::kTime, {0.0, 60.0},
-              "That the board may take to start after its port was opened")
+              "Time that the board may take to start after its port was opened")
       .number("motor-units", o.units_per_turn, Quantity::kNone, {1e-3, 1e6},
-              "Boards with G-code: how far the axis X goes in one turn of the platter")
+              "Boards with G-code: travel of axis X in one turn of the platter")
       .number("motor-max-speed", o.max_speed_rad_s, Quantity::kAngularSpeed, {1e-3, 100.0},
-              "Faster the table is never told to turn")
+              "Greatest speed at which the table is told to turn")
       .flag("motor-reversed", o.reversed,
             "The board's positive direction is clockwise, seen from above");
   return table;
@@ -180,7 +180,7 @@ Result<> Motor::State::wait_until_there(double target_deg, double speed_deg_s, d
     TURNSCAN_ASSIGN(const BoardStatus now, board->status());
     const double off = std::abs(now.angle_deg - target_deg);
     if (now.state == MotorState::kHalted)
-      return fail(ErrorCode::kIo, "the table halted by itself, {:.2f} deg before its aim", off);
+      return fail(ErrorCode::kIo, "the table halted by itself, {:.2f} deg before its target", off);
     if (now.state == MotorState::kIdle) {
       if (off < 0.5) return {};
       return fail(ErrorCode::kIo, "the table stands {:.2f} deg from where it was told to go", off);

@@ -107,7 +107,7 @@ Result<DepthCrop> DepthCrop::create(const Cylinder& cylinder, const Pose& T_tabl
 
 void DepthCrop::apply(DepthImage& image) const {
   if (image.pixels.size() != nearest_.size())
-    throw std::invalid_argument("depth crop: the image has not the sensor's size");
+    throw std::invalid_argument("depth crop: the image does not have the sensor's size");
   std::uint16_t* pixels = image.pixels.data();
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
     const std::uint16_t raw = pixels[i];

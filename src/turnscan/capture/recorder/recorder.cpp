@@ -71,13 +71,14 @@ OptionTable describe(RecorderOptions& o) {
   OptionTable table;
   table
       .number("record-queue", o.queue_frames, {1, 10000},
-              "Frames that may wait to be written; when there are more, frames are dropped")
-      .number("record-threads", o.encoders, {1, 64}, "Threads that encode and write frames")
+              "Number of frames that may wait to be written; further frames are dropped")
+      .number("record-threads", o.encoders, {1, 64},
+              "Number of threads that encode and write frames")
       .number("min-free", o.min_free_bytes, Quantity::kNone, {0.0, 1e15},
-              "Stop before the disk has less free bytes than this")
-      .choice("color-files", o.color, {"png", "jpeg"},
-              "How colour images are written; PNG loses nothing. JPEG images of the source stay as "
-              "they are")
+              "Stop before the disk has fewer free bytes than this")
+      .choice(
+          "color-files", o.color, {"png", "jpeg"},
+          "Format of colour images; PNG is lossless. JPEG images of the source stay as they are")
       .number("color-quality", o.color_quality, {1, 100},
               "Quality of colour images that are written as JPEG");
   return table;

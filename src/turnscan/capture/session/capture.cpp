@@ -75,7 +75,7 @@ class Session {
     cylinder.height_m = options_.crop.height_m;
     if (!header_.turntable || !header_.turntable->radius_m)
       return fail(ErrorCode::kInvalidOption,
-                  "crop: it needs the turntable's place and radius; calibrate first");
+                  "crop: it needs the turntable's pose and radius; calibrate first");
     cylinder.radius_m = *header_.turntable->radius_m + options_.crop.beyond_m;
     for (std::size_t i = 0; i < header_.sensors.size(); ++i) {
       TURNSCAN_ASSIGN(const Pose pose, sensor_pose(header_, i));

@@ -13,7 +13,7 @@ struct QueueOptions {
 
 OptionTable describe(QueueOptions& o) {
   OptionTable table;
-  table.number("queue", o.frames, {1, 10000}, "How many frames may wait to be taken");
+  table.number("queue", o.frames, {1, 10000}, "Number of frames that may wait to be taken");
   return table;
 }
 
@@ -46,12 +46,12 @@ using namespace source;
 
 Result<> FrameSource::lay_object(const Eigen::Matrix3d&, double) {
   return fail(ErrorCode::kUnsupported,
-              "{}: the object has to be laid by hand; it cannot be done from here", info().driver);
+              "{}: the object has to be laid by hand; the program cannot do it", info().driver);
 }
 
 Result<> source::Grabber::lay_object(const Eigen::Matrix3d&, double) {
   return fail(ErrorCode::kUnsupported,
-              "{}: the object has to be laid by hand; it cannot be done from here", info().driver);
+              "{}: the object has to be laid by hand; the program cannot do it", info().driver);
 }
 
 Result<std::unique_ptr<FrameSource>> open_source(const std::string& uri,

@@ -19,7 +19,7 @@ struct ReplayOptions {
 
 OptionTable describe(ReplayOptions& o) {
   OptionTable table;
-  table.text("speed", o.speed, "How many times as fast as it was recorded, or max")
+  table.text("speed", o.speed, "Speed relative to that of the recording, or max")
       .flag("loop", o.loop, "Begin again after the last frame");
   return table;
 }

@@ -35,14 +35,14 @@ OptionTable describe(VirtualOptions& o) {
   table.text("sensor", o.sensor, "A preset or a file of the simulator")
       .text("unit", o.unit, "Unit of the object's file if that does not say it")
       .text("serial", o.serial, "Serial number")
-      .text("fault", o.fault, "What goes wrong, and when: stall@2s+5s,lost@10s")
-      .flag("realtime", o.realtime, "Frames come in real time, and are lost if nobody takes them")
+      .text("fault", o.fault, "Simulated faults and their times: stall@2s+5s,lost@10s")
+      .flag("realtime", o.realtime, "Deliver frames in real time; those that nobody takes are lost")
       .number("appears", o.appears_s, Quantity::kTime, {0.0, 1e6},
-              "When the object is put on the table, which is empty before")
+              "Time at which the object is put on the table, which is empty before")
       .number("clock", o.clock_s, Quantity::kTime, {-1e6, 1e6},
-              "By how much the sensor's clock is ahead")
+              "Offset by which the sensor's clock is ahead")
       .number("prepared", o.prepared, {0, 100000},
-              "Render so many frames at the start, and show them again and again");
+              "Number of frames to render at the start and to repeat from then on");
   return table;
 }
 

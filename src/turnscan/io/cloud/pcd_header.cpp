@@ -52,7 +52,7 @@ class HeaderParser {
       if (header_.fields.size() >= kMaxFields) return damaged("too many fields");
       PcdField field;
       field.name = std::string(cursor_.word());
-      if (field.name.empty()) return damaged("a strange character");
+      if (field.name.empty()) return damaged("an unexpected character");
       header_.fields.push_back(std::move(field));
     }
     return {};

@@ -34,7 +34,7 @@ Result<std::optional<FileLock>> FileLock::try_lock(const std::filesystem::path& 
     return std::optional<FileLock>(std::move(made));
   if (errno == EAGAIN || errno == EACCES) return std::optional<FileLock>();
   return fail_at(path.string(), ErrorCode::kIo,
-                 "the lock cannot be had: {}; use a file system with locks",
+                 "the lock cannot be acquired: {}; use a file system with locks",
                  std::generic_category().message(errno));
 }
 

@@ -234,21 +234,21 @@ OptionTable describe(ImportOptions& o) {
                "Unit of the coordinates of scans; auto takes it from the layout's definition");
   table.text("intrinsics", o.intrinsics,
              "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
-  table.text(
-      "iai-kinect2", o.iai_kinect2,
-      "Folder with a Kinect v2's calibration in the layout of iai_kinect2: cameras and offset "
-      "of depth are taken from there");
+  table.text("iai-kinect2", o.iai_kinect2,
+             "Folder with a Kinect v2's calibration in the layout of iai_kinect2: cameras and "
+             "depth offset are taken from there");
   table.text("sensor-position", o.sensor_position,
-             "Where the scanner stands in the frame of its scans: x,y,z with units");
+             "Position of the scanner in the frame of its scans: x,y,z with units");
   table.text("sensor-direction", o.sensor_direction,
              "Direction x,y,z from the surface to a scanner with parallel rays");
   table.choice("pose-direction", o.pose_direction, {"auto", "camera-to-world", "world-to-camera"},
-               "What the poses map; auto is camera-to-world");
+               "Direction in which the poses map points; auto is camera-to-world");
   table.choice("device-poses", o.device_poses, {"auto", "use", "ignore"},
-               "Poses that a phone or hand-held sensor tracked itself; auto ignores them while it "
-               "stands still and uses them where it moved");
-  table.choice("min-confidence", o.min_confidence, {"auto", "low", "medium", "high"},
-               "Returns that the device rates below are none; auto is medium");
+               "Poses that a phone or hand-held sensor tracked itself; auto ignores them if it "
+               "stood still and uses them if it moved");
+  table.choice(
+      "min-confidence", o.min_confidence, {"auto", "low", "medium", "high"},
+      "Lowest confidence, as the device rates it, of returns that are kept; auto is medium");
   table.text("world-up", o.world_up,
              "Direction x,y,z that is up in the world of the poses; without it, +y");
   table.flag("clockwise", o.clockwise,

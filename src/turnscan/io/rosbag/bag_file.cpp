@@ -174,7 +174,7 @@ Result<> Bag::take_index(const Head& head) {
   constexpr std::uint32_t kEntryBytes = 12;
   if (!connection || !count || head.data_bytes / kEntryBytes != *count ||
       head.data_bytes % kEntryBytes != 0)
-    return fail(ErrorCode::kFormat, "an index has not the length that it claims");
+    return fail(ErrorCode::kFormat, "an index does not have the length that it claims");
   if (chunks_.empty()) return fail(ErrorCode::kFormat, "an index comes before any chunk");
   Chunk& chunk = chunks_.back();
   chunk.indexed = true;

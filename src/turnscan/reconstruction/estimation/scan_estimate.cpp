@@ -140,7 +140,7 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
         fmt::format("no platter is seen, but a plane {} below it", length_text(-returns.height_m))};
   return {below,
           "no platter is seen, so that nothing is cropped below; --keep-box \",2mm,,,,\" cuts off "
-          "what lies lower than 2 mm"};
+          "what lies below 2 mm"};
 }
 
 /// Observations by depth cameras at the position of a platter's rim.
@@ -173,8 +173,8 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
                                               : "where the returns of the platter end"});
   } else {
     estimate.notes.emplace_back(
-        "the platter's radius is not known and its edge was not found: nothing is "
-        "cropped sideways; give --crop-radius");
+        "no platter of known radius is there and no edge of one was found, so that nothing is "
+        "cropped sideways; --crop-radius limits what is kept");
   }
   cylinder.radius_m = found.value_or(1e3);
   const PlatterRim rim = looks_at_rim(scan, known.value_or(0.0));
@@ -258,7 +258,7 @@ class FrameSamples {
     if (spacing_.empty())
       return fail(ErrorCode::kTooFewPoints,
                   "none of the frames looked at has 10 points on the object; check the turntable's "
-                  "place and --crop-margin, --crop-radius");
+                  "pose and --crop-margin, --crop-radius");
     std::sort(spacing_.begin(), spacing_.end());
     std::sort(noise_.begin(), noise_.end());
     estimate.noise_m = noise_[noise_.size() / 2];

@@ -83,10 +83,9 @@ Result<std::vector<HalfSpace>> plane_side(std::string_view text) {
 OptionTable describe(FinishOptions& o) {
   OptionTable table;
   table
-      .choice(
-          "holes", o.holes, {"smooth", "flat", "open"},
-          "Surface that nothing measured: closed smoothly, closed as tightly as a soap film, or "
-          "left open, the underside too. Needs the repair")
+      .choice("holes", o.holes, {"smooth", "flat", "open"},
+              "What to do with unmeasured surface, the underside included: close it smoothly, "
+              "close it by a surface of least area, or leave it open. Needs the repair")
       .number("hole-size", o.hole_size_m, Quantity::kLength, {0.0, 1.0},
               "Longest side from which --holes flat and open apply; smaller holes are closed "
               "smoothly")
@@ -113,17 +112,17 @@ OptionTable describe(FinishOptions& o) {
       .number("only-object", o.object, {1, 1000000},
               "Keep only the object of this number, the largest being 1; automatic: all")
       .text("triangles", o.triangles,
-            "Triangles of an object, still closed: auto, as few as an eighth of its expected error "
-            "allows, a quarter of a voxel at most, but all where its vertices carry --colour; all; "
-            "or at most this number",
+            "Number of triangles of an object, which stays closed: at most this number; all; or "
+            "auto, which removes triangles within an eighth of the expected error, at most a "
+            "quarter of a voxel, but none where vertices carry --colour",
             [](std::string_view text) -> Result<> {
               TURNSCAN_TRY(triangles_wanted(text));
               return {};
             })
-      .number("max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
-              "As few triangles as keep the surface within this of what it would be otherwise, "
-              "still closed; with a number of --triangles whichever ends sooner; automatic: as "
-              "--triangles says");
+      .number(
+          "max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
+          "Remove triangles as long as the surface moves by less than this; together with a number "
+          "of --triangles, until either limit is reached; automatic: as --triangles says");
   return table;
 }
 

@@ -13,8 +13,8 @@ OptionTable describe(MergeOptions& o) {
       .flag("cloud-outliers", o.cloud_outliers,
             "Run the statistical filter once more, on the merged cloud")
       .number("pass", o.pass, {0, 1e9},
-              "Of a recording with several passes, in which the object lies differently, the one "
-              "to use; automatic: the only one");
+              "Pass to use of a recording with several, in which the object lies differently; "
+              "automatic: the only one");
   return table;
 }
 
@@ -23,12 +23,11 @@ OptionTable describe(VoxelOptions& o) {
   table
       .number("voxel-size", o.size_m, Quantity::kLength, {1e-5, 1.0},
               "Edge of a voxel; automatic: from noise and density of the first frames")
-      .number(
-          "voxel-grid", o.grid, {2, 100000},
-          "Or: number of voxels along the longest side that the first frames show (the thesis uses "
-          "150)")
+      .number("voxel-grid", o.grid, {2, 100000},
+              "Instead of voxel-size: number of voxels along the longest side that the first "
+              "frames show")
       .number("voxel-min-points", o.min_points, {1, 1e9},
-              "M: voxels with fewer points are dropped; automatic: a tenth of the typical count");
+              "Voxels with fewer points are dropped; automatic: a tenth of the typical count");
   return table;
 }
 
@@ -38,7 +37,7 @@ OptionTable describe(CandidateOptions& o) {
       .choice("candidates", o.method, {"centroid", "sub-voxel"},
               "Candidate of a voxel: centroid of its points, or sub-voxel counting")
       .number("sub-voxels", o.subdivisions, {1, 16},
-              "s: sub-voxel counting splits a voxel into s x s x s")
+              "Sub-voxel counting splits each edge of a voxel into this many parts")
       .choice("sub-voxel-line", o.line, {"chord", "towards-sensor"},
               "Part of the line through sensor and point that is counted; towards-sensor is biased "
               "outwards");
@@ -49,7 +48,7 @@ OptionTable describe(ComponentOptions& o) {
   OptionTable table;
   table.text("keep", o.keep, "Objects to keep: all, largest, or a number N for the N largest")
       .number("min-object-share", o.min_share, Quantity::kNone, {0.0, 1.0},
-              "Pieces with a smaller share of the largest piece's points are crumbs and go")
+              "Pieces with a smaller share of the largest piece's points are dropped")
       .number("object-gap", o.gap_m, Quantity::kLength, {0.0, 1.0},
               "Pieces closer than this are one object; automatic: what the volume separates is "
               "separate, and with the methods from points by spacing and noise");

@@ -10,7 +10,7 @@ OptionTable describe(SurfaceOptions& o) {
               "through), or from points: Poisson (smooth, closed) or concave hull (alpha shape)")
       .number("poisson-depth", o.poisson_depth, {2, 13}, "Depth of Poisson's octree")
       .number("poisson-samples", o.samples_per_node, Quantity::kNone, {1.0, 100.0},
-              "Samples per node of Poisson's octree; the thesis used 3 to 5 on noisier candidates")
+              "Samples per node of Poisson's octree; noisy candidates need 3 to 5")
       .number("poisson-scale", o.poisson_scale, Quantity::kNone, {1.0, 10.0},
               "Poisson's cube relative to the bounding cube of the points")
       .number("poisson-point-weight", o.point_weight, Quantity::kNone, {0.0, 100.0},

@@ -11,11 +11,11 @@ OptionTable describe(TextureOptions& o) {
               "Pixels a side of the texture; automatic: as many as the colour cameras resolve on "
               "the object, at most 4096")
       .flag("refine-colour-camera", o.refine_camera,
-            "Texture: find where the colour camera really is beside the depth camera, from the "
-            "outlines and the pattern of the object")
+            "Texture: refine the pose of the colour camera relative to the depth camera, from the "
+            "object's outlines and pattern")
       .flag("albedo", o.albedo,
-            "Texture: estimate what a light that stands still does to the turning object, and take "
-            "it out");
+            "Texture: estimate shading and highlights of a fixed light on the turning object, and "
+            "remove them");
   return table;
 }
 

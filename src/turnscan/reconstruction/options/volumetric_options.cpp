@@ -6,19 +6,18 @@ OptionTable describe(VolumetricOptions& o) {
   OptionTable table;
   table
       .number("truncation", o.truncation_m, Quantity::kLength, {1e-5, 1.0},
-              "Volumetric: how far along its ray a measurement counts; automatic: from its noise, "
-              "or from "
-              "how far frames see past what others measured")
+              "Volumetric: truncation distance, within which a measurement counts along its ray; "
+              "automatic: from the noise, or from how far frames see past what others measured")
       .flag("fit", o.fit, "Volumetric: move the vertices onto the frames' measurements")
       .number("fit-reach", o.fit_reach_m, Quantity::kLength, {1e-5, 0.1},
               "Volumetric: measurements farther from a vertex, across its normal, do not count in "
               "the fit; automatic: from the spacing")
       .number("fit-iterations", o.fit_iterations, {1, 20}, "Volumetric: steps of the fit")
       .flag("sharpen", o.sharpen,
-            "Volumetric: where noise shows that the sensor averages over neighbouring pixels, take "
-            "back what that did to edges and thin parts")
+            "Volumetric: if the noise shows that the sensor averages over neighbouring pixels, "
+            "undo its effect on edges and thin parts")
       .flag("mark-invented", o.mark_invented,
-            "Volumetric: paint in magenta what no frame measured, the rest in its colour or grey");
+            "Volumetric: paint unmeasured surface magenta, the rest in its colour or grey");
   return table;
 }
 

@@ -38,7 +38,7 @@ Result<RefinedMotion> refine(const PreparedPass& whole, const PreparedPass& part
         adjust(both, std::span(&pair, 1), {Pose::Identity(), T}, 2.0 * tolerance, {}, context);
     TURNSCAN_TRY(context.check());
     if (!fine) {
-      out.misfit = "nowhere near there do their surfaces lie on each other";
+      out.misfit = "their surfaces coincide nowhere near there";
       return out;
     }
     out.T_here_pass = determined_part(part, *fine, out.T_here_pass, options.max_sigma_m);

@@ -98,7 +98,7 @@ class Judge {
     TURNSCAN_TRY(adjust_candidates());
     PairVerdict out;
     if (adjusted_.empty()) {
-      out.reason = "nowhere do their surfaces lie on each other";
+      out.reason = "their surfaces coincide nowhere";
       return out;
     }
     out.best = adjusted_[0].first;
@@ -148,7 +148,7 @@ class Judge {
   std::string open(const PairVerdict& verdict) const {
     const CandidateMotion& best = verdict.best;
     if (colors_.any() && best.colors.explained() < kColorsFit)
-      return "nowhere do their colours lie on each other";
+      return "their colours coincide nowhere";
     const double same_m =
         colors_.any() ? kStoppedShort * std::max(a_.extent_m, b_.extent_m) : same_motion_m(a_, b_);
     for (std::size_t i = 1; i < adjusted_.size(); ++i) {
@@ -158,7 +158,7 @@ class Judge {
         return "where their colours fit their shapes do not";
       if (!rivals(a_, b_, best, other)) continue;
       if (colors_.any() && !rivals_in_color(best, other)) continue;
-      return (colors_.any() ? "" : "its shape does not tell how it lay: ") +
+      return (colors_.any() ? "" : "its shape does not determine how it lay: ") +
              rival_text(a_, b_, best, other);
     }
     return undetermined_direction(b_, verdict.adjustment, options_.max_sigma_m);

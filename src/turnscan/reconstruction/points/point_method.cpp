@@ -248,7 +248,7 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
     out.points = sums_ ? sums_->points() : cloud_.cloud.size();
     if (!sums_)
       return fail(ErrorCode::kTooFewPoints,
-                  "{} of {} returns are left after crop and filter; check the turntable's place, "
+                  "{} of {} returns are left after crop and filter; check the turntable's pose, "
                   "--crop-margin and --crop-radius",
                   out.points, returns_);
     if (sink && options_.keep_points) TURNSCAN_TRY(sink("merged", cloud_.cloud));

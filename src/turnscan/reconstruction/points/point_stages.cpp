@@ -112,7 +112,7 @@ Result<> PointStages::choose_voxels() {
   grid_.filter(in_object);
   std::erase(components_.label, -1);
   if (components_.crumbs > 0)
-    out_.notes.push_back(fmt::format("{} crumbs dropped", components_.crumbs));
+    out_.notes.push_back(fmt::format("{} small pieces dropped", components_.crumbs));
   if (components_.joined > 0)
     out_.notes.push_back(fmt::format("pieces above the platter joined to what stands below: {}",
                                      components_.joined));

@@ -120,17 +120,17 @@ ObjectResult object_of(VolumetricPiece& piece, bool color_wanted) {
     object.notes.push_back(
         fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
   if (piece.no_return_area_m2 >= kMinNoReturn_m2)
-    object.notes.push_back(fmt::format(
-        "{:.1f} cm^2 of its invented surface face sensors that had no return from there: "
-        "too dark, too shiny or transparent",
-        piece.no_return_area_m2 * 1e4));
+    object.notes.push_back(
+        fmt::format("{:.1f} cm^2 of its invented surface face sensors that got no return from "
+                    "there: it may be too dark, too shiny or transparent",
+                    piece.no_return_area_m2 * 1e4));
   if (piece.neck)
-    object.notes.push_back(fmt::format(
-        "it may be two things that touch: at x {:.0f} mm, z {:.0f} mm its section is {:.1f} cm^2, "
-        "{:.0f} % of those on either side, and what it parts stands by itself; move them apart to "
-        "have each alone",
-        piece.neck->place.x() * 1e3, piece.neck->place.z() * 1e3, piece.neck->area_m2 * 1e4,
-        piece.neck->share * 100.0));
+    object.notes.push_back(
+        fmt::format("it may be two objects that touch: at x {:.0f} mm, z {:.0f} mm its section is "
+                    "{:.1f} cm^2, {:.0f} % of those on either side, and each side stands by "
+                    "itself; move them apart to get a mesh of each",
+                    piece.neck->place.x() * 1e3, piece.neck->place.z() * 1e3,
+                    piece.neck->area_m2 * 1e4, piece.neck->share * 100.0));
   if (piece.detached > 0)
     object.notes.push_back(fmt::format(
         "{} part{} of it hang{} in the air: no frame shows what "

@@ -40,8 +40,9 @@ void widen_for_few(const VolumetricInput& input, double longest, double& cell,
   const double bend = longest / 16.0, radius = balance(input, facing, bend);
   if (cell < 0.5 * radius) {
     cell = 0.5 * radius;
-    reason = fmt::format("half of {}, where noise of {} and bends of {} err alike",
-                         length_text(radius), length_text(input.noise_m), length_text(bend));
+    reason = fmt::format(
+        "half of {}, at which noise of {} and curvature of radius {} cause equal errors",
+        length_text(radius), length_text(input.noise_m), length_text(bend));
   }
 }
 

@@ -60,10 +60,9 @@ class VolumetricReconstruction {
     }
     leave_out_unmeasured();
     if (out_.pieces.empty())
-      return fail(
-          ErrorCode::kTooFewPoints,
-          "volumetric: the frames show no surface: where one sees something, others see past "
-          "it; check the turntable's place and the angles");
+      return fail(ErrorCode::kTooFewPoints,
+                  "volumetric: the frames show no surface: where one sees something, others see "
+                  "past it; check the turntable's pose and the angles");
     out_.filter_share = filter_share_.value_or(0.0);
     return std::move(out_);
   }

@@ -301,11 +301,11 @@ Result<> VolumetricMethod::correct_noise(Reconstruction& out, const RunContext& 
   const bool wider = scale.volume.truncation_m > kNoiseSlack * scale_.volume.truncation_m;
   if (options_.volumetric.truncation_m || !(noisier || wider)) return {};
   out.notes.push_back(
-      noisier ? fmt::format("the frames' places disagree by {}, which the first frames did not "
-                            "show: the volume was made again",
+      noisier ? fmt::format("the frames' poses disagree by {}, which the first frames did not "
+                            "show: the volume was integrated again",
                             length_text(noise))
               : fmt::format("frames see {} deep past what others measured, which the first frames "
-                            "did not show: the volume was made again",
+                            "did not show: the volume was integrated again",
                             length_text(found.seen_past_m)));
   scale_ = scale;
   Integrator integrator(scale_.volume);
@@ -352,7 +352,7 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
   out.points = out.inside_crop;
   if (out.inside_crop < kMinPoints)
     return fail(ErrorCode::kTooFewPoints,
-                "{} of {} returns are left after the crop; check the turntable's place, "
+                "{} of {} returns are left after the crop; check the turntable's pose, "
                 "--crop-margin and --crop-radius",
                 out.inside_crop, out.returns);
   {
@@ -371,14 +371,14 @@ Result<> VolumetricMethod::finish(const StageSink& sink, const RunContext& conte
                   reconstruct_volume(input_, scale_, integrator_, options_.volumetric,
                                      options_.components.min_share, context));
   if (options_.volumetric.sharpen && result.filter_share > 0.0)
-    out.notes.push_back(fmt::format(
-        "the sensor averages over pixels, {:.0f} % of a depth are its row's neighbours': "
-        "edges are sharpened",
-        200.0 * result.filter_share));
+    out.notes.push_back(
+        fmt::format("the sensor averages over neighbouring pixels ({:.0f} % of a depth comes from "
+                    "its neighbours in the row): edges are sharpened",
+                    200.0 * result.filter_share));
   if (result.left_out > 0)
     out.notes.push_back(fmt::format(
-        "{} left out: hardly a frame measured {}, as of what stands "
-        "about and does not turn with the table",
+        "{} left out: hardly a frame measured {}, which is typical of things that do not turn with "
+        "the table",
         result.left_out == 1 ? "one thing was" : fmt::format("{} things were", result.left_out),
         result.left_out == 1 ? "it" : "them"));
   out.voxel_size_m = scale_.volume.cell_m;

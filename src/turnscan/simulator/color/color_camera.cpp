@@ -26,24 +26,26 @@ OptionTable describe(ColorCameraOptions& o) {
   OptionTable table;
   table
       .number("colour-width", o.width, {0, 8192},
-              "Columns of a colour camera of its own beside each depth camera, for --scan-colour; "
-              "0: colours are registered to depth and lit from the sensor, and the options below "
-              "do not apply.")
+              "Columns of a separate colour camera beside each depth camera, for --scan-colour; 0: "
+              "colours are registered to depth and lit from the sensor, and the options below do "
+              "not apply.")
       .number("colour-height", o.height, {0, 8192}, "Its rows; 0: 9/16 of the columns.")
       .number("colour-fov", o.fov_y_rad, Quantity::kAngle, {0.01, 2.5},
               "Its vertical field of view.")
       .number("colour-x", o.x_m, Quantity::kLength, {-1.0, 1.0},
-              "Where it is: to the right of the depth camera.")
-      .number("colour-y", o.y_m, Quantity::kLength, {-1.0, 1.0}, "Where it is: below it.")
-      .number("colour-z", o.z_m, Quantity::kLength, {-1.0, 1.0}, "Where it is: before it.")
-      .number("colour-pan", o.pan_rad, Quantity::kAngle, {-0.5, 0.5},
-              "How far it is turned to its right.")
-      .number("colour-tilt", o.tilt_rad, Quantity::kAngle, {-0.5, 0.5}, "And up.")
+              "Its position to the right of the depth camera.")
+      .number("colour-y", o.y_m, Quantity::kLength, {-1.0, 1.0},
+              "Its position below the depth camera.")
+      .number("colour-z", o.z_m, Quantity::kLength, {-1.0, 1.0},
+              "Its position in front of the depth camera.")
+      .number("colour-pan", o.pan_rad, Quantity::kAngle, {-0.5, 0.5}, "Its rotation to the right.")
+      .number("colour-tilt", o.tilt_rad, Quantity::kAngle, {-0.5, 0.5}, "Its rotation upwards.")
       .number(
           "colour-delay", o.delay_s, Quantity::kTime, {-1.0, 1.0},
           "How much later its images are taken than those of depth; the recording does not say.")
       .number("colour-jitter", o.jitter_s, Quantity::kTime, {0.0, 1.0},
-              "By up to this more or less in each frame, as of streams that are not in step.")
+              "Random part of that delay in each frame, up to this either way, as of streams that "
+              "are not synchronised.")
       .number("colour-noise", o.noise, Quantity::kNone, {0.0, 100.0},
               "Standard deviation of its noise, of 255 levels.")
       .number("colour-drift", o.drift, Quantity::kNone, {0.0, 0.9},
@@ -51,7 +53,7 @@ OptionTable describe(ColorCameraOptions& o) {
       .number("colour-white-drift", o.white_drift, Quantity::kNone, {0.0, 0.9},
               "White balance wanders: red and blue against green, by up to this share.")
       .number("colour-vignetting", o.vignetting, Quantity::kNone, {0.0, 0.9},
-              "Share of the light that the corners of the image lack.")
+              "Vignetting: share of the light that the corners of the image lack.")
       .number("colour-lamp", o.lamp, Quantity::kNone, {0.0, 1.0},
               "Share of the light that comes from a lamp far away, which stands still; the rest "
               "comes from all sides alike.")
@@ -61,11 +63,11 @@ OptionTable describe(ColorCameraOptions& o) {
               {-kRightAngle, kRightAngle}, "Its height above the horizontal.")
       .number(
           "colour-gloss", o.gloss, Quantity::kNone, {0.0, 1.0},
-          "Light of the lamp that the object mirrors, at the middle of the highlight, of white.")
+          "Specular reflection of the lamp at the middle of the highlight, as a share of white.")
       .number("colour-given-turn", o.given_turn_rad, Quantity::kAngle, {-0.2, 0.2},
-              "By how much the recording has it turned wrongly.")
+              "Error of its rotation in the recording.")
       .number("colour-given-shift", o.given_shift_m, Quantity::kLength, {-0.1, 0.1},
-              "By how much the recording has it in the wrong place.");
+              "Error of its position in the recording.");
   return table;
 }
 

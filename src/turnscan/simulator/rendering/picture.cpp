@@ -35,12 +35,12 @@ OptionTable describe(PictureOptions& o) {
       .number("picture-field-of-view", o.field_of_view_rad, Quantity::kAngle, {0.01, 2.5},
               "Vertical field of view of the picture.")
       .number("picture-zoom", o.zoom, Quantity::kNone, {0.05, 100.0},
-              "Above 1 the picture comes nearer than all of the object.")
+              "Zoom: above 1 the picture shows less than the whole object.")
       .flag("picture-ground", o.ground, "A floor in the picture that catches shadows.")
       .flag("picture-smooth", o.smooth, "Interpolated normals in the picture.")
       .flag("picture-colours", o.use_colors, "Textures and vertex colours in the picture.")
       .number("picture-samples", o.ambient_samples, {0, 1024},
-              "Rays for each of a pixel's four samples that look for the sky.");
+              "Rays of ambient occlusion for each of a pixel's four samples.");
   return table;
 }
 

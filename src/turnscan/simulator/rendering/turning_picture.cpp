@@ -40,7 +40,7 @@ Result<> render_turn(std::span<const TriangleMesh> meshes, const PictureOptions&
   TURNSCAN_TRY(describe(copy).check());
   if (options.views != 1)
     return fail(ErrorCode::kInvalidOption,
-                "picture-views: {} is more than the one view of a turning picture", options.views);
+                "picture-views: {} is more than the one view of an animation", options.views);
   TURNSCAN_ASSIGN(const rendering::Subject subject, rendering::Subject::create(meshes, options));
   const std::vector<rendering::ViewSetup> views =
       views_of_turn(subject.points, options, turn.frames);

@@ -79,8 +79,8 @@ Result<SensorMotion> calibrate_sensor(const FrameSequence& sequence,
     const bool better = again && fits_better(*again, found);
     if (better) found = std::move(*again);
     found.data.notes.emplace_back(
-        better ? "a round surface was seen, but the object turns about another axis than its: it "
-                 "was not taken for the platter"
+        better ? "a round surface was seen, but the object turns about another axis, so it was not "
+                 "taken for the platter"
                : "the object does not turn square to the platter, or wobbles");
   }
   TURNSCAN_ASSIGN(Calibration calibration,

@@ -149,8 +149,7 @@ class ForegroundSearch {
     const auto found = find_moving(positions);
     if (found || found.error().code == ErrorCode::kCancelled || !options_.hint) {
       data_.notes.push_back(
-          "no platter was seen: what turns was told from what stands still by "
-          "its motion");
+          "no platter was seen: the object was separated from the background by its motion");
       return found;
     }
     foreground_ = Foreground();

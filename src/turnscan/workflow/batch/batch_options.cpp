@@ -17,7 +17,7 @@ OptionTable describe(BatchRunOptions& o) {
       .number("tasks-per-job", o.tasks_per_job, {1, 100000},
               "slurm: how many tasks one element of a job array runs, one after the other")
       .number("restarts", o.restarts, {0, 100},
-              "How often a task is begun anew whose process or node was lost");
+              "How often a task is restarted whose process or node was lost");
   return table;
 }
 

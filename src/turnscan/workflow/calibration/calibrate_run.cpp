@@ -45,10 +45,11 @@ Result<Calibration> by_any_way(const FrameSequence& recording, const CalibrateRe
   auto still = platter_calibration(recording, request, context);
   if (!still) {
     if (still.error().code == ErrorCode::kCancelled) return still;
-    return fail(ErrorCode::kMissingData, "neither motion nor platter: {} ({})",
+    return fail(ErrorCode::kMissingData,
+                "no calibration was found from motion ({}) or from the platter ({})",
                 moving.error().message, still.error().message);
   }
-  still->notes.push_back("not from motion: " + moving.error().message);
+  still->notes.push_back("calibration from motion failed: " + moving.error().message);
   return still;
 }
 
@@ -103,7 +104,7 @@ Result<CalibrationWay> calibration_way(bool points, bool detect, bool from_motio
 
 Result<> CalibrateRequest::check() const {
   if (!depth_also.empty() && !depth_bias)
-    return fail(ErrorCode::kInvalidOption, "--depth-also says more to --depth-bias; give both");
+    return fail(ErrorCode::kInvalidOption, "--depth-also refines --depth-bias; give both");
   if (depth_bias && !detect.radius_m && !ball.diameter_m)
     return fail(ErrorCode::kInvalidOption,
                 "--depth-bias needs a known size; give --platter-radius or --gauge-ball");

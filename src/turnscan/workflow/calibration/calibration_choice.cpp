@@ -116,8 +116,9 @@ Result<CalibrationChoice> as_given(const FrameSequence& sequence, const Calibrat
   CalibrationChoice out;
   TURNSCAN_ASSIGN(out.checks, check_as_used(sequence, request, memory, context));
   if (const auto why = doubt_of(out.checks))
-    out.note = fmt::format("{}; it was used because {} given, --calibration motion makes another",
-                           *why, request.speed_rad_s ? "the speed was" : "it was");
+    out.note =
+        fmt::format("{}; it was used because {} given (--calibration motion estimates another)",
+                    *why, request.speed_rad_s ? "the speed was" : "it was");
   return out;
 }
 
@@ -137,7 +138,7 @@ void correct(Placement placement, CalibrationChoice& choice) {
   if (placement.disturbances.empty()) return;
   std::string text = text_of(placement);
   if (moves_frames(placement)) {
-    text += "; the frames were moved to where they belong";
+    text += "; the poses of the frames were corrected";
     choice.poses = std::move(placement.T_table_sensor);
   }
   if (!placement.left_out.empty())

@@ -110,10 +110,10 @@ void keep_corrections(const Calibration& correction, Calibration& found) {
       found.others[k].depth = other.depth;
       found.others[k].camera = other.camera;
     } else if (other.depth || other.camera) {
-      found.notes.push_back(fmt::format(
-          "sensor {}: its depth and camera are not kept, since only --from-motion tells where "
-          "it stands",
-          k + 1));
+      found.notes.push_back(
+          fmt::format("sensor {}: its corrections of depth and camera are not stored, because only "
+                      "--from-motion determines its pose",
+                      k + 1));
     }
   }
 }

@@ -237,10 +237,10 @@ class PassSearch {
         placement.share = share->of(std::array{part.object});
       object.of_pass[part.pass] = std::move(placement);
       if (part.motion.interchangeable)
-        out_.notes.push_back(fmt::format(
-            "in {} two objects have the same shape, wherever both were measured; which of them "
-            "is which of the other passes' does not matter",
-            passes_[part.pass].name));
+        out_.notes.push_back(
+            fmt::format("in {} two objects have the same shape wherever both were measured; which "
+                        "of them is matched with which of the other passes does not matter",
+                        passes_[part.pass].name));
     }
   }
 

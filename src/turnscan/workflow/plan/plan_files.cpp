@@ -57,7 +57,7 @@ std::string reason_words(Miss reason) {
     case Miss::kEmitterBlocked:
       return "lies in the shadow of the emitter or is hidden from the second camera";
     case Miss::kGrazing:
-      return "is seen too flat";
+      return "is seen at too grazing an angle";
     case Miss::kTooNear:
       return "is too near";
     case Miss::kTooFar:
@@ -65,7 +65,7 @@ std::string reason_words(Miss reason) {
     case Miss::kOutOfView:
       return "lies outside of the image";
     case Miss::kTooDark:
-      return "returns too little light, or is too flat to the sensor to return any";
+      return "returns too little light, or is at too grazing an angle to return any";
     default:
       return "is missed otherwise";
   }

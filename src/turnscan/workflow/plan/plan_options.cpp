@@ -17,22 +17,22 @@ bool kept_by_plans(const std::string& table) {
 OptionTable describe(PlanOptions& o) {
   const Range elevations{-0.125 * kTurn, 0.2475 * kTurn};
   OptionTable table;
-  table.number("sensors", o.sensors, {1, 8}, "How many sensors the rig may have.")
+  table.number("sensors", o.sensors, {1, 8}, "Largest number of sensors.")
       .number("passes", o.passes, {1, 4},
-              "In how many ways the object may be laid, one after the other.")
+              "How many passes may be recorded, each with the object laid differently.")
       .number(
           "max-error", o.max_error_m, Quantity::kLength, {1e-6, 1.0},
           "Surface that is expected farther than this from the truth does not count as covered; "
           "auto: whatever is seen counts.")
       .number("least-distance", o.least_distance_m, Quantity::kLength, {0.01, 20.0},
-              "How near a sensor may stand to the point that it looks at; auto: the scanner's near "
-              "limit and the object's radius.")
+              "Least distance of a sensor from the point that it looks at; auto: the scanner's "
+              "near limit and the object's radius.")
       .number("greatest-distance", o.greatest_distance_m, Quantity::kLength, {0.01, 20.0},
-              "How far it may stand; auto: half a metre more than the least.")
+              "Greatest distance; auto: half a metre more than the least.")
       .number("lowest-elevation", o.lowest_elevation_rad, Quantity::kAngle, elevations,
-              "How low a sensor may stand above the horizontal.")
+              "Lowest elevation of a sensor above the horizontal.")
       .number("highest-elevation", o.highest_elevation_rad, Quantity::kAngle, elevations,
-              "How high.")
+              "Highest elevation.")
       .number("turn-time", o.turn_time_s, Quantity::kTime, {0.1, 1e5},
               "How long one turn takes; all sensors look at the same turn.")
       .number("change-time", o.change_time_s, Quantity::kTime, {0.0, 1e5},
@@ -42,7 +42,7 @@ OptionTable describe(PlanOptions& o) {
       .number("plan-distances", o.distances, {1, 20}, "Steps of distance that are tried.")
       .number("plan-elevations", o.elevations, {1, 40}, "Steps of elevation that are tried.")
       .number("plan-spots", o.spots, {100, 100000},
-              "Spots that stand for the surface of an object.")
+              "Number of sample points on the surface of an object.")
       .number("plans", o.plans, {1, 50}, "How many plans are written.")
       .number(
           "trials", o.trials, {0, 1000},

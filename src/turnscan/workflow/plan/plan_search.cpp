@@ -198,8 +198,8 @@ Result<std::vector<ChosenRig>> PlanSearch::choose_all(const RunContext& context)
   }
   if (all.empty())
     return fail(ErrorCode::kInvalidOption,
-                "plan: from no place tried is anything seen well enough; widen the ranges of "
-                "distance and elevation, or the error");
+                "plan: nothing is seen well enough from any placement that was tried; widen the "
+                "ranges of distance and elevation, or the error");
   // An upper bound of the area holds for all rigs of the same size, whatever their preference.
   for (ChosenRig& rig : all)
     for (const ChosenRig& other : all)

@@ -255,7 +255,7 @@ class ScanRun {
     found.others.clear();  // valid for this scan only
     found.made_at = date_of_calibration(info);
     if (auto kept = keep_calibration(info.identities.front(), found); !kept)
-      out_.notes.push_back("the calibration could not be kept: " + kept.error().text());
+      out_.notes.push_back("the calibration could not be stored: " + kept.error().text());
   }
 
   /// Writes picture, report and page for all passes so far.

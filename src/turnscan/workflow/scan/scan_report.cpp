@@ -65,7 +65,7 @@ std::string scan_text(const ScanOutcome& outcome) {
   if (outcome.run.next_pass)
     text += fmt::format("Next pass: {}\n", next_pass_text(*outcome.run.next_pass));
   text += fmt::format(
-      "The mesh was there {:.1f} s after the last frame, with {:.1f} s of processor time\n",
+      "The mesh was ready {:.1f} s after the last frame, with {:.1f} s of processor time\n",
       outcome.after_s, outcome.processor_after_s);
   for (const std::string& file : outcome.files) text += fmt::format("Wrote {}\n", file);
   return text;

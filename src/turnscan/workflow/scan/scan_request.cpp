@@ -9,8 +9,8 @@ namespace turnscan {
 OptionTable describe(AheadOptions& options) {
   OptionTable table;
   table.number("ahead", options.share, Quantity::kNone, {0.5, 0.98},
-               "Where nothing is known of the turntable: begin to calibrate from motion and to "
-               "reconstruct when this share of the recording is there. auto: at its end");
+               "If the turntable is not known: share of the recording after which calibration from "
+               "motion and reconstruction begin. auto: at its end");
   return table;
 }
 

@@ -33,7 +33,7 @@ Result<bool> TableFinder::find(FrameSource& source, const RunContext& context) {
   if (stated && setup_.turntable_file.empty()) return true;
   if (!stated && setup_.devices.size() > 1) {
     // A platter determines each sensor's pose relative to it, but not the azimuths between sensors.
-    notes_.push_back("where the sensors stand comes from the object's motion alone");
+    notes_.push_back("the poses of the sensors are estimated from the object's motion alone");
     return false;
   }
   context.begin_phase("look for the turntable", 0);
@@ -56,7 +56,7 @@ Result<> TableFinder::detect(const FrameSource& source, const AveragedScan& scan
   if (!platter && !nothing_seen(platter.error())) return tl::unexpected<Error>(platter.error());
   if (!platter) {
     notes_.push_back("the platter was not found (" + platter.error().message +
-                     "), so the turntable comes from the object's motion alone");
+                     "), so the turntable is estimated from the object's motion alone");
     return {};
   }
   set_table(calibration_of(*platter, scan).table, date_of_calibration(source.info()));
@@ -102,15 +102,14 @@ Result<bool> TableFinder::take_kept(const FrameSource& source, const AveragedSca
   const auto kept = kept_calibration(identities.front());
   // Without a home there is no stored calibration.
   if (!kept && kept.error().code != ErrorCode::kNotFound)
-    notes_.push_back("the calibration that was kept of this device is not used: " +
-                     kept.error().text());
+    notes_.push_back("the stored calibration of this device is not used: " + kept.error().text());
   if (!kept || !*kept) return false;
   TURNSCAN_ASSIGN(const RigCheck check, check_rig(scan, **kept, context));
   notes_.push_back(check.text);
   if (check.moved) return false;
   set_table((*kept)->table, (*kept)->made_at);
   TURNSCAN_TRY(correct_sensors(**kept, setup_.header.sensors));
-  notes_.push_back("the turntable's place is the one that was kept of this device");
+  notes_.push_back("the turntable's pose is that of the stored calibration of this device");
   return true;
 }
 

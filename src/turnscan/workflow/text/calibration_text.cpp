@@ -54,8 +54,8 @@ std::string calibration_text(const Calibration& c) {
     table.add(
         {"radius", figure(*c.table.radius_m, c.radius_sigma_m, 1e3, "mm", 2), c.radius_found});
   if (c.table.reach_m && !c.table.radius_m)
-    table.add(
-        {"reach", fmt::format("{:.0f} mm", *c.table.reach_m * 1e3), "how far out something turns"});
+    table.add({"reach", fmt::format("{:.0f} mm", *c.table.reach_m * 1e3),
+               "largest radius at which something turns"});
   if (c.table.speed_rad_s)
     table.add({"speed",
                figure(*c.table.speed_rad_s, c.speed_sigma_rad_s, kDegreesPerRadian, "deg/s", 4),
@@ -65,7 +65,8 @@ std::string calibration_text(const Calibration& c) {
                fmt::format("{}, the last {:.3f} deg", c.angles_rad.size(),
                            c.angles_rad.back() * kDegreesPerRadian),
                c.angles_found});
-  if (c.start_s) table.add({"start", fmt::format("{:.3f} s", *c.start_s), "when it began to turn"});
+  if (c.start_s)
+    table.add({"start", fmt::format("{:.3f} s", *c.start_s), "time at which it began to turn"});
   std::string text = fmt::format("Found by: {}\n", name_of(c.method)) + table.text(2);
   if (std::isfinite(c.residual_rms_m))
     text += fmt::format("Residuals: {:.3f} mm RMS", c.residual_rms_m * 1e3);

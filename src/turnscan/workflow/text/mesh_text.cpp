@@ -67,10 +67,11 @@ std::string size_text(const Box& box) {
 }
 
 std::string check_sentences(const MeshReport& r) {
-  return fmt::format(
-      "{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r), outward_sentence(r),
-      r.watertight() ? "It is watertight. What of it was measured, turnscan reconstruct says."
-                     : "It is not watertight; a printer's software may refuse it.");
+  return fmt::format("{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r),
+                     outward_sentence(r),
+                     r.watertight() ? "It is watertight. How much of it was measured is in the "
+                                      "output of turnscan reconstruct."
+                                    : "It is not watertight; a printer's software may refuse it.");
 }
 
 std::string meshes_json(const std::vector<TriangleMesh>& meshes,

@@ -65,27 +65,26 @@ std::string texture_text(const Reconstruction& r) {
     if (!texture) continue;
     text += fmt::format(
         "Texture{}: {} x {} pixels of {:.2f} mm in {} charts from {} views; {:.1f} % of the "
-        "surface "
-        "was in none of them and is filled from around it\n",
+        "surface was in none of them and is filled from its surroundings\n",
         r.objects.size() < 2 ? "" : fmt::format(" of object {}", i + 1), texture->size_px,
         texture->size_px, texture->texel_m * 1e3, texture->charts, texture->views,
         texture->filled_share * 100.0);
     if (!texture->turned_rad.empty())
       text += fmt::format(
-          "Colours out of step with depth: the object had turned by up to {:.2f} deg more or less; "
-          "corrected for the texture\n",
+          "Colours are not synchronous with depth: the object had turned by up to {:.2f} deg more "
+          "or less; corrected for the texture\n",
           most_turned(*texture) * kDegreesPerRadian);
     if (const auto& highlight = texture->highlight)
       text += fmt::format(
           "Highlight of a lamp {:.0f} deg above the horizontal, at azimuth {:.0f} deg: up to "
-          "{:.0f} % of white, taken out\n",
+          "{:.0f} % of white, removed\n",
           highlight->elevation_rad * kDegreesPerRadian, highlight->azimuth_rad * kDegreesPerRadian,
           highlight->strength * 100.0);
     for (const TextureReport::Camera& camera : texture->cameras)
       text += camera.refined
                   ? fmt::format(
-                        "Colour camera of sensor {}: misplaced by {:.1f} pixels (standard "
-                        "deviation {:.1f}), {:.1f} mm and {:.2f} deg; corrected for the texture\n",
+                        "Colour camera of sensor {}: off by {:.1f} pixels (standard deviation "
+                        "{:.1f}), {:.1f} mm and {:.2f} deg; corrected for the texture\n",
                         camera.sensor, camera.misplaced_px, camera.deviation_px,
                         camera.moved_m * 1e3, camera.turned_rad * kDegreesPerRadian)
                   : fmt::format(
