@@ -132,11 +132,16 @@ class WrongUsage(harness.TestCase):
         self.wrong()
 
     def test_unknown_command(self):
-        self.wrong("reconstrct", says="reconstrct")
+        self.wrong("reconstrct", says=["reconstrct: ", "did you mean 'reconstruct'"])
+        self.wrong("wobblegong", says=["wobblegong: ", "use one of", "reconstruct"])
 
     def test_unknown_option_names_the_nearest(self):
         self.wrong("reconstruct", "rec", "-o", "m.ply", "--voxl-size", "1mm", says="--voxel-size")
         self.wrong("--verson", says="--version")
+
+    def test_a_mistyped_option_is_named_before_what_is_missing(self):
+        self.wrong("reconstruct", "--voxl-size", "1mm", says="did you mean '--voxel-size'")
+        self.wrong("import", "scans", "--formt", "tum", says="did you mean '--format'")
 
     def test_an_option_that_is_far_from_all_is_not_guessed(self):
         result = harness.run("reconstruct", "rec", "-o", "m.ply", "--frames", "3")

@@ -320,14 +320,23 @@ std::vector<std::string> Program::commands_with(const std::string& option) const
   return out;
 }
 
-int Program::run_command(Entry& entry) {
-  const std::string called = "turnscan " + entry.app->get_name();
+std::optional<std::string> Program::unknown_argument_of(const Entry& entry) const {
   auto extra = entry.app->remaining();
   std::erase(extra, "--");  // what follows it was treated as arguments
-  if (!extra.empty())
-    return usage_error(unknown_argument(extra.front(), entry.line.long_names(),
-                                        commands_with(name_of_option(extra.front()))),
-                       called);
+  if (extra.empty()) return std::nullopt;
+  return unknown_argument(extra.front(), entry.line.long_names(),
+                          commands_with(name_of_option(extra.front())));
+}
+
+Program::Entry* Program::chosen() {
+  for (Entry& entry : parts_->entries)
+    if (parts_->app.got_subcommand(entry.app)) return &entry;
+  return nullptr;
+}
+
+int Program::run_command(Entry& entry) {
+  const std::string called = "turnscan " + entry.app->get_name();
+  if (const auto unknown = unknown_argument_of(entry)) return usage_error(*unknown, called);
   if (auto applied = entry.line.apply(); !applied) {
     const Error& error = applied.error();
     if (exit_code_of(error.code) == kExitUsage) return usage_error(error.text(), called);
@@ -359,11 +368,10 @@ int Program::run_command(Entry& entry) {
 }
 
 std::string Program::help() {
-  for (Entry& entry : parts_->entries) {
-    if (!parts_->app.got_subcommand(entry.app)) continue;
-    parts_->formatter->put_first(entry.line.show_common());
-    entry.app->footer(fmt::format("'turnscan {} --help-all' explains all {} options.",
-                                  entry.app->get_name(), entry.line.option_count()));
+  if (Entry* entry = chosen()) {
+    parts_->formatter->put_first(entry->line.show_common());
+    entry->app->footer(fmt::format("'turnscan {} --help-all' explains all {} options.",
+                                   entry->app->get_name(), entry->line.option_count()));
   }
   return parts_->app.help();
 }
@@ -371,9 +379,11 @@ std::string Program::help() {
 int Program::unknown_command(const std::string& name) {
   std::vector<std::string> names;
   for (const Entry& entry : parts_->entries) names.push_back(entry.app->get_name());
-  return usage_error(
-      fmt::format("{}: there is no such command; use one of {}", name, fmt::join(names, ", ")),
-      "turnscan");
+  const auto near = near_name(name, names);
+  return usage_error(fmt::format("{}: there is no such command; {}", name,
+                                 near ? fmt::format("did you mean '{}'", *near)
+                                      : fmt::format("use one of {}", fmt::join(names, ", "))),
+                     "turnscan");
 }
 
 int Program::run(int argc, char** argv) {
@@ -389,13 +399,13 @@ int Program::run(int argc, char** argv) {
   } catch (const CLI::CallForVersion& version_text) {
     return put_text(std::string(version_text.what()) + "\n");
   } catch (const CLI::ParseError& error) {
-    const auto chosen = app.get_subcommands();
-    return usage_error(parse_error_text(error),
-                       chosen.empty() ? "turnscan" : "turnscan " + chosen.front()->get_name());
+    const Entry* entry = chosen();
+    if (entry == nullptr) return usage_error(parse_error_text(error), "turnscan");
+    // A mistyped option may be the one that is missing.
+    return usage_error(unknown_argument_of(*entry).value_or(parse_error_text(error)),
+                       "turnscan " + entry->app->get_name());
   }
-  for (Entry& entry : parts_->entries) {
-    if (app.got_subcommand(entry.app)) return run_command(entry);
-  }
+  if (Entry* entry = chosen()) return run_command(*entry);
   const auto extra = app.remaining();
   if (extra.empty()) return usage_error("no command was given", "turnscan");
   if (extra.front().rfind('-', 0) == 0)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ class Program {
   int run_command(Entry& entry);
   /// Names of the commands that have an option with this long name.
   std::vector<std::string> commands_with(const std::string& option) const;
+  /// The error of the first argument that the command does not know, if there is one.
+  std::optional<std::string> unknown_argument_of(const Entry& entry) const;
+  /// The command that was given; nullptr if there is none.
+  Entry* chosen();
   /// Help of the program, or the common options of the chosen command.
   std::string help();
   int unknown_command(const std::string& name);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/turntable/rotation.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
@@ -218,6 +219,26 @@ TEST(JudgeObjects, CallBadWhatManyFramesSeeElsewhere) {
   EXPECT_EQ(run.objects[0].verdict->colour(), "red");
 }
 
+/// What is known of a turn that breaks off after turned_deg.
+std::optional<TurnSeen> turn_of(double turned_deg) {
+  std::vector<double> headings;
+  for (double heading = 0.0; heading <= turned_deg; heading += 2.0) headings.push_back(heading);
+  return turn_seen(looking_from(headings), {});
+}
+
+TEST(JudgeObjects, AdviseAWholeTurnOnlyWhereTheTurnIsNotGood) {
+  Reconstruction run = sheet();
+  ScanKnowledge known;
+  for (double turned_deg = 100.0; turned_deg < 360.0; turned_deg += 20.0) {
+    known.turn = turn_of(turned_deg);
+    judge_objects(run, known);
+    const Verdict& verdict = *run.objects[0].verdict;
+    const VerdictSentence* help = sentence(verdict, "help");
+    const bool advised = help != nullptr && help->text.find("whole turn") != std::string::npos;
+    EXPECT_EQ(advised, sentence(verdict, "turn")->level != Level::kGood) << turned_deg;
+  }
+}
+
 TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
   Reconstruction run = sheet();
   ObjectResult& object = run.objects[0];
@@ -225,9 +246,7 @@ TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
   object.check.oriented = object.check.outward = true;
   ScanKnowledge known;
   const auto said = [&](double turned_deg) {
-    std::vector<double> headings;
-    for (double heading = 0.0; heading <= turned_deg; heading += 2.0) headings.push_back(heading);
-    known.turn = turn_seen(looking_from(headings), {});
+    known.turn = turn_of(turned_deg);
     judge_objects(run, known);
     return sentence(*object.verdict, "mesh")->text;
   };
@@ -304,9 +323,21 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
 TEST(VerdictText, SaysTheColourAndASentenceALine) {
   Verdict verdict;
   verdict.sentences = {{"turn", Level::kGood, "all sides", 360.0, "deg"},
-                       {"error", Level::kFair, "0.4 mm", 0.4, "mm"}};
+                       {"error", Level::kFair, "0.4 mm", 0.4, "mm"},
+                       {"help", Level::kGood, "a second pass", 31.0, "cm2"}};
   EXPECT_EQ(verdict_text(verdict),
-            "Verdict: AMBER\n  turn   good  all sides\n  error  fair  0.4 mm\n");
+            "Verdict: AMBER\n  turn   good  all sides\n  error  fair  0.4 mm\n"
+            "  help   note  a second pass\n");
+}
+
+TEST(ReconstructionText, BeginsWithTheVerdict) {
+  Reconstruction run = sheet();
+  run.notes.emplace_back("a note");
+  run.choices.push_back({"voxel-size", "1mm", "given"});
+  judge_objects(run, {});
+  const std::string text = reconstruction_text(run);
+  EXPECT_EQ(text.rfind("Verdict: ", 0), 0u) << text;
+  EXPECT_LT(text.find("Note: a note"), text.find("voxel-size")) << text;
 }
 
 }  // namespace

@@ -173,8 +173,8 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
                                               : "where the returns of the platter end"});
   } else {
     estimate.notes.emplace_back(
-        "no platter of known radius is there and no edge of one was found, so that nothing is "
-        "cropped sideways; --crop-radius limits what is kept");
+        "no platter was found and no radius is given, so that nothing is cropped sideways; "
+        "--crop-radius limits what is kept");
   }
   cylinder.radius_m = found.value_or(1e3);
   const PlatterRim rim = looks_at_rim(scan, known.value_or(0.0));

@@ -40,10 +40,11 @@ Result<Calibration> motion_of(const FrameSequence& sequence, const CalibrationRe
 Result<> check_determined(const Calibration& found) {
   for (const char* needed : {"axis", "centre"}) {
     if (undetermined(found, needed))
-      return fail(ErrorCode::kMissingData,
-                  "the motion does not determine the turntable's {}: {}; let the sensor see the "
-                  "platter, or take more of a turn",
-                  needed, workflow::exactness_text(found));
+      return fail(
+          ErrorCode::kMissingData,
+          "the motion does not determine the turntable's {}: {}; record more of a turn, with the "
+          "platter in view if there is one",
+          needed, workflow::exactness_text(found));
   }
   return {};
 }

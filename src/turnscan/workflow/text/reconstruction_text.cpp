@@ -107,6 +107,29 @@ std::string times_text(const Reconstruction& r) {
                      text.empty() ? "" : ")");
 }
 
+/// Remarks have no influence on the colour.
+bool is_remark(const VerdictSentence& s) { return s.topic == "thin" || s.topic == "help"; }
+
+std::string verdicts_text(const Reconstruction& r) {
+  std::string text;
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    if (!r.objects[i].verdict) continue;
+    if (r.objects.size() > 1) text += fmt::format("Object {}. ", i + 1);
+    text += verdict_text(*r.objects[i].verdict);
+  }
+  return text;
+}
+
+std::string notes_text(const Reconstruction& r) {
+  std::string text;
+  for (const std::string& note : r.notes) text += fmt::format("Note: {}\n", note);
+  for (std::size_t i = 0; i < r.objects.size(); ++i) {
+    for (const std::string& note : r.objects[i].notes)
+      text += fmt::format("Note on object {}: {}\n", i + 1, note);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string verdict_text(const Verdict& verdict) {
@@ -115,31 +138,21 @@ std::string verdict_text(const Verdict& verdict) {
                  [](unsigned char c) { return char(std::toupper(c)); });
   workflow::TextTable table({0, 1, 2});
   for (const VerdictSentence& s : verdict.sentences)
-    table.add({s.topic, std::string(name_of(s.level)), s.text});
+    table.add({s.topic, std::string(is_remark(s) ? "note" : name_of(s.level)), s.text});
   return fmt::format("Verdict: {}\n{}", colour, table.text(2));
 }
 
 std::string reconstruction_text(const Reconstruction& r) {
-  std::string text = fmt::format("{} frames, {} returns, {} inside the crop, {} after the filter\n",
-                                 r.frames, r.returns, r.inside_crop, r.points);
+  std::string text = verdicts_text(r) + notes_text(r);
+  text += fmt::format("{}{}\n{} frames, {} returns, {} inside the crop, {} after the filter\n",
+                      text.empty() ? "" : "\n", objects_text(r), r.frames, r.returns, r.inside_crop,
+                      r.points);
   if (!r.passes.empty()) text += passes_text(r);
   if (r.dropped_frames > 0) text += fmt::format("{} frames were dropped\n", r.dropped_frames);
-  text += fmt::format("\n{}", objects_text(r));
   if (!r.choices.empty()) text += fmt::format("\n{}", choices_text(r));
   if (const std::string texture = texture_text(r); !texture.empty())
     text += fmt::format("\n{}", texture);
-  text += fmt::format("\n{}", times_text(r));
-  for (const std::string& note : r.notes) text += fmt::format("Note: {}\n", note);
-  for (std::size_t i = 0; i < r.objects.size(); ++i) {
-    for (const std::string& note : r.objects[i].notes)
-      text += fmt::format("Note on object {}: {}\n", i + 1, note);
-  }
-  for (std::size_t i = 0; i < r.objects.size(); ++i) {
-    if (!r.objects[i].verdict) continue;
-    if (r.objects.size() > 1) text += fmt::format("Object {}. ", i + 1);
-    text += verdict_text(*r.objects[i].verdict);
-  }
-  return text;
+  return text + fmt::format("\n{}", times_text(r));
 }
 
 }  // namespace turnscan

@@ -6,8 +6,8 @@
 
 namespace turnscan {
 
-/// What was made, which parameters were used and why, and how long it took, as human-readable ASCII
-/// tables.
+/// The verdict and the notes, then what was made, which parameters were used and why, and how long
+/// it took, as human-readable ASCII tables.
 std::string reconstruction_text(const Reconstruction& reconstruction);
 
 /// "Verdict: GREEN" and one line per sentence.

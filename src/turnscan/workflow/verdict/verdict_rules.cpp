@@ -254,16 +254,16 @@ class Judge {
     const double nozzle = share_thinner_than(kNozzle_m, walls), pixels = 2.0 * run_.frame_spacing_m;
     if (nozzle > 0.002)
       say("thin", Level::kGood,
-          fmt::format("{:.1f} % of it are walls thinner than 0.8 mm, which a usual nozzle does not "
-                      "print",
+          fmt::format("walls thinner than 0.8 mm, which a usual nozzle does not print, make up "
+                      "{:.1f} % of the surface",
                       100.0 * nozzle),
           100.0 * nozzle, "%");
     const double fine = pixels > kNozzle_m ? share_thinner_than(pixels, walls) : 0.0;
     if (fine > 0.02)
       say("thin", Level::kGood,
-          fmt::format("{:.0f} % of it are walls thinner than {:.1f} mm, two pixels of the sensor: "
-                      "how thick they are is uncertain",
-                      100.0 * fine, pixels * 1e3),
+          fmt::format("walls thinner than {:.1f} mm, two pixels of the sensor, make up {:.0f} % of "
+                      "the surface; their thickness is uncertain",
+                      pixels * 1e3, 100.0 * fine),
           100.0 * fine, "%");
   }
 
@@ -273,17 +273,20 @@ class Judge {
       say("mesh", Level::kGood, "it was left open, as asked for");
       return;
     }
-    const bool all_sides = !known_.turn || workflow::looked_from_all_sides(*known_.turn);
     if (!watertight)
       say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
     else if (out_.level() == Level::kBad)
       say("mesh", Level::kFair, "it is watertight, but much of it is not what stood on the table");
-    else if (!all_sides)
+    else if (!looked_from_all_sides())
       say("mesh", Level::kFair,
           "it is watertight, but to one side of it no frame looks: how deep it is there is a "
           "guess");
     else
       say("mesh", Level::kGood, "it is watertight and can be printed");
+  }
+
+  bool looked_from_all_sides() const {
+    return !known_.turn || workflow::looked_from_all_sides(*known_.turn);
   }
 
   /// The best pose for another pass; nullptr if no advice is worth the effort.
@@ -303,7 +306,7 @@ class Judge {
   void add_help() {
     const char* further = passes() == 1 ? "a second pass" : "another pass";
     const std::string how = fmt::format("(turnscan scan --passes {})", passes() + 1);
-    if (known_.turn && known_.turn->share < workflow::kWholeTurn)
+    if (!looked_from_all_sides())
       say("help", Level::kGood, "a whole turn would show the other sides");
     else if (const NextPose* pose = best_pose())
       say("help", Level::kGood,
@@ -328,8 +331,9 @@ class Judge {
     const PoseError pose = pose_error(known_);
     if (pose.shift_m > kPoseMatters_m)
       say("help", Level::kGood,
-          "a better calibration would help most: let the sensor see the platter, and the table "
-          "turn once or more");
+          "a better calibration would help most: record a turn or more, with the platter in view "
+          "if "
+          "there is one");
     else if (seen != out_.sentences.end() && seen->value < kManyFrames)
       say("help", Level::kGood,
           fmt::format("slower: let the table turn at a quarter of the speed, or take four times as "
