@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <turnscan/core/angles.hpp>
 #include <turnscan/geometry/mesh/winding_faults.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
@@ -79,6 +80,27 @@ TEST_F(ReconstructRunOf, ThinLegsOfAFilteringSensorAreNotInsideOut) {
     crossing += std::count(faults.begin(), faults.end(), 1);
   }
   EXPECT_LT(crossing, 40);
+}
+
+// What it sees of the platter after the knock says nothing of the calibration.
+TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  SceneDescription scene;
+  scene.object = "builtin:doll";
+  scene.motion.frames = 60;
+  scene.measure.noise = "gaussian:1mm";
+  scene.placement.knock.at_s = 1.0;
+  scene.placement.knock.shift_m = 0.005;
+  scene.placement.knock.pan_rad = 0.5 * kRadiansPerDegree;
+  const auto knocked = prepare_simulation(scene, RunContext());
+  ASSERT_TRUE(knocked) << knocked.error().text();
+  const auto run = run_reconstruction(knocked->scan, request, RunContext());
+  ASSERT_TRUE(run) << run.error().text();
+  ASSERT_EQ(run->choice.disturbances.size(), 1U);
+  EXPECT_EQ(run->choice.disturbances[0].kind, DisturbanceKind::kSensor);
+  const ObjectResult& object = run->reconstruction.objects.at(0);
+  ASSERT_TRUE(object.verdict);
+  EXPECT_EQ(object.verdict->colour(), "green");
 }
 
 TEST_F(ReconstructRunOf, AnUnknownWayToCalibrateFails) {

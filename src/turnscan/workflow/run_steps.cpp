@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <exception>
+#include <numeric>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/workflow/run_steps.hpp>
 
 #include <turnscan/workflow/calibration/calibration_age.hpp>
@@ -76,6 +78,18 @@ std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRe
   return {{calibrated.frames.get(), pass, merge.speed_rad_s, Pose::Identity(), pass.value_or(0)}};
 }
 
+/// The frames up to the first knock: later ones see the platter elsewhere than the calibration
+/// says.
+SequenceView before_knock(const FrameSequence& sequence,
+                          const std::vector<Disturbance>& disturbances) {
+  std::vector<std::size_t> positions(sequence.frames().size());
+  std::iota(positions.begin(), positions.end(), std::size_t{0});
+  for (const Disturbance& d : disturbances)
+    if (d.kind == DisturbanceKind::kSensor && d.first_frame > 0)
+      positions.resize(std::min(positions.size(), d.first_frame));
+  return {sequence, std::move(positions)};
+}
+
 /// Judges by the recording that shows most sides of its object.
 Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<PassOfMany>& passes,
                const ReconstructRequest& request, const RunContext& context, ReconstructRun& run) {
@@ -90,7 +104,8 @@ Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<Pas
   known.dates = dates_of(*placed[0].recorded, request.turntable);
   known.table_recorded = first.header().turntable && !run.choice.calibration && !has_poses(first);
   if (known.table_recorded) {
-    TURNSCAN_ASSIGN(known.platter, platter_against_calibration(first, context));
+    TURNSCAN_ASSIGN(known.platter, platter_against_calibration(
+                                       before_knock(first, run.choice.disturbances), context));
   }
   for (PassApart& pass : run.apart) judge_objects(pass.reconstruction, known);
   const Reconstruction& made = run.reconstruction;
