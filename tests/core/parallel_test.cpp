@@ -91,6 +91,34 @@ TEST(Parallel, ThreadCountIsWhatWasSet) {
   EXPECT_GE(all, 1);
 }
 
+TEST(Parallel, ABodyThatFailsGivesTheErrorOfTheSmallestIndex) {
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    for (const std::size_t n : {1u, 7u, 500u}) {
+      for (const std::size_t first : {0u, 3u, 499u, 1000u}) {
+        const auto body = [&](std::size_t i) -> Result<> {
+          if (i < first || i % 2 != first % 2) return {};
+          return fail(ErrorCode::kFormat, "{}", i);
+        };
+        const Result<> result = parallel_for(n, 2, RunContext(), body);
+        ASSERT_EQ(result.has_value(), first >= n);
+        EXPECT_EQ(result ? "" : result.error().message, first < n ? std::to_string(first) : "");
+      }
+    }
+  }
+}
+
+TEST(Parallel, WhatFollowsAFailureIsLeftOut) {
+  std::vector<std::size_t> called;  // in order: as many as the grain run on the calling thread
+  const auto body = [&](std::size_t i) -> Result<> {
+    called.push_back(i);
+    if (i == 3) return fail(ErrorCode::kFormat, "3");
+    return {};
+  };
+  EXPECT_FALSE(parallel_for(100, 100, RunContext(), body));
+  EXPECT_EQ(called, (std::vector<std::size_t>{0, 1, 2, 3}));
+}
+
 TEST(Parallel, AnExceptionOfTheBodyReachesTheCaller) {
   const auto body = [](std::size_t i) {
     if (i == 500) throw std::invalid_argument("500");

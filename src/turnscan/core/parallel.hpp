@@ -10,9 +10,11 @@
 #include <oneapi/tbb/parallel_for.h>
 #endif
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <turnscan/core/run_context.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -53,14 +55,30 @@ void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
 }
 
 /// As parallel_for(), but once the context is cancelled the calls that have not begun are left out,
-/// and it fails with kCancelled. For loops whose body takes less than a tenth of a second.
+/// and it fails with kCancelled. The body may return a Result<>: then calls for larger i are left
+/// out after a failure, and it fails with the error of the smallest i that has one. For loops whose
+/// body takes less than a tenth of a second.
 template <class Body>
 Result<> parallel_for(std::size_t n, std::size_t grain, const RunContext& context,
                       const Body& body) {
-  parallel_for(n, grain, [&](std::size_t i) {
-    if (!context.cancelled()) body(i);
-  });
-  return context.check();
+  if constexpr (std::is_void_v<std::invoke_result_t<const Body&, std::size_t>>) {
+    parallel_for(n, grain, [&](std::size_t i) {
+      if (!context.cancelled()) body(i);
+    });
+    return context.check();
+  } else {
+    std::vector<Result<>> results(n);
+    std::atomic<std::size_t> failed{n};  // the smallest i known to fail
+    parallel_for(n, grain, [&](std::size_t i) {
+      if (context.cancelled() || i > failed) return;
+      results[i] = body(i);
+      std::size_t before = failed;
+      while (!results[i] && i < before && !failed.compare_exchange_weak(before, i)) {
+      }
+    });
+    TURNSCAN_TRY(context.check());
+    return failed < n ? std::move(results[failed]) : Result<>();
+  }
 }
 
 /// Splits [0, n) into chunks of chunk_size (the last may be shorter), computes map(begin, end) of

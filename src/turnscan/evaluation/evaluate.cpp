@@ -92,8 +92,7 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
   const std::optional<OpenEdges> open =
       border == Border::kLeaveOut ? std::optional<OpenEdges>(surface) : std::nullopt;
   context.begin_phase(phase, n);
-  parallel_for((n + kChunk - 1) / kChunk, 1, [&](std::size_t chunk) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for((n + kChunk - 1) / kChunk, 1, context, [&](std::size_t chunk) {
     const std::size_t end = std::min(n, (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const auto hit = distance.closest(samples[i].cast<double>());
@@ -104,8 +103,7 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
       if (open && open->contain(hit.point, hit.triangle)) nearest.on_border[i] = 1;
     }
     context.advance(end - chunk * kChunk);
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   return nearest;
 }
 

@@ -27,21 +27,13 @@ template <class Part, class Work>
 Result<std::vector<Part>> process_frames(std::span<const PosedFrame> frames,
                                          const FrameReader& read, const RunContext& context,
                                          const Work& work) {
-  std::vector<Result<Part>> results(frames.size());
-  parallel_for(frames.size(), 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
-    results[i] = read(frames[i].position).and_then([&](const Frame& frame) {
-      return work(frame, frames[i]);
-    });
+  std::vector<Part> parts(frames.size());
+  TURNSCAN_TRY(parallel_for(frames.size(), 1, context, [&](std::size_t i) -> Result<> {
+    TURNSCAN_ASSIGN(const Frame frame, read(frames[i].position));
+    TURNSCAN_ASSIGN(parts[i], work(frame, frames[i]));
     context.advance();
-  });
-  TURNSCAN_TRY(context.check());
-  std::vector<Part> parts;
-  parts.reserve(results.size());
-  for (Result<Part>& result : results) {
-    if (!result) return tl::unexpected<Error>(std::move(result).error());
-    parts.push_back(std::move(*result));
-  }
+    return {};
+  }));
   return parts;
 }
 

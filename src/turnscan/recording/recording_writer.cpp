@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <mutex>
@@ -383,28 +382,6 @@ Result<Frame> frame_at(const FrameSequence& sequence, std::size_t position) {
   return frame;
 }
 
-/// Runs work(i) for all i of [begin, end) on all cores and returns the values in order, or the
-/// first error by position, or kCancelled.
-template <class Work>
-Result<std::vector<std::string>> run_batch(std::size_t begin, std::size_t end,
-                                           const RunContext& context, const Work& work) {
-  std::vector<Result<std::string>> results(end - begin, Result<std::string>());
-  std::atomic<bool> failed{false};
-  parallel_for(end - begin, 1, [&](std::size_t i) {
-    if (failed || context.cancelled()) return;
-    results[i] = work(begin + i);
-    if (!results[i]) failed = true;
-    context.advance();
-  });
-  TURNSCAN_TRY(context.check());
-  std::vector<std::string> values;
-  for (auto& result : results) {
-    if (!result) return tl::unexpected<Error>(std::move(result).error());
-    values.push_back(std::move(*result));
-  }
-  return values;
-}
-
 }  // namespace
 
 Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
@@ -417,12 +394,13 @@ Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
     for (const FrameInfo& info : sequence.frames()) TURNSCAN_TRY(state.claim_index(info));
     context.begin_phase("write recording", count);
     for (std::size_t begin = 0; begin < count; begin += kBatch) {
-      const auto work = [&](std::size_t position) -> Result<std::string> {
-        TURNSCAN_ASSIGN(const Frame frame, frame_at(sequence, position));
-        return state.write_files(frame);
-      };
-      TURNSCAN_ASSIGN(const std::vector<std::string> lines,
-                      run_batch(begin, std::min(begin + kBatch, count), context, work));
+      std::vector<std::string> lines(std::min(kBatch, count - begin));
+      TURNSCAN_TRY(parallel_for(lines.size(), 1, context, [&](std::size_t i) -> Result<> {
+        TURNSCAN_ASSIGN(const Frame frame, frame_at(sequence, begin + i));
+        TURNSCAN_ASSIGN(lines[i], state.write_files(frame));
+        context.advance();
+        return {};
+      }));
       TURNSCAN_TRY(state.table.append(fmt::format("{}", fmt::join(lines, ""))));
     }
     TURNSCAN_TRY(context.check());

@@ -64,13 +64,11 @@ class DistanceField {
     std::vector<std::uint8_t> near(count, 0);
     const double half = 0.5 * (kBrickSide - 1) * cell_m_;
     context_.begin_phase("measure distances", 0);
-    parallel_for((count + kChunk - 1) / kChunk, 1, [&](std::size_t c) {
-      if (context_.cancelled()) return;
+    TURNSCAN_TRY(parallel_for((count + kChunk - 1) / kChunk, 1, context_, [&](std::size_t c) {
       for (std::size_t b = c * kChunk; b < std::min(count, (c + 1) * kChunk); ++b) {
         near[b] = is_near(brick_center(grid_.brick_at(b), half), half);
       }
-    });
-    TURNSCAN_TRY(context_.check());
+    }));
     for (std::size_t b = 0; b < count; ++b) {
       if (near[b] != 0) near_.push_back(b);
     }
@@ -79,12 +77,10 @@ class DistanceField {
 
   Result<> measure() {
     context_.begin_phase("measure distances", near_.size());
-    parallel_for(near_.size(), 4, [&](std::size_t i) {
-      if (context_.cancelled()) return;
+    return parallel_for(near_.size(), 4, context_, [&](std::size_t i) {
       measure_brick(near_[i]);
       context_.advance();
     });
-    return context_.check();
   }
 
   /// Blocks of 4^3 samples that the soup is not near keep the band's distance.

@@ -146,11 +146,9 @@ Result<FilledMesh> fill_holes(const TriangleMesh& mesh, const FillHolesOptions& 
   Border border = find_border(mesh);
   std::erase_if(border.loops, [&](const auto& loop) { return loop.size() > options.max_edges; });
   std::vector<HolePatch> patches(border.loops.size());
-  parallel_for(patches.size(), 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(patches.size(), 1, context, [&](std::size_t i) {
     patches[i] = make_patch(mesh, border, border.loops[i], options.refine);
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   FilledMesh filled{mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 0), patches.size()};
   for (std::size_t i = 0; i < patches.size(); ++i) {
     add_patch(filled.mesh, border.loops[i], patches[i]);

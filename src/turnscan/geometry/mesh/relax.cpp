@@ -183,14 +183,10 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
     for (std::size_t i = 0; i < region.size(); ++i) place[region[i]] = std::uint32_t(i);
   }
   TriangleMesh relaxed = mesh;
-  std::vector<Result<>> solved(regions.size());
-  parallel_for(regions.size(), 1, [&](std::size_t r) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(regions.size(), 1, context, [&](std::size_t r) {
     PlateSystem system(mesh, adjacency, regions[r], place, options);
-    solved[r] = system.solve(relaxed.vertices);
-  });
-  TURNSCAN_TRY(context.check());
-  for (const Result<>& result : solved) TURNSCAN_TRY(result);
+    return system.solve(relaxed.vertices);
+  }));
   if (!relaxed.normals.empty()) {
     const std::vector<Vec3f> normals = vertex_normals(relaxed);
     for (const auto& region : regions) {

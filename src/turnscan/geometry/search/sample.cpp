@@ -52,8 +52,7 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::size_t coun
   samples.points.resize(count);
   samples.normals.resize(count);
   samples.triangles.resize(count);
-  parallel_for(count, kGrain, [&](std::size_t i) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(count, kGrain, context, [&](std::size_t i) {
     const double position = total * ((double(i) + uniform01(hash_key(seed, i, 0))) / double(count));
     const std::size_t t = std::min(
         last, std::size_t(std::upper_bound(area.begin(), area.end(), position) - area.begin()));
@@ -62,8 +61,7 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::size_t coun
     samples.points[i] = point_in(corners, u, v).cast<float>();
     samples.normals[i] = corners.doubled_area_normal().normalized().cast<float>();
     samples.triangles[i] = std::uint32_t(t);
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   return samples;
 }
 

@@ -24,20 +24,17 @@ FirstFrames::FirstFrames(const SequenceHeader& header, const std::vector<RayTabl
 Result<std::size_t> FirstFrames::keep(std::span<const PosedFrame> posed, const FrameReader& read,
                                       const RunContext& context) {
   const std::size_t count = std::min(needed_ - frames_.size(), posed.size());
-  std::vector<Result<Frame>> results(count);
-  parallel_for(count, 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
-    results[i] = read(posed[i].position);
-    if (results[i] && !colored_) results[i]->color = ColorImage();
-  });
-  TURNSCAN_TRY(context.check());
-  for (const auto& frame : results) {
-    TURNSCAN_TRY(frame);
-    const std::size_t s = frame->info.sensor;
-    TURNSCAN_TRY(points_of(*frame, header_.sensors.at(s), rays_.at(s)));
-  }
+  std::vector<Frame> frames(count);
+  const auto take = [&](std::size_t i) -> Result<> {
+    TURNSCAN_ASSIGN(frames[i], read(posed[i].position));
+    if (!colored_) frames[i].color = ColorImage();
+    const std::size_t s = frames[i].info.sensor;
+    TURNSCAN_TRY(points_of(frames[i], header_.sensors.at(s), rays_.at(s)));
+    return {};
+  };
+  TURNSCAN_TRY(parallel_for(count, 1, context, take));
   for (std::size_t i = 0; i < count; ++i) {
-    frames_.push_back(std::move(*results[i]));
+    frames_.push_back(std::move(frames[i]));
     poses_.push_back(posed[i].T_table_sensor);
   }
   return count;

@@ -79,16 +79,14 @@ Result<bool> color_from_views(TriangleMesh& mesh, std::span<const views::DepthVi
   const std::vector<Vec3f> normals = vertex_normals(mesh);
   std::vector<std::uint8_t> known(mesh.vertices.size(), 0);
   mesh.colors.assign(mesh.vertices.size(), kPlain);
-  parallel_for(mesh.vertices.size(), 512, [&](std::size_t v) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(mesh.vertices.size(), 512, context, [&](std::size_t v) {
     Eigen::Vector4f sum = Eigen::Vector4f::Zero();
     for (std::size_t k = 0; k < colored.size(); k += step)
       sum += seen_color(*colored[k], mesh.vertices[v], normals[v], float(tolerance_m));
     if (!(sum[3] > 0.0f)) return;
     mesh.colors[v] = mean_color(sum);
     known[v] = 1;
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   const bool any = std::any_of(known.begin(), known.end(), [](std::uint8_t k) { return k != 0; });
   if (any)
     spread(mesh, std::move(known));

@@ -101,8 +101,7 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
                               kMinCosine,
                               scale.edge_weight};
   std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
-  parallel_for(blocks(), 1, [&](std::size_t b) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(blocks(), 1, context, [&](std::size_t b) {
     const std::size_t begin = b * kBlock, end = std::min(n, begin + kBlock);
     const Patch around = patch(begin, end);
     VertexSums sums{weight.data(), offset.data(), near.data()};
@@ -111,8 +110,7 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
       VertexKernels::current().add_view(kernels[v], columns, begin, pad(end), how, sums);
     }
     context.advance();
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   VertexObservations out;
   for (auto* sums : {&out.measured.support, &out.measured.offset, &out.near}) sums->resize(n);
   for (std::size_t i = 0; i < n; ++i) {

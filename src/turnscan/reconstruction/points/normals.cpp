@@ -60,12 +60,10 @@ Result<> estimate_normals(Candidates& candidates, double radius_m, const RunCont
   TURNSCAN_ASSIGN(const voxels::VoxelGrid grid,
                   voxels::VoxelGrid::build(candidates.cloud.points, 0.5 * radius_m, context));
   std::vector<Vec3f> normals(n);
-  parallel_for(n, 256, [&](std::size_t i) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(n, 256, context, [&](std::size_t i) {
     normals[i] = normal_of(candidates, i, collect(candidates, grid, i, radius_m));
     context.advance();
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   candidates.cloud.normals = std::move(normals);
   return {};
 }

@@ -252,12 +252,10 @@ Result<Candidates> refine_candidates(const voxels::MeasuredCells& measurements,
                   thin(candidates, starting_sites(grid, candidates), spacing, sites, context));
   for (int iteration = 0; iteration < iterations; ++iteration) {
     context.begin_phase("refine candidates", sites.size());
-    parallel_for(sites.size(), 64, [&](std::size_t i) {
-      if (context.cancelled()) return;
+    TURNSCAN_TRY(parallel_for(sites.size(), 64, context, [&](std::size_t i) {
       projector.step(sites[i], iteration == 0 ? 2.0 : 1.0);
       context.advance();
-    });
-    TURNSCAN_TRY(context.check());
+    }));
     std::vector<Site> next;
     TURNSCAN_ASSIGN(current, thin(current, sites, spacing, next, context));
     sites.swap(next);

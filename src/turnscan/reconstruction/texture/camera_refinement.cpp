@@ -108,19 +108,11 @@ class Refiner {
     place();
     draw();
     windows_.resize(views_.size());
-    std::vector<std::optional<Error>> errors(views_.size());
-    parallel_for(views_.size(), 1, [&](std::size_t k) {
-      if (context_.cancelled()) return;
-      auto image = image_of(sequence, views_[k]);
-      if (!image)
-        errors[k] = std::move(image).error();
-      else if (!image->empty() && !drawn_[k].empty())
-        windows_[k] = grey_window(*image, drawn_[k]);
+    return parallel_for(views_.size(), 1, context_, [&](std::size_t k) -> Result<> {
+      TURNSCAN_ASSIGN(const ColorImage image, image_of(sequence, views_[k]));
+      if (!image.empty() && !drawn_[k].empty()) windows_[k] = grey_window(image, drawn_[k]);
+      return {};
     });
-    TURNSCAN_TRY(context_.check());
-    for (auto& error : errors)
-      if (error) return tl::unexpected<Error>(std::move(*error));
-    return {};
   }
 
   Result<> run() {

@@ -264,25 +264,18 @@ Result<TexelSamples> sample_views(const FrameSequence& sequence, const TriangleM
   out.samples.resize(blocks.count() * kSlots * kBlockTexels);
   std::vector<double> sharpness(views.size(), 0.0);
   const auto slots = slots_by_view(chosen, views.size());
-  std::vector<std::optional<Error>> errors(views.size());
-  parallel_for(views.size(), 1, [&](std::size_t i) {
-    if (context.cancelled() || slots[i].empty()) return;
-    auto image = image_of(sequence, views[i]);
-    if (!image) {
-      errors[i] = std::move(image).error();
-      return;
-    }
+  TURNSCAN_TRY(parallel_for(views.size(), 1, context, [&](std::size_t i) -> Result<> {
+    if (slots[i].empty()) return {};
+    TURNSCAN_ASSIGN(const ColorImage image, image_of(sequence, views[i]));
     context.advance();
-    if (image->empty()) return;
+    if (image.empty()) return {};
     const DrawnMesh drawn(views[i], mesh);
-    if (drawn.empty()) return;
-    sharpness[i] = sharpness_of(*image, drawn);
-    const BlockSampler sampler(blocks, views[i], drawn, *image);
+    if (drawn.empty()) return {};
+    sharpness[i] = sharpness_of(image, drawn);
+    const BlockSampler sampler(blocks, views[i], drawn, image);
     for (const ViewSlot& at : slots[i]) sampler.sample(at.block, out.of(at.block, at.slot));
-  });
-  TURNSCAN_TRY(context.check());
-  for (auto& error : errors)
-    if (error) return tl::unexpected<Error>(std::move(*error));
+    return {};
+  }));
   std::vector<double> known;
   for (const double s : sharpness)
     if (s > 0.0) known.push_back(s);

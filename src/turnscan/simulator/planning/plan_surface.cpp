@@ -141,8 +141,7 @@ Result<PlanSurface> sample_plan_surface(const TriangleMesh& mesh, const SurfaceS
   }
   const PatchGrid grid(patches, kReliefRadii_m[1]);
   context.begin_phase("surface", out.spots.size());
-  parallel_for(out.spots.size(), 64, [&](std::size_t i) {
-    if (context.cancelled()) return;
+  TURNSCAN_TRY(parallel_for(out.spots.size(), 64, context, [&](std::size_t i) {
     Spot& spot = out.spots[i];
     const SpotPoint at = spot.middle;
     if (!open_side(scene, at.p, at.normal) && open_side(scene, at.p, -at.normal)) {
@@ -155,8 +154,7 @@ Result<PlanSurface> sample_plan_surface(const TriangleMesh& mesh, const SurfaceS
     for (std::size_t r = 0; r < kReliefRadii_m.size(); ++r)
       spot.relief_m[r] = float(grid.relief(spot.middle, kReliefRadii_m[r]));
     context.advance();
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   return out;
 }
 

@@ -38,10 +38,8 @@ class MotorEventFinder {
 
   Result<MotorObservation> run(double from_s, double to_s, const RunContext& context) {
     place_stretches(from_s, to_s);
-    parallel_for(stretches_.size(), 1, [&](std::size_t k) {
-      if (!context.cancelled()) search(stretches_[k]);
-    });
-    TURNSCAN_TRY(context.check());
+    TURNSCAN_TRY(
+        parallel_for(stretches_.size(), 1, context, [&](std::size_t k) { search(stretches_[k]); }));
     MotorObservation out;
     std::vector<double> speeds;
     for (const Stretch& s : stretches_)

@@ -1,8 +1,6 @@
 #include <turnscan/workflow/simulation/true_samples.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 
@@ -88,25 +86,14 @@ Result<> write_true_samples(const fs::path& folder, const VirtualPasses& scan,
     return fail_at(folder.string(), ErrorCode::kIo, "the folder cannot be made: {}",
                    error.message());
   context.begin_phase("true samples", scan.frames().size());
-  std::mutex mutex;
-  Result<> result;
-  std::atomic<bool> failed = false;
-  parallel_for(scan.frames().size(), 1, [&](std::size_t i) {
-    if (failed || context.cancelled()) return;
-    if (scan.frames()[i].status == FrameStatus::kDropped) return;
+  return parallel_for(scan.frames().size(), 1, context, [&](std::size_t i) -> Result<> {
+    if (scan.frames()[i].status == FrameStatus::kDropped) return {};
     const auto [pass, there] = scan.place_of(i);
-    auto samples = scan.pass(pass).samples(there);
-    auto written =
-        samples ? write_frame(folder / fmt::format("{:06}.ply", scan.frames()[i].index), *samples)
-                : Result<>(tl::unexpected<Error>(samples.error()));
-    if (!written && !failed.exchange(true)) {
-      const std::lock_guard lock(mutex);
-      result = std::move(written);
-    }
+    TURNSCAN_ASSIGN(const TrueSamples samples, scan.pass(pass).samples(there));
+    TURNSCAN_TRY(write_frame(folder / fmt::format("{:06}.ply", scan.frames()[i].index), samples));
     context.advance();
+    return {};
   });
-  TURNSCAN_TRY(context.check());
-  return result;
 }
 
 }  // namespace turnscan
