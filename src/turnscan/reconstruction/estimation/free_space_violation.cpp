@@ -3,6 +3,7 @@
 #include <optional>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/reconstruction/estimation/free_space_violation.hpp>
 
 namespace turnscan::estimation {
@@ -85,8 +86,8 @@ double free_space_violation(std::span<const views::DepthView> views, std::span<c
                             double noise_m, double spacing_m) {
   if (points.empty()) return 0.0;
   Witnesses witnesses;
-  const std::size_t count = std::min(views.size(), kMaxWitnesses);
-  for (std::size_t i = 0; i < count; ++i) witnesses.push_back(&views[i * views.size() / count]);
+  for (const std::size_t i : evenly_spread(views.size(), kMaxWitnesses))
+    witnesses.push_back(&views[i]);
   const auto reach = float(kNear * noise_m);
   std::vector<double> depths(kPlaces, -1.0);
   parallel_for(kPlaces, 16, [&](std::size_t i) {

@@ -5,6 +5,7 @@
 #include <turnscan/core/figure_text.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/estimation/object_extent.hpp>
 #include <turnscan/reconstruction/estimation/platter_rim.hpp>
@@ -146,9 +147,7 @@ std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
 /// Observations by depth cameras at the position of a platter's rim.
 PlatterRim looks_at_rim(const PosedScan& scan, double radius_m) {
   PlatterRim rim(radius_m);
-  const std::size_t count = std::min(kSampledFrames, scan.frames.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = k * scan.frames.size() / count;
+  for (const std::size_t i : evenly_spread(scan.frames.size(), kSampledFrames)) {
     const Frame& frame = scan.frames[i];
     if (!frame.depth.pixels.empty())
       rim.add(frame, scan.header.sensors[frame.info.sensor], scan.poses[i]);
@@ -237,19 +236,20 @@ class FrameSamples {
  public:
   explicit FrameSamples(const PosedScan& scan) : scan_(scan) {}
 
-  /// Adds `count` of the frames, evenly spread.
-  Result<> add(std::size_t count) {
-    std::vector<Result<Sample>> samples(count);
-    parallel_for(count, 1,
-                 [&](std::size_t k) { samples[k] = sample(k * scan_.frames.size() / count); });
-    for (const Result<Sample>& one : samples) {
-      TURNSCAN_TRY(one);
-      points_.insert(points_.end(), one->uncropped.begin(), one->uncropped.end());
-      if (!one->statistics) continue;
-      spacing_.push_back(one->statistics->spacing_m);
-      even_.push_back(one->statistics->even_spacing_m);
-      noise_.push_back(one->statistics->noise_m);
-      if (one->across_m) across_.push_back(*one->across_m);
+  /// Adds these frames.
+  Result<> add(const std::vector<std::size_t>& frames) {
+    std::vector<Sample> samples(frames.size());
+    TURNSCAN_TRY(parallel_for(frames.size(), 1, RunContext(), [&](std::size_t k) -> Result<> {
+      TURNSCAN_ASSIGN(samples[k], sample(frames[k]));
+      return {};
+    }));
+    for (const Sample& one : samples) {
+      points_.insert(points_.end(), one.uncropped.begin(), one.uncropped.end());
+      if (!one.statistics) continue;
+      spacing_.push_back(one.statistics->spacing_m);
+      even_.push_back(one.statistics->even_spacing_m);
+      noise_.push_back(one.statistics->noise_m);
+      if (one.across_m) across_.push_back(*one.across_m);
     }
     return {};
   }
@@ -340,8 +340,7 @@ Result<ScanEstimate> estimate_scan(std::span<const Frame> frames, std::span<cons
   TURNSCAN_ASSIGN(estimate.sheets, find_sheets(frames, header, rays));
   const PosedScan scan{frames, poses, header, rays, estimate.sheets, crop_options};
   FrameSamples samples(scan);
-  const std::size_t count = std::min(kSampledFrames, frames.size());
-  TURNSCAN_TRY(samples.add(count));
+  TURNSCAN_TRY(samples.add(evenly_spread(frames.size(), kSampledFrames)));
   TURNSCAN_TRY(samples.summarise(estimate));
   // Rounding to the sensor's unit spreads depth by at least unit / sqrt(12).
   for (const SensorInfo& sensor : header.sensors) {

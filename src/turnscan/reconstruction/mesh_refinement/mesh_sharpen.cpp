@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
@@ -78,12 +79,10 @@ Result<std::vector<views::DepthView>> draw_some(const TriangleMesh& mesh,
   std::size_t pixels = 1;
   for (const views::DepthView& view : views) pixels = std::max(pixels, view.pixels.size());
   const std::size_t fit = kMaxDrawnBytes / (sizeof(std::uint32_t) * pixels);
-  const std::size_t count = std::min(views.size(), std::clamp(fit, kMinDrawnViews, kMaxDrawnViews));
-  std::vector<views::DepthView> out(count);
-  parallel_for(count, 1, [&](std::size_t i) {
-    if (!context.cancelled()) out[i] = draw(views[i * views.size() / count], mesh, share);
-  });
-  TURNSCAN_TRY(context.check());
+  const auto chosen = evenly_spread(views.size(), std::clamp(fit, kMinDrawnViews, kMaxDrawnViews));
+  std::vector<views::DepthView> out(chosen.size());
+  TURNSCAN_TRY(parallel_for(out.size(), 1, context,
+                            [&](std::size_t i) { out[i] = draw(views[chosen[i]], mesh, share); }));
   return out;
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/reconstruction/passes/free_space.hpp>
 
 namespace turnscan::passes {
@@ -31,8 +32,8 @@ FreeSpace::FreeSpace(const PassSurface& surface, double margin_m) {
              float(margin_m),
              surface.floor_m ? float(*surface.floor_m - margin_m) : -1e9f,
              Eigen::Isometry3f::Identity()};
-  const std::size_t count = own.owner ? own.owner->size() : 0, most = std::min(count, kMaxViews);
-  for (std::size_t i = 0; i < most; ++i) own.views.push_back(&(*own.owner)[i * count / most]);
+  for (const std::size_t i : evenly_spread(own.owner ? own.owner->size() : 0, kMaxViews))
+    own.views.push_back(&(*own.owner)[i]);
   passes_.push_back(std::move(own));
 }
 

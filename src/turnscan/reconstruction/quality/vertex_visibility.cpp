@@ -3,6 +3,7 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/quality/vertex_visibility.hpp>
 
@@ -15,13 +16,6 @@ constexpr float kMinCosine = 0.1f;
 constexpr float kFacingCosine = 0.4f;  ///< any surface that is not nearly black returns at these
                                        ///< angles
 constexpr std::size_t kMinNoReturnViews = 3;
-
-/// Indices of the views that are examined.
-std::vector<std::size_t> spread_views(std::size_t count) {
-  std::vector<std::size_t> out(std::min(count, kMaxViews));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = i * count / out.size();
-  return out;
-}
 
 /// The pixel of a view's window that contains a vertex facing it by the cosine; -1 if there is
 /// none.
@@ -68,7 +62,7 @@ Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
   VertexVisibility out;
   out.frames.assign(mesh.vertices.size(), 0);
   out.directions.assign(mesh.vertices.size(), 0);
-  const auto chosen = spread_views(views.size());
+  const auto chosen = evenly_spread(views.size(), kMaxViews);
   if (chosen.empty()) return out;
   std::vector<Viewpoint> viewpoints;
   for (const std::size_t i : chosen) viewpoints.push_back(views[i].viewpoint());
@@ -96,7 +90,7 @@ Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
                                                  const std::vector<std::uint8_t>& asked,
                                                  const RunContext& context) {
   std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
-  const auto chosen = spread_views(views.size());
+  const auto chosen = evenly_spread(views.size(), kMaxViews);
   const auto normals = vertex_normals(mesh);
   TURNSCAN_TRY(context.check());
   parallel_for(out.size(), 256, [&](std::size_t v) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/reconstruction/tsdf/mixed_pixel_surface.hpp>
 
 namespace turnscan::tsdf {
@@ -28,8 +29,8 @@ class Doubts {
  public:
   Doubts(std::span<const views::DepthView> views, float truncation_m)
       : truncation_m_(truncation_m) {
-    const std::size_t count = std::min(views.size(), kViewsAsked);
-    for (std::size_t k = 0; k < count; ++k) views_.push_back(&views[k * views.size() / count]);
+    for (const std::size_t i : evenly_spread(views.size(), kViewsAsked))
+      views_.push_back(&views[i]);
   }
 
   /// Whether no view measured a surface there except beside a step.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/reconstruction/tsdf/no_return_hull.hpp>
 #include <turnscan/reconstruction/views/no_return.hpp>
 
@@ -191,23 +192,21 @@ class HullFinder {
 
 Result<SampleBits> no_return_hull(Volume& volume, std::span<const views::DepthView> views,
                                   const RunContext& context) {
-  const std::size_t count = std::min(views.size(), kMaxViews);
-  std::vector<Image<std::uint8_t>> masks(count);
-  std::vector<std::vector<int>> rims(count);
-  const auto chosen = [&](std::size_t i) -> const views::DepthView& {
-    return views[i * views.size() / count];
-  };
-  TURNSCAN_TRY(parallel_for(count, 4, context, [&](std::size_t i) {
-    masks[i] = views::enclosed_no_return(chosen(i));
-    rims[i] = views::rim_widths(chosen(i));
+  const auto chosen = evenly_spread(views.size(), kMaxViews);
+  std::vector<Image<std::uint8_t>> masks(chosen.size());
+  std::vector<std::vector<int>> rims(chosen.size());
+  TURNSCAN_TRY(parallel_for(chosen.size(), 4, context, [&](std::size_t i) {
+    masks[i] = views::enclosed_no_return(views[chosen[i]]);
+    rims[i] = views::rim_widths(views[chosen[i]]);
   }));
   const auto no_return =
       std::count_if(masks.begin(), masks.end(), [](const auto& mask) { return !mask.empty(); });
   if (no_return < kMinNoReturnViews || !rims_are_narrow(rims)) return SampleBits(volume.bricks);
   std::vector<NoReturnView> asked;
-  for (std::size_t i = 0; i < count; ++i) {
-    Image<std::uint8_t> none(chosen(i).width, chosen(i).height, 0);
-    asked.emplace_back(chosen(i), masks[i].empty() ? std::move(none) : std::move(masks[i]));
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const views::DepthView& view = views[chosen[i]];
+    Image<std::uint8_t> none(view.width, view.height, 0);
+    asked.emplace_back(view, masks[i].empty() ? std::move(none) : std::move(masks[i]));
   }
   return HullFinder(volume, std::move(asked)).run(context);
 }

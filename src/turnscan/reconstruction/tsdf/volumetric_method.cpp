@@ -2,6 +2,7 @@
 #include <map>
 #include <mutex>
 #include <turnscan/core/figure_text.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/grid/isosurface.hpp>
 #include <turnscan/reconstruction/estimation/free_space_violation.hpp>
 #include <turnscan/reconstruction/estimation/scan_statistics.hpp>
@@ -337,8 +338,7 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
 
 std::shared_ptr<const SeenSpace> VolumetricMethod::seen_space(bool filtered) const {
   auto seen = std::make_shared<SeenSpace>();
-  const std::size_t count = input_.views.size(), most = std::min(count, SeenSpace::kMaxViews);
-  for (std::size_t i = 0; i < most; ++i) seen->views.push_back(input_.views[i * count / most]);
+  seen->views = evenly_spread(input_.views, SeenSpace::kMaxViews);
   if (pass_.cylinder && pass_.cylinder->margin_m > 0.0) seen->floor_m = 0.0;
   seen->noise_m = noise_m_;
   seen->spacing_m = input_.spacing_m;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <turnscan/core/pose.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/simulator/planning/turn_view.hpp>
 
 namespace turnscan::planning {
@@ -182,11 +183,10 @@ std::vector<SpotSight> turn_sights(const PlanSurface& surface, const TurnView& v
 
 std::vector<Pose> turn_directions(std::span<const double> angles_rad, const Pose& T_world_table,
                                   const Pose& T_world_sensor, std::size_t most) {
-  const std::size_t n = std::min(most, angles_rad.size());
   std::vector<Pose> out;
   const Pose T_table_sensor = T_world_table.inverse() * T_world_sensor;
-  for (std::size_t i = 0; i < n; ++i)
-    out.push_back(rotation_about_y(-angles_rad[i * angles_rad.size() / n]) * T_table_sensor);
+  for (const double angle_rad : evenly_spread(angles_rad, most))
+    out.push_back(rotation_about_y(-angle_rad) * T_table_sensor);
   return out;
 }
 

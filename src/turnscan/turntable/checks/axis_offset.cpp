@@ -2,6 +2,7 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/recorded_angles.hpp>
 #include <turnscan/turntable/motion/axis_fit.hpp>
@@ -22,7 +23,7 @@ std::vector<std::size_t> placed_frames(const std::vector<double>& angle) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < angle.size(); ++i)
     if (std::isfinite(angle[i])) out.push_back(i);
-  return motion::spread_subset(std::move(out), kMaxFrames);
+  return evenly_spread_to_last(std::move(out), kMaxFrames);
 }
 
 AxisOffset offset_between(const TurntableInfo& recorded, const motion::AxisFit& fit) {

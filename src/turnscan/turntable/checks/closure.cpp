@@ -5,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/registration/registration.hpp>
 #include <turnscan/turntable/checks/closure.hpp>
@@ -64,11 +65,7 @@ std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vecto
     }
     if (best != i) all.push_back({i, best, frame_beside(sequence, angle, i)});
   }
-  if (all.size() <= kMaxPairs) return all;
-  std::vector<TurnPair> out;
-  for (std::size_t k = 0; k < kMaxPairs; ++k)
-    out.push_back(all[k * (all.size() - 1) / (kMaxPairs - 1)]);
-  return out;
+  return evenly_spread_to_last(std::move(all), kMaxPairs);
 }
 
 struct PairClosure {

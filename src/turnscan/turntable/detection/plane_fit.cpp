@@ -3,6 +3,7 @@
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/detection/plane_fit.hpp>
@@ -36,11 +37,8 @@ Sample sample_of(const ScanPixels& scan, const std::vector<std::uint8_t>& free) 
   }
   constexpr std::size_t kMax = 6000;
   Sample sample;
-  const std::size_t n = std::min(kMax, all.size());
-  for (std::size_t k = 0; k < n; ++k) {
-    sample.pixels.push_back(all[k * all.size() / n]);
-    sample.points.push_back(scan.point[std::size_t(sample.pixels.back())]);
-  }
+  sample.pixels = evenly_spread(all, kMax);
+  for (const std::int32_t i : sample.pixels) sample.points.push_back(scan.point[std::size_t(i)]);
   return sample;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/rim_estimate.hpp>
 
@@ -143,10 +144,8 @@ RimState best_spread(const RimData& data, const RimState& start) {
 
 /// An even subset of the pixels, which is sufficient during the search.
 RimData thinned(const RimData& data) {
-  RimData out{data.rays, {}, data.noise, data.empty_share, data.radius_m};
-  const std::size_t n = std::min(kMaxInSearch, data.pixels.size());
-  for (std::size_t k = 0; k < n; ++k) out.pixels.push_back(data.pixels[k * data.pixels.size() / n]);
-  return out;
+  return {data.rays, evenly_spread(data.pixels, kMaxInSearch), data.noise, data.empty_share,
+          data.radius_m};
 }
 
 double empty_share(const std::vector<RimPixel>& pixels) {

@@ -5,6 +5,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/rim_fit.hpp>
 
@@ -314,9 +315,7 @@ std::vector<RimCircle> find_circles(const std::vector<RimPoint>& all, double min
                                     std::uint64_t seed) {
   std::vector<RimCircle> found;
   if (all.size() < 20) return found;
-  std::vector<RimPoint> points;
-  const std::size_t n = std::min(kMaxEnds, all.size());
-  for (std::size_t k = 0; k < n; ++k) points.push_back(all[k * all.size() / n]);
+  const std::vector<RimPoint> points = evenly_spread(all, kMaxEnds);
   constexpr std::size_t kTrials = 1500;
   std::vector<std::size_t> score(kTrials, 0);
   std::vector<Circle2> circles(kTrials, Circle2{Vector2d::Zero(), 0.0});

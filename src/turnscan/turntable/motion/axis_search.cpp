@@ -43,10 +43,8 @@ class AxisSearch {
     std::vector<AxisTrial> trials;
     for (const double sign : {1.0, -1.0})
       for (const Vec3d& axis : axes_) add_places(axis, sign, trials);
-    parallel_for(trials.size(), 16, [&](std::size_t i) {
-      if (!context.cancelled()) trials[i].cost = cost_of(trials[i]);
-    });
-    TURNSCAN_TRY(context.check());
+    TURNSCAN_TRY(parallel_for(trials.size(), 16, context,
+                              [&](std::size_t i) { trials[i].cost = cost_of(trials[i]); }));
     std::stable_sort(trials.begin(), trials.end(),
                      [](const AxisTrial& a, const AxisTrial& b) { return a.cost < b.cost; });
     return far_apart(trials, most);
@@ -59,10 +57,10 @@ class AxisSearch {
       const std::size_t to = partner_of(from);
       if (to != from) pairs.emplace_back(from, to);
     }
-    const std::size_t n = std::min(kMaxPairs, pairs.size());
-    surfaces_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto [from, to] = pairs[k * pairs.size() / n];
+    pairs = evenly_spread(pairs, kMaxPairs);
+    surfaces_.resize(pairs.size());
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [from, to] = pairs[k];
       for (const SurfaceSample& s : evenly_spread(data_.frames[to].samples, kMaxSurfacePoints)) {
         surfaces_[k].points.push_back(s.p);
         surfaces_[k].normals.push_back(s.n);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/bundle_adjustment.hpp>
 #include <turnscan/turntable/motion/bundle_system.hpp>
@@ -21,7 +22,7 @@ std::vector<std::size_t> frames_with_surface(const MotionData& data, std::size_t
   std::vector<std::size_t> out;
   for (std::size_t f = 0; f < data.frames.size(); ++f)
     if (!data.frames[f].raw_surface.empty()) out.push_back(f);
-  return spread_subset(std::move(out), most);
+  return evenly_spread_to_last(std::move(out), most);
 }
 
 class BundleAdjustment {
@@ -33,7 +34,7 @@ class BundleAdjustment {
         options_(options),
         out_(start),
         frames_(frames_with_surface(data, options.max_frames)),
-        knots_(spread_subset(frames_, options.max_knots)),
+        knots_(evenly_spread_to_last(frames_, options.max_knots)),
         system_(data, knots_, options.view_shift_m) {
     now_.motion = start.state;
     for (const std::size_t f : knots_.frames()) now_.knot_angle.push_back(start.state.angle[f]);

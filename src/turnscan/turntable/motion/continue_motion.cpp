@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion/continue_motion.hpp>
 #include <turnscan/turntable/motion/pair_selection.hpp>
 #include <turnscan/turntable/motion/pairwise_solver.hpp>
@@ -94,10 +95,10 @@ class MotionContinuation {
     }
     for (std::size_t i = known_; i < frames_.size(); ++i)
       if (usable(i)) later.push_back(i);
-    std::vector<std::size_t> out = spread_subset(earlier, kMaxPartners);
-    for (const std::size_t i : spread_subset(before, kMaxPartners)) out.push_back(i);
+    std::vector<std::size_t> out = evenly_spread_to_last(earlier, kMaxPartners);
+    for (const std::size_t i : evenly_spread_to_last(before, kMaxPartners)) out.push_back(i);
     std::sort(out.begin(), out.end());
-    for (const std::size_t i : spread_subset(later, kMaxLater)) out.push_back(i);
+    for (const std::size_t i : evenly_spread_to_last(later, kMaxLater)) out.push_back(i);
     return out;
   }
 

@@ -4,6 +4,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
@@ -26,9 +27,7 @@ Vec3d behind_surface(const MotionData& data, const Vec3d& axis, double depth) {
 std::vector<FramePair> spread_pairs(const MotionData& data, std::size_t gap,
                                     std::size_t max_pairs) {
   std::vector<FramePair> out;
-  const std::size_t n = data.keys.size() - gap;
-  for (std::size_t k = 0; k < std::min(n, max_pairs); ++k) {
-    const std::size_t i = k * n / std::min(n, max_pairs);
+  for (const std::size_t i : evenly_spread(data.keys.size() - gap, max_pairs)) {
     const std::size_t a = data.keys[i], b = data.keys[i + gap];
     if (data.frames[a].samples.size() < 30 || data.frames[b].surface.empty()) continue;
     if (data.frames[a].pass != data.frames[b].pass) continue;

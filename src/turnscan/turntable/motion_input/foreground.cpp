@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
 #include <turnscan/turntable/motion_input/foreground.hpp>
 
@@ -27,9 +28,8 @@ class ForegroundSearch {
     AverageOptions average;
     average.min_share = 0.3;
     std::vector<std::size_t> positions;
-    const std::size_t n = data_.frames.size(), count = std::min(kMeanFrames, n);
-    for (std::size_t k = 0; k < count; ++k)
-      positions.push_back(data_.frames[k * n / count].position);
+    for (const std::size_t i : evenly_spread(data_.frames.size(), kMeanFrames))
+      positions.push_back(data_.frames[i].position);
     TURNSCAN_ASSIGN(const AveragedScan scan,
                     average_frames(sequence_, positions, average, context_));
     TURNSCAN_ASSIGN(const bool still, find_noise(scan, positions));

@@ -289,12 +289,4 @@ Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOp
   return FrameLoader(sequence, loading, context).run();
 }
 
-std::vector<std::size_t> spread_subset(std::vector<std::size_t> list, std::size_t most) {
-  const std::size_t n = list.size();
-  if (n <= most) return list;
-  for (std::size_t k = 0; k < most; ++k) list[k] = list[k * (n - 1) / (most - 1)];
-  list.resize(most);
-  return list;
-}
-
 }  // namespace turnscan::motion

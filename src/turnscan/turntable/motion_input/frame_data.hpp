@@ -103,7 +103,4 @@ struct MotionDataOptions {
 Result<MotionData> load_motion(const FrameSequence& sequence, const MotionDataOptions& options,
                                const RunContext& context);
 
-/// Evenly spaced subset of at most `most` (2 or more) entries, with the first and the last.
-std::vector<std::size_t> spread_subset(std::vector<std::size_t> list, std::size_t most);
-
 }  // namespace turnscan::motion

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/motion_input/object_base.hpp>
 #include <unordered_map>
 
@@ -144,10 +145,8 @@ class StillImage {
     out.width_ = sensor.intrinsics.width, out.height_ = sensor.intrinsics.height;
     const std::size_t pixels = std::size_t(out.width_) * std::size_t(out.height_);
     std::vector<std::vector<std::uint16_t>> images;
-    const std::size_t count = std::min(kFrames, data.frames.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      TURNSCAN_ASSIGN(Frame frame,
-                      sequence.read(data.frames[k * data.frames.size() / count].position));
+    for (const std::size_t i : evenly_spread(data.frames.size(), kFrames)) {
+      TURNSCAN_ASSIGN(Frame frame, sequence.read(data.frames[i].position));
       if (frame.depth.pixels.size() == pixels) images.push_back(std::move(frame.depth.pixels));
     }
     out.depth_.assign(pixels, 0.0f);
@@ -376,7 +375,7 @@ Result<double> low_of_thin_parts(const MotionData& data, std::span<const double>
                                  const AxisFrame& frame, const Extent& turning, double cell_m) {
   TurningCells turned(frame, cell_m), still(frame, cell_m);
   const SensorInfo& sensor = sequence.header().sensors.front();
-  for (const std::size_t i : spread_subset(data.keys, kTurningFrames)) {
+  for (const std::size_t i : evenly_spread_to_last(data.keys, kTurningFrames)) {
     TURNSCAN_ASSIGN(const Frame seen, sequence.read(data.frames[i].position));
     if (seen.depth.pixels.size() != rays.x().size()) continue;
     const auto points = points_below(data, seen.depth, sensor, rays, frame, turning);
@@ -399,7 +398,7 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   const double cell_m = std::max(kMinCell_m, kCellSpacings * data.spacing_m);
   TurningCells cells(frame, cell_m);
   const RayTable rays(data.camera);
-  for (const std::size_t i : spread_subset(data.keys, kTurningFrames))
+  for (const std::size_t i : evenly_spread_to_last(data.keys, kTurningFrames))
     cells.add(turning_points(data, data.frames[i], rays, image), angles_rad[i],
               std::uint32_t(i + 1));
   const auto turning = cells.extent();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/placement/event_time.hpp>
 
 namespace turnscan::placement {
@@ -22,7 +23,7 @@ Window window_of(const FrameSequence& sequence, const Keyframes& keyframes,
   const auto& infos = sequence.frames();
   for (std::size_t i = model.last + 1; i < model.first; ++i)
     if (infos[i].status == FrameStatus::kOk && infos[i].sensor == 0) out.between.push_back(i);
-  out.between = motion::spread_subset(std::move(out.between), kMaxBetween);
+  out.between = evenly_spread_to_last(std::move(out.between), kMaxBetween);
   const auto& keys = keyframes.positions;
   const auto after = std::lower_bound(keys.begin(), keys.end(), model.first);
   const auto low = after - std::min<std::ptrdiff_t>(kNeighbours, after - keys.begin());

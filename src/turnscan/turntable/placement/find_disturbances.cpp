@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/placement/disturbance_text.hpp>
 #include <turnscan/turntable/placement/event_time.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
@@ -17,7 +18,7 @@ std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
   const auto& frames = sequence.frames();
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (frames[i].status == FrameStatus::kOk && frames[i].sensor == 0) out.push_back(i);
-  return motion::spread_subset(std::move(out), kMaxKeyframes);
+  return evenly_spread_to_last(std::move(out), kMaxKeyframes);
 }
 
 class DisturbanceSearch {
