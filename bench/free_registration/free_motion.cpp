@@ -1,5 +1,6 @@
 #include "bench/free_registration/free_motion.hpp"
-#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/frame_samples.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/crop/crop.hpp>
 
 namespace turnscan::motion {
@@ -9,13 +10,6 @@ namespace {
 constexpr std::size_t kFramePoints = 1500, kAllPoints = 30000;
 constexpr double kReach_m = 0.01;
 constexpr int kIterations = 30;
-
-std::vector<Vec3f> subsampled(const std::vector<Vec3f>& points, std::size_t most) {
-  if (points.size() <= most) return points;
-  std::vector<Vec3f> out;
-  for (std::size_t k = 0; k < most; ++k) out.push_back(points[k * points.size() / most]);
-  return out;
-}
 
 std::vector<Vec3f> transformed(const std::vector<Vec3f>& points, const Pose& pose) {
   std::vector<Vec3f> out;
@@ -35,21 +29,17 @@ Result<std::vector<std::vector<Vec3f>>> read_clouds(const FrameSequence& sequenc
   if (header.turntable && header.turntable->radius_m)
     cylinder.radius_m = *header.turntable->radius_m;
   std::vector<std::vector<Vec3f>> clouds(start.size());
-  std::vector<Result<>> results(start.size());
-  parallel_for(start.size(), 1, [&](std::size_t i) {
-    if (context.cancelled() || sequence.frames()[i].status != FrameStatus::kOk) return;
-    results[i] = [&]() -> Result<> {
-      TURNSCAN_ASSIGN(const Frame frame, sequence.read(i));
-      const std::size_t s = frame.info.sensor;
-      TURNSCAN_ASSIGN(const FramePoints points, points_of(frame, header.sensors.at(s), rays.at(s)));
-      const FramePoints kept = crop(points, SensorCrop(cylinder, start[i]));
-      clouds[i] = transformed(subsampled(kept.cloud.points, kFramePoints), start[i]);
-      return {};
-    }();
-    context.advance();
-  });
-  TURNSCAN_TRY(context.check());
-  for (auto& result : results) TURNSCAN_TRY(result);
+  const auto positions = usable_frames(sequence);
+  TURNSCAN_TRY(
+      read_frames(sequence, positions, context, [&](std::size_t k, const Frame& frame) -> Result<> {
+        const std::size_t i = positions[k], s = frame.info.sensor;
+        TURNSCAN_ASSIGN(const FramePoints points,
+                        points_of(frame, header.sensors.at(s), rays.at(s)));
+        const FramePoints kept = crop(points, SensorCrop(cylinder, start[i]));
+        clouds[i] = transformed(evenly_spread(kept.cloud.points, kFramePoints), start[i]);
+        context.advance();
+        return {};
+      }));
   return clouds;
 }
 
@@ -77,7 +67,7 @@ Result<std::vector<Pose>> global(const std::vector<std::vector<Vec3f>>& clouds, 
     std::vector<Vec3f> others;
     for (std::size_t k = 0; k < clouds.size(); ++k) {
       if (k == i) continue;
-      const auto part = subsampled(clouds[k], share);
+      const auto part = evenly_spread(clouds[k], share);
       others.insert(others.end(), part.begin(), part.end());
     }
     const auto found =

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/recording/filled_depth.hpp>
 
@@ -89,30 +89,20 @@ BothSides strips_of(const DepthImage& depth, const SensorInfo& sensor, double ba
   return out;
 }
 
-/// Evenly spread over the sequence.
-std::vector<std::size_t> chosen(const FrameSequence& sequence, std::uint32_t sensor) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < sequence.frames().size(); ++i)
-    if (const FrameInfo& info = sequence.frames()[i];
-        info.sensor == sensor && info.status == FrameStatus::kOk)
-      all.push_back(i);
-  return evenly_spread(all, kMaxSampledFrames);
-}
-
 }  // namespace
 
 Result<std::optional<double>> filled_share(const FrameSequence& sequence, std::uint32_t sensor,
                                            double baseline_m, const RunContext& context) {
   const SensorInfo& info = sequence.header().sensors.at(sensor);
   if (info.kind != SensorKind::kDepthCamera || !(baseline_m > 0.0)) return std::optional<double>();
-  const std::vector<std::size_t> positions = chosen(sequence, sensor);
+  const auto positions =
+      evenly_spread(usable_frames(sequence, {.sensor = sensor}), kMaxSampledFrames);
   std::vector<BothSides> each(positions.size());
-  parallel_for(positions.size(), 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
-    if (const auto frame = sequence.read(positions[i]))
-      each[i] = strips_of(frame->depth, info, baseline_m);
-  });
-  TURNSCAN_TRY(context.check());
+  const auto measure = [&](std::size_t i, const Result<Frame>& frame) -> Result<> {
+    if (frame) each[i] = strips_of(frame->depth, info, baseline_m);
+    return {};
+  };
+  TURNSCAN_TRY(read_frames(sequence, positions, context, measure));
   BothSides all;
   for (const BothSides& one : each)
     for (std::size_t side = 0; side < all.size(); ++side) all[side] += one[side];

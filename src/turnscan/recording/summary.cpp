@@ -2,7 +2,8 @@
 #include <cmath>
 #include <set>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/frame_samples.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/recording/summary.hpp>
 #include <turnscan/recording/temporal_filter.hpp>
 
@@ -45,35 +46,21 @@ FrameFigures figures_of(const Frame& frame, const SensorInfo& sensor) {
   return out;
 }
 
-/// At most kSamples of the positions, evenly spread.
-std::vector<std::size_t> spread(const std::vector<std::size_t>& positions) {
-  if (positions.size() <= kSamples) return positions;
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < kSamples; ++i)
-    out.push_back(positions[i * (positions.size() - 1) / (kSamples - 1)]);
-  return out;
-}
-
-Result<> sample_sensor(const FrameSequence& sequence, std::size_t sensor_index,
+Result<> sample_sensor(const FrameSequence& sequence, std::uint32_t sensor_index,
                        const RunContext& context, SequenceSummary& summary) {
   SensorSummary sensor;
   sensor.info = sequence.header().sensors[sensor_index];
-  std::vector<std::size_t> positions;
-  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
-    const FrameInfo& info = sequence.frames()[i];
-    if (info.sensor == sensor_index && info.status == FrameStatus::kOk) positions.push_back(i);
-  }
+  std::vector<std::size_t> positions = usable_frames(sequence, {.sensor = sensor_index});
   sensor.frames = positions.size();
-  positions = spread(positions);
+  positions = evenly_spread_to_last(std::move(positions), kSamples);
   std::vector<FrameFigures> figures(positions.size());
-  parallel_for(positions.size(), 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
-    const auto frame = sequence.read(positions[i]);
+  const auto look_at = [&](std::size_t i, const Result<Frame>& frame) -> Result<> {
     if (frame) figures[i] = figures_of(*frame, sensor.info);
     if (!frame) figures[i].defect = frame.error().text();
     context.advance();
-  });
-  TURNSCAN_TRY(context.check());
+    return {};
+  };
+  TURNSCAN_TRY(read_frames(sequence, positions, context, look_at));
   std::size_t returns = 0, cells = 0;
   for (const FrameFigures& f : figures) {
     if (!f.defect.empty()) {
@@ -173,7 +160,7 @@ Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContex
   find_turns(summary);
   find_not_known(sequence, summary);
   context.begin_phase("look at frames", header.sensors.size() * kSamples);
-  for (std::size_t i = 0; i < header.sensors.size(); ++i)
+  for (std::uint32_t i = 0; i < header.sensors.size(); ++i)
     TURNSCAN_TRY(sample_sensor(sequence, i, context, summary));
   TURNSCAN_ASSIGN(std::optional<std::string> smoothed, temporal_filter_note(sequence, context));
   if (smoothed) summary.notes.push_back(std::move(*smoothed));

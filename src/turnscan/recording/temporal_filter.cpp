@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/frame_samples.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/recording/temporal_filter.hpp>
 
 namespace turnscan {
@@ -25,37 +26,32 @@ using Samples = std::vector<std::vector<std::uint16_t>>;
 
 /// Existing frames of the sensor without a pose of their own.
 std::vector<std::size_t> usable(const FrameSequence& sequence, std::uint32_t sensor) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
-    const FrameInfo& info = sequence.frames()[i];
-    if (info.sensor == sensor && info.status == FrameStatus::kOk && !info.T_table_sensor)
-      out.push_back(i);
-  }
+  std::vector<std::size_t> out = usable_frames(sequence, {.sensor = sensor});
+  std::erase_if(out,
+                [&](std::size_t i) { return sequence.frames()[i].T_table_sensor.has_value(); });
   return out;
 }
 
 /// kInARow consecutive positions after the first third, then kApart over the whole sequence.
 std::vector<std::size_t> chosen(const std::vector<std::size_t>& frames) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < kInARow; ++i) out.push_back(frames[frames.size() / 3 + i]);
-  for (std::size_t i = 0; i < kApart; ++i)
-    out.push_back(frames[i * (frames.size() - 1) / (kApart - 1)]);
+  const auto first = frames.begin() + std::ptrdiff_t(frames.size() / 3);
+  std::vector<std::size_t> out(first, first + kInARow);
+  for (const std::size_t i : evenly_spread_to_last(frames, kApart)) out.push_back(i);
   return out;
 }
 
 Result<Samples> read_samples(const FrameSequence& sequence,
                              const std::vector<std::size_t>& positions, const RunContext& context) {
   Samples samples(positions.size());
-  parallel_for(positions.size(), 1, [&](std::size_t i) {
-    if (context.cancelled()) return;
-    const auto frame = sequence.read(positions[i]);
-    if (!frame) return;
+  const auto sample = [&](std::size_t i, const Result<Frame>& frame) -> Result<> {
+    if (!frame) return {};
     const auto& pixels = frame->depth.pixels;
     // An odd step does not stay in the same columns.
     const std::size_t step = pixels.size() / kMaxPixels | 1U;
     for (std::size_t p = 0; p < pixels.size(); p += step) samples[i].push_back(pixels[p]);
-  });
-  TURNSCAN_TRY(context.check());
+    return {};
+  };
+  TURNSCAN_TRY(read_frames(sequence, positions, context, sample));
   return samples;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/reconstruction/texture/color_view.hpp>
 
 namespace turnscan::texture {
@@ -164,10 +165,8 @@ std::vector<ColorView> color_views(const FrameSequence& sequence,
                                    const std::vector<Pose>& T_object_table,
                                    std::optional<std::uint32_t> pass) {
   std::vector<ColorView> out;
-  const auto& frames = sequence.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameInfo& info = frames[i];
-    if (info.status != FrameStatus::kOk || (pass && info.pass != *pass)) continue;
+  for (const std::size_t i : usable_frames(sequence, {.pass = pass})) {
+    const FrameInfo& info = sequence.frames()[i];
     const SensorInfo& sensor = sequence.header().sensors[info.sensor];
     if (sensor.kind != SensorKind::kDepthCamera) continue;
     ColorView view;

@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <turnscan/core/parallel.hpp>
+#include <mutex>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 
@@ -29,24 +30,21 @@ struct PixelSums {
 Result<PixelSums> sum_frames(const FrameSequence& sequence,
                              const std::vector<std::size_t>& positions, const SensorInfo& sensor,
                              const RunContext& context) {
-  const auto [width, height] = std::pair(sensor.intrinsics.width, sensor.intrinsics.height);
-  PixelSums sums(std::size_t(width) * std::size_t(height));
-  constexpr std::size_t kBatch = 8;
-  for (std::size_t begin = 0; begin < positions.size(); begin += kBatch) {
-    TURNSCAN_TRY(context.check());
-    const std::size_t n = std::min(kBatch, positions.size() - begin);
-    std::vector<Result<Frame>> frames(n, Result<Frame>(Frame()));
-    parallel_for(n, 1, [&](std::size_t k) { frames[k] = sequence.read(positions[begin + k]); });
-    for (auto& frame : frames) {
-      if (!frame) return tl::unexpected<Error>(frame.error());
-      if (frame->depth.width != width || frame->depth.height != height)
-        return fail_at(frame->info.file, ErrorCode::kFormat,
-                       "depth image is {} x {} pixels, but its sensor has {} x {}",
-                       frame->depth.width, frame->depth.height, width, height);
-      sums.add(frame->depth);
-      context.advance();
-    }
-  }
+  const CameraIntrinsics& camera = sensor.intrinsics;
+  PixelSums sums(std::size_t(camera.width) * std::size_t(camera.height));
+  std::mutex adding;
+  const auto add = [&](std::size_t, const Frame& frame) -> Result<> {
+    const DepthImage& depth = frame.depth;
+    if (depth.width != camera.width || depth.height != camera.height)
+      return fail_at(frame.info.file, ErrorCode::kFormat,
+                     "depth image is {} x {} pixels, but its sensor has {} x {}", depth.width,
+                     depth.height, camera.width, camera.height);
+    const std::scoped_lock lock(adding);
+    sums.add(depth);
+    context.advance();
+    return {};
+  };
+  TURNSCAN_TRY(read_frames(sequence, positions, context, add));
   return sums;
 }
 
@@ -128,12 +126,7 @@ Result<AveragedScan> average_frames(const FrameSequence& sequence,
 
 std::vector<std::size_t> spread_positions(const FrameSequence& sequence, std::uint32_t sensor,
                                           std::size_t count) {
-  std::vector<std::size_t> usable;
-  const auto& frames = sequence.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (frames[i].status == FrameStatus::kOk && frames[i].sensor == sensor) usable.push_back(i);
-  }
-  return evenly_spread(usable, count);
+  return evenly_spread(usable_frames(sequence, {.sensor = sensor}), count);
 }
 
 FramePoints points_of(const AveragedScan& scan) {

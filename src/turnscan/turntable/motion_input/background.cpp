@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion_input/background.hpp>
@@ -38,13 +39,12 @@ class DepthStack {
     const SensorInfo& sensor = sequence.header().sensors.front();
     out.width_ = sensor.intrinsics.width, out.height_ = sensor.intrinsics.height;
     out.images_.assign(positions.size(), {});
-    std::vector<Result<>> results(positions.size());
-    parallel_for(positions.size(), 1, [&](std::size_t k) {
-      results[k] = context.check();
-      if (results[k]) results[k] = out.read_one(sequence, positions[k], sensor, out.images_[k]);
-    });
-    for (auto& result : results) TURNSCAN_TRY(result);
     out.depth_unit_m_ = sensor.depth_unit_m;
+    const auto keep = [&](std::size_t k, const Frame& frame) -> Result<> {
+      out.images_[k] = out.depths_of(frame.depth, sensor);
+      return {};
+    };
+    TURNSCAN_TRY(read_frames(sequence, positions, context, keep));
     return out;
   }
 
@@ -63,17 +63,15 @@ class DepthStack {
   }
 
  private:
-  Result<> read_one(const FrameSequence& sequence, std::size_t position, const SensorInfo& sensor,
-                    std::vector<float>& out) const {
-    out.assign(std::size_t(width_) * std::size_t(height_), 0.0f);
-    TURNSCAN_ASSIGN(const Frame frame, sequence.read(position));
-    if (frame.depth.pixels.size() != out.size()) return {};
+  std::vector<float> depths_of(const DepthImage& depth, const SensorInfo& sensor) const {
+    std::vector<float> out(std::size_t(width_) * std::size_t(height_), 0.0f);
+    if (depth.pixels.size() != out.size()) return out;
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const std::uint16_t value = frame.depth.pixels[i];
+      const std::uint16_t value = depth.pixels[i];
       if (value != kNoReturn && value != kOutsideCrop)
         out[i] = float(value * sensor.depth_unit_m + sensor.depth_bias_m);
     }
-    return {};
+    return out;
   }
 
   int width_ = 0, height_ = 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/random.hpp>
@@ -48,14 +49,14 @@ class FrameLoader {
   Result<> choose_frames() {
     if (sequence_.header().sensors.empty())
       return fail(ErrorCode::kMissingData, "the recording has no sensor");
-    const auto& infos = sequence_.frames();
-    for (std::size_t i = 0; i < infos.size(); ++i) {
-      if (infos[i].status != FrameStatus::kOk || infos[i].sensor != 0) continue;
+    positions_ = usable_frames(sequence_, {.sensor = 0});
+    for (const std::size_t i : positions_) {
+      const FrameInfo& info = sequence_.frames()[i];
       MotionFrame frame;
       frame.position = i;
-      frame.time_s = infos[i].time_s;
-      frame.nominal_rad = infos[i].angle_rad;
-      frame.pass = infos[i].pass;
+      frame.time_s = info.time_s;
+      frame.nominal_rad = info.angle_rad;
+      frame.pass = info.pass;
       data_.frames.push_back(std::move(frame));
     }
     const std::size_t n = data_.frames.size(), keys = std::min(n, options_.max_keys);
@@ -81,22 +82,20 @@ class FrameLoader {
     context_.begin_phase("sample frames", data_.frames.size());
     std::vector<std::uint8_t> is_key(data_.frames.size(), 0);
     for (const std::size_t k : data_.keys) is_key[k] = 1;
-    std::vector<Result<>> results(data_.frames.size());
     std::vector<std::vector<Vec3f>> clouds(data_.frames.size());
-    parallel_for(data_.frames.size(), 1, [&](std::size_t i) {
-      if (context_.cancelled()) return;
-      results[i] = read_one(data_.frames[i], is_key[i] != 0, clouds[i]);
+    const auto take = [&](std::size_t i, const Frame& raw) -> Result<> {
+      TURNSCAN_TRY(take_frame(raw, is_key[i] != 0, data_.frames[i], clouds[i]));
       context_.advance();
-    });
-    TURNSCAN_TRY(context_.check());
-    for (auto& result : results) TURNSCAN_TRY(result);
+      return {};
+    };
+    TURNSCAN_TRY(read_frames(sequence_, positions_, context_, take));
     for (const auto& cloud : clouds)
       data_.cloud.insert(data_.cloud.end(), cloud.begin(), cloud.end());
     return {};
   }
 
-  Result<> read_one(MotionFrame& frame, bool key, std::vector<Vec3f>& cloud) const {
-    TURNSCAN_ASSIGN(const Frame raw, sequence_.read(frame.position));
+  Result<> take_frame(const Frame& raw, bool key, MotionFrame& frame,
+                      std::vector<Vec3f>& cloud) const {
     const auto seed = hash_key(kSamplingSeed, frame.position);
     if (data_.projective) {
       take_depth(raw, key, seed, frame, cloud);
@@ -219,6 +218,7 @@ class FrameLoader {
   const FrameSequence& sequence_;
   const MotionDataOptions& options_;
   const RunContext& context_;
+  std::vector<std::size_t> positions_;  ///< of data_.frames
   RayTable rays_;
   Foreground foreground_;
   MotionData data_;

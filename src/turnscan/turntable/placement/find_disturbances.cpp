@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/turntable/placement/disturbance_text.hpp>
 #include <turnscan/turntable/placement/event_time.hpp>
@@ -13,14 +14,6 @@ namespace {
 constexpr std::size_t kMaxKeyframes = 72, kMinKeyframes = 12;
 constexpr PairWeighting kFirstLook{0.02, 0.01, 8};
 
-std::vector<std::size_t> keyframe_positions(const FrameSequence& sequence) {
-  std::vector<std::size_t> out;
-  const auto& frames = sequence.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    if (frames[i].status == FrameStatus::kOk && frames[i].sensor == 0) out.push_back(i);
-  return evenly_spread_to_last(std::move(out), kMaxKeyframes);
-}
-
 class DisturbanceSearch {
  public:
   DisturbanceSearch(const FrameSequence& sequence, const std::vector<Pose>& believed,
@@ -30,7 +23,8 @@ class DisturbanceSearch {
   }
 
   Result<std::optional<Placement>> run() {
-    const auto positions = keyframe_positions(sequence_);
+    const auto positions =
+        evenly_spread_to_last(usable_frames(sequence_, {.sensor = 0}), kMaxKeyframes);
     if (positions.size() < kMinKeyframes) return std::nullopt;
     TURNSCAN_ASSIGN(auto keyframes,
                     load_keyframes(sequence_, believed_, positions, memory_, context_));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/reconstruction/frame_batch.hpp>
 #include <turnscan/reconstruction/passes/surface_colors.hpp>
@@ -14,13 +14,6 @@ namespace {
 /// Each point is then seen about a dozen times.
 constexpr std::size_t kMaxFrames = 36;
 constexpr double kAround_m = 0.01;  // margin around the objects that is considered
-
-std::vector<std::size_t> spread_frames(const FrameSequence& frames) {
-  std::vector<std::size_t> good;
-  for (std::size_t i = 0; i < frames.frames().size(); ++i)
-    if (frames.frames()[i].status == FrameStatus::kOk) good.push_back(i);
-  return evenly_spread(good, kMaxFrames);
-}
 
 Box box_around(const std::vector<passes::PassSurface>& objects) {
   Box box;
@@ -37,21 +30,19 @@ class ColoredViews {
       : frames_(frames), box_(box), rays_(ray_tables(frames.header())) {}
 
   Result<std::vector<views::DepthView>> read(const RunContext& context) const {
-    const std::vector<std::size_t> chosen = spread_frames(frames_);
-    std::vector<Result<views::DepthView>> made(chosen.size(), views::DepthView());
-    TURNSCAN_TRY(
-        parallel_for(chosen.size(), 1, context, [&](std::size_t k) { made[k] = view(chosen[k]); }));
-    std::vector<views::DepthView> out;
-    for (auto& view : made) {
-      TURNSCAN_ASSIGN(views::DepthView one, view);
-      if (!one.colors.empty()) out.push_back(std::move(one));
-    }
+    const auto chosen = evenly_spread(usable_frames(frames_), kMaxFrames);
+    std::vector<views::DepthView> out(chosen.size());
+    const auto make = [&](std::size_t k, const Frame& frame) -> Result<> {
+      TURNSCAN_ASSIGN(out[k], view(frame));
+      return {};
+    };
+    TURNSCAN_TRY(read_frames(frames_, chosen, context, make));
+    std::erase_if(out, [](const views::DepthView& view) { return view.colors.empty(); });
     return out;
   }
 
  private:
-  Result<views::DepthView> view(std::size_t position) const {
-    TURNSCAN_ASSIGN(const Frame frame, frames_.read(position));
+  Result<views::DepthView> view(const Frame& frame) const {
     if (frame.color.empty() && frame.points.colors.empty()) return views::DepthView();
     const std::size_t sensor = frame.info.sensor;
     const Pose T = frame.info.T_table_sensor.value_or(Pose::Identity());

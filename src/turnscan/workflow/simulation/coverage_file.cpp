@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 
 #include <turnscan/core/angles.hpp>
@@ -86,8 +87,7 @@ Result<CoverageMap> coverage_of(const VirtualPasses& scan, const std::vector<Pla
   for (std::size_t k = 1; k < scan.count(); ++k)
     further.push_back({&scan.pass(k).scene(), T_table_object(0) * T_table_object(k).inverse()});
   std::vector<CoveragePose> poses;
-  for (std::size_t i = 0; i < scan.frames().size(); ++i) {
-    if (scan.frames()[i].status == FrameStatus::kDropped) continue;
+  for (const std::size_t i : usable_frames(scan)) {
     const auto [k, there] = scan.place_of(i);
     poses.push_back({scan.frames()[i].sensor, scan.pass(k).T_table_sensor(there),
                      scan.pass(k).T_table_world(there), static_cast<std::uint32_t>(k)});

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
@@ -116,12 +117,11 @@ struct ChosenFrame {
 Result<std::vector<ChosenFrame>> choose_frames(const std::vector<MeshFrames>& sources) {
   std::vector<ChosenFrame> all;
   for (const MeshFrames& source : sources) {
-    const auto& infos = source.frames->frames();
+    const FrameSequence& frames = *source.frames;
     TURNSCAN_ASSIGN(const FramePoses poses,
-                    frame_poses(source.frames->header(), infos, source.speed_rad_s));
-    for (std::size_t i = 0; i < infos.size(); ++i)
-      if (infos[i].status == FrameStatus::kOk && (!source.pass || infos[i].pass == *source.pass))
-        all.push_back({&source, i, poses.T_table_sensor[i]});
+                    frame_poses(frames.header(), frames.frames(), source.speed_rad_s));
+    for (const std::size_t i : usable_frames(frames, {.pass = source.pass}))
+      all.push_back({&source, i, poses.T_table_sensor[i]});
   }
   return evenly_spread(all, kMaxFrames);
 }
@@ -172,24 +172,19 @@ Result<std::vector<FrameResidual>> frame_residuals(const ObjectResult& object,
   TURNSCAN_ASSIGN(const auto chosen, choose_frames(sources));
   std::map<const MeshFrames*, std::vector<RayTable>> rays;
   for (const MeshFrames& source : sources) rays[&source] = ray_tables(source.frames->header());
-  std::vector<Result<std::optional<FrameResidual>>> found(chosen.size());
-  TURNSCAN_TRY(parallel_for(chosen.size(), 1, context, [&](std::size_t i) {
+  std::vector<std::optional<FrameResidual>> found(chosen.size());
+  TURNSCAN_TRY(parallel_for(chosen.size(), 1, context, [&](std::size_t i) -> Result<> {
     const FrameSequence& frames = *chosen[i].source->frames;
-    found[i] = frames.read(chosen[i].position)
-                   .and_then([&](const Frame& frame) {
-                     const std::size_t s = frame.info.sensor;
-                     return points_of(frame, frames.header().sensors.at(s),
-                                      rays.at(chosen[i].source).at(s));
-                   })
-                   .map([&](const FramePoints& points) {
-                     return residual_of(surface, points, chosen[i], above_m);
-                   });
+    TURNSCAN_ASSIGN(const Frame frame, frames.read(chosen[i].position));
+    const std::size_t s = frame.info.sensor;
+    TURNSCAN_ASSIGN(const FramePoints points, points_of(frame, frames.header().sensors.at(s),
+                                                        rays.at(chosen[i].source).at(s)));
+    found[i] = residual_of(surface, points, chosen[i], above_m);
+    return {};
   }));
   std::vector<FrameResidual> out;
-  for (auto& one : found) {
-    if (!one) return tl::unexpected<Error>(std::move(one).error());
-    if (*one) out.push_back(**one);
-  }
+  for (const auto& one : found)
+    if (one) out.push_back(*one);
   return out;
 }
 
