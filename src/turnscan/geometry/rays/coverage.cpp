@@ -170,6 +170,12 @@ Result<std::vector<float>> view_information(const Scene& scene, std::span<const 
   return sums;
 }
 
+CoverageView view_of(const SensorInfo& sensor, const Pose& T_table_sensor) {
+  CoverageView view{T_table_sensor, std::nullopt, sensor.viewpoint};
+  if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
+  return view;
+}
+
 Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence) {
   const SequenceHeader& header = sequence.header();
   std::vector<CoverageView> views;
@@ -177,12 +183,8 @@ Result<std::vector<CoverageView>> views_of(const FrameSequence& sequence) {
     if (frame.status == FrameStatus::kDropped) continue;
     if (frame.sensor >= header.sensors.size())
       return fail(ErrorCode::kFormat, "frame {}: there is no sensor {}", frame.index, frame.sensor);
-    const SensorInfo& sensor = header.sensors[frame.sensor];
-    CoverageView view;
-    TURNSCAN_ASSIGN(view.T_table_sensor, pose_of(frame, sequence.frames().front(), header));
-    view.viewpoint = sensor.viewpoint;
-    if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
-    views.push_back(std::move(view));
+    TURNSCAN_ASSIGN(const Pose pose, pose_of(frame, sequence.frames().front(), header));
+    views.push_back(view_of(header.sensors[frame.sensor], pose));
   }
   return views;
 }

@@ -42,6 +42,9 @@ Result<std::vector<float>> view_information(const Scene& scene, std::span<const 
                                             const CoverageOptions& options,
                                             const RunContext& context);
 
+/// The view of a sensor with this pose.
+CoverageView view_of(const SensorInfo& sensor, const Pose& T_table_sensor);
+
 /// The views of a sequence, without dropped frames. A frame's pose is its own T_table_sensor, or
 /// that of its sensor rotated back by the frame's angle (or by speed times the time since the first
 /// frame). Fails with kMissingData if a frame has neither.

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/frame_samples.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/hull/resting_poses.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/search/sample.hpp>
@@ -197,24 +199,13 @@ Result<PassViews> pass_views(const FrameSequence& sequence, std::optional<std::u
                              std::optional<double> speed_rad_s) {
   const auto& frames = sequence.frames();
   const SequenceHeader& header = sequence.header();
-  std::vector<std::size_t> those;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    if (frames[i].status == FrameStatus::kOk && (!pass || frames[i].pass == *pass))
-      those.push_back(i);
+  const std::vector<std::size_t> those = usable_frames(sequence, {.pass = pass});
   if (those.empty()) return fail(ErrorCode::kMissingData, "the pass has no frames");
   TURNSCAN_ASSIGN(const FramePoses poses, frame_poses(header, frames, speed_rad_s));
   PassViews out;
   out.first_time_s = frames[those.front()].time_s;
-  const std::size_t most = std::min(those.size(), PassViews::kMaxViews);
-  for (std::size_t k = 0; k < most; ++k) {
-    const std::size_t i = those[k * those.size() / most];
-    const SensorInfo& sensor = header.sensors.at(frames[i].sensor);
-    CoverageView view;
-    view.T_table_sensor = poses.T_table_sensor[i];
-    view.viewpoint = sensor.viewpoint;
-    if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
-    out.views.push_back(std::move(view));
-  }
+  for (const std::size_t i : evenly_spread(those, PassViews::kMaxViews))
+    out.views.push_back(view_of(header.sensors.at(frames[i].sensor), poses.T_table_sensor[i]));
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/geometry/rays/coverage.hpp>
@@ -18,16 +19,9 @@ Result<std::vector<CoverageView>> views_of_sources(const std::vector<MeshFrames>
     const SequenceHeader& header = source.frames->header();
     const auto& infos = source.frames->frames();
     TURNSCAN_ASSIGN(const FramePoses poses, frame_poses(header, infos, source.speed_rad_s));
-    for (std::size_t i = 0; i < infos.size(); ++i) {
-      if (infos[i].status != FrameStatus::kOk || (source.pass && infos[i].pass != *source.pass))
-        continue;
-      const SensorInfo& sensor = header.sensors.at(infos[i].sensor);
-      CoverageView view;
-      view.T_table_sensor = source.T_mesh_table * poses.T_table_sensor[i];
-      view.viewpoint = sensor.viewpoint;
-      if (sensor.kind == SensorKind::kDepthCamera) view.intrinsics = sensor.intrinsics;
-      out.push_back(std::move(view));
-    }
+    for (const std::size_t i : usable_frames(*source.frames, {.pass = source.pass}))
+      out.push_back(view_of(header.sensors.at(infos[i].sensor),
+                            source.T_mesh_table * poses.T_table_sensor[i]));
   }
   return out;
 }
