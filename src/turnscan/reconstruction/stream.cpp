@@ -300,6 +300,22 @@ Result<> ReconstructionStream::add(const std::vector<Frame>& frames, const RunCo
       infos, [&](std::size_t i) -> Result<Frame> { return frames[i]; }, context);
 }
 
+Result<> ReconstructionStream::add(const FrameSequence& sequence, std::size_t first,
+                                   const RunContext& context) {
+  // Enough to keep the cores busy, few enough to keep memory bounded.
+  constexpr std::size_t kFramesAtOnce = 64;
+  const auto& frames = sequence.frames();
+  context.begin_phase("read frames", frames.size() - first);
+  for (; first < frames.size(); first += kFramesAtOnce) {
+    const std::size_t end = std::min(first + kFramesAtOnce, frames.size());
+    const std::vector<FrameInfo> infos(frames.begin() + std::ptrdiff_t(first),
+                                       frames.begin() + std::ptrdiff_t(end));
+    TURNSCAN_TRY(add(
+        infos, [&](std::size_t i) { return sequence.read(first + i); }, context));
+  }
+  return {};
+}
+
 Result<TriangleMesh> ReconstructionStream::preview(const RunContext& context) const {
   return impl_->preview(context);
 }

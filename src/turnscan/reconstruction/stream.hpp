@@ -34,6 +34,8 @@ class ReconstructionStream {
   Result<> add(const std::vector<FrameInfo>& infos, const FrameReader& read,
                const RunContext& context);
   Result<> add(const std::vector<Frame>& frames, const RunContext& context = RunContext());
+  /// Reads and adds the frames of a sequence from position `first` on.
+  Result<> add(const FrameSequence& sequence, std::size_t first, const RunContext& context);
 
   /// A coarse closed mesh of what was added so far, in the table's or the object's frame, in
   /// bounded time (some 1,500 bricks of samples for any scan) and without waiting for more than the

@@ -19,7 +19,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kBatch = 64;
 /// Views one turn apart also differ by their noise: by a tenth of that of one depth value.
 constexpr double kClosureShare = 0.25;
 constexpr double kMinLimit_m = 2e-4;
@@ -28,20 +27,6 @@ SequenceView first_frames(const FrameSequence& sequence, std::size_t count) {
   std::vector<std::size_t> positions(count);
   std::iota(positions.begin(), positions.end(), std::size_t{0});
   return SequenceView(sequence, std::move(positions));
-}
-
-Result<> add_frames(ReconstructionStream& stream, const FrameSequence& sequence, std::size_t begin,
-                    const RunContext& context) {
-  const auto& frames = sequence.frames();
-  context.begin_phase("read frames", frames.size() - begin);
-  for (; begin < frames.size(); begin += kBatch) {
-    const std::size_t end = std::min(begin + kBatch, frames.size());
-    const std::vector<FrameInfo> infos(frames.begin() + std::ptrdiff_t(begin),
-                                       frames.begin() + std::ptrdiff_t(end));
-    TURNSCAN_TRY(stream.add(
-        infos, [&](std::size_t i) { return sequence.read(begin + i); }, context));
-  }
-  return {};
 }
 
 /// Result of the thread.
@@ -79,7 +64,7 @@ struct ScanAhead::Parts {
                   fmt::join(found.undetermined, ", "));
     TURNSCAN_ASSIGN(const auto calibrated, with_calibration(frames, found));
     TURNSCAN_ASSIGN(auto stream, ReconstructionStream::create(calibrated->header(), options));
-    TURNSCAN_TRY(add_frames(stream, *calibrated, 0, quiet));
+    TURNSCAN_TRY(stream.add(*calibrated, 0, quiet));
     return Begun{std::move(found), std::move(stream)};
   }
 
@@ -104,7 +89,7 @@ struct ScanAhead::Parts {
       return fail(ErrorCode::kMissingData,
                   "one turn later the object would lie {:.2f} mm off, more than {:.2f} mm",
                   out.closure_m * 1e3, out.closure_limit_m * 1e3);
-    TURNSCAN_TRY(add_frames(ahead.stream, *calibrated, first, context));
+    TURNSCAN_TRY(ahead.stream.add(*calibrated, first, context));
     out.calibration = std::move(all.calibration);
     return {};
   }
