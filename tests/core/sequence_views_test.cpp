@@ -72,6 +72,24 @@ TEST(SequenceView, GivesItsHeaderAndInfosToWhatIsRead) {
   EXPECT_THROW(view.set_frames({}), std::invalid_argument);
 }
 
+TEST(SequenceView, JoinsFramesOfSeveralSequences) {
+  const MemoryFrames some = numbered_frames(3), others = numbered_frames(9);
+  SequenceView view(some.header());
+  FrameInfo info;
+  for (const std::size_t position : {8u, 6u}) {
+    info.index = std::uint32_t(view.frames().size());
+    view.add(others, position, info);
+  }
+  info.index = 7;
+  view.add(some, 2, info);
+  EXPECT_EQ(view.header().software, "test");
+  EXPECT_EQ(view.positions(), (std::vector<std::size_t>{8, 6, 2}));
+  EXPECT_EQ(view.read(1)->depth.pixels[0], 1006);
+  EXPECT_EQ(view.read(1)->info.index, 1u);
+  EXPECT_EQ(view.read(2)->depth.pixels[0], 1002);
+  EXPECT_EQ(view.read(2)->info.index, 7u);
+}
+
 TEST(SequenceView, MapsEachFrameWithItsPositionInTheView) {
   const MemoryFrames frames = numbered_frames(4);
   SequenceView view(frames, {2, 3});

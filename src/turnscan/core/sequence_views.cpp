@@ -43,8 +43,16 @@ SequenceView::SequenceView(const FrameSequence& sequence)
     : SequenceView(sequence, all_positions(sequence)) {}
 
 SequenceView::SequenceView(const FrameSequence& sequence, std::vector<std::size_t> positions)
-    : sequence_(&sequence), header_(sequence.header()), positions_(std::move(positions)) {
+    : header_(sequence.header()),
+      sequences_(positions.size(), &sequence),
+      positions_(std::move(positions)) {
   for (const std::size_t i : positions_) infos_.push_back(sequence.frames().at(i));
+}
+
+void SequenceView::add(const FrameSequence& sequence, std::size_t position, FrameInfo info) {
+  sequences_.push_back(&sequence);
+  positions_.push_back(position);
+  infos_.push_back(std::move(info));
 }
 
 void SequenceView::set_frames(std::vector<FrameInfo> frames) {
@@ -55,7 +63,7 @@ void SequenceView::set_frames(std::vector<FrameInfo> frames) {
 }
 
 Result<Frame> SequenceView::read(std::size_t position) const {
-  TURNSCAN_ASSIGN(Frame frame, sequence_->read(positions_.at(position)));
+  TURNSCAN_ASSIGN(Frame frame, sequences_.at(position)->read(positions_[position]));
   frame.info = infos_[position];
   if (map_) return map_(std::move(frame), position);
   return frame;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <turnscan/core/frame.hpp>
+#include <utility>
 #include <vector>
 
 namespace turnscan {
@@ -27,20 +28,24 @@ class MemoryFrames : public FrameSequence {
   std::vector<FrameInfo> infos_;
 };
 
-/// Another sequence, which must outlive the view, with some of its frames, another header, other
-/// infos or frames that are changed as they are read.
+/// Frames of one or more other sequences, which must outlive the view, with another header, other
+/// infos or changes to the frames as they are read.
 class SequenceView : public FrameSequence {
  public:
   /// What becomes of a frame as it is read; position counts in the view. Called from as many
   /// threads as read() is.
   using FrameMap = std::function<Result<Frame>(Frame frame, std::size_t position)>;
 
+  /// No frames: they follow by add().
+  explicit SequenceView(SequenceHeader header) : header_(std::move(header)) {}
   /// All frames.
   explicit SequenceView(const FrameSequence& sequence);
   /// The frames at `positions` of the sequence, in this order. Throws std::out_of_range where
   /// there is none.
   SequenceView(const FrameSequence& sequence, std::vector<std::size_t> positions);
 
+  /// Appends the frame at a position of a sequence, with this info.
+  void add(const FrameSequence& sequence, std::size_t position, FrameInfo info);
   void set_header(SequenceHeader header) { header_ = std::move(header); }
   /// The infos of all frames of the view; frames that are read carry them. Throws
   /// std::invalid_argument unless there is one for each.
@@ -49,13 +54,13 @@ class SequenceView : public FrameSequence {
 
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return infos_; }
-  /// Where the frames stand in the other sequence.
+  /// Where the frames stand in their sequences.
   const std::vector<std::size_t>& positions() const { return positions_; }
   Result<Frame> read(std::size_t position) const override;
 
  private:
-  const FrameSequence* sequence_;
   SequenceHeader header_;
+  std::vector<const FrameSequence*> sequences_;  ///< one per frame, as are the others
   std::vector<std::size_t> positions_;
   std::vector<FrameInfo> infos_;
   FrameMap map_;

@@ -26,9 +26,9 @@ MemorySequence two_passes() {
   return sequence;
 }
 
-TEST(JoinedFrames, ComePassAfterPassWithThePosesOfTheirFrames) {
+TEST(JoinPasses, ComePassAfterPassWithThePosesOfTheirFrames) {
   const MemorySequence sequence = two_passes();
-  const auto joined = JoinedFrames::create({{&sequence, 4, {}}, {&sequence, 7, {}}});
+  const auto joined = join_passes({{&sequence, 4, {}}, {&sequence, 7, {}}});
   ASSERT_TRUE(joined) << joined.error().message;
   const auto& frames = joined->frames();
   ASSERT_EQ(frames.size(), 6u);
@@ -44,9 +44,9 @@ TEST(JoinedFrames, ComePassAfterPassWithThePosesOfTheirFrames) {
                                                  *sequence.header().sensors[0].T_table_sensor));
 }
 
-TEST(JoinedFrames, SeveralSequencesKeepTheirSensorsApart) {
+TEST(JoinPasses, SeveralSequencesKeepTheirSensorsApart) {
   const MemorySequence first = two_passes(), second = two_passes();
-  const auto joined = JoinedFrames::create({{&first, 4, {}}, {&second, 4, {}}, {&first, 7, {}}});
+  const auto joined = join_passes({{&first, 4, {}}, {&second, 4, {}}, {&first, 7, {}}});
   ASSERT_TRUE(joined) << joined.error().message;
   EXPECT_EQ(joined->header().sensors.size(), 2u);
   std::vector<std::uint32_t> sensors, indices;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
 namespace turnscan::importers {
@@ -41,9 +42,10 @@ bool same_rig(const SequenceHeader& a, const SequenceHeader& b) {
 }
 
 /// Concatenates the data sets, numbering their passes consecutively.
-class PassSequence : public FrameSequence {
+class PassSequence : public SequenceView {
  public:
-  void add(const fs::path& path, std::unique_ptr<FrameSequence> set) {
+  PassSequence() : SequenceView(SequenceHeader()) {}
+  void add_set(const fs::path& path, std::unique_ptr<FrameSequence> set) {
     std::map<std::uint32_t, std::uint32_t> numbers;
     for (const FrameInfo& frame : set->frames()) numbers.emplace(frame.pass, 0);
     for (auto& [own, number] : numbers) number = passes_++;
@@ -54,36 +56,23 @@ class PassSequence : public FrameSequence {
     // The first line of the source states its origin, the others are assumptions.
     const std::string& source = set->header().source;
     const std::size_t line = std::min(source.find('\n'), source.size());
-    if (sets_.empty()) {
-      header_ = set->header();
-      header_.source = fmt::format("passes of several data sets{}", source.substr(line));
-    }
-    add_note(header_, fmt::format("{} {}", here, display_name(path)));
+    SequenceHeader header = sets_.empty() ? set->header() : this->header();
+    if (sets_.empty())
+      header.source = fmt::format("passes of several data sets{}", source.substr(line));
+    add_note(header, fmt::format("{} {}", here, display_name(path)));
     for (std::size_t i = 0; i < set->frames().size(); ++i) {
       FrameInfo info = set->frames()[i];
-      info.index = std::uint32_t(infos_.size());
+      info.index = std::uint32_t(frames().size());
       info.pass = numbers[info.pass];
-      header_.poses_within_pass |= info.T_table_sensor.has_value();
-      infos_.push_back(std::move(info));
-      places_.emplace_back(sets_.size(), i);
+      header.poses_within_pass |= info.T_table_sensor.has_value();
+      add(*set, i, std::move(info));
     }
+    set_header(std::move(header));
     sets_.push_back(std::move(set));
   }
 
-  const SequenceHeader& header() const override { return header_; }
-  const std::vector<FrameInfo>& frames() const override { return infos_; }
-  Result<Frame> read(std::size_t position) const override {
-    const auto [set, own] = places_.at(position);
-    TURNSCAN_ASSIGN(Frame frame, sets_[set]->read(own));
-    frame.info = infos_[position];
-    return frame;
-  }
-
  private:
-  SequenceHeader header_;
-  std::vector<FrameInfo> infos_;
   std::vector<std::unique_ptr<FrameSequence>> sets_;
-  std::vector<std::pair<std::size_t, std::size_t>> places_;
   std::uint32_t passes_ = 0;
 };
 
@@ -104,7 +93,7 @@ Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
                      "its sensor or turntable is another than that of {}; import each to a "
                      "recording of its own, and give all of them to turnscan reconstruct",
                      paths[0].string());
-    out->add(paths[k], std::move(set));
+    out->add_set(paths[k], std::move(set));
   }
   return out;
 }

@@ -20,7 +20,7 @@ Result<Reconstruction> fuse(const std::vector<PassOfMany>& passes, const ObjectP
     parts.push_back(passes[k].frames);
     placements.push_back(*object.of_pass[k]);
   }
-  TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create(parts));
+  TURNSCAN_ASSIGN(const SequenceView frames, join_passes(parts));
   return reconstruct(frames, options, sink, context, std::move(placements));
 }
 
@@ -63,7 +63,7 @@ Result<PassApart> reconstruct_apart(const PassOfMany& pass, const std::string& r
                                     const std::optional<ObjectPartition>& left,
                                     const ReconstructOptions& options, const RunContext& context) {
   PassApart out{pass.number, pass.name, reason, {}};
-  TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass.frames}));
+  TURNSCAN_ASSIGN(const SequenceView frames, join_passes({pass.frames}));
   std::vector<PassPlacement> placements;
   if (left) {
     PassPlacement& placement = placements.emplace_back();

@@ -1,6 +1,7 @@
 #pragma once
 // Presents passes of one or more recordings as one sequence, which reconstruct() fuses.
 
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/reconstruction/pass_placement.hpp>
 #include <vector>
 
@@ -18,33 +19,7 @@ std::vector<std::uint32_t> passes_of(const FrameSequence& sequence);
 
 /// Concatenates passes: passes are renumbered from 0, and so are frames if they come from several
 /// sequences; each frame keeps its pose of the original sequence. The header lists the sensors of
-/// all sequences.
-class JoinedFrames : public FrameSequence {
- public:
-  /// Fails as frame_poses() does.
-  static Result<JoinedFrames> create(const std::vector<SequencePass>& passes);
-
-  const SequenceHeader& header() const override { return header_; }
-  const std::vector<FrameInfo>& frames() const override { return infos_; }
-  Result<Frame> read(std::size_t position) const override;
-
- private:
-  struct Source {
-    const FrameSequence* frames;
-    std::size_t position;
-  };
-  Result<> add_sequence(const SequencePass& pass);
-  void add_pass(const SequencePass& pass, std::uint32_t number);
-
-  struct Sequence {
-    const FrameSequence* frames;
-    std::vector<Pose> T_table_sensor;
-    std::uint32_t first_sensor;
-  };
-  std::vector<Sequence> sequences_;
-  SequenceHeader header_;
-  std::vector<FrameInfo> infos_;
-  std::vector<Source> sources_;
-};
+/// all sequences. Fails as frame_poses() does.
+Result<SequenceView> join_passes(const std::vector<SequencePass>& passes);
 
 }  // namespace turnscan

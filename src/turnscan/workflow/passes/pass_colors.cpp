@@ -65,7 +65,7 @@ class ColoredViews {
 Result<> color_surfaces(const SequencePass& pass, std::vector<passes::PassSurface>& objects,
                         const RunContext& context) {
   if (objects.empty()) return {};
-  TURNSCAN_ASSIGN(const JoinedFrames frames, JoinedFrames::create({pass}));
+  TURNSCAN_ASSIGN(const SequenceView frames, join_passes({pass}));
   TURNSCAN_ASSIGN(const auto views, ColoredViews(frames, box_around(objects)).read(context));
   for (passes::PassSurface& object : objects) {
     TURNSCAN_ASSIGN(object.colors, passes::surface_colors(object, views, context));

@@ -83,7 +83,7 @@ PassSurface united(std::vector<PassSurface>& pieces) {
 
 Result<MeasuredTable> measure_table(const PassOfMany& pass, const ReconstructOptions& options,
                                     const RunContext& context) {
-  TURNSCAN_ASSIGN(const JoinedFrames all, JoinedFrames::create({pass.frames}));
+  TURNSCAN_ASSIGN(const SequenceView all, join_passes({pass.frames}));
   const SequenceView frames(all, images_for_placing(all));
   TURNSCAN_ASSIGN(const Reconstruction r, reconstruct(frames, for_surface(options), {}, context));
   MeasuredTable out;
