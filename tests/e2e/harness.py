@@ -27,6 +27,8 @@ PART = os.environ.get("TURNSCAN_TEST_PART", "0/1")  # "0/3": the first of three 
 FAILED, USAGE, CANCELLED = 1, 2, 130
 FAST = ("--voxel-size", "6mm", "--poisson-depth", "5")  # where the mesh itself does not matter
 COARSE = ("--voxel-size", "2.5mm")  # where the mesh matters, but not its finest detail
+SENSOR = pathlib.Path(__file__).with_name("narrow.toml")  # of few pixels, for tests in which the mesh matters
+NARROW = ("--scanner", SENSOR)
 SMALL_PICTURE = ("--picture-size", "96")  # a large one takes longer than all else that a demo does
 
 

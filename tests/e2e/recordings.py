@@ -18,25 +18,28 @@ import sys
 import tempfile
 
 import harness
+from harness import NARROW
 
 # What each is made by, but for its folder.
 COMMANDS = {
     # For what needs a recording that can be reconstructed, and not its finest detail.
     "cylinder": ("simulate", "builtin:cylinder", "--scanner",
-                 pathlib.Path(__file__).with_name("small.toml"), "--frames", 60, "--noise",
+                 pathlib.Path(__file__).with_name("small.toml"), "--frames", 24, "--noise",
                  "gaussian:1mm"),
     # A demo of a built-in object: the recording, its mesh and the truth.
-    "demo-cylinder": ("demo", "--object", "cylinder", "--frames", 60, *harness.SMALL_PICTURE),
-    "demo-letter-a": ("demo", "--object", "letter-a", "--frames", 60, *harness.SMALL_PICTURE),
-    "demo-pair": ("demo", "--object", "pair", "--frames", 48, *harness.SMALL_PICTURE),
+    "demo-cylinder": ("demo", "--object", "cylinder", "--frames", 60, *NARROW, *harness.SMALL_PICTURE),
+    "demo-pair": ("demo", "--object", "pair", "--frames", 48, *NARROW, *harness.COARSE, *harness.SMALL_PICTURE),
+    "letter-a": ("simulate", "builtin:letter-a", "--frames", 60, *NARROW, "--aim-height", "90mm",
+                 "--mixed-pixels", 0.5),
     # For what needs a recording and does not look at its frames.
-    "three-frames": ("simulate", "builtin:cylinder", "--frames", 3),
+    "three-frames": ("simulate", "builtin:cylinder", "--frames", 3, *NARROW),
     # For the truth.
-    "doll": ("simulate", "builtin:doll", "--frames", 2),
-    "skull": ("simulate", "builtin:skull", "--frames", 24, "--seed", 3, "--noise", "gaussian:1mm"),
-    "skull-twice": ("simulate", "builtin:skull", "--frames", 24, "--seed", 3, "--noise",
+    "doll": ("simulate", "builtin:doll", "--frames", 2, *NARROW),
+    "skull": ("simulate", "builtin:skull", "--frames", 24, *NARROW, "--seed", 3, "--noise",
+              "gaussian:1mm"),
+    "skull-twice": ("simulate", "builtin:skull", "--frames", 24, *NARROW, "--seed", 3, "--noise",
                     "gaussian:1mm", "--next-pass", "tip=90deg,yaw=40deg"),
-    "colour-doll": ("simulate", "builtin:doll", "--height", "100mm", "--frames", 10, "--distance",
+    "colour-doll": ("simulate", "builtin:doll", "--height", "100mm", "--frames", 10, *NARROW, "--distance",
                     "0.6m", "--noise", "none", "--platter-radius", "80mm", "--scan-colour",
                     "--colour-width", 320, "--colour-fov", "20deg", "--colour-drift", 0.2),
 }
@@ -82,6 +85,12 @@ def shared_demo(name="cylinder"):
 def shared_recording():
     """A recording of a cylinder of 80 x 160 mm in small images."""
     return folder_of("cylinder")
+
+
+def mesh_of(name):
+    """The object of a recording, for `simulate` and behind `virtual:`: to make the doll or the skull takes
+    three seconds and more."""
+    return folder_of(name) / "truth/object.ply"
 
 
 def link(name, target):

@@ -5,8 +5,7 @@ import unittest
 
 import harness
 import recordings
-from harness import DATA, FAILED, USAGE
-from recordings import shared_demo
+from harness import DATA, FAILED, NARROW, SENSOR, USAGE
 
 CENTER_M, AXIS = (0.0, 0.0861, 0.9262), (0.0, -0.9563, -0.2924)  # of the demo's virtual camera
 
@@ -18,7 +17,7 @@ def distance(a, b):
 class Calibrate(harness.TestCase):
     def setUp(self):
         super().setUp()
-        self.rec = shared_demo("letter-a") / "recording"
+        self.rec = recordings.folder_of("letter-a")
 
     def calibrate(self, *args):
         self.ok("calibrate", *args, "--json", "c.json")
@@ -82,8 +81,8 @@ class Calibrate(harness.TestCase):
         self.refused(USAGE, "reconstruct", "bare", "-o", "n.ply", "--calibration", "magic")
 
     def test_a_table_that_has_moved_since_it_was_calibrated_is_noticed_and_found_anew(self):
-        scene = ("simulate", "builtin:doll", "--height", "160mm", "--frames", "60", "--fps", "6",
-                 "--turns", "1.1", "--calibration", "nominal")
+        scene = ("simulate", recordings.mesh_of("doll"), "--height", "160mm", "--frames", "60", *NARROW,
+                 "--fps", "6", "--turns", "1.1", "--calibration", "nominal")
         self.ok(*scene, "--table-x", "5mm", "--table-tilt", "1deg", "-o", "moved")
         out = self.ok("reconstruct", "moved", "-o", "m.ply", "--voxel-size", "2mm").stdout
         self.assertIn("beside the one about which the object turns", out)
@@ -129,10 +128,10 @@ class Calibrate(harness.TestCase):
         self.assertAlmostEqual(found["camera"]["intrinsics"]["fx"], 1.02 * camera["fx"])
         self.assertAlmostEqual(found["radius_m"], 0.15 / 1.02, delta=0.002)
         self.ok("reconstruct", self.rec, "-o", "m.ply", "--turntable", "s.json", *harness.FAST)
-        text = (self.dir / "s.json").read_text().replace('"width": 512', '"width": 500')
+        text = (self.dir / "s.json").read_text().replace('"width": 256', '"width": 250')
         (self.dir / "s.json").write_text(text)
         self.refused(USAGE, "reconstruct", self.rec, "-o", "n.ply", "--turntable", "s.json",
-                     says="512 x 424")
+                     says="256 x 212")
 
     def test_a_ball_is_a_gauge_of_depth(self):
         self.refused(USAGE, "calibrate", self.rec, "--gauge-ball", "100mm", says="--depth-bias")
@@ -149,8 +148,8 @@ class Calibrate(harness.TestCase):
         self.assertNotIn("WRONG", out)
 
     def test_check_finds_a_halt_and_a_slip_that_nobody_recorded(self):
-        scene = ["simulate", "builtin:doll", "--height", "180mm", "--frames", "90", "--fps", "8",
-                 "--turns", "1.2"]
+        scene = ["simulate", recordings.mesh_of("doll"), "--height", "180mm", "--frames", "90", *NARROW,
+                 "--fps", "8", "--turns", "1.2"]
         halt = ["--halt-at", "5s", "--halt", "1.5s"]
         for name, fault, says in (
                 ("halt", halt, "WRONG +Motor: about [456].* s the table slowed down or stopped"),
@@ -173,8 +172,8 @@ class Calibrate(harness.TestCase):
                          "the recorded angles do not follow it")
 
     def test_two_sensors_at_different_azimuths_are_brought_to_one_heading(self):
-        sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
-        self.ok("simulate", "builtin:doll", "--height", "180mm", "--frames", "40", "--turns", "1.1",
+        sensor = f"{SENSOR},elevation={{}},azimuth={{}},distance=0.7m"
+        self.ok("simulate", recordings.mesh_of("doll"), "--height", "180mm", "--frames", "40", "--turns", "1.1",
                 "--scanner", sensor.format("15deg", "0deg"), "--scanner",
                 sensor.format("40deg", "130deg"), "-o", "two")
         truth = json.loads((self.dir / "two" / "recording.json").read_text())
@@ -187,8 +186,8 @@ class Calibrate(harness.TestCase):
                 self.assertAlmostEqual(value, true_value, delta=0.008)
 
     def test_each_of_two_sensors_gets_its_own_offset_of_depth(self):
-        sensor = "kinect-v2,elevation={},azimuth={},distance=0.7m"
-        self.ok("simulate", "builtin:doll", "--height", "180mm", "--frames", "40", "--turns", "1.1",
+        sensor = f"{SENSOR},elevation={{}},azimuth={{}},distance=0.7m"
+        self.ok("simulate", recordings.mesh_of("doll"), "--height", "180mm", "--frames", "40", "--turns", "1.1",
                 "--scanner", sensor.format("35deg", "0deg"), "--scanner",
                 sensor.format("40deg", "60deg"), "-o", "off")
         file = self.dir / "off" / "recording.json"

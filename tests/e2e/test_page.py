@@ -13,8 +13,9 @@ import unittest
 
 import browser
 import harness
+from harness import SENSOR
 import recordings
-from recordings import shared_demo, shared_recording
+from recordings import shared_recording
 
 SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
 SKIPPED = 77
@@ -84,8 +85,8 @@ class Page(harness.TestCase):
         return page.evaluate(PIXELS)
 
     def test_the_page_of_a_scan_works_at_both_widths(self):
-        self.ok("reconstruct", shared_demo("letter-a") / "recording", "--out", "a.ply", "--report", "scan.html", "--report",
-                "a.json")
+        self.ok("reconstruct", recordings.folder_of("letter-a"), "--out", "a.ply", "--report", "scan.html",
+                "--report", "a.json")
         page = self.open("scan.html")
         drawn = page.evaluate(PIXELS)
         self.assertGreater(drawn["share"], 0.05, "the canvas is empty")
@@ -237,7 +238,7 @@ class WithoutBrowser(harness.TestCase):
         self.assertEqual(self.files(), ["page.html"])
 
     def test_a_scan_writes_a_page_and_json(self):
-        self.ok("scan", "--device", "virtual:letter-a?fps=10&speed=60deg/s", "--speed", "60deg/s",
+        self.ok("scan", "--device", f"virtual:letter-a?sensor={SENSOR}&fps=10&speed=60deg/s", "--speed", "60deg/s",
                 "--out", "c.ply", "--report", "c.html", "--report", "c.json", "--no-wait")
         self.assertIn("<h1>c</h1>", (self.dir / "c.html").read_text())
         self.assertTrue(json.loads((self.dir / "c.json").read_text())["reconstruction"])
