@@ -13,11 +13,11 @@ import time
 
 import harness
 import recordings
-from harness import CANCELLED, FAILED, USAGE, run, start
+from harness import CANCELLED, FAILED, SENSOR, USAGE, run, start
 from table import Table
 
 # Small frames, rendered once: what is tested is what happens to them afterwards.
-SMALL = "virtual:doll?sensor=kinect-v1&distance=3m&prepared=15&speed=720deg/s"
+SMALL = "virtual:cylinder?height=200mm&sensor=kinect-v1&distance=3m&prepared=15&speed=720deg/s"
 TIMED = ("--quiet", "--min-free", "0")
 KILLS = int(os.environ.get("TURNSCAN_TEST_KILLS", "12"))
 
@@ -180,8 +180,11 @@ class Capture(harness.TestCase):
 
 class Scan(harness.TestCase):
     """One go; small images and few frames."""
-    DEVICE = "virtual:doll?sensor=kinect-v2&fps=6&speed=12deg/s"
     FAST = ("--quiet", "--min-free", "0", "--voxel-size", "3mm")
+
+    def setUp(self):
+        super().setUp()
+        self.device = f"virtual:{self.truth()}?sensor={SENSOR}&fps=6&speed=12deg/s"
 
     def assert_closed(self, mesh="doll.3mf"):
         info = json.loads(self.ok("info", "--json", mesh).stdout)["objects"]
@@ -207,14 +210,14 @@ class Scan(harness.TestCase):
         return again
 
     def truth(self):
-        return recordings.folder_of("doll") / "truth/object.ply"
+        return recordings.mesh_of("doll")
 
     def ok(self, *args, **more):
         # Calibrations are kept in a home of the test's own.
         return super().ok(*args, env={"XDG_STATE_HOME": str(self.dir / "state")}, **more)
 
     def test_nothing_is_known(self):
-        self.ok("scan", "--device", self.DEVICE, "-o", "doll.3mf", "--report", "r.json", *self.FAST)
+        self.ok("scan", "--device", self.device, "-o", "doll.3mf", "--report", "r.json", *self.FAST)
         self.assertEqual(len(list(self.dir.glob("state/turnscan/calibrations/*.json"))), 1)
         self.assert_closed()
         report = json.loads((self.dir / "r.json").read_text())
@@ -229,7 +232,7 @@ class Scan(harness.TestCase):
                                delta=5)
         self.assertLess(report["ahead"]["closure_mm"], report["ahead"]["closure_limit_mm"])
         # The next scan knows where the table is, and with its speed works while frames come.
-        self.ok("scan", "--device", self.DEVICE, "-o", "next.3mf", "--report", "r.json", "--speed",
+        self.ok("scan", "--device", self.device, "-o", "next.3mf", "--report", "r.json", "--speed",
                 "12deg/s", *self.FAST)
         self.assert_closed("next.3mf")
         report = json.loads((self.dir / "r.json").read_text())
@@ -241,7 +244,7 @@ class Scan(harness.TestCase):
 
     def test_what_was_worked_out_ahead_is_not_kept_when_the_turn_does_not_close(self):
         # The table jumps after the frames that the calibration is from.
-        self.ok("scan", "--device", self.DEVICE + "&slip-at=20s&slip=60deg", "--ahead", "0.55",
+        self.ok("scan", "--device", self.device + "&slip-at=20s&slip=60deg", "--ahead", "0.55",
                 "-o", "doll.3mf", "--report", "r.json", *self.FAST)
         report = json.loads((self.dir / "r.json").read_text())
         self.assertFalse(report["ahead"]["kept"], report)
@@ -251,7 +254,7 @@ class Scan(harness.TestCase):
         self.assert_as_reconstructed()
 
     def test_all_is_known_and_the_object_comes_later(self):
-        self.ok("scan", "--device", self.DEVICE + "&calibration=true&appears=4s", "-o", "doll.3mf",
+        self.ok("scan", "--device", self.device + "&calibration=true&appears=4s", "-o", "doll.3mf",
                 "--report", "r.json", *self.FAST)
         self.assert_closed()
         frames = frames_of(self.dir / "doll.recording")
@@ -259,24 +262,24 @@ class Scan(harness.TestCase):
         # The stream's mesh is the one that the recording gives.
         self.assert_as_reconstructed()
         # The next scan keeps the first recording.
-        self.refused(FAILED, "scan", "--device", self.DEVICE + "&fault=lost@8s", "-o", "doll.3mf",
+        self.refused(FAILED, "scan", "--device", self.device + "&fault=lost@8s", "-o", "doll.3mf",
                      "--min-free", "0", says=("doll-2.recording holds", "is complete"))
 
     def test_a_slip_on_a_known_table_is_put_right_after_the_turn(self):
-        self.ok("scan", "--device", self.DEVICE + "&calibration=true&slip-at=15s&slip=20deg",
+        self.ok("scan", "--device", self.device + "&calibration=true&slip-at=15s&slip=20deg",
                 "-o", "doll.3mf", "--report", "r.json", *self.FAST)
         again = self.assert_as_reconstructed()
         self.assertIn("moved", " ".join(again["notes"]))
 
     def test_seconds_bound_the_wait_for_an_object(self):
-        self.refused(FAILED, "scan", "--device", self.DEVICE + "&calibration=true&appears=60s",
+        self.refused(FAILED, "scan", "--device", self.device + "&calibration=true&appears=60s",
                      "--seconds", "3", "-o", "doll.3mf", *self.FAST,
                      says=("within 3.0 s", "--no-wait"))
         self.assertFalse((self.dir / "doll.recording").exists())
 
     def test_two_sensors_make_one_mesh_without_a_double_surface(self):
         # At different heights, on different sides, with clocks that do not agree.
-        device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&calibration=true"
+        device = f"virtual:{self.truth()}?sensor={SENSOR}&fps=3&speed=12deg/s&calibration=true"
         self.ok("scan", "--device", device + "&elevation=12deg", "--device",
                 device + "&elevation=50deg&azimuth=120deg&seed=2&serial=1&clock=3s",
                 "-o", "doll.3mf", "--no-wait", *self.FAST)
@@ -292,7 +295,7 @@ class Scan(harness.TestCase):
 
     def test_two_sensors_that_know_nothing_find_each_other(self):
         # Neither table nor azimuth is known to them, and their clocks do not agree.
-        device = "virtual:doll?sensor=kinect-v2&fps=3&speed=12deg/s&elevation="
+        device = f"virtual:{self.truth()}?sensor={SENSOR}&fps=3&speed=12deg/s&elevation="
         low, high = device + "15deg", device + "45deg&azimuth=120deg&seed=2&serial=1&clock=3s"
         self.ok("scan", "--device", low, "--device", high, "-o", "doll.ply", *self.FAST)
         self.ok("evaluate", "doll.ply", "--reference", self.truth(), "--samples", "20000",
@@ -315,8 +318,8 @@ class Scan(harness.TestCase):
                      says=("where 2 sensors stand", "there is one"))
 
     def test_wrong_usage(self):
-        self.refused(USAGE, "scan", "--device", self.DEVICE, "-o", "doll.xyz")
-        self.refused(USAGE, "scan", "--device", self.DEVICE, "--device", self.DEVICE,
+        self.refused(USAGE, "scan", "--device", self.device, "-o", "doll.xyz")
+        self.refused(USAGE, "scan", "--device", self.device, "--device", self.device,
                      "-o", "doll.3mf", says="given twice")
         self.refused(FAILED, "scan", "--device", "virtual:unicorn", "-o", "doll.3mf")
         self.assertEqual(self.files(), [])
