@@ -10,7 +10,7 @@ import signal
 
 import harness
 import recordings
-from harness import CANCELLED, COARSE, FAILED, USAGE
+from harness import CANCELLED, COARSE, FAILED, NARROW, SENSOR, USAGE
 
 
 def product(a, b):
@@ -38,7 +38,8 @@ class Passes(harness.TestCase):
 
     def f_score(self, mesh):
         """Of the whole surface, at 1 mm."""
-        self.ok("evaluate", mesh, "--reference", "rec/truth/object.ply", "--json", "e.json")
+        self.ok("evaluate", mesh, "--reference", "rec/truth/object.ply", "--samples", "50000",
+                "--json", "e.json")
         judged = json.loads((self.dir / "e.json").read_text())
         return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
 
@@ -115,7 +116,7 @@ class Passes(harness.TestCase):
 
     def test_recordings_of_one_object_are_joined(self):
         self.skull("skull")
-        self.ok("simulate", "builtin:skull", "--frames", 20, "--seed", 3, "--noise", "gaussian:1mm",
+        self.ok("simulate", recordings.mesh_of("skull"), "--frames", 20, *NARROW, "--seed", 3, "--noise", "gaussian:1mm",
                 "--tip", "90deg", "--out", "second", "--quiet")
         out = self.ok("reconstruct", "rec", "second", "-o", "both.ply", *COARSE).stdout
         self.assertIn("pass 0 (rec) (24 frames), pass 1 (second) (20 frames)", out)
@@ -125,7 +126,7 @@ class Passes(harness.TestCase):
                      says="--pass")
 
     def test_a_pass_whose_motion_its_shape_does_not_show_is_kept_beside(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", 24, "--noise", "gaussian:1mm",
+        self.ok("simulate", "builtin:cylinder", "--frames", 24, *NARROW, "--noise", "gaussian:1mm",
                 "--next-pass", "tip=180deg", "--out", "rec", "--quiet")
         self.refused(FAILED, "reconstruct", "rec", "-o", "whole.ply", *COARSE,
                      says="pass 1 was not joined")
@@ -163,7 +164,7 @@ class Passes(harness.TestCase):
 
         for name, color in (("painted", painted), ("plain", lambda a, y: (200, 190, 180))):
             self.vase(f"{name}.ply", color)
-            self.ok("simulate", f"{name}.ply", "--unit", "mm", "--frames", 24, "--seed", 5,
+            self.ok("simulate", f"{name}.ply", "--unit", "mm", "--frames", 24, *NARROW, "--seed", 5,
                     "--noise", "gaussian:1mm", "--scan-colour", "--colour-width", 480,
                     "--colour-lamp", 0.6, "--colour-noise", 2, "--next-pass", "tip=90deg,yaw=40deg",
                     "--out", name, "--quiet")
@@ -181,7 +182,7 @@ class Passes(harness.TestCase):
                      says="its shape does not determine")
 
     def test_poses_are_of_passes_of_this_recording(self):
-        self.ok("simulate", "builtin:skull", "--frames", 4, "--next-pass", "tip=90deg",
+        self.ok("simulate", recordings.mesh_of("skull"), "--frames", 4, *NARROW, "--next-pass", "tip=90deg",
                 "--next-pass", "tip=180deg", "--out", "rec", "--quiet")
         self.write_poses()
         for poses, says in ((["1=pose1.txt", "2=pose2.txt", "3=pose1.txt"], "no such pass"),
@@ -217,11 +218,14 @@ class Passes(harness.TestCase):
 
 class ScanPasses(harness.TestCase):
     """turnscan scan goes on with another side; small images and few frames."""
-    DEVICE = "virtual:{}?sensor=kinect-v2&fps=2&speed=12deg/s&noise=gaussian:1mm&calibration=true"
+    DEVICE = "virtual:{}?sensor=" + str(SENSOR) + "&fps=2&speed=12deg/s&noise=gaussian:1mm&calibration=true"
     FAST = ("--min-free", "0", "--speed", "12deg/s", *COARSE)
 
+    def device(self, name="skull"):
+        return self.DEVICE.format(recordings.mesh_of(name) if name == "skull" else name)
+
     def args(self, name, *more):
-        return ("scan", "--device", self.DEVICE.format(name), "-o", "whole.ply", *self.FAST, *more)
+        return ("scan", "--device", self.device(name), "-o", "whole.ply", *self.FAST, *more)
 
     def environment(self):
         return {"XDG_STATE_HOME": str(self.dir / "state")}
@@ -235,8 +239,8 @@ class ScanPasses(harness.TestCase):
         return {p: passes.count(p) for p in passes}
 
     def f_score(self, mesh):
-        truth = recordings.folder_of("skull") / "truth/object.ply"
-        self.ok("evaluate", mesh, "--reference", truth, "--align", "icp", "--json", "e.json")
+        self.ok("evaluate", mesh, "--reference", recordings.mesh_of("skull"), "--align", "icp", "--samples",
+                "50000", "--json", "e.json")
         judged = json.loads((self.dir / "e.json").read_text())
         return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
 
@@ -268,7 +272,7 @@ class ScanPasses(harness.TestCase):
         self.assertGreater(self.f_score("whole.ply"), self.f_score("first.ply") + 0.03)
 
     def test_nothing_is_known_of_the_table(self):
-        device = self.DEVICE.format("skull").replace("&calibration=true", "")
+        device = self.device().replace("&calibration=true", "")
         out = self.ok("scan", "--device", device, "-o", "whole.ply", "--min-free", "0", "--passes",
                       "2", *COARSE, "--quiet", env=self.environment()).stdout
         self.assertIn("pass 1 was joined by its surface", out)
@@ -329,7 +333,7 @@ class ScanPasses(harness.TestCase):
         self.assertTrue(description["complete"])
 
     def test_a_sensor_that_is_lost_in_the_second_pass_costs_only_that_pass(self):
-        device = self.DEVICE.format("skull") + "&fault=lost@50s"
+        device = self.device() + "&fault=lost@50s"
         self.refused(FAILED, "scan", "--device", device, "-o", "whole.ply", *self.FAST, "--passes",
                      "2", env=self.environment(), says=("whole.recording holds", "is complete"))
         self.assertIn("watertight", self.ok("info", "whole.ply").stdout)
@@ -344,7 +348,7 @@ class ScanPasses(harness.TestCase):
         self.refused(USAGE, "scan", "--device", "replay:rec", "-o", "whole.ply", "--passes", "2",
                      says="cannot be laid another way")
         two = [x for i in (1, 2)
-               for x in ("--device", f"{self.DEVICE.format('skull')}&serial={i}&seed={i}")]
+               for x in ("--device", f"{self.device()}&serial={i}&seed={i}")]
         self.refused(USAGE, "scan", *two, "-o", "whole.ply", "--passes", "2", *self.FAST,
                      says="cannot be laid another way")
         self.refused(USAGE, *self.args("skull", "--passes", "2", "--pass", "0"), says="--passes")
@@ -405,8 +409,8 @@ class SeveralObjects(harness.TestCase):
             f"OFF\n{len(vertices)} {len(triangles)} 0\n" +
             "".join(f"{x:.5f} {y:.5f} {z:.5f}\n" for x, y, z in vertices) +
             "".join(f"3 {a} {b} {c}\n" for a, b, c in triangles))
-        self.ok("simulate", f"{name}.off", "--unit", "mm", "--frames", 24, "--seed", 5, "--noise",
-                "gaussian:1mm", "--out", name, "--quiet")
+        self.ok("simulate", f"{name}.off", "--unit", "mm", "--frames", 24, *NARROW, "--seed", 5,
+                "--noise", "gaussian:1mm", "--out", name, "--quiet")
 
     def test_each_finds_its_partner_in_the_other_pass(self):
         one, two, third = lump(1, 45), lump(4, 38), lump(2.2, 34)
@@ -438,8 +442,8 @@ class SeveralObjects(harness.TestCase):
 class ImportedPasses(harness.TestCase):
     def foreign(self, name, tip):
         """A pass in the layout json-png."""
-        self.ok("simulate", "builtin:skull", "--frames", 24, "--noise", "gaussian:1mm", "--tip", tip,
-                "--aim-height", "90mm", "--out", "rec-" + name, "--quiet")
+        self.ok("simulate", recordings.mesh_of("skull"), "--frames", 24, *NARROW, "--noise", "gaussian:1mm",
+                "--tip", tip, "--aim-height", "90mm", "--out", "rec-" + name, "--quiet")
         recording = self.dir / ("rec-" + name)
         described = json.loads((recording / "recording.json").read_text())
         sensor, table = described["sensors"][0], described["turntable"]
