@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, COARSE, FAST, HANG_S, ROOT, SMALL_PICTURE, ply_cube, start
+from harness import CANCELLED, COARSE, FAST, HANG_S, NARROW, ROOT, SMALL_PICTURE, ply_cube, start
 from recordings import shared_recording
 
 PERCENTAGE = re.compile(r"^ *\d+ % ")
@@ -79,7 +79,7 @@ class Cancel(harness.TestCase):
                          kept=["m.3mf"])
 
     def test_demo(self):
-        self.every_phase(("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out", "d"),
+        self.every_phase(("demo", "--object", "cylinder", "--frames", "24", *NARROW, *SMALL_PICTURE, "--out", "d"),
                          made=["d"])
 
     def test_render(self):

@@ -6,7 +6,7 @@ import math
 import struct
 
 import harness
-from harness import USAGE
+from harness import NARROW, USAGE
 
 SIZES = {"float": "f", "uchar": "B", "ushort": "H", "int": "i", "uint": "I"}
 COVERED, THIN, MISSED, UNREACHABLE = range(4)
@@ -69,7 +69,7 @@ class Near:
 
 class Coverage(harness.TestCase):
     def test_a_cylinder_is_covered_but_for_its_underside(self):
-        out = self.ok("simulate", "builtin:cylinder", "--frames", "60", "--noise", "none",
+        out = self.ok("simulate", "builtin:cylinder", "--frames", "60", *NARROW, "--noise", "none",
                       "--coverage", "c.ply").stdout
         self.assertIn("Covered: ", out)
         self.assertIn("unreachable", out)
@@ -94,7 +94,7 @@ class Coverage(harness.TestCase):
 
     def agrees(self, name, frames, least_without):
         rec = "rec-" + name
-        self.ok("simulate", "builtin:" + name, "--frames", frames, "--noise", "none", "--out", rec,
+        self.ok("simulate", "builtin:" + name, "--frames", frames, *NARROW, "--noise", "none", "--out", rec,
                 "--coverage", "c.ply", "--quiet")
         self.ok("reconstruct", rec, "-o", "m.ply", "--method", "poisson", "--no-base",
                 "--save-stage", "candidates=points.ply", "--quiet")
@@ -120,7 +120,7 @@ class Coverage(harness.TestCase):
         self.assertLess(without[1], 0.01 * without[0])
 
     def test_two_passes_together_cover_what_one_cannot_reach(self):
-        one, two = ["simulate", "builtin:cylinder", "--frames", "20", "--coverage"], [
+        one, two = ["simulate", "builtin:cylinder", "--frames", "20", *NARROW, "--coverage"], [
             "--next-pass", "tip=180deg,object-x=15mm"]
         self.ok(*one, "one.ply")
         self.ok(*one, "two.ply", *two)
@@ -144,7 +144,7 @@ class Coverage(harness.TestCase):
             self.assertEqual(self.files(), [])
 
     def test_samples_tell_what_was_there_to_see_and_why_it_is_missing(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "4", "--noise", "none", "--samples",
+        self.ok("simulate", "builtin:cylinder", "--frames", "4", *NARROW, "--noise", "none", "--samples",
                 "--out", "rec", "--quiet")
         files = sorted(p.name for p in (self.dir / "rec/truth/samples").iterdir())
         self.assertEqual(files, [f"{i:06}.ply" for i in range(4)])

@@ -5,15 +5,15 @@ import pty
 import re
 
 import harness
-from harness import COARSE, FAST, HANG_S, SMALL_PICTURE, run, start
-from recordings import shared_recording
+from harness import COARSE, FAST, HANG_S, NARROW, SENSOR, SMALL_PICTURE, run, start
+from recordings import mesh_of, shared_recording
 
 LINE = re.compile(r"^ *(\d+) % (.+)", re.S)
 
 
 class Lines(harness.TestCase):
     def test_no_line_has_marks_of_a_terminal(self):
-        err = self.ok("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, "--out",
+        err = self.ok("demo", "--object", "cylinder", "--frames", "24", *NARROW, *SMALL_PICTURE, "--out",
                       "d").stderr
         self.assertNotIn("\r", err)
         self.assertNotIn("\033", err)
@@ -47,11 +47,11 @@ class Lines(harness.TestCase):
         self.assertIn("page", [phase for _, phase in parts])
 
     def test_simulate(self):
-        self.progress("simulate", "builtin:cylinder", "--frames", "20", "-o", "recording")
-        self.progress("simulate", "builtin:cylinder", "--frames", "20", "--coverage", "seen.ply")
+        self.progress("simulate", "builtin:cylinder", "--frames", "20", *NARROW, "-o", "recording")
+        self.progress("simulate", "builtin:cylinder", "--frames", "20", *NARROW, "--coverage", "seen.ply")
 
     def test_demo_of_one_object(self):
-        self.progress("demo", "--object", "cylinder", "--frames", "24", *SMALL_PICTURE, *COARSE,
+        self.progress("demo", "--object", "cylinder", "--frames", "24", *NARROW, *SMALL_PICTURE, *COARSE,
                       "-o", "d")
 
     def test_evaluate(self):
@@ -64,7 +64,7 @@ class Lines(harness.TestCase):
                       "voxel-size=4mm,6mm", waits=["plan", "look for what is done"])
 
     def test_scan_has_no_percentage_while_it_waits_for_an_object(self):
-        self.progress("scan", "--device", "virtual:doll?sensor=kinect-v2&fps=6&speed=12deg/s",
+        self.progress("scan", "--device", f"virtual:{mesh_of('doll')}?sensor={SENSOR}&fps=6&speed=12deg/s",
                       "-o", "m.ply", "--voxel-size", "3mm", "--min-free", "0", waits=["open device", "look for the turntable",
                                       "wait for an object on the platter"])
 
@@ -72,7 +72,7 @@ class Lines(harness.TestCase):
 class Terminal(harness.TestCase):
     def test_the_bar_never_falls_and_is_removed_at_the_end(self):
         master, slave = pty.openpty()
-        process = start("demo", "--object", "cylinder", "--frames", "60", *SMALL_PICTURE, "--out",
+        process = start("demo", "--object", "cylinder", "--frames", "60", *NARROW, *SMALL_PICTURE, "--out",
                         "d", cwd=self.dir, stderr=slave)
         os.close(slave)
         shown = b""

@@ -6,7 +6,8 @@ import re
 import subprocess
 
 import harness
-from harness import FAILED, USAGE, ply_cube
+import recordings
+from harness import FAILED, NARROW, SENSOR, USAGE, ply_cube
 
 QUICK = ("--frames", "40", "--quiet")
 
@@ -31,15 +32,15 @@ class Simulate(harness.TestCase):
 
     def test_a_line_scanner_gives_points_that_reconstruct(self):
         self.ok("simulate", "builtin:cylinder", "--scanner", "gocator,distance=0.5m,elevation=0deg",
-                "--frames", "600", "--noise", "none", "--out", "rec", "--quiet")
+                "--frames", "300", "--noise", "none", "--out", "rec", "--quiet")
         info = json.loads(self.ok("info", "rec", "--json").stdout)
         self.assertEqual(info["sensors"][0]["kind"], "point-scanner")
         self.ok("reconstruct", "rec", "-o", "m.ply", "--calibration", "recorded")
         self.assertLess(self.figures("m.ply", "rec")["accuracy"]["median_m"], 0.0001)
 
     def test_several_scanners_make_one_object(self):
-        self.simulate("builtin:letter-a", "--scanner", "kinect-v2",
-                      "--scanner", "ideal,azimuth=140deg,elevation=40deg,distance=0.7m",
+        self.simulate("builtin:letter-a", *NARROW,
+                      "--scanner", f"{SENSOR},azimuth=140deg,elevation=40deg,distance=0.7m",
                       "--noise", "none", "--table-x", "10mm", "--table-tilt", "2deg",
                       "--out", "rec")
         self.ok("reconstruct", "rec", "-o", "m.ply")
@@ -48,14 +49,14 @@ class Simulate(harness.TestCase):
         self.assertEqual([r["sensor"] for r in rows[:4]], ["0", "1", "0", "1"])
 
     def test_frames_at_a_speed_are_what_they_are(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "92", "--fps", "3", "--speed",
+        self.ok("simulate", "builtin:cylinder", *NARROW, "--frames", "92", "--fps", "3", "--speed",
                 "10.4478deg/s", "--out", "rec", "--quiet")
         rows = self.rows("rec/truth/poses.csv")
         self.assertEqual(len(rows), 92)
         self.assertAlmostEqual(float(rows[-1]["angle_deg"]), 10.4478 * 91 / 3, places=4)
 
     def test_the_truth_stands_in_for_a_calibration_that_was_left_out(self):
-        self.simulate("builtin:cylinder", "--calibration", "none", "--no-angles", "--out", "rec")
+        self.simulate("builtin:cylinder", *NARROW, "--calibration", "none", "--no-angles", "--out", "rec")
         header = json.loads((self.dir / "rec/recording.json").read_text())
         self.assertNotIn("turntable", header)
         self.assertNotIn("T_table_sensor", header["sensors"][0])
@@ -103,7 +104,7 @@ class Simulate(harness.TestCase):
         self.assertEqual(sum(samples.values()), 2 * 512 * 424)
 
     def test_the_empty_table_can_be_recorded(self):
-        out = self.simulate("builtin:empty", "--room", "clutter", "--out", "rec").stdout
+        out = self.simulate("builtin:empty", *NARROW, "--room", "clutter", "--out", "rec").stdout
         self.assertIn("measured", out)
         self.assertFalse((self.dir / "rec/truth/object.ply").exists())
         self.assertTrue((self.dir / "rec/truth/calibration.json").exists())
@@ -117,15 +118,15 @@ class Simulate(harness.TestCase):
         self.assertEqual(info["dropped_frames"], 0)
 
     def test_the_other_side_is_a_pass_of_its_own(self):
-        self.simulate("builtin:letter-a", "--tip", "180deg", "--pass", "1", "--out", "rec")
+        self.simulate("builtin:letter-a", *NARROW, "--tip", "180deg", "--pass", "1", "--out", "rec")
         rows = self.rows("rec/frames.csv")
         self.assertEqual({r["pass"] for r in rows}, {"1"})
         pose = json.loads((self.dir / "rec/truth/truth.json").read_text())["object"]["T_table_object"]
         self.assertAlmostEqual(pose[1][1], -1.0, places=6)
 
     def test_passes_follow_each_other_in_one_recording(self):
-        self.ok("simulate", "builtin:letter-a", "--frames", "4", "--next-pass", "tip=90deg",
-                "--next-pass", "tip=180deg,yaw=40deg", "--samples", "--out", "rec", "--quiet")
+        self.ok("simulate", "builtin:letter-a", *NARROW, "--frames", "4", "--next-pass",
+                "tip=90deg", "--next-pass", "tip=180deg,yaw=40deg", "--samples", "--out", "rec", "--quiet")
         rows = self.rows("rec/frames.csv")
         self.assertEqual([r["pass"] for r in rows], [p for p in "012" for _ in range(4)])
         times = [float(r["time_s"]) for r in rows]
@@ -147,8 +148,8 @@ class Simulate(harness.TestCase):
                              (self.dir / "rec" / frame).read_bytes())
 
     def test_a_pass_of_several_is_reconstructed_by_itself(self):
-        self.ok("simulate", "builtin:letter-a", "--height", "100mm", "--frames", "12",
-                "--next-pass", "tip=90deg", "--out", "rec", "--quiet")
+        self.ok("simulate", "builtin:letter-a", "--height", "100mm", *NARROW, "--frames",
+                "12", "--next-pass", "tip=90deg", "--out", "rec", "--quiet")
         self.ok("reconstruct", "rec", "--pass", "1", "--method", "volumetric", "-o", "lying.ply",
                 "--quiet")
         self.ok("evaluate", "lying.ply", "--reference", "rec/truth/object-pass1.ply", "--json",
@@ -157,7 +158,7 @@ class Simulate(harness.TestCase):
         self.assertLess(judged["accuracy"]["median_m"], 1e-3)
 
     def test_dropped_frames_are_recorded_as_such(self):
-        self.ok("simulate", "builtin:cylinder", "--frames", "60", "--dropped", "0.3", "--out",
+        self.ok("simulate", "builtin:cylinder", *NARROW, "--frames", "60", "--dropped", "0.3", "--out",
                 "rec", "--quiet")
         info = json.loads(self.ok("info", "rec", "--json").stdout)
         self.assertEqual(info["frames"], 60)
@@ -226,7 +227,7 @@ class Refused(harness.TestCase):
             self.skipTest("no file system may be mounted here")
         try:
             for more in ((), ("--samples",)):
-                self.refused(FAILED, "simulate", "builtin:doll", "--frames", "40", "--out",
+                self.refused(FAILED, "simulate", recordings.mesh_of("doll"), "--frames", "40", "--out",
                              "disk/rec", "--quiet", *more, says="disk/rec")
                 self.assertEqual(list((self.dir / "disk").iterdir()), [])
         finally:
@@ -238,7 +239,7 @@ class Damaged(harness.TestCase):
 
     def depths(self, text, name):
         (self.dir / f"{name}.ply").write_text(text)
-        self.ok("simulate", f"{name}.ply", "--frames", "3", "--noise", "none", "--out", name,
+        self.ok("simulate", f"{name}.ply", *NARROW, "--frames", "3", "--noise", "none", "--out", name,
                 "--quiet")
         return (self.dir / name / "depth/000001.png").read_bytes()
 
@@ -254,10 +255,10 @@ class Damaged(harness.TestCase):
 
     def test_a_scanner_inside_the_object_sees_its_inside(self):
         (self.dir / "room.ply").write_text(ply_cube(4.0))
-        self.ok("simulate", "room.ply", "--no-platter", "--frames", "2", "--noise", "none",
+        self.ok("simulate", "room.ply", "--no-platter", *NARROW, "--frames", "2", "--noise", "none",
                 "--aim-height", "2m", "--out", "rec", "--report", "r.json", "--quiet")
         samples = json.loads((self.dir / "r.json").read_text())["scanners"][0]["samples"]
-        self.assertGreater(samples["measured"], 0.9 * 2 * 512 * 424)
+        self.assertGreater(samples["measured"], 0.9 * 2 * 256 * 212)
 
 
 if __name__ == "__main__":

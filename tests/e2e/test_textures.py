@@ -12,10 +12,10 @@ import zlib
 import browser
 import harness
 import recordings
-from harness import FAILED, ROOT, USAGE
+from harness import FAILED, NARROW, ROOT, USAGE
 
-SCAN = ("simulate", "builtin:doll", "--height", "100mm", "--frames", "10", "--distance", "0.6m",
-        "--noise", "none", "--platter-radius", "80mm", "--scan-colour")
+SCAN = ("--height", "100mm", "--frames", "10", "--distance", "0.6m",
+        "--noise", "none", "--platter-radius", "80mm", *NARROW, "--scan-colour")
 COARSE = ("--voxel-size", "3mm")
 LOADERS = ROOT / "web" / "node_modules" / "three" / "examples" / "jsm" / "loaders"
 VALIDATOR = ROOT / "web" / "node_modules" / "gltf-validator"
@@ -79,8 +79,8 @@ class Textures(harness.TestCase):
 
     def test_the_highlight_of_a_lamp_is_named_and_taken_out(self):
         frames = ("--frames", "36", "--colour-width", "640", "--colour-fov", "20deg", "--colour-lamp-azimuth", "40deg", "--colour-lamp-elevation", "50deg")
-        self.ok(*SCAN, *frames, "--colour-gloss", "0.6", "--out", "glossy")
-        self.ok(*SCAN, *frames, "--out", "dull")
+        self.ok("simulate", recordings.mesh_of("doll"), *SCAN, *frames, "--colour-gloss", "0.6", "--out", "glossy")
+        self.ok("simulate", recordings.mesh_of("doll"), *SCAN, *frames, "--out", "dull")
 
         def highlight_of(recording):
             text = self.ok("reconstruct", recording, "--texture", "-o", f"{recording}.glb",
@@ -160,7 +160,7 @@ class Textures(harness.TestCase):
         self.assertEqual(facts["number_of_facets"], str(triangles))
 
     def test_what_cannot_have_a_texture_is_refused(self):
-        self.ok(*SCAN[:-1], "--out", "rec")
+        self.ok("simulate", recordings.mesh_of("doll"), *SCAN[:-1], "--out", "rec")
         for name in ("m.stl", "m.ply"):
             self.refused(USAGE, "reconstruct", "rec", "--texture", "-o", name, says="no texture")
         self.refused(FAILED, "reconstruct", "rec", "--texture", "-o", "m.glb", says="no colour images")

@@ -5,15 +5,16 @@ import json
 import re
 
 import harness
+from harness import NARROW
 
 HEIGHT = ("--height", "150mm")
-KINECT = ("--frames", "40", "--fps", "4", "--noise", "gaussian:0.5mm")
+SCANNER = (*NARROW, "--frames", "40", "--fps", "4", "--noise", "gaussian:0.5mm")
 
 
 class Verdict(harness.TestCase):
     def scan(self, name, *args, object=("builtin:letter-a", *HEIGHT), reconstruct=()):
         """Simulates and reconstructs; what is printed, and the first object's verdict as JSON."""
-        self.ok("simulate", *object, *KINECT, *args, "--out", name)
+        self.ok("simulate", *object, *SCANNER, *args, "--out", name)
         told = self.ok("reconstruct", name, "-o", f"{name}.ply", "--report", f"{name}.json",
                        "--report", f"{name}.html", *reconstruct).stdout
         report = json.loads((self.dir / f"{name}.json").read_text())
@@ -70,7 +71,7 @@ class Verdict(harness.TestCase):
             self.assertIn("a whole turn would show", self.text(verdict, "help"))
 
     def test_a_stale_calibration_is_red_where_it_is_kept_and_has_an_age(self):
-        self.ok("simulate", "builtin:letter-a", *HEIGHT, *KINECT, "--table-x", "6mm", "--table-tilt", "1deg",
+        self.ok("simulate", "builtin:letter-a", *HEIGHT, *SCANNER, "--table-x", "6mm", "--table-tilt", "1deg",
                 "--calibration", "nominal", "--out", "stale")
         description = self.dir / "stale" / "recording.json"
         recording = json.loads(description.read_text())
