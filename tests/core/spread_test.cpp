@@ -23,13 +23,6 @@ TEST(EvenlySpread, TakesAsManyAsAreWantedInOrderFromTheFirstOn) {
   }
 }
 
-TEST(EvenlySpread, GivesTheIndicesOfWhatItTakes) {
-  std::vector<std::size_t> list(50);
-  std::iota(list.begin(), list.end(), 0u);
-  for (const std::size_t most : {0u, 1u, 7u, 49u, 50u, 60u})
-    EXPECT_EQ(evenly_spread(list.size(), most), evenly_spread(list, most));
-}
-
 TEST(EvenlySpread, ToTheLastTakesBothEnds) {
   for (const std::size_t size : {0u, 1u, 2u, 7u, 100u}) {
     std::vector<std::size_t> list(size);
