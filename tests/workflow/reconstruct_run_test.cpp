@@ -30,6 +30,11 @@ class ReconstructRunOf : public ::testing::Test {
   }
   ReconstructRunOf() { request.options.surface.method = SurfaceMethod::kVolumetric; }
 
+  Result<ReconstructRun> run_of(const SceneDescription& scene) const {
+    TURNSCAN_ASSIGN(const Simulation simulation, prepare_simulation(scene, RunContext()));
+    return run_reconstruction(simulation.scan, request, RunContext());
+  }
+
   static Simulation* scan;
   TempFolder folder;
   ReconstructRequest request;
@@ -69,9 +74,7 @@ TEST_F(ReconstructRunOf, ThinLegsOfAFilteringSensorAreNotInsideOut) {
   scene.object = "builtin:scorpion";
   scene.motion.frames = 36;
   scene.measure.noise = "physics";
-  const auto thin = prepare_simulation(scene, RunContext());
-  ASSERT_TRUE(thin) << thin.error().text();
-  const auto run = run_reconstruction(thin->scan, request, RunContext());
+  const auto run = run_of(scene);
   ASSERT_TRUE(run) << run.error().text();
   // 289 where nothing draws the sides apart.
   std::ptrdiff_t crossing = 0;
@@ -92,9 +95,7 @@ TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
   scene.placement.knock.at_s = 1.0;
   scene.placement.knock.shift_m = 0.005;
   scene.placement.knock.pan_rad = 0.5 * kRadiansPerDegree;
-  const auto knocked = prepare_simulation(scene, RunContext());
-  ASSERT_TRUE(knocked) << knocked.error().text();
-  const auto run = run_reconstruction(knocked->scan, request, RunContext());
+  const auto run = run_of(scene);
   ASSERT_TRUE(run) << run.error().text();
   ASSERT_EQ(run->choice.disturbances.size(), 1U);
   EXPECT_EQ(run->choice.disturbances[0].kind, DisturbanceKind::kSensor);

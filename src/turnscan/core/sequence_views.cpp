@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 #include <turnscan/core/sequence_views.hpp>
@@ -9,8 +10,8 @@ namespace turnscan {
 
 namespace {
 
-std::vector<std::size_t> all_positions(const FrameSequence& sequence) {
-  std::vector<std::size_t> positions(sequence.frames().size());
+std::vector<std::size_t> first_positions(const FrameSequence& sequence, std::size_t count) {
+  std::vector<std::size_t> positions(std::min(count, sequence.frames().size()));
   std::iota(positions.begin(), positions.end(), std::size_t{0});
   return positions;
 }
@@ -40,7 +41,7 @@ Result<Frame> MemoryFrames::read(std::size_t position) const {
 }
 
 SequenceView::SequenceView(const FrameSequence& sequence)
-    : SequenceView(sequence, all_positions(sequence)) {}
+    : SequenceView(sequence, first_positions(sequence, sequence.frames().size())) {}
 
 SequenceView::SequenceView(const FrameSequence& sequence, std::vector<std::size_t> positions)
     : header_(sequence.header()),
@@ -67,6 +68,10 @@ Result<Frame> SequenceView::read(std::size_t position) const {
   frame.info = infos_[position];
   if (map_) return map_(std::move(frame), position);
   return frame;
+}
+
+SequenceView first_frames(const FrameSequence& sequence, std::size_t count) {
+  return {sequence, first_positions(sequence, count)};
 }
 
 }  // namespace turnscan

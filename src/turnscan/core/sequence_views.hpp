@@ -66,4 +66,7 @@ class SequenceView : public FrameSequence {
   FrameMap map_;
 };
 
+/// A view of the first frames, or of all if there are fewer.
+SequenceView first_frames(const FrameSequence& sequence, std::size_t count);
+
 }  // namespace turnscan

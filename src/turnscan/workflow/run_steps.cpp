@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <exception>
-#include <numeric>
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/workflow/run_steps.hpp>
 
@@ -82,12 +81,11 @@ std::vector<MeshFrames> frames_of(std::size_t object, const std::vector<PlacedRe
 /// says.
 SequenceView before_knock(const FrameSequence& sequence,
                           const std::vector<Disturbance>& disturbances) {
-  std::vector<std::size_t> positions(sequence.frames().size());
-  std::iota(positions.begin(), positions.end(), std::size_t{0});
+  std::size_t count = sequence.frames().size();
   for (const Disturbance& d : disturbances)
     if (d.kind == DisturbanceKind::kSensor && d.first_frame > 0)
-      positions.resize(std::min(positions.size(), d.first_frame));
-  return {sequence, std::move(positions)};
+      count = std::min(count, d.first_frame);
+  return first_frames(sequence, count);
 }
 
 /// Judges by the recording that shows most sides of its object.

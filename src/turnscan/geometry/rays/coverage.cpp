@@ -157,13 +157,13 @@ Result<std::vector<float>> view_information(const Scene& scene, std::span<const 
   std::vector<TableView> table_views;
   table_views.reserve(views.size());
   for (const std::size_t i : scattered(views.size())) table_views.emplace_back(views[i]);
-  const ViewSums views_of_all(scene, std::move(table_views), points, normals, options);
+  const ViewSums view_sums(scene, std::move(table_views), points, normals, options);
   const std::vector<std::uint32_t> order = order_in_space(points);
   context.begin_phase("coverage", points.size());
   parallel_for((order.size() + kPointsPerTask - 1) / kPointsPerTask, 1, [&](std::size_t chunk) {
     const std::size_t end = std::min(order.size(), (chunk + 1) * kPointsPerTask);
     for (std::size_t i = chunk * kPointsPerTask; i < end && !context.cancelled(); i += kGroup)
-      views_of_all.add(std::span(order).subspan(i, std::min(kGroup, end - i)), sums);
+      view_sums.add(std::span(order).subspan(i, std::min(kGroup, end - i)), sums);
     context.advance(end - chunk * kPointsPerTask);
   });
   TURNSCAN_TRY(context.check());

@@ -54,6 +54,10 @@ double platter_center_sigma_m(const DetectedPlatter& platter) {
   return std::hypot(platter.center_sigma_m, kEccentricity_m);
 }
 
+AxisPrior axis_prior(const MotionData& data, double view_shift_m, bool use_platter) {
+  return {use_platter && data.platter ? &*data.platter : nullptr, data.to_sensor, view_shift_m};
+}
+
 void add_axis_prior(const AxisPrior& prior, const Vec3d& axis, const Vec3d& center, double unit,
                     Eigen::Ref<Eigen::Matrix4d> normal, Eigen::Ref<Eigen::Vector4d> right) {
   const DetectedPlatter* platter = prior.platter;

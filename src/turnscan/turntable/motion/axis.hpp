@@ -27,6 +27,9 @@ struct AxisPrior {
   double view_shift_m = 0.0;          ///< view_shift_sigma_m() of the frames
 };
 
+/// With the platter of the frames, if one was seen and is wanted.
+AxisPrior axis_prior(const MotionData& data, double view_shift_m, bool use_platter = true);
+
 /// Adds to the normal equations of two tilts about and two shifts along tangent_basis(axis); unit:
 /// weight of one. The centre is the apparent one, which view_shift_m moves along the view.
 void add_axis_prior(const AxisPrior& prior, const Vec3d& axis, const Vec3d& center, double unit,

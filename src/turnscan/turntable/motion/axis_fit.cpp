@@ -52,9 +52,9 @@ Result<AxisFit> fit_axis(const MotionData& data, const TurntableInfo& start,
   fine.view_shift_m = view_shift_sigma_m(data, rough.state);
   TURNSCAN_ASSIGN(const MotionSolution found,
                   solve_pairwise(data, rough.state, pairs, prior, fine, context));
-  const AxisEstimate axis = without_view_shift(
-      {found.state.axis, found.state.center, found.covariance},
-      {data.platter ? &*data.platter : nullptr, data.to_sensor, fine.view_shift_m});
+  const AxisEstimate axis =
+      without_view_shift({found.state.axis, found.state.center, found.covariance},
+                         axis_prior(data, fine.view_shift_m));
   const Eigen::Matrix4d& c = axis.covariance;
   AxisFit out;
   out.axis = axis.axis;

@@ -142,9 +142,8 @@ BundleSystem::Dense BundleSystem::with_prior(const BundleState& at, const AngleP
     }
   };
   add_angle_prior(data_, knots_.frames(), at.knot_angle, prior, add);
-  add_axis_prior({data_.platter ? &*data_.platter : nullptr, data_.to_sensor, view_shift_m_},
-                 at.motion.axis, at.motion.center, variance_, out.matrix.bottomRightCorner<4, 4>(),
-                 out.right.tail<4>());
+  add_axis_prior(axis_prior(data_, view_shift_m_), at.motion.axis, at.motion.center, variance_,
+                 out.matrix.bottomRightCorner<4, 4>(), out.right.tail<4>());
   return out;
 }
 

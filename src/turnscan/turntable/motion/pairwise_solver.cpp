@@ -181,9 +181,7 @@ class PairwiseSolver {
     add_prior();
     const int first = int(n_);
     SharedMatrix shared = shared_;
-    const DetectedPlatter* platter =
-        options_.use_platter && data_.platter ? &*data_.platter : nullptr;
-    add_axis_prior({platter, data_.to_sensor, options_.view_shift_m}, out_.state.axis,
+    add_axis_prior(axis_prior(data_, options_.view_shift_m, options_.use_platter), out_.state.axis,
                    out_.state.center, variance_, shared.topLeftCorner<4, 4>(),
                    right_.segment<4>(first));
     for (int k = 0; k < 4 && options_.hold_axis; ++k)

@@ -62,8 +62,7 @@ class Refinement {
     if (data_.projective && out_.turn_observable && data_.keys.size() >= kMinBundleFrames) {
       TURNSCAN_TRY(adjust());
     }
-    set_axis(without_view_shift(axis_of(out_.solution), {data_.platter ? &*data_.platter : nullptr,
-                                                         data_.to_sensor, view_shift_m_}));
+    set_axis(without_view_shift(axis_of(out_.solution), axis_prior(data_, view_shift_m_)));
     return std::move(out_);
   }
 
@@ -119,7 +118,7 @@ class Refinement {
     if (free)
       out_.platter_fits =
           agrees(*data_.platter,
-                 without_view_shift(axis_of(*free), {nullptr, data_.to_sensor, view_shift_m_}));
+                 without_view_shift(axis_of(*free), axis_prior(data_, view_shift_m_, false)));
     return {};
   }
 

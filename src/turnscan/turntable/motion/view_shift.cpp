@@ -18,10 +18,11 @@ constexpr double kCrestHeight = 2.0, kHidingSlope = 0.4;
 /// Depth of a frame's pixel nearest to p beside its smoothed depth; nullopt where it was not
 /// smoothed or shows other surface.
 std::optional<double> relief_at(const MotionData& data, const MotionFrame& frame, const Vec3d& p) {
+  const auto& level = frame.surface.T_camera_level;  // of both surfaces
+  const Eigen::Vector2d uv = data.camera.project(level ? *level * p : p);
+  const long column = std::lround(uv.x()), row = std::lround(uv.y());
   const auto at = [&](const FrameSurface& surface) {
-    const Vec3d q = surface.T_camera_level ? *surface.T_camera_level * p : p;
-    const Eigen::Vector2d uv = data.camera.project(q);
-    const long x = std::lround(uv.x()) - surface.left, y = std::lround(uv.y()) - surface.top;
+    const long x = column - surface.left, y = row - surface.top;
     if (x < 0 || y < 0 || x >= surface.width || y >= surface.height) return 0.0;
     return double(surface.z[std::size_t(y) * std::size_t(surface.width) + std::size_t(x)]);
   };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
-#include <numeric>
 #include <optional>
 #include <thread>
 #include <turnscan/core/sequence_views.hpp>
@@ -22,12 +21,6 @@ using namespace std::chrono_literals;
 /// Views one turn apart also differ by their noise: by a tenth of that of one depth value.
 constexpr double kClosureShare = 0.25;
 constexpr double kMinLimit_m = 2e-4;
-
-SequenceView first_frames(const FrameSequence& sequence, std::size_t count) {
-  std::vector<std::size_t> positions(count);
-  std::iota(positions.begin(), positions.end(), std::size_t{0});
-  return SequenceView(sequence, std::move(positions));
-}
 
 /// Result of the thread.
 struct Begun {

@@ -332,8 +332,7 @@ class Judge {
     if (pose.shift_m > kPoseMatters_m)
       say("help", Level::kGood,
           "a better calibration would help most: record a turn or more, with the platter in view "
-          "if "
-          "there is one");
+          "if there is one");
     else if (seen != out_.sentences.end() && seen->value < kManyFrames)
       say("help", Level::kGood,
           fmt::format("slower: let the table turn at a quarter of the speed, or take four times as "
