@@ -180,7 +180,8 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   auto platter = platter_in(returns, sample, known, rim, calibrated.has_value(), estimate.noise_m);
   // In frames that lack the platter, the remaining returns at its height represent it.
   if (known && returns.count > 0 && may_be_cut(scan.frames)) platter = returns;
-  const bool stands = known && returns.count == 0;
+  // A calibration that saw no platter found where the object ends.
+  const bool stands = known ? returns.count == 0 : calibrated.has_value();
   auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(

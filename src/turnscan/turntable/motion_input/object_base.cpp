@@ -35,6 +35,11 @@ constexpr double kMinDesk_m = 0.05;     ///< minimum radius of a desk
 constexpr double kAbove_m = 0.008;      ///< height up to which static surface may touch the turning
                                         ///< part
 constexpr double kTouches_m = 0.01;     ///< from the turning part down to its supporting surface
+constexpr double kFoot_m = 0.012;       ///< height above the base from which a column is followed
+constexpr double kBelow_m = 0.06;       ///< depth below the base in which something stands still
+constexpr std::size_t kMinEnds = 20;    ///< columns whose end was seen
+/// Share of the ends that are below the base by noise.
+constexpr double kLowestEnds = 0.08;
 constexpr std::size_t kFrames = 15;
 constexpr double kMinSeen = 0.7;  ///< share of the frames in which a static pixel is seen
 /// Ratio of a pixel's inter-decile depth range to the noise: 2.6 if nothing moves.
@@ -245,18 +250,27 @@ std::vector<TurningPoint> turning_points(const MotionData& data, const MotionFra
   return out;
 }
 
+/// Depths of a frame, as DepthAt of same_beside.
+struct FrameDepths {
+  const DepthImage& depth;
+  const SensorInfo& sensor;
+
+  double operator()(int x, int y) const {
+    const std::uint16_t value =
+        depth.pixels[std::size_t(y) * std::size_t(depth.width) + std::size_t(x)];
+    return value == kNoReturn || value == kOutsideCrop
+               ? 0.0
+               : value * sensor.depth_unit_m + sensor.depth_bias_m;
+  }
+};
+
 /// What a frame saw below the turning part, within its reach. Of mixed pixels, at random depths,
 /// few have two neighbours at the same depth.
 std::vector<TurningPoint> points_below(const MotionData& data, const DepthImage& depth,
                                        const SensorInfo& sensor, const RayTable& rays,
                                        const AxisFrame& frame, const Extent& turning) {
   const int w = data.camera.width;
-  const auto at = [&](int x, int y) {
-    const std::uint16_t value = depth.pixels[std::size_t(y) * std::size_t(w) + std::size_t(x)];
-    return value == kNoReturn || value == kOutsideCrop
-               ? 0.0
-               : value * sensor.depth_unit_m + sensor.depth_bias_m;
-  };
+  const FrameDepths at{depth, sensor};
   std::vector<TurningPoint> out;
   for (int y = 1; y + 1 < data.camera.height; ++y) {
     for (int x = 1; x + 1 < w; ++x) {
@@ -359,6 +373,71 @@ class StillSlices {
   std::vector<Slice> slices_ = std::vector<Slice>(kSlices);
 };
 
+/// Follows the surface within kFoot_m above a first estimate of the base down each image column, to
+/// where it ends at a step in depth or without return. Turning points and slices leave out the last
+/// rows of pixels, which are mixtures and flicker.
+class ColumnEnds {
+ public:
+  ColumnEnds(const AxisFrame& frame, const ObjectBase& first) : frame_(frame), first_(first) {}
+
+  void add(const MotionData& data, const FrameDepths& at, const RayTable& rays) {
+    const auto point = [&](int x, int y) {
+      const auto i = std::size_t(y) * std::size_t(data.camera.width) + std::size_t(x);
+      return Vec3d(Vec3d(rays.x()[i], rays.y()[i], 1.0) * at(x, y));
+    };
+    const auto within = [&](int x, int y, double low_m, double high_m) {
+      if (!(at(x, y) > 0.0)) return false;
+      const Vec3d p = point(x, y);
+      const double above = frame_.height(p) - first_.height_m;
+      return above > low_m && above < high_m && frame_.radius(p) < first_.reach_m.value_or(0.0);
+    };
+    for (int x = 0; x < data.camera.width; ++x) {
+      int y = data.camera.height - 1, below = 0;
+      for (; y >= 0 && !within(x, y, 0.0, kFoot_m); --y)
+        below += within(x, y, -kBelow_m, -kFoot_m) ? 1 : 0;
+      if (y < 0) continue;
+      Vec3d p = point(x, y);
+      for (; ++y < data.camera.height && at(x, y) > 0.0; p = point(x, y))
+        if ((point(x, y) - p).norm() > 2.0 * data.spacing_m + 3.0 * data.noise_m) break;
+      heights_m_.push_back(frame_.height(p));
+      below_ += below > 0 ? 1.0 : 0.0;
+    }
+  }
+
+  /// Columns may continue on what stands still below the object: then their median, else the lowest
+  /// but for noise. nullopt if hardly a column ends.
+  std::optional<double> height() {
+    if (heights_m_.size() < kMinEnds) return std::nullopt;
+    const auto columns = double(heights_m_.size());
+    const double share = below_ > kLowestEnds * columns ? 0.5 : kLowestEnds;
+    const auto at = heights_m_.begin() + std::ptrdiff_t(share * columns);
+    std::nth_element(heights_m_.begin(), at, heights_m_.end());
+    return *at;
+  }
+
+ private:
+  AxisFrame frame_;
+  ObjectBase first_;
+  std::vector<double> heights_m_;
+  double below_ = 0.0;  ///< columns that show something below
+};
+
+/// The base where the surface that turns and is not on anything was seen to end.
+Result<ObjectBase> followed_down(ObjectBase base, const MotionData& data,
+                                 const FrameSequence& sequence, const RayTable& rays,
+                                 const AxisFrame& frame) {
+  if (base.on_surface || !base.ends) return base;
+  ColumnEnds ends(frame, base);
+  const SensorInfo& sensor = sequence.header().sensors.front();
+  for (const std::size_t i : evenly_spread(data.frames.size(), kFrames)) {
+    TURNSCAN_ASSIGN(const Frame seen, sequence.read(data.frames[i].position));
+    if (seen.depth.pixels.size() == rays.x().size())
+      ends.add(data, FrameDepths{seen.depth, sensor}, rays);
+  }
+  base.height_m = ends.height().value_or(base.height_m);
+  return base;
+}
+
 /// Used if hardly any turning point was seen: the height below which a two-hundredth of the points
 /// is.
 double low_of_cloud(const MotionData& data, const AxisFrame& frame) {
@@ -411,7 +490,9 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
                     low_of_thin_parts(data, angles_rad, sequence, rays, frame, *turning, cell_m));
     if (low_m < turning->low_m) return ObjectBase{low_m, true, false, turning->reach_m};
   }
-  return slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0));
+  return followed_down(
+      slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0)), data,
+      sequence, rays, frame);
 }
 
 }  // namespace turnscan::motion
