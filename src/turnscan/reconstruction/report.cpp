@@ -82,6 +82,7 @@ Json object_json(const ObjectResult& o) {
               {"triangles", o.mesh.triangles.size()},
               {"size_mm", {size.x(), size.y(), size.z()}},
               {"invented_area_cm2", o.invented_area_m2 * 1e4},
+              {"unknown_volume_cm3", o.unknown_volume_m3 * 1e6},
               {"mesh", check_json(o.check)},
               {"notes", o.notes}};
   if (o.texture) out["texture"] = texture_json(*o.texture);

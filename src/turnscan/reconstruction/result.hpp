@@ -103,6 +103,10 @@ struct ObjectResult {
   std::size_t candidates = 0;      ///< of the voxel stage
   std::size_t surface_points = 0;  ///< oriented points passed to the surface stage
   double invented_area_m2 = 0.0;   ///< surface far from any candidate
+  double unknown_volume_m3 = 0.0;  ///< behind hollows that no view saw to their floor
+  double no_return_area_m2 = 0.0;  ///< part of it that sensors observed without a return; 0 if
+                                   ///< hardly any
+  bool too_near = false;  ///< most of that is nearer to the sensors than anything they measured
   /// Per vertex, volumetric only: weight of its measurements relative to the median of the mesh, at
   /// most 1. 0 if nothing was measured.
   std::vector<float> confidence;

@@ -77,11 +77,26 @@ TEST(WithoutReturn, IsWhatHalfOfTheViewsThatItFacesLookedAtInVain) {
     for (std::size_t v = 0; v < no_return; ++v) views[v].pixels.assign(kSide * kSide, word);
     return *without_return(cube(), views, std::vector<std::uint8_t>(8, asked), {});
   };
-  const std::vector<std::uint8_t> none(8, 0), two_corners{0, 0, 0, 0, 0, 1, 0, 1};
+  using enum NoReturn;
+  const std::vector<NoReturn> none(8, kNone);
+  const std::vector<NoReturn> two_corners{kNone, kNone,    kNone, kNone,
+                                          kNone, kNothing, kNone, kNothing};
   EXPECT_EQ(looked_at(3, 0, 1), two_corners) << "of the edge that faces them";
   EXPECT_EQ(looked_at(2, 0, 1), none) << "most had returns there";
   EXPECT_EQ(looked_at(3, views::DepthView::pack(0, false, 9000), 1), none) << "seen to be empty";
   EXPECT_EQ(looked_at(3, 0, 0), none) << "not asked";
+}
+
+TEST(WithoutReturn, SaysWhatWouldBeNearerThanAnythingThatWasMeasured) {
+  std::vector<views::DepthView> views(6, view_from(45.0 * kRadiansPerDegree));
+  for (views::DepthView& view : views) view.pixels.assign(kSide * kSide, 0);
+  const auto corner = [&](std::uint16_t nearest) {
+    for (views::DepthView& view : views) view.nearest = nearest;
+    return without_return(cube(), views, std::vector<std::uint8_t>(8, 1), {})->at(5);
+  };
+  EXPECT_EQ(corner(1), NoReturn::kNothing);
+  EXPECT_EQ(corner(65535), NoReturn::kTooNear);
+  EXPECT_EQ(corner(0), NoReturn::kNothing) << "nothing is known of what was measured";
 }
 
 }  // namespace

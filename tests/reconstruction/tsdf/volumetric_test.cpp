@@ -54,8 +54,9 @@ TEST(Volumetric, StandsFlatOnThePlatter) {
   EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
 }
 
-TEST(Volumetric, KeepsFeetWhereNoPlatterIsSeenThoughItsRadiusIsKnown) {
-  // A ball that rests on one point: half of it lies within 15 mm of where the platter would be.
+TEST(Volumetric, StandsOnAPlatterOfKnownRadiusThatIsNotSeen) {
+  // A ball that rests on one point: half of it lies within 15 mm of where the platter would be, and
+  // is not taken for it. Its lowest 2 mm are closed flat.
   const Vec3d center(0.0, 0.02, 0.0);
   const auto resting = [&](const Vec3d& o, const Vec3d& d) { return to_ball(o, d, center, 0.02); };
   Rig rig;
@@ -69,14 +70,14 @@ TEST(Volumetric, KeepsFeetWhereNoPlatterIsSeenThoughItsRadiusIsKnown) {
         std::find_if(result->choices.begin(), result->choices.end(),
                      [](const ResolvedParameter& c) { return c.option == "crop-margin"; });
     ASSERT_NE(margin, result->choices.end());
-    EXPECT_THAT(margin->reason, HasSubstr(platter ? "the platter's returns lie at"
-                                                  : "no platter is seen, so that nothing"));
+    EXPECT_THAT(margin->reason,
+                HasSubstr(platter ? "the platter's returns lie at" : "4 times the sensor's noise"));
     ASSERT_EQ(result->objects.size(), 1u);
     if (platter) continue;
     std::size_t far = 0;
     for (const Vec3f& v : result->objects[0].mesh.vertices)
       far += std::abs((v.cast<double>() - center).norm() - 0.02) > 0.0015;
-    EXPECT_LT(double(far), 0.1 * double(result->objects[0].mesh.vertices.size()));
+    EXPECT_LT(double(far), 0.2 * double(result->objects[0].mesh.vertices.size()));
   }
 }
 

@@ -121,8 +121,8 @@ bool may_be_cut(std::span<const Frame> frames) {
   });
 }
 
-/// Lowest height that is kept, and the reason. stands: there is a platter, whether it is seen or
-/// not.
+/// Lowest height that is kept, and the reason. stands: on a platter, whether it is seen or not, or
+/// at the height where a calibration saw that it ends.
 std::pair<double, std::string> choose_margin(const PlatterReturns& returns,
                                              const std::optional<PlatterReturns>& platter,
                                              bool stands, double noise_m) {
@@ -180,9 +180,7 @@ void choose_crop(const std::vector<Vec3f>& sample, const PosedScan& scan, ScanEs
   auto platter = platter_in(returns, sample, known, rim, calibrated.has_value(), estimate.noise_m);
   // In frames that lack the platter, the remaining returns at its height represent it.
   if (known && returns.count > 0 && may_be_cut(scan.frames)) platter = returns;
-  // A calibration that saw no platter found where the object ends.
-  const bool stands = known ? returns.count == 0 : calibrated.has_value();
-  auto [margin, reason] = choose_margin(returns, platter, stands, estimate.noise_m);
+  auto [margin, reason] = choose_margin(returns, platter, calibrated.has_value(), estimate.noise_m);
   cylinder.margin_m = crop.margin_m.value_or(margin);
   estimate.choices.push_back(
       {"crop-margin", length_text(cylinder.margin_m), crop.margin_m ? "given" : std::move(reason)});

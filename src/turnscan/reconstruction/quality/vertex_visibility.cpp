@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
@@ -85,17 +86,25 @@ Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
   return out;
 }
 
-Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
-                                                 std::span<const views::DepthView> views,
-                                                 const std::vector<std::uint8_t>& asked,
-                                                 const RunContext& context) {
-  std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
+float nearest_depth_m(std::span<const views::DepthView> views) {
+  float out = std::numeric_limits<float>::infinity();
+  for (const views::DepthView& view : views)
+    if (view.nearest > 0) out = std::min(out, float(view.nearest) * view.unit_m + view.bias_m);
+  return std::isfinite(out) ? out : 0.0f;
+}
+
+Result<std::vector<NoReturn>> without_return(const TriangleMesh& mesh,
+                                             std::span<const views::DepthView> views,
+                                             const std::vector<std::uint8_t>& asked,
+                                             const RunContext& context) {
+  std::vector<NoReturn> out(mesh.vertices.size(), NoReturn::kNone);
+  const float nearest_m = nearest_depth_m(views);
   const auto chosen = evenly_spread(views.size(), kMaxViews);
   const auto normals = vertex_normals(mesh);
   TURNSCAN_TRY(context.check());
   parallel_for(out.size(), 256, [&](std::size_t v) {
     if (!asked[v]) return;
-    std::size_t facing = 0, no_return = 0;
+    std::size_t facing = 0, no_return = 0, near = 0;
     for (const std::size_t i : chosen) {
       const views::DepthView& view = views[i];
       const PixelOfVertex at = pixel_of(view, mesh.vertices[v], normals[v], kFacingCosine);
@@ -103,9 +112,12 @@ Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
       const auto x = at.pixel % view.width, y = at.pixel / view.width;
       if (x == 0 || y == 0 || x + 1 == view.width || y + 1 == view.height) continue;  // border
       ++facing;
-      no_return += view.pixels[std::size_t(at.pixel)] == 0 ? 1 : 0;
+      if (view.pixels[std::size_t(at.pixel)] != 0) continue;
+      ++no_return;
+      near += at.z < nearest_m ? 1 : 0;
     }
-    out[v] = no_return >= kMinNoReturnViews && 2 * no_return >= facing ? 1 : 0;
+    if (no_return >= kMinNoReturnViews && 2 * no_return >= facing)
+      out[v] = 2 * near >= no_return ? NoReturn::kTooNear : NoReturn::kNothing;
   });
   TURNSCAN_TRY(context.check());
   return out;

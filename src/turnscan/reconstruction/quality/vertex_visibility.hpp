@@ -27,13 +27,19 @@ Result<VertexVisibility> vertex_visibility(const TriangleMesh& mesh,
                                            std::span<const views::DepthView> views,
                                            double tolerance_m, const RunContext& context);
 
-/// Vertices that sensors observed without a return: of the views with incidence angles below 66
-/// degrees at least half, and at least three, had no return there, and no occluder before them.
+/// What sensors returned from a vertex: kNothing if of the views with incidence angles below 66
+/// degrees at least half, and at least three, had no return there, and no occluder before them;
+/// kTooNear if for half of these it would lie nearer than anything that any view measured.
+enum class NoReturn : std::uint8_t { kNone, kNothing, kTooNear };
+
 /// Only the vertices marked in `asked` are examined, in as many views as above. Fails with
 /// kCancelled. The result does not depend on the number of threads.
-Result<std::vector<std::uint8_t>> without_return(const TriangleMesh& mesh,
-                                                 std::span<const views::DepthView> views,
-                                                 const std::vector<std::uint8_t>& asked,
-                                                 const RunContext& context);
+Result<std::vector<NoReturn>> without_return(const TriangleMesh& mesh,
+                                             std::span<const views::DepthView> views,
+                                             const std::vector<std::uint8_t>& asked,
+                                             const RunContext& context);
+
+/// Smallest depth that any of the views measured, in metres; 0 if it is not known.
+float nearest_depth_m(std::span<const views::DepthView> views);
 
 }  // namespace turnscan::quality

@@ -83,14 +83,21 @@ Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthV
   for (std::size_t i = 0; i < triangles.size(); ++i)
     if (piece.evidence[i] == Evidence::kInvented)
       for (const std::uint32_t v : triangles[i]) asked[v] = 1;
-  TURNSCAN_ASSIGN(const std::vector<std::uint8_t> no_return,
+  TURNSCAN_ASSIGN(const std::vector<quality::NoReturn> no_return,
                   quality::without_return(piece.mesh, views, asked, context));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& t = triangles[i];
-    if (piece.evidence[i] == Evidence::kInvented &&
-        no_return[t[0]] + no_return[t[1]] + no_return[t[2]] > 1)
-      piece.no_return_area_m2 += triangle_area(piece.mesh, i);
+    if (piece.evidence[i] != Evidence::kInvented) continue;
+    const auto corners = [&](const auto& counts) {
+      return std::count_if(t.begin(), t.end(), counts);
+    };
+    const double area = triangle_area(piece.mesh, i);
+    if (corners([&](auto v) { return no_return[v] != quality::NoReturn::kNone; }) > 1)
+      piece.no_return_area_m2 += area;
+    if (corners([&](auto v) { return no_return[v] == quality::NoReturn::kTooNear; }) > 1)
+      piece.too_near_area_m2 += area;
   }
+  piece.nearest_m = quality::nearest_depth_m(views);
   return {};
 }
 
@@ -114,16 +121,24 @@ ObjectResult object_of(VolumetricPiece& piece, bool color_wanted) {
   object.confidence = std::move(piece.confidence);
   object.quality = std::move(piece.quality);
   object.evidence = std::move(piece.evidence);
+  object.unknown_volume_m3 = piece.unknown_volume_m3;
   if (color_wanted && object.mesh.colors.empty())
     object.notes.emplace_back("the recording has no colour");
   if (piece.base_area_m2 > 0.0)
     object.notes.push_back(
         fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
-  if (piece.no_return_area_m2 >= kMinNoReturn_m2)
-    object.notes.push_back(
-        fmt::format("{:.1f} cm^2 of its invented surface face sensors that got no return from "
-                    "there: it may be too dark, too shiny or transparent",
-                    piece.no_return_area_m2 * 1e4));
+  if (piece.no_return_area_m2 >= kMinNoReturn_m2) {
+    object.no_return_area_m2 = piece.no_return_area_m2;
+    object.too_near = piece.too_near_area_m2 > 0.5 * piece.no_return_area_m2;
+    object.notes.push_back(fmt::format(
+        "{:.1f} cm^2 of its invented surface face sensors that got no return from "
+        "there: {}it may be too dark, too shiny or transparent",
+        piece.no_return_area_m2 * 1e4,
+        object.too_near ? fmt::format("it is nearer than {:.3g} m, nearer than anything that was "
+                                      "measured: the sensor stands too near, or ",
+                                      piece.nearest_m)
+                        : ""));
+  }
   if (piece.neck)
     object.notes.push_back(
         fmt::format("it may be two objects that touch: at x {:.0f} mm, z {:.0f} mm its section is "

@@ -8,6 +8,7 @@
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
+#include <turnscan/reconstruction/quality/hollow.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/measured_points.hpp>
 #include <turnscan/reconstruction/tsdf/object_grouping.hpp>
@@ -27,7 +28,10 @@ constexpr double kPlatterCells = 0.5;  ///< vertices below this height above a p
 /// Relative to the best measured piece, per vertex: static clutter has 0.02 to 0.04.
 constexpr double kMinSupport = 0.08;
 constexpr double kLongestLoopCells = 16.0;  ///< around an unmeasured handle
-constexpr double kMinSection_m = 0.0005;    ///< between the sections in the search for a neck
+/// A hollow whose floor no ray reaches ends about this many pixel spacings too early: free space
+/// ends two pixels beside its rim.
+constexpr double kFloorSpacings = 3.0;
+constexpr double kMinSection_m = 0.0005;  ///< between the sections in the search for a neck
 
 using mesh_refinement::MeshFit;
 using mesh_refinement::MeshFitScale;
@@ -191,6 +195,8 @@ class VolumetricReconstruction {
         piece.neck = quality::narrowest_neck(
             piece.mesh, std::max(scale_.volume.cell_m, kMinSection_m), *scale_.volume.floor_m);
       TURNSCAN_TRY(measure_quality(piece, input_, scale_, filter_share_ > 0.0, context_));
+      piece.unknown_volume_m3 = quality::unknown_volume_m3(piece.mesh, piece.evidence, input_.views,
+                                                           kFloorSpacings * input_.spacing_m);
       return measure_no_return(piece, input_.views, context_);
     };
     TURNSCAN_TRY(timed("quality", quality));

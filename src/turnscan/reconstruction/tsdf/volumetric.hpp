@@ -44,6 +44,9 @@ struct VolumetricPiece {
   double base_area_m2 = 0.0;       ///< closed flat on the platter
   double no_return_area_m2 = 0.0;  ///< part of the invented area that sensors observed without a
                                    ///< return
+  double too_near_area_m2 = 0.0;   ///< part of that which is nearer to them than anything measured
+  double nearest_m = 0.0;          ///< smallest depth that was measured
+  double unknown_volume_m3 = 0.0;  ///< behind hollows that no view saw to their floor
   std::optional<quality::Neck> neck;  ///< on a platter: section at which it may be two touching
                                       ///< objects
   std::size_t points = 0;             ///< number measured in the bounding box of the piece

@@ -13,10 +13,10 @@ namespace {
 
 /// Accuracy of the standing height from an object's lowest points (bench/random_rigs): where it
 /// ends at a gap, at least this and as a multiple of the noise, and where it spreads into a desk.
-constexpr double kBaseSigma_m = 0.004, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
+constexpr double kBaseSigma_m = 0.0025, kBaseNoises = 2.0, kSpreadingBaseSigma_m = 0.02;
 /// Additional uncertainty, relative to its extent, if nothing is seen below it: a round or hollow
 /// base is occluded from above, and thin feet cannot be distinguished from mixed pixels.
-constexpr double kHiddenBase = 0.15;
+constexpr double kHiddenBase = 0.05;
 /// Accuracy of the platter's height that the recording states.
 constexpr double kRecordedHeight_m = 0.01;
 /// Shift by a sensor that filters over its pixels, relative to the distance between pixels times

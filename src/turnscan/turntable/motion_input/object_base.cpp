@@ -37,6 +37,8 @@ constexpr double kAbove_m = 0.008;      ///< height up to which static surface m
 constexpr double kTouches_m = 0.01;     ///< from the turning part down to its supporting surface
 constexpr double kFoot_m = 0.012;       ///< height above the base from which a column is followed
 constexpr double kBelow_m = 0.06;       ///< depth below the base in which something stands still
+constexpr int kMinBelow = 3;            ///< pixels of a column: mixed ones are fewer
+constexpr double kSettled_m = 0.0005;   ///< a base is lowered in steps of at least this
 constexpr std::size_t kMinEnds = 20;    ///< columns whose end was seen
 /// Share of the ends that are below the base by noise.
 constexpr double kLowestEnds = 0.08;
@@ -400,17 +402,19 @@ class ColumnEnds {
       for (; ++y < data.camera.height && at(x, y) > 0.0; p = point(x, y))
         if ((point(x, y) - p).norm() > 2.0 * data.spacing_m + 3.0 * data.noise_m) break;
       heights_m_.push_back(frame_.height(p));
-      below_ += below > 0 ? 1.0 : 0.0;
+      below_ += below >= kMinBelow ? 1.0 : 0.0;
     }
   }
 
-  /// Columns may continue on what stands still below the object: then their median, else the lowest
-  /// but for noise. nullopt if hardly a column ends.
+  /// Whether something stands still below the object, on which columns may continue.
+  bool seen_below() const { return below_ > kLowestEnds * double(heights_m_.size()); }
+
+  /// If nothing is below, the lowest end but for noise, else the median; nullopt if hardly a column
+  /// ends.
   std::optional<double> height() {
     if (heights_m_.size() < kMinEnds) return std::nullopt;
-    const auto columns = double(heights_m_.size());
-    const double share = below_ > kLowestEnds * columns ? 0.5 : kLowestEnds;
-    const auto at = heights_m_.begin() + std::ptrdiff_t(share * columns);
+    const double share = seen_below() ? 0.5 : kLowestEnds;
+    const auto at = heights_m_.begin() + std::ptrdiff_t(share * double(heights_m_.size()));
     std::nth_element(heights_m_.begin(), at, heights_m_.end());
     return *at;
   }
@@ -427,14 +431,19 @@ Result<ObjectBase> followed_down(ObjectBase base, const MotionData& data,
                                  const FrameSequence& sequence, const RayTable& rays,
                                  const AxisFrame& frame) {
   if (base.on_surface || !base.ends) return base;
-  ColumnEnds ends(frame, base);
   const SensorInfo& sensor = sequence.header().sensors.front();
+  std::vector<Frame> frames;
   for (const std::size_t i : evenly_spread(data.frames.size(), kFrames)) {
-    TURNSCAN_ASSIGN(const Frame seen, sequence.read(data.frames[i].position));
-    if (seen.depth.pixels.size() == rays.x().size())
-      ends.add(data, FrameDepths{seen.depth, sensor}, rays);
+    TURNSCAN_ASSIGN(Frame seen, sequence.read(data.frames[i].position));
+    if (seen.depth.pixels.size() == rays.x().size()) frames.push_back(std::move(seen));
   }
-  base.height_m = ends.height().value_or(base.height_m);
+  for (bool lower = true; lower;) {
+    ColumnEnds ends(frame, base);
+    for (const Frame& seen : frames) ends.add(data, FrameDepths{seen.depth, sensor}, rays);
+    const double height = ends.height().value_or(base.height_m);
+    lower = !ends.seen_below() && height < base.height_m - kSettled_m;
+    base.height_m = height;
+  }
   return base;
 }
 
@@ -485,14 +494,14 @@ Result<ObjectBase> find_base(const MotionData& data, const TurntableInfo& axis,
   if (!data.projective) return ObjectBase{turning->low_m, true, false, turning->reach_m};
   StillSlices slices(frame, *turning);
   slices.add(image, data.camera, rays, data.noise_m);
+  ObjectBase base =
+      slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0));
   if (slices.pixels() < kMinStill) {
     TURNSCAN_ASSIGN(const double low_m,
                     low_of_thin_parts(data, angles_rad, sequence, rays, frame, *turning, cell_m));
-    if (low_m < turning->low_m) return ObjectBase{low_m, true, false, turning->reach_m};
+    if (low_m < turning->low_m) base = {low_m, true, false, turning->reach_m};
   }
-  return followed_down(
-      slices.base(data.spacing_m, std::clamp(axis.axis.dot(data.to_sensor), 0.0, 1.0)), data,
-      sequence, rays, frame);
+  return followed_down(base, data, sequence, rays, frame);
 }
 
 }  // namespace turnscan::motion

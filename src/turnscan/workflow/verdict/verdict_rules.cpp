@@ -28,6 +28,8 @@ constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04
 constexpr double kFewFrames = 6.0;
 /// Number of frames that see a point; more do not help as much as a closer sensor.
 constexpr int kManyFrames = 40;
+/// Share of the volume that lies behind hollows, which makes it amber, and which is mentioned.
+constexpr double kFairUnknown = 0.15, kShownUnknown = 0.03;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< share of the surface that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
@@ -86,6 +88,7 @@ class Judge {
     add_seen();
     add_error();
     add_invented();
+    add_unknown_volume();
     workflow::add_calibration(known_, out_.sentences);
     if (residuals_ != nullptr) workflow::add_agreement(*residuals_, out_.sentences);
     workflow::add_disturbances(known_, out_.sentences);
@@ -203,6 +206,14 @@ class Judge {
     return fmt::format("{:.1f} cm2 {}, {:.0f} mm high", hole.area_m2 * 1e4, side, middle.y() * 1e3);
   }
 
+  /// Standard deviation of the height of the base if it is not known within the tolerance: without
+  /// a platter it is where the object was seen to end.
+  std::optional<double> unknown_height_m() const {
+    if (known_.choice == nullptr || !known_.choice->calibration) return std::nullopt;
+    const double sigma_m = known_.choice->calibration->height_sigma_m;
+    return sigma_m > kTolerance_m ? std::optional(sigma_m) : std::nullopt;
+  }
+
   void add_invented() {
     if (object_.evidence.empty()) return;
     double base_m2 = 0.0;
@@ -216,6 +227,9 @@ class Judge {
     const double invented = object_.invented_area_m2 / area_m2, base = base_m2 / area_m2;
     const auto unseen = hidden_share();
     hidden_ = unseen ? std::max(0.0, *unseen - base) : std::max(0.0, invented - kNotMeasuredMore);
+    const auto height_sigma_m = unknown_height_m();
+    if (height_sigma_m) hidden_ += base;
+    hidden_ += object_.no_return_area_m2 / area_m2;
     auto holes = finishing::find_hole_patches(object_.mesh, hidden);
     std::sort(holes.begin(), holes.end(),
               [](const auto& a, const auto& b) { return a.area_m2 > b.area_m2; });
@@ -227,14 +241,33 @@ class Judge {
     std::string text =
         fmt::format("{:.1f} cm2 ({:.0f} %) of the surface was not measured but closed",
                     object_.invented_area_m2 * 1e4, 100.0 * invented);
-    if (base > 0.0)
+    if (base > 0.0 && height_sigma_m)
+      text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base at a height known to {:.1f} mm",
+                          base_m2 * 1e4, 100.0 * base, *height_sigma_m * 1e3);
+    else if (base > 0.0)
       text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base stood on the platter", base_m2 * 1e4,
                           100.0 * base);
     if (unseen)
-      text += fmt::format("; {:.1f} cm2 ({:.0f} %) besides the base hardly a frame could see",
-                          hidden_ * area_m2 * 1e4, 100.0 * hidden_);
+      text +=
+          fmt::format("; {:.1f} cm2 ({:.0f} %){} hardly a frame could see", hidden_ * area_m2 * 1e4,
+                      100.0 * hidden_, height_sigma_m ? "" : " besides the base");
+    if (object_.no_return_area_m2 > 0.0)
+      text += fmt::format(" or returned nothing{}", object_.too_near ? ", being too near" : "");
     say("invented", workflow::level_of(1.0 - hidden_, 1.0 - kGoodHidden, 1.0 - kFairHidden),
         text + largest, 100.0 * invented, "%");
+  }
+
+  void add_unknown_volume() {
+    const double volume_m3 = signed_volume(object_.mesh);
+    if (!(volume_m3 > 0.0) || object_.left_open) return;
+    const double share = object_.unknown_volume_m3 / volume_m3;
+    if (share < kShownUnknown) return;
+    say("hollow", share > kFairUnknown ? Level::kFair : Level::kGood,
+        fmt::format("{:.0f} of its {:.0f} cm3 ({:.0f} %) lie behind a hollow deeper than any frame "
+                    "looked into, and are filled: a vessel holds as much more; look in from "
+                    "higher, or leave it open with --holes open",
+                    object_.unknown_volume_m3 * 1e6, volume_m3 * 1e6, 100.0 * share),
+        100.0 * share, "%");
   }
 
   /// Share of the surface, estimated from a subset of the vertices.
@@ -317,6 +350,9 @@ class Judge {
       say("help", Level::kGood,
           fmt::format("{}, the object laid another way, would show what none saw {}", further,
                       how));
+    if (object_.too_near)
+      say("help", Level::kGood,
+          "farther: parts of it are nearer to the sensor than anything that it measured");
     add_what_helps_accuracy();
   }
 
@@ -339,7 +375,7 @@ class Judge {
                       "many frames a second: then {:.0f} frames see what {:.0f} saw, and noise "
                       "averages to half",
                       4.0 * seen->value, seen->value));
-    else
+    else if (!object_.too_near)
       say("help", Level::kGood,
           "nearer: with the sensor at half the distance pixels lie half as far apart, and noise is "
           "smaller");
