@@ -171,14 +171,17 @@ std::string summary_json(const BatchSummary& summary) {
 }
 
 Result<std::vector<std::string>> write_summary(const BatchSummary& summary,
-                                               const fs::path& folder) {
-  const std::string csv = (folder / "summary.csv").string(),
-                    json = (folder / "summary.json").string(),
-                    html = (folder / "summary.html").string();
-  TURNSCAN_TRY(write_file_atomically(csv, summary_csv(summary)));
-  TURNSCAN_TRY(write_file_atomically(json, summary_json(summary)));
-  TURNSCAN_TRY(write_file_atomically(html, summary_page(summary, folder.filename().string())));
-  return std::vector<std::string>{csv, json, html};
+                                               const BatchFolder& batch) {
+  TURNSCAN_ASSIGN(const file::Folder folder, batch.open());
+  std::vector<std::string> files;
+  for (const auto& [name, text] :
+       {std::pair("summary.csv", summary_csv(summary)),
+        std::pair("summary.json", summary_json(summary)),
+        std::pair("summary.html", summary_page(summary, batch.path().filename().string()))}) {
+    TURNSCAN_TRY(folder.write(name, text));
+    files.push_back((batch.path() / name).string());
+  }
+  return files;
 }
 
 }  // namespace turnscan::batch
