@@ -46,7 +46,7 @@ class ABatch : public ::testing::Test {
 
 TEST_F(ABatch, KeepsTheResultOfATaskBesideItsHash) {
   make_tasks(1);
-  set_program("echo $1 > mesh.txt; cat $2 >> mesh.txt");
+  set_program("echo $1 > mesh.txt; for input; do :; done; cat \"$input\" >> mesh.txt");
   ASSERT_TRUE(run_one("t0"));
   EXPECT_EQ(record("t0").state, TaskState::kDone);
   EXPECT_EQ(record("t0").digest.size(), 64u);
@@ -81,7 +81,7 @@ TEST_F(ABatch, KeepsTheReasonOfAFailureAndNothingElseOfIt) {
 
 TEST_F(ABatch, NoticesAnInputThatChangesUnderATask) {
   make_tasks(1);
-  set_program("echo more >> $2");
+  set_program("for input; do :; done; echo more >> \"$input\"");
   ASSERT_TRUE(run_one("t0"));
   EXPECT_EQ(record("t0").state, TaskState::kFailed);
   EXPECT_NE(record("t0").reason.find("changed"), std::string::npos);
@@ -181,9 +181,21 @@ TEST_F(ABatch, BeginsTasksAnewWhoseProcessIsLostAndGivesUpInTheEnd) {
   EXPECT_EQ(run_batch(request, RunContext()).error().code, ErrorCode::kInvalidOption);
 }
 
+TEST_F(ABatch, SaysNothingThatASpreadsheetTakesForAFormula) {
+  BatchTask task{"t", "reconstruct", {"=cmd|' /C calc'!A0"}, {{"base-height", "-5mm"}}, 1, 1};
+  batch::TaskRecord failed;
+  failed.state = TaskState::kFailed;
+  failed.reason = "=HYPERLINK(\"http://example.com\")\n+A1*(B2)";
+  const std::string csv = batch::summary_csv({{{&task, failed, {}, {}}}});
+  EXPECT_NE(csv.find(",\"'=HYPERLINK(\"\"http://example.com\"\") +A1*(B2)\","), std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find(",'=cmd|' /C calc'!A0,-5mm\n"), std::string::npos) << csv;
+}
+
 TEST_F(ABatch, IsSummarisedWithWhatTheReportsSay) {
   make_tasks(2);
-  set_program(R"sh(case $2 in *t1) echo 'turnscan: a, "b" <i>; c'; exit 1;; esac
+  set_program(
+      R"sh(for input; do :; done; case $input in *t1) echo 'turnscan: a, "b" <i>; c'; exit 1;; esac
 cat > report.json <<END
 {"frames": 9, "objects": [
  {"triangles": 5, "mesh": {"watertight": true}, "verdict": {"colour": "green", "sentences": []}},
