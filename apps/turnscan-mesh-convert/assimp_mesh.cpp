@@ -9,6 +9,7 @@
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <system_error>
+#include <turnscan/io/file/read_budget.hpp>
 #include <utility>
 
 using turnscan::ErrorCode;
@@ -71,21 +72,28 @@ bool add_mesh(const aiMesh& source, const aiMatrix4x4& transform, TriangleMesh& 
   return true;
 }
 
-bool add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
-              std::vector<TriangleMesh>& meshes) {
+tl::unexpected<turnscan::Error> out_of_range() {
+  return fail(ErrorCode::kFormat, "damaged file: an index is out of range");
+}
+
+/// budget: any number of nodes may place the same mesh.
+Result<> add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
+                  const turnscan::file::ReadBudget& budget, std::vector<TriangleMesh>& meshes) {
   const aiMatrix4x4 transform = parent * node.mTransformation;
   TriangleMesh mesh;
   mesh.name = node.mName.C_Str();
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    if (node.mMeshes[i] >= scene.mNumMeshes ||
-        !add_mesh(*scene.mMeshes[node.mMeshes[i]], transform, mesh))
-      return false;
+    if (node.mMeshes[i] >= scene.mNumMeshes) return out_of_range();
+    const aiMesh& source = *scene.mMeshes[node.mMeshes[i]];
+    TURNSCAN_TRY(budget.hold(sizeof(turnscan::Vec3f) * source.mNumVertices +
+                             sizeof(std::array<std::uint32_t, 3>) * source.mNumFaces));
+    if (!add_mesh(source, transform, mesh)) return out_of_range();
   }
   if (mesh.colors.size() != mesh.vertices.size()) mesh.colors.clear();
   if (!mesh.empty()) meshes.push_back(std::move(mesh));
   for (unsigned i = 0; i < node.mNumChildren; ++i)
-    if (!add_node(scene, *node.mChildren[i], transform, meshes)) return false;
-  return true;
+    TURNSCAN_TRY(add_node(scene, *node.mChildren[i], transform, budget, meshes));
+  return {};
 }
 
 /// FBX says how many centimetres its unit has; other formats are scaled by assimp itself.
@@ -117,7 +125,8 @@ Result<AssimpMeshes> read_with_assimp(const std::filesystem::path& path) {
   if (scene == nullptr || scene->mRootNode == nullptr) return refused(importer.GetErrorString());
   AssimpMeshes read;
   read.metres_per_unit = unit_of(*scene);
-  if (!add_node(*scene, *scene->mRootNode, aiMatrix4x4(), read.meshes))
-    return fail(ErrorCode::kFormat, "damaged file: an index is out of range");
+  std::error_code error;
+  const turnscan::file::ReadBudget budget(std::filesystem::file_size(path, error));
+  TURNSCAN_TRY(add_node(*scene, *scene->mRootNode, aiMatrix4x4(), budget, read.meshes));
   return read;
 }

@@ -1,11 +1,13 @@
 """Hostile inputs and surroundings: nothing is lost, and nothing crashes."""
 
+import bz2
 import json
 import os
 import pathlib
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import tempfile
 import time
@@ -300,6 +302,131 @@ class Hostile3mf(harness.TestCase):
     def test_more_objects_than_its_library_can_count(self):
         self.put(self.MESH % "", '<item objectid="1"/>' * 300000)
         self.refused_soon("more time than a sound file")
+
+
+class OutOfProportion(harness.TestCase):
+    """A few kilobytes that ask for gigabytes or minutes: refused, or read, at a low price."""
+
+    MOST_S = 2.0
+    MOST_MB = 300
+
+    def record(self, data, **fields):
+        """A record of a ROS bag."""
+        header = b"".join(struct.pack("<I", len(name) + 1 + len(value)) + name.encode() + b"=" + value
+                          for name, value in fields.items())
+        return struct.pack("<I", len(header)) + header + struct.pack("<I", len(data)) + data
+
+    def number(self, value):
+        return struct.pack("<I", value)
+
+    def connection(self, number, topic, kind="sensor_msgs/Image"):
+        return self.record(
+            self.record(b"", type=kind.encode())[4:-4], op=b"\x07", conn=self.number(number), topic=topic.encode())
+
+    def chunk(self, content, packing="bz2"):
+        packed = bz2.compress(content) if packing == "bz2" else content
+        return self.record(packed, op=b"\x05", compression=packing.encode(), size=self.number(len(content)))
+
+    def put(self, name, *parts):
+        (self.dir / name).write_bytes(b"".join(parts))
+
+    def put_bag(self, *records):
+        self.put("a.bag", b"#ROSBAG V2.0\n", *records)
+
+    def cheap(self, *args, says=None):
+        """Neither much time nor memory, helpers included."""
+        process = start("info", *args, "--quiet", cwd=self.dir, stdout=subprocess.DEVNULL)
+        err = process.stderr.read()
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        process.stderr.close()
+        if says is None:
+            self.assertEqual((process.returncode, err), (0, ""))
+        else:
+            self.assertEqual(process.returncode, FAILED, err)
+            self.assert_one_line_error(err)
+            self.assertIn(says, err)
+        self.assertLess(used.ru_utime + used.ru_stime, self.MOST_S)
+        self.assertLess(used.ru_maxrss / 1000, self.MOST_MB)
+
+    def test_chunks_of_a_bag_that_unpack_to_gigabytes(self):
+        self.put_bag(self.connection(0, "/depth"), self.chunk(bytes(60 << 20)) * 40)
+        self.cheap("a.bag", says="out of all proportion")
+
+    def image(self, seq, stamp_s):
+        """A message with a depth image of 2 x 2 pixels."""
+        data = (self.number(seq) + self.number(stamp_s) + self.number(0) + self.number(1) + b"d" + self.number(2) +
+                self.number(2) + self.number(5) + b"16UC1" + b"\0" + self.number(4) + self.number(8) + bytes(8))
+        return self.record(data, op=b"\x02", conn=self.number(0), time=self.number(stamp_s) + bytes(4))
+
+    def test_a_chunk_of_a_bag_that_every_message_is_in(self):
+        content = self.image(1, 1) + self.record(bytes(40 << 20), op=b"\x02", conn=self.number(0), time=bytes(8))
+        index = self.record(struct.pack("<III", 1, 0, 0) * 2000, op=b"\x04", ver=self.number(1),
+                            conn=self.number(0), count=self.number(2000))
+        self.put_bag(self.connection(0, "/depth/image_raw"), self.chunk(content), index)
+        self.cheap("a.bag", "--import", "intrinsics=2,2,1,1")
+
+    def test_more_messages_than_a_bag_of_its_length_has(self):
+        message = self.record(b"", op=b"\x02", conn=self.number(0), time=bytes(8))
+        self.put_bag(self.connection(0, "/depth"), self.chunk(message * 700000))
+        self.cheap("a.bag", says="out of all proportion")
+
+    def test_topics_without_number(self):
+        content = b"".join(self.record(b"", op=b"\x02", conn=self.number(k), time=bytes(8)) for k in range(50000))
+        self.put_bag(*(self.connection(k, f"/camera{k}/depth") for k in range(50000)), self.chunk(content, "none"))
+        self.cheap("a.bag", says="no topic is recognised as depth")
+
+    def test_frames_that_a_bag_only_counts(self):
+        # Every second number is 1000 further on.
+        numbers = [k // 2 * 1001 + k % 2 for k in range(4000)]
+        self.put_bag(self.connection(0, "/depth/image_raw"),
+                     self.chunk(b"".join(self.image(k, k // 1000 + 1) for k in numbers)))
+        self.cheap("a.bag", "--import", "intrinsics=2,2,1,1", says="out of all proportion")
+
+    def put_r3d(self, side, entries=()):
+        with zipfile.ZipFile(self.dir / "a.r3d", "w", zipfile.ZIP_DEFLATED) as file:
+            file.writestr("metadata", json.dumps({"w": side, "h": side, "dw": side, "dh": side, "fps": 60,
+                                                  "K": [500, 0, 0, 0, 500, 0, side / 2, side / 2, 1]}))
+            file.writestr("rgbd/0.depth", "x")
+            for name in entries:
+                file.writestr(name, "x")
+
+    def test_a_phone_with_pixels_without_number(self):
+        self.put_r3d(8192)
+        self.cheap("a.r3d", says="a phone's have at most")
+
+    def test_an_archive_of_frames_that_are_none(self):
+        self.put_r3d(192, (f"rgbd/{k}.depth" for k in range(1, 9000)))
+        self.cheap("a.r3d", says="out of all proportion")
+
+    def put_glb(self, nodes, primitives, vertices):
+        data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) * (vertices // 3)
+        model = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(nodes))}],
+                 "nodes": [{"mesh": 0}] * nodes,
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * primitives}],
+                 "accessors": [{"bufferView": 0, "componentType": 5126, "count": vertices, "type": "VEC3",
+                                "min": [0, 0, 0], "max": [1, 1, 0]}],
+                 "bufferViews": [{"buffer": 0, "byteLength": len(data)}], "buffers": [{"byteLength": len(data)}]}
+        text = json.dumps(model).encode()
+        text += b" " * (-len(text) % 4)
+        self.put("m.glb", struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)),
+                 struct.pack("<I4s", len(text), b"JSON"), text, struct.pack("<I4s", len(data), b"BIN\0"), data)
+
+    def test_a_mesh_that_a_scene_places_often(self):
+        self.put_glb(nodes=3, primitives=1, vertices=3000)
+        self.cheap("m.glb")
+        self.put_glb(nodes=3000, primitives=1, vertices=9000)
+        self.cheap("m.glb", says="out of proportion")
+
+    def test_a_mesh_that_has_its_parts_often(self):
+        self.put_glb(nodes=1, primitives=3000, vertices=9000)
+        self.cheap("m.glb", says="out of proportion")
+
+    def test_a_material_library_that_is_named_often(self):
+        (self.dir / "a.mtl").write_text("newmtl m\nmap_Kd p.png\n" * 30000)
+        (self.dir / "a.obj").write_text("mtllib a.mtl\nmtllib ./a.mtl\n" * 20000 +
+                                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.cheap("a.obj")
 
 
 class HangUp(harness.TestCase):

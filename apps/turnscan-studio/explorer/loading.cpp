@@ -97,7 +97,7 @@ ModelDataPtr cloud_model(PointCloud cloud, const QString& source, const QString&
 }
 
 Result<ModelDataPtr> recording_model(const std::string& path, const RunContext& context) {
-  TURNSCAN_ASSIGN(Input input, open_input(path));
+  TURNSCAN_ASSIGN(Input input, open_input(path, ImportOptions(), context));
   TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(input, context));
   auto data = std::make_shared<ModelData>();
   data->kind = ModelKind::kRecording;

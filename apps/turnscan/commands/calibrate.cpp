@@ -100,7 +100,7 @@ class CalibrateCommand : public Command {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(save_, ".json"));
     if (!device_.empty()) return run_device(session);
-    TURNSCAN_ASSIGN(const Input input, open_input_asking(recording_, import_));
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(recording_, import_, session.context()));
     if (check_) return check(*input.frames, session);
     TURNSCAN_TRY(calibrate_and_tell(*input.frames, session));
     for (const std::string& note : input.notes) session.print("Note: {}\n", note);

@@ -114,7 +114,8 @@ class EvaluateCommand : public Command {
                            const RunContext& context) const {
     if (seen_from_.empty()) return evaluate(mesh, reference, options_, {}, context);
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(seen_from_));
-    TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&reference, 1)));
+    TURNSCAN_ASSIGN(const Scene scene,
+                    Scene::create(std::span(&reference, 1), std::nullopt, context));
     return evaluate(mesh, reference, options_, seen_by(scene, recording, context), context);
   }
 

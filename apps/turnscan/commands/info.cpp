@@ -77,7 +77,7 @@ class InfoCommand : public Command {
                   "--repair and --json cannot be used together; repair "
                   "first");
     if (repair_) TURNSCAN_TRY(repair(folder, session));
-    TURNSCAN_ASSIGN(const Input input, open_input_asking(folder, import_));
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(folder, import_, session.context()));
     TURNSCAN_ASSIGN(const SequenceSummary summary, summarize(input, session.context()));
     session.print("{}", json_ ? summary_json(summary) + "\n" : summary_text(summary));
     return {};

@@ -116,7 +116,7 @@ class ReconstructCommand : public Command {
     std::vector<Input> inputs;
     bool imported = false;
     for (const std::string& path : recordings_) {
-      TURNSCAN_ASSIGN(Input input, open_input_asking(path, options));
+      TURNSCAN_ASSIGN(Input input, open_input_asking(path, options, context));
       imported |= input.imported;
       inputs.push_back(std::move(input));
     }

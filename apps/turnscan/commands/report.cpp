@@ -75,7 +75,7 @@ class ReportCommand : public Command {
   }
 
   Result<PageInput> of_recording(Session& session) const {
-    TURNSCAN_ASSIGN(const Input input, open_input_asking(path_, import_));
+    TURNSCAN_ASSIGN(const Input input, open_input_asking(path_, import_, session.context()));
     const ReconstructRequest request;
     session.plan(joined({reconstruct_phases({{"", input.frames.get()}}, request), page_phases()}));
     TURNSCAN_ASSIGN(const ReconstructRun run,

@@ -12,6 +12,7 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/recording/frames_csv.hpp>
 #include <turnscan/recording/recording.hpp>
@@ -281,9 +282,10 @@ Result<> RecordingWriter::State::reopen_files() {
 
 void RecordingWriter::State::discard() {
   std::error_code ignored;
-  if (described) {  // otherwise the files belong to another writer
+  const auto own = file::Folder::open(folder);
+  if (own && described) {  // otherwise the files belong to another writer
     for (const char* name : {"recording.json", "frames.csv", "depth", "color", "points"})
-      fs::remove_all(folder / name, ignored);
+      (void)own->remove(name);
   }
   std::for_each(made_folders.rbegin(), made_folders.rend(),
                 [&](const fs::path& made) { fs::remove(made, ignored); });

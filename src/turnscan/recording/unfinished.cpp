@@ -2,12 +2,11 @@
 #include <array>
 #include <string>
 #include <system_error>
-#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/recording/file_check.hpp>
 #include <turnscan/recording/recording_json.hpp>
 #include <turnscan/recording/table_lock.hpp>
 #include <turnscan/recording/unfinished.hpp>
-#include <vector>
 
 namespace turnscan {
 
@@ -49,18 +48,15 @@ Result<> remove_unfinished_recording(const fs::path& folder) {
   if (!is_unfinished_recording(folder))
     return fail_at(folder.string(), ErrorCode::kInvalidOption,
                    "it is no unfinished recording; choose another folder");
-  std::error_code error;
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().filename() != kDescription) paths.push_back(entry.path());
-  paths.push_back(folder / kDescription);
-  for (const fs::path& path : paths) {
-    if (!error) fs::remove_all(path, error);
-  }
-  if (error)
-    return fail_at(folder.string(), ErrorCode::kIo, "it cannot be removed ({}); check permissions",
-                   error.message());
-  return {};
+  const auto removed = [&]() -> Result<> {
+    TURNSCAN_ASSIGN(const file::Folder own, file::Folder::open(folder));
+    for (const std::string& name : own.names())
+      if (name != kDescription) TURNSCAN_TRY(own.remove(name));
+    return own.remove(kDescription);
+  }();
+  if (removed) return {};
+  return fail_at(removed.error().path, ErrorCode::kIo, "{}; check permissions",
+                 removed.error().message);
 }
 
 }  // namespace turnscan

@@ -43,13 +43,14 @@ std::uint64_t bytes_of(const fs::path& path) {
 
 }  // namespace
 
-Result<Input> open_input(const fs::path& path, const ImportOptions& options) {
+Result<Input> open_input(const fs::path& path, const ImportOptions& options,
+                         const RunContext& context) {
   TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   const bool named = path.filename() == kRecordingFile;
   TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / kRecordingFile));
   Input out;
   if (!named && !recording_there) {
-    TURNSCAN_ASSIGN(out.frames, open_foreign(path, options));
+    TURNSCAN_ASSIGN(out.frames, open_foreign(path, options, context));
     out.imported = true;
     out.notes = assumptions_of(out.frames->header().source);
     out.bytes = bytes_of(path);
@@ -82,8 +83,9 @@ Result<ImportOptions> parse_import_options(const std::vector<std::string>& texts
   return options;
 }
 
-Result<Input> open_input_asking(const fs::path& path, const ImportOptions& options) {
-  auto input = open_input(path, options);
+Result<Input> open_input_asking(const fs::path& path, const ImportOptions& options,
+                                const RunContext& context) {
+  auto input = open_input(path, options, context);
   if (input) return input;
   Error error = input.error();
   const bool asks = error.message.find("--") != std::string::npos;
@@ -95,9 +97,10 @@ Result<Input> open_input_asking(const fs::path& path, const ImportOptions& optio
 }
 
 Result<Input> open_input_asking(const fs::path& path,
-                                const std::vector<std::string>& import_options) {
+                                const std::vector<std::string>& import_options,
+                                const RunContext& context) {
   TURNSCAN_ASSIGN(const ImportOptions options, parse_import_options(import_options));
-  TURNSCAN_ASSIGN(Input input, open_input_asking(path, options));
+  TURNSCAN_ASSIGN(Input input, open_input_asking(path, options, context));
   if (!input.imported && !import_options.empty())
     return fail(ErrorCode::kInvalidOption, "--import: {} is a recording already; leave it out",
                 path.string());

@@ -26,7 +26,8 @@ struct Input {
 /// program (see open_foreign; the options apply to these only). Fails as Recording::open() if there
 /// is a recording, else as open_foreign().
 Result<Input> open_input(const std::filesystem::path& path,
-                         const ImportOptions& options = ImportOptions());
+                         const ImportOptions& options = ImportOptions(),
+                         const RunContext& context = RunContext());
 
 /// Parses import options given as NAME=VALUE, with names and values of `turnscan import`. Fails
 /// with kInvalidOption.
@@ -34,7 +35,8 @@ Result<ImportOptions> parse_import_options(const std::vector<std::string>& texts
 
 /// As open_input(). If another program's data set needs an option, the error explains that it is
 /// given as `--import NAME=VALUE`.
-Result<Input> open_input_asking(const std::filesystem::path& path, const ImportOptions& options);
+Result<Input> open_input_asking(const std::filesystem::path& path, const ImportOptions& options,
+                                const RunContext& context);
 
 inline constexpr const char* kImportOptionsHelp =
     "Option of turnscan import, without its dashes, for files of another program, e.g. "
@@ -43,7 +45,8 @@ inline constexpr const char* kImportOptionsHelp =
 /// As open_input_asking(), with options parsed by parse_import_options(). Fails as these do, and
 /// with kInvalidOption if options are given and path is a recording.
 Result<Input> open_input_asking(const std::filesystem::path& path,
-                                const std::vector<std::string>& import_options);
+                                const std::vector<std::string>& import_options,
+                                const RunContext& context = RunContext());
 
 /// Writes imported data to a recording's folder, and opens that. Fails with kInvalidOption for a
 /// recording, as write_recording() and as open_input().

@@ -18,17 +18,18 @@ TEST(ProgramFolders, CodeThatOthersCanReplaceIsNotTrusted) {
   fs::create_directory(temp / "plugins");
   const fs::path file = temp.put("plugins/turnscan-x.so", "");
   fs::permissions(file, fs::perms(0755));
-  EXPECT_TRUE(check_trusted(file));
+  fs::create_symlink(file, temp / "link.so");
+  EXPECT_EQ(*trusted(temp / "link.so"), fs::canonical(file)) << "what is judged is what is loaded";
   fs::permissions(file, fs::perms(0757));
-  EXPECT_EQ(check_trusted(file).error().code, ErrorCode::kNoPermission);
+  EXPECT_EQ(trusted(file).error().code, ErrorCode::kNoPermission);
   fs::permissions(file, fs::perms(0755));
   fs::permissions(temp / "plugins", fs::perms(0777));
-  const auto in_open_folder = check_trusted(file);
+  const auto in_open_folder = trusted(file);
   ASSERT_FALSE(in_open_folder);
   EXPECT_THAT(in_open_folder.error().message, ::testing::HasSubstr("plugins can be written"));
   // Others cannot take away what lies in a folder with the sticky bit.
   fs::permissions(temp / "plugins", fs::perms(01777));
-  EXPECT_TRUE(check_trusted(file));
+  EXPECT_TRUE(trusted(file));
 }
 
 TEST(ProgramFolders, CodeOfOtherUsersIsNotTrusted) {
@@ -36,7 +37,7 @@ TEST(ProgramFolders, CodeOfOtherUsersIsNotTrusted) {
   const TempFolder temp;
   const fs::path file = temp.put("helper", "");
   ASSERT_EQ(::chown(file.c_str(), 65534, 0), 0);
-  EXPECT_THAT(check_trusted(file).error().message, ::testing::HasSubstr("another user"));
+  EXPECT_THAT(trusted(file).error().message, ::testing::HasSubstr("another user"));
 }
 
 TEST(ProgramFolders, WhoCanReplaceTheProgramMayReplaceItsHelpers) {
@@ -44,7 +45,7 @@ TEST(ProgramFolders, WhoCanReplaceTheProgramMayReplaceItsHelpers) {
   const fs::path folder = program.parent_path();
   const auto before = fs::status(folder).permissions();
   fs::permissions(folder, fs::perms(0777));
-  EXPECT_TRUE(check_trusted(program));
+  EXPECT_TRUE(trusted(program));
   fs::permissions(folder, before);
 }
 

@@ -12,44 +12,44 @@ namespace {
 class LockedFile : public ::testing::Test {
  protected:
   testing::TempFolder folder;
-  const std::filesystem::path path = folder / "lock";
+  const Folder opened = std::move(*Folder::open(folder.path()));
 };
 
 TEST_F(LockedFile, HasOneHolderAtATime) {
-  EXPECT_FALSE(FileLock::held(path)) << "there is no such file";
-  auto first = FileLock::try_lock(path);
+  EXPECT_FALSE(FileLock::held(opened, "lock")) << "there is no such file";
+  auto first = FileLock::try_lock(opened, "lock");
   ASSERT_TRUE(first && *first);
-  EXPECT_TRUE(FileLock::held(path));
-  const auto second = FileLock::try_lock(path);
+  EXPECT_TRUE(FileLock::held(opened, "lock"));
+  const auto second = FileLock::try_lock(opened, "lock");
   ASSERT_TRUE(second);
   EXPECT_FALSE(*second);
   first->reset();
-  EXPECT_FALSE(FileLock::held(path));
-  EXPECT_TRUE(*FileLock::try_lock(path));
+  EXPECT_FALSE(FileLock::held(opened, "lock"));
+  EXPECT_TRUE(*FileLock::try_lock(opened, "lock"));
 }
 
 TEST_F(LockedFile, IsFreeWhenItsHolderIsKilled) {
   const pid_t child = ::fork();
   if (child == 0) {
-    const auto lock = FileLock::try_lock(path);
+    const auto lock = FileLock::try_lock(opened, "lock");
     ::raise(SIGKILL);
     ::_exit(lock ? 0 : 1);
   }
   ::waitpid(child, nullptr, 0);
-  EXPECT_TRUE(*FileLock::try_lock(path));
+  EXPECT_TRUE(*FileLock::try_lock(opened, "lock"));
 }
 
 TEST_F(LockedFile, IsWaitedForUntilCancelled) {
-  const auto held = FileLock::try_lock(path);
+  const auto held = FileLock::try_lock(opened, "lock");
   RunContext context;
   context.cancel();
-  const auto lock = FileLock::wait(path, context);
+  const auto lock = FileLock::wait(opened, "lock", context);
   ASSERT_FALSE(lock);
   EXPECT_EQ(lock.error().code, ErrorCode::kCancelled);
 }
 
 TEST_F(LockedFile, FailsWhereItCannotBeMade) {
-  const auto lock = FileLock::try_lock(folder / "no" / "lock");
+  const auto lock = FileLock::try_lock(opened, "no/lock");
   ASSERT_FALSE(lock);
   EXPECT_EQ(lock.error().code, ErrorCode::kIo);
 }

@@ -33,7 +33,7 @@ TriangleMesh at_height(float height_m, float shift_m = 0.0F) {
 /// The vertices of a 3MF whose items lie as its objects do. (assimp 5.2 finds no mesh in it.)
 Box box_in_3mf(const std::filesystem::path& path) {
   const auto file = file::RandomAccessFile::open(path);
-  const auto directory = zip::read_directory(*file);
+  const auto directory = zip::read_directory(*file, file::ReadBudget(file->size()));
   std::vector<Vec3f> points;
   for (const zip::NamedEntry& entry : directory->entries) {
     if (!entry.name.ends_with(".model")) continue;

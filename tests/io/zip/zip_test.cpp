@@ -34,7 +34,7 @@ Entry entry_of(const Directory& directory, std::string_view name) {
 TEST(ZipFile, ReadsWhatPythonWrote) {
   const TempFolder folder;
   const auto file = opened(folder.put("a.zip", archive()));
-  const auto directory = read_directory(file);
+  const auto directory = read_directory(file, file::ReadBudget(file.size()));
   ASSERT_TRUE(directory) << directory.error().text();
   EXPECT_FALSE(directory->cut_off);
   EXPECT_EQ(directory->entries.size(), 17u);
@@ -53,10 +53,11 @@ TEST(ZipFile, ReadsWhatPythonWrote) {
 TEST(ZipFile, WithoutItsListGivesTheEntriesThatAreWhole) {
   const TempFolder folder;
   const std::string bytes = archive();
-  const auto whole = read_directory(opened(folder.put("whole.zip", bytes)));
+  const auto whole =
+      read_directory(opened(folder.put("whole.zip", bytes)), file::ReadBudget(bytes.size()));
   const Entry third = entry_of(*whole, "rgbd/3.jpg");
   const auto file = opened(folder.put("cut.zip", bytes.substr(0, third.header_at + 50)));
-  const auto directory = read_directory(file);
+  const auto directory = read_directory(file, file::ReadBudget(file.size()));
   ASSERT_TRUE(directory) << directory.error().text();
   EXPECT_TRUE(directory->cut_off);
   EXPECT_EQ(directory->entries.size(), 10u);
@@ -67,7 +68,8 @@ TEST(ZipFile, WithoutItsListGivesTheEntriesThatAreWhole) {
 TEST(ZipFile, ADamagedEntryIsToldByItsChecksum) {
   const TempFolder folder;
   std::string bytes = archive();
-  const auto whole = read_directory(opened(folder.put("whole.zip", bytes)));
+  const auto whole =
+      read_directory(opened(folder.put("whole.zip", bytes)), file::ReadBudget(bytes.size()));
   const Entry entry = entry_of(*whole, "rgbd/0.depth");
   bytes[entry.header_at + 30 + 12 + entry.packed_size / 2] ^= 4;
   const auto content = read_entry(opened(folder.put("damaged.zip", bytes)), entry, 1 << 20);
@@ -79,7 +81,8 @@ TEST(ZipFile, ADamagedEntryIsToldByItsChecksum) {
 TEST(ZipFile, NoArchiveIsRefused) {
   const TempFolder folder;
   for (const std::string& bytes : {std::string(), std::string("PK\3\4"), std::string(100, 'x')})
-    EXPECT_FALSE(read_directory(opened(folder.put("no.zip", bytes))));
+    EXPECT_FALSE(
+        read_directory(opened(folder.put("no.zip", bytes)), file::ReadBudget(bytes.size())));
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ TEST_F(PlanOf, ASweepIsEveryCombination) {
   EXPECT_TRUE(plan_batch({{path("a")}, {}, {"up=z"}, {}}));
   EXPECT_FALSE(plan_batch({{path("a")}, {}, {"up=x"}, {}}));
   const auto words = arguments_of(swept->at(1), 2);
-  EXPECT_EQ(words, (Names{"reconstruct", canonical("a"), "--out=mesh.ply", "--report=report.json",
-                          "--threads=2", "--quiet", "--voxel-size=1mm", "--no-colour"}));
+  EXPECT_EQ(words, (Names{"reconstruct", "--out=mesh.ply", "--report=report.json", "--threads=2",
+                          "--quiet", "--voxel-size=1mm", "--no-colour", "--", canonical("a")}));
 }
 
 TEST_F(PlanOf, ACsvTableGivesEachTaskItsOptions) {

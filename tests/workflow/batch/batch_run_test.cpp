@@ -46,7 +46,7 @@ class ABatch : public ::testing::Test {
 
 TEST_F(ABatch, KeepsTheResultOfATaskBesideItsHash) {
   make_tasks(1);
-  set_program("echo $1 > mesh.txt; cat $2 >> mesh.txt");
+  set_program("echo $1 > mesh.txt; for input; do :; done; cat \"$input\" >> mesh.txt");
   ASSERT_TRUE(run_one("t0"));
   EXPECT_EQ(record("t0").state, TaskState::kDone);
   EXPECT_EQ(record("t0").digest.size(), 64u);
@@ -71,7 +71,7 @@ TEST_F(ABatch, KeepsTheReasonOfAFailureAndNothingElseOfIt) {
   ASSERT_TRUE(run_one("t1"));
   EXPECT_NE(record("t1").reason.find("memory"), std::string::npos);
   for (const auto& entry :
-       std::filesystem::directory_iterator(BatchFolder(path()).task_folder("t0")))
+       std::filesystem::directory_iterator(BatchFolder(path()).result_folder("t0").parent_path()))
     EXPECT_EQ(entry.path().filename().string().find("work-"), std::string::npos);
   const auto text = batch_status_text(path());
   ASSERT_TRUE(text);
@@ -81,7 +81,7 @@ TEST_F(ABatch, KeepsTheReasonOfAFailureAndNothingElseOfIt) {
 
 TEST_F(ABatch, NoticesAnInputThatChangesUnderATask) {
   make_tasks(1);
-  set_program("echo more >> $2");
+  set_program("for input; do :; done; echo more >> \"$input\"");
   ASSERT_TRUE(run_one("t0"));
   EXPECT_EQ(record("t0").state, TaskState::kFailed);
   EXPECT_NE(record("t0").reason.find("changed"), std::string::npos);
@@ -89,11 +89,49 @@ TEST_F(ABatch, NoticesAnInputThatChangesUnderATask) {
 
 TEST_F(ABatch, RemovesWhatAKilledAttemptLeft) {
   make_tasks(1);
-  const auto left = BatchFolder(path()).task_folder("t0") / "work-elsewhere-1";
+  const auto left = BatchFolder(path()).result_folder("t0").parent_path() / "work-elsewhere-1";
   std::filesystem::create_directories(left);
   set_program("true");
   ASSERT_TRUE(run_one("t0"));
   EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+TEST_F(ABatch, DeletesNothingBehindALinkAndNothingThatItDidNotMake) {
+  make_tasks(1);
+  namespace fs = std::filesystem;
+  const fs::path task = BatchFolder(path()).result_folder("t0").parent_path();
+  for (const char* name : {"result", "work-mine"}) {
+    fs::create_directories(task / name);
+    testing::write_file(task / name / "thesis", "precious");
+  }
+  set_program("echo made > mesh.txt");
+  ASSERT_TRUE(run_one("t0"));
+  EXPECT_EQ(testing::content_of(task / "result" / "mesh.txt"), "made\n");
+  EXPECT_TRUE(fs::exists(task / "work-mine" / "thesis"));
+  std::size_t kept = 0;
+  for (const auto& entry : fs::directory_iterator(task))
+    kept += entry.path().filename().string().starts_with("kept-work-") &&
+            fs::exists(entry.path() / "thesis");
+  EXPECT_EQ(kept, 1u);
+  fs::rename(task, folder / "elsewhere");
+  fs::create_directory_symlink(folder / "elsewhere", task);
+  testing::write_file(folder / "t0", "another input");
+  const auto ran = run_one("t0");
+  ASSERT_FALSE(ran);
+  EXPECT_EQ(ran.error().code, ErrorCode::kNoPermission);
+  EXPECT_TRUE(fs::exists(folder / "elsewhere" / "result" / "mesh.txt"));
+}
+
+TEST_F(ABatch, KeepsTheOldResultUntilTheNewOneIsInPlace) {
+  make_tasks(1);
+  set_program("echo first > mesh.txt");
+  ASSERT_TRUE(run_one("t0"));
+  testing::write_file(folder / "t0", "another input");
+  // Its outputs are gone when they are to be put in place.
+  set_program("rm -r ../work-*");
+  ASSERT_TRUE(run_one("t0"));
+  EXPECT_EQ(record("t0").state, TaskState::kFailed);
+  EXPECT_EQ(testing::content_of(BatchFolder(path()).result_folder("t0") / "mesh.txt"), "first\n");
 }
 
 TEST_F(ABatch, ACancelledTaskIsWaitingAgain) {
@@ -109,7 +147,7 @@ TEST_F(ABatch, ACancelledTaskIsWaitingAgain) {
 
 TEST_F(ABatch, IsRunByOneAtATime) {
   make_tasks(1);
-  const auto lock = file::FileLock::try_lock(BatchFolder(path()).lock_file());
+  const auto lock = file::FileLock::try_lock(*BatchFolder(path()).open(), BatchFolder::kLock);
   BatchRequest request;
   request.folder = path();
   request.program = program;
@@ -143,9 +181,21 @@ TEST_F(ABatch, BeginsTasksAnewWhoseProcessIsLostAndGivesUpInTheEnd) {
   EXPECT_EQ(run_batch(request, RunContext()).error().code, ErrorCode::kInvalidOption);
 }
 
+TEST_F(ABatch, SaysNothingThatASpreadsheetTakesForAFormula) {
+  BatchTask task{"t", "reconstruct", {"=cmd|' /C calc'!A0"}, {{"base-height", "-5mm"}}, 1, 1};
+  batch::TaskRecord failed;
+  failed.state = TaskState::kFailed;
+  failed.reason = "=HYPERLINK(\"http://example.com\")\n+A1*(B2)";
+  const std::string csv = batch::summary_csv({{{&task, failed, {}, {}}}});
+  EXPECT_NE(csv.find(",\"'=HYPERLINK(\"\"http://example.com\"\") +A1*(B2)\","), std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find(",'=cmd|' /C calc'!A0,-5mm\n"), std::string::npos) << csv;
+}
+
 TEST_F(ABatch, IsSummarisedWithWhatTheReportsSay) {
   make_tasks(2);
-  set_program(R"sh(case $2 in *t1) echo 'turnscan: a, "b" <i>; c'; exit 1;; esac
+  set_program(
+      R"sh(for input; do :; done; case $input in *t1) echo 'turnscan: a, "b" <i>; c'; exit 1;; esac
 cat > report.json <<END
 {"frames": 9, "objects": [
  {"triangles": 5, "mesh": {"watertight": true}, "verdict": {"colour": "green", "sentences": []}},

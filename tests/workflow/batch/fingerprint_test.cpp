@@ -91,7 +91,7 @@ TEST_F(AFingerprint, OfARunningTaskThatNobodyHoldsWasKilled) {
   record.state = TaskState::kRunning;
   ASSERT_TRUE(batch.save_record("scan", record));
   EXPECT_EQ(batch.record("scan").state, TaskState::kWaiting);
-  testing::write_file(batch.state_file("scan"), "{\"state\": \"do");
+  testing::write_file(batch.result_folder("scan").parent_path() / "state.json", "{\"state\": \"do");
   EXPECT_EQ(batch.record("scan").state, TaskState::kWaiting) << "a damaged state is none";
 }
 

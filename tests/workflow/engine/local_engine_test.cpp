@@ -13,7 +13,7 @@ class ALocalEngine : public ::testing::Test {
  protected:
   std::unique_ptr<Engine> engine(const std::string& script, const LocalLimits& limits) {
     return make_local_engine({"/bin/sh", {"-c", "cd '" + folder.path().string() + "'; " + script}},
-                             limits, folder.path());
+                             limits, std::move(*file::Folder::open(folder.path())));
   }
   static std::vector<Ended> run(Engine& engine, std::size_t count) {
     std::vector<Ended> all;

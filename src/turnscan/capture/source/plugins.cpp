@@ -72,9 +72,9 @@ Result<const turnscan_plugin*> load_file(const std::string& scheme, const fs::pa
   const auto failed = [&](const std::string& why) {
     return fail(ErrorCode::kLibrary, "driver {} ({}): {}", scheme, file.string(), why);
   };
-  TURNSCAN_TRY(process::check_trusted(file));
+  TURNSCAN_ASSIGN(const fs::path whole, process::trusted(file));
   // Never unloaded: drivers leave threads and exit handlers behind.
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* library = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr) return failed(load_failure(scheme, dlerror()));
   const auto entry =
       reinterpret_cast<turnscan_plugin_entry_function>(dlsym(library, "turnscan_plugin_entry"));

@@ -31,7 +31,7 @@ constexpr int kCannotStart = 127;  // the shells' convention
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
   const int input = ::open("/dev/null", O_RDONLY);
-  const int output = ::open(log, O_WRONLY | O_CREAT | O_APPEND, 0666);
+  const int output = ::open(log, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0666);
   if (input < 0 || output < 0 || ::dup2(input, STDIN_FILENO) < 0 ||
       ::dup2(output, STDOUT_FILENO) < 0 || ::dup2(output, STDERR_FILENO) < 0)
     ::_exit(kCannotStart);

@@ -46,8 +46,8 @@ Result<std::optional<fs::path>> find_in(const std::vector<fs::path>& folders,
   for (const fs::path& folder : folders) {
     TURNSCAN_ASSIGN(const bool there, is_program(folder / name));
     if (!there) continue;
-    TURNSCAN_TRY(check_trusted(folder / name));
-    return std::optional<fs::path>(folder / name);
+    TURNSCAN_ASSIGN(const fs::path whole, trusted(folder / name));
+    return std::optional<fs::path>(whole);
   }
   return std::optional<fs::path>();
 }

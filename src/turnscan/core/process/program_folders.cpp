@@ -63,16 +63,16 @@ Result<std::vector<fs::path>> folders_of_variable(const char* name) {
   return folders;
 }
 
-Result<> check_trusted(const fs::path& path) {
+Result<fs::path> trusted(const fs::path& path) {
   std::error_code error;
-  fs::path at = fs::canonical(path, error);
+  const fs::path whole = fs::canonical(path, error);
   if (error)
     return fail_at(path.string(), ErrorCode::kNotFound, "it cannot be found ({}); check the path",
                    error.message());
   // Whoever can write to a folder above the program could replace the program itself: a checkout
   // owned by another user adds no further risk.
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (; !is_inside(program, at); at = at.parent_path()) {
+  for (fs::path at = whole; !is_inside(program, at); at = at.parent_path()) {
     struct stat status {};
     const std::string why =
         ::stat(at.c_str(), &status) != 0 ? "cannot be looked at" : distrust(status);
@@ -83,7 +83,7 @@ Result<> check_trusted(const fs::path& path) {
                      at.string(), why);
     if (at == at.root_path()) break;
   }
-  return {};
+  return whole;
 }
 
 }  // namespace turnscan::process

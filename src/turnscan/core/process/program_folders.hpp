@@ -19,7 +19,8 @@ Result<std::vector<std::filesystem::path>> folders_of_variable(const char* name)
 /// Succeeds if only the superuser, this user and those who could replace this program can have
 /// replaced this file: it and all folders above it are owned by them, and not writable by others
 /// (folders with the sticky bit may be), up to a folder that also contains the program. Fails with
-/// kNoPermission, naming the offending path.
-Result<> check_trusted(const std::filesystem::path& path);
+/// kNoPermission, naming the offending path. Returns the path that was judged, without links: the
+/// one to start or load.
+Result<std::filesystem::path> trusted(const std::filesystem::path& path);
 
 }  // namespace turnscan::process

@@ -142,7 +142,7 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
 Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
-                            std::optional<double> platter_radius_m) {
+                            std::optional<double> platter_radius_m, const RunContext& context) {
   if (platter_radius_m && !(*platter_radius_m > 0.0))
     return fail(ErrorCode::kInvalidOption, "platter: the radius {} m is not positive",
                 *platter_radius_m);
@@ -156,6 +156,7 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
   if (platter_radius_m)
     impl->platter_radius_squared = static_cast<float>(*platter_radius_m * *platter_radius_m);
   for (std::size_t i = 0; i < objects.size(); ++i) {
+    TURNSCAN_TRY(context.check());
     if (objects[i].empty()) continue;
     TURNSCAN_TRY(check_mesh_indices(objects[i], i));
     TURNSCAN_TRY(impl->attach(objects[i], static_cast<std::uint32_t>(i)));
@@ -165,7 +166,13 @@ Result<Scene> Scene::create(std::span<const TriangleMesh> objects,
   // Single-threaded: the tree, and thus the winner if two triangles tie, must not depend on the
   // number of threads. The device's setting is not used because it would apply to the whole
   // process.
+  const auto goes_on = [](void* of, double) {
+    return !static_cast<const RunContext*>(of)->cancelled();
+  };
+  rtcSetSceneProgressMonitorFunction(impl->scene.get(), goes_on, const_cast<RunContext*>(&context));
   run_on_this_thread([&] { rtcCommitScene(impl->scene.get()); });
+  rtcSetSceneProgressMonitorFunction(impl->scene.get(), nullptr, nullptr);
+  TURNSCAN_TRY(context.check());
   const RTCError error = rtcGetDeviceError(impl->device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY)
     return fail(ErrorCode::kResourceLimit, "not enough memory to trace rays in this scene");

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 
 namespace turnscan {
@@ -46,9 +47,10 @@ class Scene {
   /// a disc about the y axis with its face at y = 0. Fails with kFormat if a triangle references a
   /// vertex that does not exist or is not finite, with kInvalidOption if the radius is not
   /// positive, and with kResourceLimit if Embree runs out of memory. The scene does not depend on
-  /// the number of threads.
+  /// the number of threads. Fails with kCancelled soon after the context is.
   static Result<Scene> create(std::span<const TriangleMesh> objects,
-                              std::optional<double> platter_radius_m = std::nullopt);
+                              std::optional<double> platter_radius_m = std::nullopt,
+                              const RunContext& context = RunContext());
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/decode_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 
 namespace turnscan {
 
@@ -58,9 +59,10 @@ Result<> read_all(int descriptor, const fs::path& path, std::string& content) {
   return {};
 }
 
-Descriptor open_to_read(const fs::path& path) {
+/// base, flags: of openat().
+Descriptor open_to_read(const fs::path& path, int base = AT_FDCWD, int flags = 0) {
   // O_NONBLOCK: opening a pipe must not wait for a writer.
-  return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  return Descriptor(::openat(base, path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | flags));
 }
 
 /// Call right after open_to_read, whose failure it reports.
@@ -91,17 +93,15 @@ fs::path temporary_beside(const fs::path& path) {
                                           ::getpid(), counter.fetch_add(1));
 }
 
-void sync_folder(const fs::path& path) {
+void sync_folder(int base, const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor descriptor(::openat(base, folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // Not every file system can sync a folder; the content itself is already on disk.
   if (descriptor.get() >= 0) (void)::fsync(descriptor.get());
 }
 
-}  // namespace
-
-Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
-  const Descriptor descriptor = open_to_read(path);
+Result<std::string> read_opened(const Descriptor& descriptor, const fs::path& path,
+                                std::uint64_t max_bytes) {
   TURNSCAN_ASSIGN(const std::uint64_t size, size_of_regular_file(descriptor, path));
   if (size > max_bytes)
     return fail_at(path.string(), ErrorCode::kResourceLimit,
@@ -109,6 +109,16 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::string content(size, '\0');
   TURNSCAN_TRY(read_all(descriptor.get(), path, content));
   return content;
+}
+
+}  // namespace
+
+Result<std::string> read_file(const fs::path& path, std::uint64_t max_bytes) {
+  return read_opened(open_to_read(path), path, max_bytes);
+}
+
+Result<std::string> file::Folder::read(const std::string& name, std::uint64_t max_bytes) const {
+  return read_opened(open_to_read(name, descriptor_, O_NOFOLLOW), path_ / name, max_bytes);
 }
 
 Result<> file::check_readable(const fs::path& path) {
@@ -158,16 +168,20 @@ Result<> FileSink::write_through(const char* data, std::size_t size) {
 /// A file being written: the temporary file is removed unless commit() succeeded.
 class AtomicFile {
  public:
-  explicit AtomicFile(const fs::path& path) : path_(follow_links(path)) {
+  explicit AtomicFile(const fs::path& path) : name_(follow_links(path)) {
     std::error_code error;
-    if (fs::exists(path, error) && !fs::equivalent(path, path_, error)) {
+    if (fs::exists(path, error) && !fs::equivalent(path, name_, error)) {
       // /dev/stdout may refer to a file without a name, or one that was renamed.
-      path_ = path;
+      name_ = path;
       nameless_ = true;
     }
+    path_ = name_;
   }
+  /// Whatever has the name is replaced, be it a link or a pipe.
+  AtomicFile(const file::Folder& folder, const std::string& name)
+      : base_(folder.descriptor()), path_(folder.path() / name), name_(name) {}
   ~AtomicFile() {
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (!temporary_.empty()) ::unlinkat(base_, temporary_.c_str(), 0);
   }
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -175,15 +189,16 @@ class AtomicFile {
   /// verify: if given, checks the temporary file before it is renamed.
   Result<> write(const std::function<Result<>(FileSink&)>& body, Durability durability,
                  const std::function<Result<>(const fs::path&)>& verify = {}) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path_, error);
-    if (fs::is_directory(status)) return system_error(path_, "cannot write", EISDIR);
-    if (nameless_ || (fs::exists(status) && !fs::is_regular_file(status)))
-      return write_directly(body);
+    struct stat status {};
+    const bool inside = base_ != AT_FDCWD;
+    const bool there =
+        ::fstatat(base_, name_.c_str(), &status, inside ? AT_SYMLINK_NOFOLLOW : 0) == 0;
+    if (there && S_ISDIR(status.st_mode)) return system_error(path_, "cannot write", EISDIR);
+    const bool regular = there && S_ISREG(status.st_mode);
+    if (nameless_ || (there && !regular && !inside)) return write_directly(body);
     Descriptor descriptor(create_temporary());
     if (descriptor.get() < 0) return refuse(errno);
-    if (fs::exists(status))
-      (void)::fchmod(descriptor.get(), static_cast<mode_t>(status.permissions()) & 07777);
+    if (regular) (void)::fchmod(descriptor.get(), status.st_mode & 07777);
     TURNSCAN_TRY(run(body, descriptor));
     if (durability == Durability::kSynced && ::fsync(descriptor.get()) != 0)
       return system_error(path_, "cannot write", errno);
@@ -196,9 +211,9 @@ class AtomicFile {
   /// -1 with errno set. A killed process with the same id may have left a file with the first name.
   int create_temporary() {
     for (int tries = 0;; ++tries) {
-      temporary_ = temporary_beside(path_);
+      temporary_ = temporary_beside(name_);
       const int descriptor =
-          ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+          ::openat(base_, temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor >= 0 || errno != EEXIST || tries == kMaxTemporaries) return descriptor;
     }
   }
@@ -223,14 +238,16 @@ class AtomicFile {
   }
 
   Result<> commit(Durability durability) {
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+    if (::renameat(base_, temporary_.c_str(), base_, name_.c_str()) != 0)
       return system_error(path_, "cannot write", errno);
     temporary_.clear();
-    if (durability == Durability::kSynced) sync_folder(path_);
+    if (durability == Durability::kSynced) sync_folder(base_, name_);
     return {};
   }
 
-  fs::path path_;
+  int base_ = AT_FDCWD;  ///< of name_ and temporary_
+  fs::path path_;        ///< for people
+  fs::path name_;
   fs::path temporary_;
   bool nameless_ = false;
 };
@@ -249,6 +266,12 @@ Result<> write_file_atomically(const fs::path& path, std::span<const std::byte> 
 Result<> write_file_atomically(const fs::path& path, std::string_view text, Durability durability) {
   return write_file_atomically(
       path, [text](FileSink& sink) { return sink.write(text); }, durability);
+}
+
+Result<> file::Folder::write(const std::string& name, std::string_view text,
+                             Durability durability) const {
+  return AtomicFile(*this, name)
+      .write([text](FileSink& sink) { return sink.write(text); }, durability);
 }
 
 Result<> write_file_verified(const fs::path& path, std::string_view text) {

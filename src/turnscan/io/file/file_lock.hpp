@@ -2,10 +2,11 @@
 // A file lock that one process at a time may hold, on this machine or, if the file system
 // propagates locks (NFS, Lustre, GPFS), on any machine that mounts it.
 
-#include <filesystem>
 #include <optional>
+#include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/io/file/folder.hpp>
 
 namespace turnscan::file {
 
@@ -15,11 +16,12 @@ class FileLock {
  public:
   /// Creates the file if necessary. nullopt: another process holds the lock. Fails with kIo, also
   /// if the file system does not support locks.
-  static Result<std::optional<FileLock>> try_lock(const std::filesystem::path& path);
+  static Result<std::optional<FileLock>> try_lock(const Folder& folder, const std::string& name);
   /// Waits until no other process holds the lock. Fails as try_lock(), and with kCancelled.
-  static Result<FileLock> wait(const std::filesystem::path& path, const RunContext& context);
+  static Result<FileLock> wait(const Folder& folder, const std::string& name,
+                               const RunContext& context);
   /// Whether another process holds the lock; does not take it.
-  static bool held(const std::filesystem::path& path);
+  static bool held(const Folder& folder, const std::string& name);
 
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

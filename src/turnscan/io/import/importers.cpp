@@ -15,7 +15,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Opener = OpenResult (*)(const fs::path&, const ImportOptions&);
+/// With a context or without.
+class Opener {
+ public:
+  using Short = OpenResult (*)(const fs::path&, const ImportOptions&);
+  using Long = OpenResult (*)(const fs::path&, const ImportOptions&, const RunContext&);
+  Opener(Short function) : short_(function) {}
+  Opener(Long function) : long_(function) {}
+  OpenResult operator()(const fs::path& path, const ImportOptions& options,
+                        const RunContext& context) const {
+    return long_ != nullptr ? long_(path, options, context) : short_(path, options);
+  }
+
+ private:
+  Short short_ = nullptr;
+  Long long_ = nullptr;
+};
 
 struct Importer {
   ImporterInfo info;
@@ -280,7 +295,8 @@ const std::vector<ImporterInfo>& importer_list() {
 bool is_foreign(const fs::path& path) { return bool(recognise(path, {})); }
 
 Result<std::unique_ptr<FrameSequence>> open_foreign(const fs::path& path,
-                                                    const ImportOptions& options) {
+                                                    const ImportOptions& options,
+                                                    const RunContext& context) {
   TURNSCAN_TRY(options.check());
   TURNSCAN_TRY(file::check_exists(path, "file or folder"));
   ImportFormat format = options.format;
@@ -290,7 +306,7 @@ Result<std::unique_ptr<FrameSequence>> open_foreign(const fs::path& path,
   const auto importer = std::find_if(table().begin(), table().end(),
                                      [&](const Importer& i) { return i.info.format == format; });
   TURNSCAN_TRY(check_meaning(*importer, options));
-  return importer->open(path, options);
+  return importer->open(path, options, context);
 }
 
 }  // namespace turnscan

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/option_table.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -78,9 +79,11 @@ const std::vector<ImporterInfo>& importer_list();
 /// header().source, one line each after the first. Depth images: 65535 of a foreign image becomes
 /// kNoReturn. Fails with kNotFound (no such path, or a referenced file is missing), kUnsupported
 /// (the layout is not recognised), kInvalidOption (an option is invalid or does not apply to the
-/// layout), kMissingData (a unit, intrinsics or the like must be given) and kFormat.
+/// layout), kMissingData (a unit, intrinsics or the like must be given), kFormat, kResourceLimit
+/// and kCancelled.
 Result<std::unique_ptr<FrameSequence>> open_foreign(const std::filesystem::path& path,
-                                                    const ImportOptions& options);
+                                                    const ImportOptions& options,
+                                                    const RunContext& context = RunContext());
 
 /// Whether path is a file or folder of a layout that open_foreign() recognises without options.
 bool is_foreign(const std::filesystem::path& path);
@@ -89,6 +92,7 @@ bool is_foreign(const std::filesystem::path& path);
 /// frames, if any, are valid within their pass. Fails as open_foreign() does, and with
 /// kInvalidOption if their sensors or turntables differ.
 Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
-    const std::vector<std::filesystem::path>& paths, const ImportOptions& options);
+    const std::vector<std::filesystem::path>& paths, const ImportOptions& options,
+    const RunContext& context = RunContext());
 
 }  // namespace turnscan

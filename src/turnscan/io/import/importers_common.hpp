@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <vector>
 
@@ -40,16 +41,20 @@ class ForeignSequence : public FrameSequence {
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
 
-// One opener per layout. path is the file or folder that the user named.
+// One opener per layout. path is the file or folder that the user named. Those of containers, whose
+// content says how much there is to do, take a context.
 OpenResult open_stanford_conf(const std::filesystem::path& path, const ImportOptions& options);
 OpenResult open_cloud_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_tum(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_matroska(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_matroska(const std::filesystem::path& path, const ImportOptions& options,
+                         const RunContext& context);
 OpenResult open_open3d_rgbd(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options);
-OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions& options);
-OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions& options,
+                         const RunContext& context);
+OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options,
+                     const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
@@ -57,7 +62,8 @@ OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions
 bool is_scanner_app_frame(std::string_view name);
 /// "depth" or "NAME_depth": the folder in which RTAB-Map's export stores depth images.
 bool is_rtabmap_depth_folder(std::string_view name);
-OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options,
+                       const RunContext& context);
 
 /// Larger text files of data sets are rejected.
 inline constexpr std::uint64_t kMaxTextBytes = std::uint64_t(16) << 20;

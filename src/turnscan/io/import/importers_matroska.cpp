@@ -395,8 +395,9 @@ std::string description(const MatroskaFile& file, const Track& depth, const Trac
 
 }  // namespace
 
-OpenResult open_matroska(const fs::path& path, const ImportOptions& options) {
-  TURNSCAN_ASSIGN(MatroskaFile file, MatroskaFile::open(path));
+OpenResult open_matroska(const fs::path& path, const ImportOptions& options,
+                         const RunContext& context) {
+  TURNSCAN_ASSIGN(MatroskaFile file, MatroskaFile::open(path, context));
   auto found = depth_track(file);
   if (!found) return at_path(path, std::move(found).error());
   const Track& depth = **found;

@@ -83,11 +83,12 @@ class PassSequence : public SequenceView {
 namespace turnscan {
 
 Result<std::unique_ptr<FrameSequence>> open_foreign_passes(
-    const std::vector<std::filesystem::path>& paths, const ImportOptions& options) {
-  if (paths.size() == 1) return open_foreign(paths[0], options);
+    const std::vector<std::filesystem::path>& paths, const ImportOptions& options,
+    const RunContext& context) {
+  if (paths.size() == 1) return open_foreign(paths[0], options, context);
   auto out = std::make_unique<importers::PassSequence>();
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    TURNSCAN_ASSIGN(auto set, open_foreign(paths[k], options));
+    TURNSCAN_ASSIGN(auto set, open_foreign(paths[k], options, context));
     if (k > 0 && !importers::same_rig(out->header(), set->header()))
       return fail_at(paths[k].string(), ErrorCode::kInvalidOption,
                      "its sensor or turntable is another than that of {}; import each to a "

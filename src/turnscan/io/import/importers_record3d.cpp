@@ -44,12 +44,14 @@ std::optional<std::pair<std::uint32_t, std::string_view>> frame_file(std::string
   return std::pair(number, name.substr(std::size_t(end - name.data())));
 }
 
-std::map<std::uint32_t, R3dFrame> frames_in(const zip::Directory& directory) {
+Result<std::map<std::uint32_t, R3dFrame>> frames_in(const zip::Directory& directory,
+                                                    const file::ReadBudget& budget) {
   std::map<std::uint32_t, R3dFrame> frames;
   for (const auto& [name, entry] : directory.entries) {
     const auto file = frame_file(name);
     if (!file) continue;
     const auto& [number, ending] = *file;
+    if (frames.count(number) == 0) TURNSCAN_TRY(budget.hold(file::ReadBudget::kFrame));
     if (ending == ".depth") {
       frames[number].depth = entry;
       frames[number].info.file = name;
@@ -268,9 +270,11 @@ Result<record3d::Metadata> read_metadata(const file::RandomAccessFile& file,
 
 /// Frames with depth, sorted by their numbers, which are in info.index.
 Result<R3dFile> collect(file::RandomAccessFile file, const zip::Directory& directory,
-                        std::size_t stated, SequenceHeader& header) {
+                        const file::ReadBudget& budget, std::size_t stated,
+                        SequenceHeader& header) {
   R3dFile data{std::move(file), {}};
-  for (auto& [number, frame] : frames_in(directory)) {
+  TURNSCAN_ASSIGN(auto frames, frames_in(directory, budget));
+  for (auto& [number, frame] : frames) {
     if (!frame.depth) continue;
     frame.info.index = number;
     data.frames.push_back(std::move(frame));
@@ -288,15 +292,21 @@ Result<R3dFile> collect(file::RandomAccessFile file, const zip::Directory& direc
 
 }  // namespace
 
-OpenResult open_record3d(const fs::path& path, const ImportOptions& options) {
+OpenResult open_record3d(const fs::path& path, const ImportOptions& options,
+                         const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("Record3D recording {}", display_name(path));
   TURNSCAN_ASSIGN(file::RandomAccessFile file, file::RandomAccessFile::open(path));
-  TURNSCAN_ASSIGN(const zip::Directory directory, zip::read_directory(file));
+  const file::ReadBudget budget(file.size(), context);
+  auto listed = zip::read_directory(file, budget);
+  if (!listed) return at_path(path, std::move(listed).error());
+  const zip::Directory& directory = *listed;
   TURNSCAN_ASSIGN(record3d::Metadata metadata, read_metadata(file, directory, header));
-  TURNSCAN_ASSIGN(R3dFile data,
-                  collect(std::move(file), directory,
-                          std::max(metadata.poses.size(), metadata.times_s.size()), header));
+  auto collected = collect(std::move(file), directory, budget,
+                           std::max(metadata.poses.size(), metadata.times_s.size()), header);
+  if (!collected) return at_path(path, std::move(collected).error());
+  R3dFile& data = *collected;
+  TURNSCAN_TRY(context.check());
   TURNSCAN_TRY(size_by_content(data, metadata));
   if (auto good = describe_sensor(data, metadata, header); !good)
     return at_path(path, std::move(good).error());

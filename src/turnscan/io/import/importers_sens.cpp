@@ -176,11 +176,12 @@ Result<std::vector<SensFrame>> place_frames(const std::vector<sens::FramePlace>&
 
 }  // namespace
 
-OpenResult open_sens(const fs::path& path, const ImportOptions& options) {
+OpenResult open_sens(const fs::path& path, const ImportOptions& options,
+                     const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format(".sens recording {}", display_name(path));
   TURNSCAN_ASSIGN(file::RandomAccessFile file, file::RandomAccessFile::open(path));
-  TURNSCAN_ASSIGN(sens::Index index, sens::read_index(file));
+  TURNSCAN_ASSIGN(sens::Index index, sens::read_index(file, context));
   if (index.frames.empty())
     return fail_at(path.string(), ErrorCode::kTooFewPoints,
                    "the file has no whole frame, of {} that its header states",

@@ -24,6 +24,8 @@ constexpr double kNearest_s = 0.02;         // always counts as near
 // Relative to the frame interval; a larger gap means that frames are missing.
 constexpr double kGap = 1.6;
 
+constexpr std::uint64_t kFrameHeld = 512;  // bytes that a frame takes, be it a dropped one
+
 struct Shot {
   MessagePlace place;
   std::uint32_t seq = 0;
@@ -33,7 +35,7 @@ struct Shot {
 
 /// The messages of two topics with the content of their headers; unreadable ones are not good. In
 /// the order of the file, so that each chunk is unpacked once.
-std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& streams) {
+Result<std::array<std::vector<Shot>, 2>> shots_of(const Bag& bag, const BagStreams& streams) {
   std::array<std::vector<Shot>, 2> shots;
   std::vector<Shot*> in_file;
   for (const bool color : {false, true}) {
@@ -47,6 +49,7 @@ std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& stre
   });
   parallel_for(in_file.size(), 16, [&](std::size_t i) {
     Shot& shot = *in_file[i];
+    if (!bag.budget().state()) return;
     const auto message = bag.read(shot.place, kHeaderBytes);
     if (!message) return;
     const auto header = rosbag::parse_header(message->bytes);
@@ -55,6 +58,7 @@ std::array<std::vector<Shot>, 2> shots_of(const Bag& bag, const BagStreams& stre
     shot.stamp_ns = header->stamp_ns;
     shot.good = true;
   });
+  TURNSCAN_TRY(bag.budget().state());
   return shots;
 }
 
@@ -150,7 +154,7 @@ class BagSequence : public FrameSequence {
     std::uint32_t color = kNone;  ///< index into colors_
   };
 
-  void add_frames(const std::vector<Shot>& shots, const std::vector<std::int64_t>& times_ns);
+  Result<> add_frames(const std::vector<Shot>& shots, const std::vector<std::int64_t>& times_ns);
   void match_colors(const std::vector<Shot>& shots, const Timeline& times);
   Result<> look_at_first();
   Result<DepthImage> depth_of(const MessagePlace& place) const;
@@ -165,7 +169,8 @@ class BagSequence : public FrameSequence {
 };
 
 Result<> BagSequence::list() {
-  auto [shots, colors] = shots_of(bag_, streams_);
+  TURNSCAN_ASSIGN(auto all_shots, shots_of(bag_, streams_));
+  auto& [shots, colors] = all_shots;
   const std::size_t all = shots.size();
   std::erase_if(shots, [](const Shot& shot) { return !shot.good; });
   if (shots.empty())
@@ -176,20 +181,23 @@ Result<> BagSequence::list() {
              fmt::format("{} of {} frames are damaged and were left out", all - shots.size(), all));
   std::erase_if(colors, [](const Shot& shot) { return !shot.good; });
   const Timeline times = timeline_of(shots, colors, header_);
-  add_frames(shots, times.depth_ns);
+  TURNSCAN_TRY(add_frames(shots, times.depth_ns));
   match_colors(colors, times);
   if (!bag_.cut().empty())
     add_note(header_,
              fmt::format("the bag was not closed or is damaged ({}); {} whole frames were found",
                          bag_.cut(), shots.size()));
-  return look_at_first();
+  TURNSCAN_TRY(look_at_first());
+  bag_.end_of_opening();
+  return {};
 }
 
-void BagSequence::add_frames(const std::vector<Shot>& shots,
-                             const std::vector<std::int64_t>& times_ns) {
+Result<> BagSequence::add_frames(const std::vector<Shot>& shots,
+                                 const std::vector<std::int64_t>& times_ns) {
   const std::vector<std::int64_t> missing = missing_before(shots, times_ns);
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const double time_s = seconds(times_ns[i] - times_ns.front());
+    TURNSCAN_TRY(bag_.budget().hold(std::uint64_t(missing[i]) * kFrameHeld));
     for (std::int64_t k = 1; k <= missing[i]; ++k) {
       const double before_s = seconds(times_ns[i - 1] - times_ns.front());
       FrameInfo lost;
@@ -205,6 +213,7 @@ void BagSequence::add_frames(const std::vector<Shot>& shots,
     frames_.push_back(info);
     places_.push_back({shots[i].place, kNone});
   }
+  return {};
 }
 
 void BagSequence::match_colors(const std::vector<Shot>& shots, const Timeline& times) {

@@ -5,8 +5,11 @@
 
 namespace turnscan::importers {
 
-OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options) {
-  TURNSCAN_ASSIGN(rosbag::Bag bag, rosbag::Bag::open(path));
+OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& options,
+                       const RunContext& context) {
+  auto opened = rosbag::Bag::open(path, context);
+  if (!opened) return at_path(path, opened.error());
+  rosbag::Bag& bag = *opened;
   if (bag.connections().empty())
     return fail_at(path.string(), ErrorCode::kFormat,
                    "there is no message in the bag{}{}; record again",

@@ -56,7 +56,7 @@ std::optional<ImageTopic> look_at(const Bag& bag, const rosbag::Connection& conn
 std::vector<ImageTopic> image_topics(const Bag& bag) {
   std::map<std::string, ImageTopic> topics;
   for (const auto& connection : bag.connections()) {
-    if (topics.count(connection.topic) > 0) continue;
+    if (topics.count(connection.topic) > 0 || !bag.budget().state()) continue;
     if (auto topic = look_at(bag, connection)) topics.emplace(connection.topic, std::move(*topic));
   }
   std::vector<ImageTopic> out;
@@ -179,6 +179,7 @@ std::optional<Pose> T_between(const std::map<std::string, rosbag::TransformStamp
 
 /// Uses the topic as colour, or returns the reason why not.
 std::string take_color(const Bag& bag, const ImageTopic& depth, const ImageTopic& color,
+                       const std::map<std::string, rosbag::TransformStamped>& transforms,
                        BagStreams& out) {
   const auto camera = camera_of(bag, color);
   const bool same_frame = !depth.frame_id.empty() && depth.frame_id == color.frame_id;
@@ -189,7 +190,7 @@ std::string take_color(const Bag& bag, const ImageTopic& depth, const ImageTopic
   if (!same_frame || !same_size) {
     if (!camera) return camera.error().message;
     const auto T = same_frame ? std::optional<Pose>(Pose::Identity())
-                              : T_between(transforms_of(bag), color.frame_id, depth.frame_id);
+                              : T_between(transforms, color.frame_id, depth.frame_id);
     if (!T)
       return fmt::format("no transform joins its frame {} with {}", color.frame_id, depth.frame_id);
     out.sensor.color_intrinsics = *camera;
@@ -214,8 +215,9 @@ void add_color(const Bag& bag, const ImageTopic& depth, const std::vector<ImageT
   std::stable_sort(colors.begin(), colors.end(), [&](const ImageTopic& a, const ImageTopic& b) {
     return (a.frame_id == depth.frame_id) > (b.frame_id == depth.frame_id);
   });
+  const auto transforms = colors.empty() ? decltype(transforms_of(bag))() : transforms_of(bag);
   for (const ImageTopic& color : colors) {
-    const std::string why = take_color(bag, depth, color, out);
+    const std::string why = take_color(bag, depth, color, transforms, out);
     if (why.empty()) {
       out.notes.push_back(fmt::format("colour from {}", color.topic));
       return;
@@ -236,6 +238,7 @@ Result<rosbag::Payload> first_message(const Bag& bag, std::string_view topic) {
 
 Result<BagStreams> ros_streams(const Bag& bag, const ImportOptions& options) {
   const std::vector<ImageTopic> topics = image_topics(bag);
+  TURNSCAN_TRY(bag.budget().state());
   TURNSCAN_ASSIGN(const ImageTopic depth, chosen_depth(bag, topics, options.topic));
   BagStreams out;
   out.origin = fmt::format("ROS bag {}", display_name(bag.path()));

@@ -22,7 +22,6 @@ constexpr std::uint32_t kAttachedFile = 0x61a7, kFileName = 0x466e, kFileData = 
                         kFileUid = 0x46ae;
 
 constexpr std::size_t kWindow = 4096;
-constexpr std::size_t kMaxFrames = 1000000;
 constexpr std::size_t kMaxTracks = 64;
 constexpr std::size_t kMaxTags = 10000;
 constexpr std::size_t kMaxAttachments = 1000;
@@ -106,6 +105,7 @@ Result<> Indexer::read_ebml_header() {
 Result<> Indexer::walk() {
   std::uint64_t at = window_at_;
   while (at < file_.size() && !stopped_) {
+    TURNSCAN_TRY(budget_.state());
     TURNSCAN_ASSIGN(const std::string_view bytes, peek(at));
     const auto element = parse_element(bytes, at);
     if (!element)
@@ -304,9 +304,7 @@ Result<> Indexer::read_block(const Element& element) {
                    "byte {}: several frames share a block (lacing); recordings of depth sensors do "
                    "not",
                    element.at);
-  if (frames_ == kMaxFrames)
-    return fail_at(file_.path().string(), ErrorCode::kResourceLimit,
-                   "there are more than {} frames", kMaxFrames);
+  TURNSCAN_TRY(budget_.hold(file::ReadBudget::kFrame));
   if (element.size - header > 0xffffffffu) return stop(element.at, "a block is damaged");
   ++frames_;
   track->blocks.push_back({(static_cast<std::int64_t>(cluster_time_) + after) *

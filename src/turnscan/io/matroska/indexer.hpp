@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/matroska/matroska.hpp>
 
 namespace turnscan::matroska {
@@ -13,7 +14,8 @@ inline constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t(16) << 20;
 
 class Indexer {
  public:
-  explicit Indexer(MatroskaFile& out) : out_(out), file_(out.file_) {}
+  Indexer(MatroskaFile& out, const RunContext& context)
+      : out_(out), file_(out.file_), budget_(file_.size(), context) {}
   Result<> run();
 
  private:
@@ -35,6 +37,7 @@ class Indexer {
 
   MatroskaFile& out_;
   const PositionedFile& file_;
+  const file::ReadBudget budget_;
   std::string window_;
   std::uint64_t window_at_ = 0;
   std::uint64_t time_scale_ns_ = 1000000;

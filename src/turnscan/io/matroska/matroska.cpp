@@ -11,10 +11,11 @@ bool is_matroska_file(const std::filesystem::path& path) {
   return head && *head == "\x1a\x45\xdf\xa3";
 }
 
-Result<MatroskaFile> MatroskaFile::open(const std::filesystem::path& path) {
+Result<MatroskaFile> MatroskaFile::open(const std::filesystem::path& path,
+                                        const RunContext& context) {
   TURNSCAN_ASSIGN(PositionedFile file, PositionedFile::open(path));
   MatroskaFile out(std::move(file));
-  TURNSCAN_TRY(Indexer(out).run());
+  TURNSCAN_TRY(Indexer(out, context).run());
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/io/matroska/ebml.hpp>
 #include <vector>
 
@@ -54,8 +55,10 @@ class MatroskaFile {
   /// or damaged after its first frame, is opened up to there: ended_early() says where and why. All
   /// frames are complete: they end within the file.
   /// Fails with kNotFound and kIo; with kFormat if it is not a Matroska file or damaged before its
-  /// first frame; with kUnsupported for lacing; with kResourceLimit beyond a million frames.
-  static Result<MatroskaFile> open(const std::filesystem::path& path);
+  /// first frame; with kUnsupported for lacing; with kResourceLimit for more frames than a file of
+  /// its length can have (file::ReadBudget), and with kCancelled.
+  static Result<MatroskaFile> open(const std::filesystem::path& path,
+                                   const RunContext& context = RunContext());
 
   const std::filesystem::path& path() const { return file_.path(); }
   const std::vector<Track>& tracks() const { return tracks_; }

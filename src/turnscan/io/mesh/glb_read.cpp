@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <turnscan/core/mesh_texture.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/mesh/glb_accessor.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/srgb.hpp>
@@ -12,6 +13,8 @@ namespace turnscan::mesh_io {
 namespace {
 
 constexpr int kMaxNesting = 64;
+constexpr const char* kTooMuch =
+    "it places its meshes so often that they are out of proportion to it";
 
 /// tinygltf copies nested values recursively.
 bool nested_too_deeply(std::string_view bytes) {
@@ -87,8 +90,8 @@ Eigen::Affine3d transform_of(const tinygltf::Node& node) {
 
 class SceneReader {
  public:
-  explicit SceneReader(const tinygltf::Model& model)
-      : model_(model), visited_(model.nodes.size(), 0) {}
+  SceneReader(const tinygltf::Model& model, std::size_t file_bytes)
+      : model_(model), visited_(model.nodes.size(), 0), budget_(file_bytes) {}
 
   Meshes read() {
     for (const int root : roots()) open_.push_back({root, Eigen::Affine3d::Identity()});
@@ -126,6 +129,7 @@ class SceneReader {
     if (node.mesh < 0) return nullptr;
     if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) return "a mesh does not exist";
     const tinygltf::Mesh& source = model_.meshes[static_cast<std::size_t>(node.mesh)];
+    if (!budget_.hold(sizeof(TriangleMesh))) return kTooMuch;
     TriangleMesh& mesh = meshes_.emplace_back();
     mesh.name = node.name.empty() ? source.name : node.name;
     for (const tinygltf::Primitive& primitive : source.primitives)
@@ -147,7 +151,7 @@ class SceneReader {
       if (own < 0 || (picture >= 0 && picture != own)) return;
       picture = own;
     }
-    auto image = budget_.decode(bytes_of_picture(picture));
+    auto image = pictures_.decode(bytes_of_picture(picture));
     if (!image) return;
     auto texture = std::make_shared<MeshTexture>();
     texture->image = std::move(*image);
@@ -200,6 +204,8 @@ class SceneReader {
     const std::size_t first = mesh.vertices.size();
     if (first + positions->count() > std::numeric_limits<std::int32_t>::max())
       return "it has too many vertices";
+    // Any number of nodes may place the same mesh.
+    if (!budget_.hold(sizeof(Vec3f) * positions->count())) return kTooMuch;
     add_vertices(primitive, *positions, transform, mesh);
     return add_triangles(primitive, mode, first, transform.linear().determinant() < 0.0, mesh);
   }
@@ -254,6 +260,7 @@ class SceneReader {
     }
     const std::size_t n = indices ? indices->count() : vertices;
     const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
+    if (!budget_.hold(sizeof(std::array<std::uint32_t, 3>) * (n / step))) return kTooMuch;
     for (std::size_t i = 0; i + 2 < n; i += step) {
       std::array<std::size_t, 3> place{mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i, i + 1, i + 2};
       const bool odd = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
@@ -273,7 +280,8 @@ class SceneReader {
   std::vector<std::uint8_t> visited_;
   std::vector<Open> open_;
   std::vector<TriangleMesh> meshes_;
-  TextureBudget budget_;
+  file::ReadBudget budget_;
+  TextureBudget pictures_;
   std::vector<Eigen::Vector2f> uvs_;  // in the image, for the vertices of the mesh being read
 };
 
@@ -281,7 +289,7 @@ class SceneReader {
 
 Meshes decode_glb(std::string_view bytes) {
   TURNSCAN_ASSIGN(const tinygltf::Model model, parse(bytes));
-  return SceneReader(model).read();
+  return SceneReader(model, bytes.size()).read();
 }
 
 }  // namespace turnscan::mesh_io

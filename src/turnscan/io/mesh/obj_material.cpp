@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <set>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/obj_material.hpp>
@@ -79,13 +81,16 @@ Result<> write_files_beside_obj(const fs::path& obj, std::span<const TriangleMes
 Meshes read_obj(const fs::path& path, std::string_view bytes) {
   TURNSCAN_ASSIGN(ObjObjects objects, parse_obj(bytes));
   std::map<std::string, std::string> pictures;
+  // The file may name the same ones any number of times.
+  const file::ReadBudget budget(bytes.size());
+  std::set<fs::path> seen;
   for (const std::string& library : objects.libraries) {
     const fs::path file = file_beside(path, library);
-    const auto mtl = file.empty() ? Result<std::string>(fail(ErrorCode::kNotFound, "elsewhere"))
-                                  : read_file(file, kMaxMaterialBytes);
+    if (file.empty() || !seen.insert(file).second) continue;
+    const auto mtl = read_file(file, kMaxMaterialBytes);
     if (mtl) pictures.merge(pictures_of_materials(*mtl));
   }
-  TextureBudget budget;
+  TextureBudget shown;
   for (std::size_t i = 0; i < objects.meshes.size(); ++i) {
     ObjTexCoords& uvs = objects.uvs[i];
     const auto picture = pictures.find(uvs.material);
@@ -94,7 +99,8 @@ Meshes read_obj(const fs::path& path, std::string_view bytes) {
     if (file.empty()) continue;
     const auto picture_bytes = read_file(file, kMaxTextureFileBytes);
     if (!picture_bytes) continue;
-    auto image = budget.decode(*picture_bytes);
+    if (!seen.insert(file).second) TURNSCAN_TRY(budget.unpack(picture_bytes->size()));
+    auto image = shown.decode(*picture_bytes);
     if (!image) continue;
     auto texture = std::make_shared<MeshTexture>();
     texture->image = std::move(*image);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <turnscan/core/mesh_texture.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/mesh/lib3mf_handle.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/texture_budget.hpp>
@@ -14,8 +15,6 @@ constexpr int kMaxDepth = 32;  // of nested objects
 // An object may be placed any number of times, including one composed of others: the result may
 // grow as a power of the file's length.
 constexpr std::size_t kMaxPlaced = 100000;
-constexpr std::size_t kMaxElements = 10000000;  // vertices and triangles
-constexpr std::size_t kMaxElementsPerByte = 4;  // for a large file
 constexpr std::uint64_t kMaxPictureBytes = std::uint64_t(256) << 20;
 
 double metres_of(unsigned unit) {
@@ -46,8 +45,7 @@ Eigen::Affine3d transform_from(const NMR::MODELTRANSFORM& fields) {
 
 class ThreemfReader {
  public:
-  explicit ThreemfReader(std::string_view bytes)
-      : elements_left_(kMaxElements + kMaxElementsPerByte * bytes.size()) {
+  explicit ThreemfReader(std::string_view bytes) : budget_(bytes.size()) {
     require(NMR::lib3mf_createmodel(model_.out()), model_);
     Lib3mfHandle reader;
     require(NMR::lib3mf_model_queryreader(model_.get(), "3mf", reader.out()), model_);
@@ -160,9 +158,9 @@ class ThreemfReader {
     require(NMR::lib3mf_meshobject_gettrianglecount(object.get(), &triangle_count), object);
     if (vertex_count == 0 || triangle_count == 0) return;
     const std::size_t first = target.vertices.size();
-    if (std::size_t(vertex_count) + triangle_count > elements_left_)
+    if (!budget_.hold(sizeof(Vec3f) * std::uint64_t(vertex_count) +
+                      sizeof(std::array<std::uint32_t, 3>) * std::uint64_t(triangle_count)))
       throw Lib3mfFailure("it places its meshes so often that they are out of proportion to it");
-    elements_left_ -= std::size_t(vertex_count) + triangle_count;
     if (first + vertex_count > std::numeric_limits<std::int32_t>::max()) throw std::bad_alloc();
     std::vector<NMR::MODELMESHVERTEX> vertices(vertex_count);
     std::vector<NMR::MODELMESHTRIANGLE> triangles(triangle_count);
@@ -216,7 +214,7 @@ class ThreemfReader {
     if (NMR::lib3mf_attachment_writetobuffer(
             attachment.get(), reinterpret_cast<unsigned char*>(bytes.data()), size) != LIB3MF_OK)
       return;
-    auto image = budget_.decode(bytes);
+    auto image = pictures_.decode(bytes);
     if (!image) return;
     auto made = std::make_shared<MeshTexture>();
     made->image = std::move(*image);
@@ -262,10 +260,11 @@ class ThreemfReader {
 
   Lib3mfHandle model_;
   std::vector<TriangleMesh> meshes_;
-  std::size_t placed_ = 0, elements_left_;
+  std::size_t placed_ = 0;
   std::vector<std::array<Eigen::Vector2f, 3>> uvs_;  // of the item being read
   DWORD texture_id_ = 0;
-  TextureBudget budget_;
+  file::ReadBudget budget_;
+  TextureBudget pictures_;
 };
 
 }  // namespace

@@ -10,6 +10,16 @@ namespace turnscan::record3d {
 namespace {
 
 constexpr int kMaxSide = 16384;
+// A whole picture of a phone's camera, 4032 x 3024; its videos and depth images have fewer.
+constexpr std::int64_t kMaxPixels = 4032 * 3024;
+
+Result<> check_pixels(int width, int height) {
+  if (std::int64_t(width) * height <= kMaxPixels) return {};
+  return fail(ErrorCode::kResourceLimit,
+              "the images have {} x {} pixels, and a phone's have at most 4032 x 3024; the file is "
+              "damaged",
+              width, height);
+}
 
 /// A list of lists of `width` numbers each; empty if there is none.
 Result<std::vector<std::vector<double>>> rows_of(const text::JsonObject& root, const char* key,
@@ -53,6 +63,7 @@ Result<> parse_camera(const text::JsonObject& root, Metadata& out) {
   CameraIntrinsics& camera = out.camera;
   TURNSCAN_ASSIGN(camera.width, root.integer("w", 1, kMaxSide));
   TURNSCAN_ASSIGN(camera.height, root.integer("h", 1, kMaxSide));
+  TURNSCAN_TRY(check_pixels(camera.width, camera.height));
   TURNSCAN_ASSIGN(const std::vector<double> k, root.numbers("K"));
   if (k.size() != 9) return fail(ErrorCode::kFormat, "K has {} numbers, not 9", k.size());
   camera.fx = k[0];
@@ -84,6 +95,7 @@ Result<Metadata> parse_metadata(std::string_view json) {
   if (root.has("dw") || root.has("dh")) {
     TURNSCAN_ASSIGN(out.depth_width, root.integer("dw", 1, kMaxSide));
     TURNSCAN_ASSIGN(out.depth_height, root.integer("dh", 1, kMaxSide));
+    TURNSCAN_TRY(check_pixels(out.depth_width, out.depth_height));
   }
   TURNSCAN_ASSIGN(out.fps, root.number_or("fps", 0.0));
   if (root.has("frameTimestamps")) {

@@ -2,6 +2,7 @@
 #include <turnscan/io/file/load_value.hpp>
 #include <turnscan/io/rosbag/bag_file.hpp>
 #include <turnscan/io/rosbag/bag_record.hpp>
+#include <utility>
 
 namespace turnscan::rosbag {
 
@@ -9,12 +10,11 @@ namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
 constexpr std::size_t kCached = 4;                 // chunks
-constexpr std::uint32_t kCachedBytes = 32U << 20;  // maximum for each
-// At most this many bytes, plus kScannedTimes times the file's size, are scanned on opening.
-constexpr std::uint64_t kScannedBytes = std::uint64_t(1) << 30;
-constexpr std::uint64_t kScannedTimes = 16;  // see kScannedBytes
-constexpr std::uint64_t kMaxByLz4 = 255;     // maximum expansion
-constexpr std::size_t kFirstPiece = 512;     // most headers are shorter
+constexpr std::uint32_t kCachedBytes = 32U << 20;  // a larger one is kept alone
+// That a message takes: its place, and the time and number that are read of it.
+constexpr std::uint64_t kBytesHeld = 64;
+constexpr std::uint64_t kMaxByLz4 = 255;  // maximum expansion
+constexpr std::size_t kFirstPiece = 512;  // most headers are shorter
 
 std::uint32_t little_u32(const char* at) { return file::load<std::uint32_t, false>(at); }
 
@@ -28,19 +28,35 @@ struct Bag::Head {
   Result<RecordHeader> fields() const { return RecordHeader::parse(bytes); }
 };
 
-/// The most recently unpacked chunks. Large ones are not kept, and only one of them is unpacked at
-/// a time.
+/// The most recently unpacked chunks. Only one large one is unpacked, and kept, at a time.
 struct Bag::Cache {
   std::mutex guard, one_large;
   std::vector<std::pair<std::uint32_t, std::shared_ptr<const std::string>>> chunks;
+
+  std::shared_ptr<const std::string> find(std::uint32_t chunk) {
+    const std::lock_guard lock(guard);
+    for (auto& [number, bytes] : chunks)
+      if (number == chunk) return bytes;
+    return nullptr;
+  }
+  /// Drops the oldest, and before a large one all.
+  void make_room(bool large) {
+    const std::lock_guard lock(guard);
+    while (!chunks.empty() &&
+           (large || chunks.size() >= kCached || chunks.front().second->size() > kCachedBytes))
+      chunks.erase(chunks.begin());
+  }
 };
 
-Bag::Bag(file::RandomAccessFile file) : file_(std::move(file)), cache_(std::make_unique<Cache>()) {}
+Bag::Bag(file::RandomAccessFile file, const RunContext& context)
+    : file_(std::move(file)),
+      cache_(std::make_unique<Cache>()),
+      budget_(std::make_unique<const file::ReadBudget>(file_.size(), context)) {}
 Bag::Bag(Bag&&) noexcept = default;
 Bag& Bag::operator=(Bag&&) noexcept = default;
 Bag::~Bag() = default;
 
-Result<Bag> Bag::open(const std::filesystem::path& path) {
+Result<Bag> Bag::open(const std::filesystem::path& path, const RunContext& context) {
   TURNSCAN_ASSIGN(file::RandomAccessFile file, file::RandomAccessFile::open(path));
   const std::size_t most = std::size_t(std::min<std::uint64_t>(file.size(), kVersion.size()));
   TURNSCAN_ASSIGN(const std::string magic, file.read(0, most));
@@ -49,13 +65,35 @@ Result<Bag> Bag::open(const std::filesystem::path& path) {
   if (magic != kVersion)
     return fail_at(path.string(), ErrorCode::kUnsupported,
                    "the bag is of another version than 2.0; bring it there with rosbag fix");
-  Bag bag(std::move(file));
+  Bag bag(std::move(file), context);
   TURNSCAN_TRY(bag.walk());
   TURNSCAN_TRY(bag.look_into_chunks());
-  std::stable_sort(
-      bag.places_.begin(), bag.places_.end(),
-      [](const MessagePlace& a, const MessagePlace& b) { return a.time_ns < b.time_ns; });
+  bag.sort_by_topic();
   return bag;
+}
+
+void Bag::sort_by_topic() {
+  std::stable_sort(
+      places_.begin(), places_.end(),
+      [](const MessagePlace& a, const MessagePlace& b) { return a.time_ns < b.time_ns; });
+  std::unordered_map<std::uint32_t, Topic*> topic_of;
+  std::vector<Topic*> topics;
+  for (const Connection& connection : connections_) {
+    const auto [topic, fresh] = topics_.try_emplace(connection.topic);
+    topic_of.emplace(connection.id, &topic->second);
+    if (!fresh) continue;
+    topic->second.connection = std::size_t(&connection - connections_.data());
+    topics.push_back(&topic->second);
+  }
+  for (const MessagePlace& place : places_) ++topic_of.at(place.connection)->end;
+  std::size_t begin = 0;
+  for (Topic* topic : topics) {
+    topic->begin = begin;
+    begin += std::exchange(topic->end, begin);
+  }
+  std::vector<MessagePlace> sorted(places_.size());
+  for (const MessagePlace& place : places_) sorted[topic_of.at(place.connection)->end++] = place;
+  places_ = std::move(sorted);
 }
 
 Result<Bag::Head> Bag::head_at(std::uint64_t offset) const {
@@ -80,6 +118,7 @@ Result<Bag::Head> Bag::head_at(std::uint64_t offset) const {
 Result<> Bag::walk() {
   std::uint64_t at = kVersion.size();
   while (at < file_.size()) {
+    TURNSCAN_TRY(budget_->state());
     std::uint64_t next = at;
     auto head = head_at(at);
     Result<> taken;
@@ -210,6 +249,7 @@ Result<> Bag::add_message(MessagePlace place) {
   if (places_.size() >= kMaxMessages)
     return fail_at(path().string(), ErrorCode::kResourceLimit,
                    "the bag has more than {} messages; filter it with rosbag filter", kMaxMessages);
+  TURNSCAN_TRY(budget_->hold(kBytesHeld));
   places_.push_back(place);
   return {};
 }
@@ -224,15 +264,10 @@ Result<> Bag::look_into_chunks() {
   for (const MessagePlace& place : places_)
     if (by_id_.count(place.connection) == 0 && unknown.emplace(place.connection, true).second)
       wanted[place.chunk] = std::max<char>(wanted[place.chunk], 1);
-  std::uint64_t budget = kScannedBytes + kScannedTimes * file_.size();
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
-    if (wanted[i] == 0) continue;
-    if (chunks_[i].size > budget)
-      return fail_at(path().string(), ErrorCode::kResourceLimit,
-                     "the bag has no index, and its chunks unpack to far more than the file; "
-                     "reindex it with rosbag reindex");
-    budget -= chunks_[i].size;
-    if (chunks_[i].size <= kMaxChunkBytes) scan(std::uint32_t(i), wanted[i] == 2);
+    if (wanted[i] == 0 || chunks_[i].size > kMaxChunkBytes) continue;
+    scan(std::uint32_t(i), wanted[i] == 2);
+    TURNSCAN_TRY(budget_->state());
     if (places_.size() >= kMaxMessages)
       return fail_at(path().string(), ErrorCode::kResourceLimit,
                      "the bag has more than {} messages", kMaxMessages);
@@ -263,41 +298,26 @@ void Bag::scan(std::uint32_t chunk, bool messages) {
     const auto connection = record->header.u32("conn");
     const auto time_ns = record->header.time_ns("time");
     if (messages && Op(*op) == Op::kMessage && connection && time_ns &&
-        places_.size() < kMaxMessages)
-      places_.push_back({*time_ns, *connection, chunk, std::uint32_t(at)});
+        !add_message({*time_ns, *connection, chunk, std::uint32_t(at)}))
+      return;
     at = record->end;
   }
 }
 
-std::vector<std::uint32_t> Bag::ids_of(std::string_view topic) const {
-  std::vector<std::uint32_t> out;
-  for (const Connection& connection : connections_)
-    if (connection.topic == topic) out.push_back(connection.id);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
-std::vector<MessagePlace> Bag::messages(std::string_view topic) const {
-  const std::vector<std::uint32_t> ids = ids_of(topic);
-  std::vector<MessagePlace> out;
-  for (const MessagePlace& place : places_)
-    if (std::binary_search(ids.begin(), ids.end(), place.connection)) out.push_back(place);
-  return out;
+std::span<const MessagePlace> Bag::messages(std::string_view topic) const {
+  const auto found = topics_.find(std::string(topic));
+  if (found == topics_.end()) return {};
+  return std::span(places_).subspan(found->second.begin, found->second.end - found->second.begin);
 }
 
 std::optional<MessagePlace> Bag::first(std::string_view topic) const {
-  const std::vector<std::uint32_t> ids = ids_of(topic);
-  const auto found = std::find_if(places_.begin(), places_.end(), [&](const MessagePlace& place) {
-    return std::binary_search(ids.begin(), ids.end(), place.connection);
-  });
-  if (found == places_.end()) return std::nullopt;
-  return *found;
+  const auto all = messages(topic);
+  return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
 const Connection* Bag::find(std::string_view topic) const {
-  const auto found = std::find_if(connections_.begin(), connections_.end(),
-                                  [&](const Connection& c) { return c.topic == topic; });
-  return found == connections_.end() ? nullptr : &*found;
+  const auto found = topics_.find(std::string(topic));
+  return found == topics_.end() ? nullptr : &connections_[found->second.connection];
 }
 
 Error Bag::at_chunk(Error error, std::uint32_t chunk) const {
@@ -309,15 +329,16 @@ Error Bag::at_chunk(Error error, std::uint32_t chunk) const {
 }
 
 Result<std::shared_ptr<const std::string>> Bag::unpacked(std::uint32_t chunk) const {
-  {
-    const std::lock_guard lock(cache_->guard);
-    for (auto& [number, bytes] : cache_->chunks)
-      if (number == chunk) return bytes;
-  }
+  if (auto known = cache_->find(chunk)) return known;
   const Chunk& place = chunks_[chunk];
-  std::unique_lock<std::mutex> large(cache_->one_large, std::defer_lock);
-  const bool kept = place.size <= kCachedBytes && place.stored <= kCachedBytes;
-  if (!kept) large.lock();
+  std::unique_lock<std::mutex> one(cache_->one_large, std::defer_lock);
+  const bool large = place.size > kCachedBytes || place.stored > kCachedBytes;
+  if (large) {
+    one.lock();
+    if (auto known = cache_->find(chunk)) return known;  // another thread has just unpacked it
+  }
+  if (opening_) TURNSCAN_TRY(budget_->unpack(place.size));
+  cache_->make_room(large);
   TURNSCAN_ASSIGN(std::string stored, file_.read(place.data_at, place.stored));
   if (place.packing != Packing::kNone) {
     auto bytes = unpack(place.packing, stored, place.size);
@@ -325,10 +346,8 @@ Result<std::shared_ptr<const std::string>> Bag::unpacked(std::uint32_t chunk) co
     stored = std::move(*bytes);
   }
   auto out = std::make_shared<const std::string>(std::move(stored));
-  if (!kept) return out;
   const std::lock_guard lock(cache_->guard);
   cache_->chunks.emplace_back(chunk, out);
-  if (cache_->chunks.size() > kCached) cache_->chunks.erase(cache_->chunks.begin());
   return out;
 }
 
@@ -344,8 +363,9 @@ Result<Payload> Bag::read_plain(const MessagePlace& place, std::size_t most) con
   if (head.data_bytes > kMaxMessageBytes)
     return fail(ErrorCode::kResourceLimit, "a message of {} bytes is longer than can be read",
                 head.data_bytes);
-  TURNSCAN_ASSIGN(std::string bytes,
-                  file_.read(head.data_at, std::min<std::size_t>(most, head.data_bytes)));
+  const std::size_t wanted = std::min<std::size_t>(most, head.data_bytes);
+  if (opening_) TURNSCAN_TRY(budget_->unpack(wanted));
+  TURNSCAN_ASSIGN(std::string bytes, file_.read(head.data_at, wanted));
   Payload out;
   out.owner = std::make_shared<const std::string>(std::move(bytes));
   out.bytes = *out.owner;

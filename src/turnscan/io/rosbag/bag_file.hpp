@@ -9,9 +9,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <turnscan/io/file/random_access_file.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/rosbag/chunk_codec.hpp>
 #include <unordered_map>
 #include <vector>
@@ -26,7 +28,7 @@ struct Connection {
   std::string type;  ///< "sensor_msgs/Image"
 };
 
-/// Position of a message. 24 bytes each; nothing else grows with the length of a bag.
+/// Position of a message.
 struct MessagePlace {
   std::int64_t time_ns = 0;  ///< time of recording
   std::uint32_t connection = 0;
@@ -49,8 +51,14 @@ class Bag {
 
   /// Reads headers, connections and indices; unpacks only chunks without an index. Fails with
   /// kFormat if this is not a bag or damaged before its first message, kUnsupported (another
-  /// version, encrypted, an unknown compression), kResourceLimit beyond the limits above, and kIo.
-  static Result<Bag> open(const std::filesystem::path& path);
+  /// version, encrypted, an unknown compression), kResourceLimit beyond the limits above or those
+  /// of a ReadBudget, kCancelled, and kIo.
+  static Result<Bag> open(const std::filesystem::path& path,
+                          const RunContext& context = RunContext());
+  /// What read() costs is charged, too, ...
+  const file::ReadBudget& budget() const { return *budget_; }
+  /// ... until all is known of the recording: then frames are read one by one, as asked for.
+  void end_of_opening() { opening_ = false; }
 
   const std::filesystem::path& path() const { return file_.path(); }
   const std::vector<Connection>& connections() const { return connections_; }
@@ -58,7 +66,7 @@ class Bag {
   const std::string& cut() const { return cut_; }
 
   /// The messages of a topic, sorted by the time of recording.
-  std::vector<MessagePlace> messages(std::string_view topic) const;
+  std::span<const MessagePlace> messages(std::string_view topic) const;
   /// The first of them.
   std::optional<MessagePlace> first(std::string_view topic) const;
   /// The connection of the topic, or nullptr.
@@ -79,7 +87,7 @@ class Bag {
   struct Cache;
   struct Head;
 
-  explicit Bag(file::RandomAccessFile file);
+  Bag(file::RandomAccessFile file, const RunContext& context);
   Result<> walk();
   Result<Head> head_at(std::uint64_t offset) const;
   Result<> take(const Head& head, std::uint64_t& next);
@@ -88,7 +96,7 @@ class Bag {
   Result<> take_connection(std::string_view header, std::string_view data);
   Result<> add_message(MessagePlace place);
   Result<> look_into_chunks();
-  std::vector<std::uint32_t> ids_of(std::string_view topic) const;
+  void sort_by_topic();
   void scan(std::uint32_t chunk, bool messages);
   Result<std::shared_ptr<const std::string>> unpacked(std::uint32_t chunk) const;
   Result<Payload> read_plain(const MessagePlace& place, std::size_t most) const;
@@ -98,9 +106,16 @@ class Bag {
   std::vector<Connection> connections_;
   std::unordered_map<std::uint32_t, std::size_t> by_id_;
   std::vector<Chunk> chunks_;
-  std::vector<MessagePlace> places_;
+  std::vector<MessagePlace> places_;  ///< sorted by topic, then by time
+  struct Topic {
+    std::size_t connection = 0;  ///< the first one of the topic
+    std::size_t begin = 0, end = 0;
+  };
+  std::unordered_map<std::string, Topic> topics_;
   std::string cut_;
   std::unique_ptr<Cache> cache_;
+  std::unique_ptr<const file::ReadBudget> budget_;
+  bool opening_ = true;
 
  public:
   Bag(Bag&&) noexcept;

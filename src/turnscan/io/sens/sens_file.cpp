@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
 
 namespace turnscan::sens {
@@ -16,7 +17,6 @@ constexpr std::uint32_t kVersion = 4;
 constexpr std::uint64_t kMaxName = 1024;
 constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::uint64_t kFrameHeaderBytes = 64 + 4 * 8;
-constexpr std::uint64_t kMaxFrames = 4000000;
 
 /// Reads fields sequentially.
 class Fields {
@@ -41,7 +41,11 @@ T value_at(std::string_view bytes, std::size_t at) {
 
 bool good_sizes(const Header& h) {
   const auto side = [](std::uint32_t s) { return s >= 1 && s <= kMaxSide; };
-  return side(h.depth_width) && side(h.depth_height) && h.color_width <= kMaxSide &&
+  const auto few = [](std::uint32_t width, std::uint32_t height) {
+    return std::uint64_t(width) * height <= kMaxImagePixels;
+  };
+  return few(h.depth_width, h.depth_height) && few(h.color_width, h.color_height) &&
+         side(h.depth_width) && side(h.depth_height) && h.color_width <= kMaxSide &&
          h.color_height <= kMaxSide;
 }
 
@@ -105,14 +109,13 @@ bool looks_like_sens(std::string_view begin) {
          value_at<std::uint64_t>(begin, 4) <= kMaxName;
 }
 
-Result<Index> read_index(const file::RandomAccessFile& file) {
+Result<Index> read_index(const file::RandomAccessFile& file, const RunContext& context) {
+  const file::ReadBudget budget(file.size(), context);
   TURNSCAN_ASSIGN(auto header, read_header(file));
   Index index{std::move(header.first), {}};
   std::uint64_t at = header.second;
   while (index.frames.size() < index.header.frame_count && file.size() - at >= kFrameHeaderBytes) {
-    if (index.frames.size() == kMaxFrames)
-      return fail_at(file.path().string(), ErrorCode::kResourceLimit,
-                     "there are more than {} frames", kMaxFrames);
+    TURNSCAN_TRY(budget.hold(file::ReadBudget::kFrame));
     TURNSCAN_ASSIGN(const std::string bytes, file.read(at, kFrameHeaderBytes));
     Fields fields(bytes);
     FramePlace frame;

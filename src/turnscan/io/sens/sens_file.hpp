@@ -9,6 +9,7 @@
 #include <string_view>
 #include <turnscan/core/result.hpp>
 #include <turnscan/io/file/random_access_file.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <vector>
 
 namespace turnscan::sens {
@@ -47,8 +48,10 @@ bool looks_like_sens(std::string_view begin);
 
 /// Reads the header and skips over the frames. A truncated file has fewer frames than its header
 /// states. Fails with kFormat if the header is damaged or states impossible sizes, and with
-/// kUnsupported for another version.
-Result<Index> read_index(const file::RandomAccessFile& file);
+/// kUnsupported for another version, kResourceLimit for more frames than a file of its length can
+/// have (file::ReadBudget), and kCancelled.
+Result<Index> read_index(const file::RandomAccessFile& file,
+                         const RunContext& context = RunContext());
 
 /// Values of the depth image, depth_width x depth_height; row by row. Fails with kUnsupported for
 /// compression other than raw and zlib, and with kFormat if it is damaged.

@@ -62,14 +62,19 @@ std::optional<ListPlace> find_list(const file::RandomAccessFile& file) {
   return std::nullopt;
 }
 
-/// nullopt if the central directory is damaged.
-std::optional<std::vector<NamedEntry>> parse_list(std::string_view list, std::uint64_t file_size) {
+/// Of an entry beside its name.
+constexpr std::uint64_t kEntryHeld = 2 * sizeof(NamedEntry);
+
+/// nullopt if the central directory is damaged, or the budget exceeded.
+std::optional<std::vector<NamedEntry>> parse_list(std::string_view list, std::uint64_t file_size,
+                                                  const file::ReadBudget& budget) {
   std::vector<NamedEntry> entries;
   while (!list.empty()) {
     if (list.size() < kListHeaderBytes || word_at(list, 0) != kListHeader) return std::nullopt;
     const std::size_t name = half_at(list, 28), extra = half_at(list, 30),
                       comment = half_at(list, 32);
-    if (list.size() - kListHeaderBytes < name + extra + comment) return std::nullopt;
+    if (list.size() - kListHeaderBytes < name + extra + comment || !budget.hold(kEntryHeld + name))
+      return std::nullopt;
     NamedEntry out{std::string(list.substr(kListHeaderBytes, name)), {}};
     Entry& entry = out.entry;
     entry.method = half_at(list, 10);
@@ -89,7 +94,8 @@ std::optional<std::vector<NamedEntry>> parse_list(std::string_view list, std::ui
 
 /// The complete entries whose local headers follow each other from the beginning. An entry whose
 /// sizes are stored after its data cannot be skipped and ends the search.
-Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file) {
+Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file,
+                                     const file::ReadBudget& budget) {
   std::vector<NamedEntry> entries;
   std::uint64_t at = 0;
   while (file.size() - at >= kLocalHeaderBytes) {
@@ -97,6 +103,7 @@ Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file) {
     if (word_at(header, 0) != kLocalHeader) break;
     const std::uint64_t names = std::uint64_t(half_at(header, 26)) + half_at(header, 28);
     if (file.size() - at - kLocalHeaderBytes < names) break;
+    TURNSCAN_TRY(budget.hold(kEntryHeld + names));
     TURNSCAN_ASSIGN(const std::string text, file.read(at + kLocalHeaderBytes, names));
     NamedEntry out{text.substr(0, half_at(header, 26)), {}};
     Entry& entry = out.entry;
@@ -120,7 +127,8 @@ Result<std::vector<NamedEntry>> walk(const file::RandomAccessFile& file) {
 
 }  // namespace
 
-Result<Directory> read_directory(const file::RandomAccessFile& file) {
+Result<Directory> read_directory(const file::RandomAccessFile& file,
+                                 const file::ReadBudget& budget) {
   Directory directory;
   const std::optional<ListPlace> place = find_list(file);
   if (place && place->size > kMaxListBytes && place->size <= file.size())
@@ -129,14 +137,15 @@ Result<Directory> read_directory(const file::RandomAccessFile& file) {
                    place->size, kMaxListBytes);
   if (place) {
     const auto list = file.read(place->at, place->size);
-    auto entries = list ? parse_list(*list, file.size()) : std::nullopt;
+    auto entries = list ? parse_list(*list, file.size(), budget) : std::nullopt;
+    TURNSCAN_TRY(budget.state());
     if (entries && !entries->empty()) {
       directory.entries = std::move(*entries);
       return directory;
     }
   }
   directory.cut_off = true;
-  TURNSCAN_ASSIGN(directory.entries, walk(file));
+  TURNSCAN_ASSIGN(directory.entries, walk(file, budget));
   if (directory.entries.empty())
     return fail_at(file.path().string(), ErrorCode::kFormat,
                    "this is no zip archive, or one that is cut off within its first entry (the "

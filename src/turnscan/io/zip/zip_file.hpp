@@ -8,6 +8,7 @@
 #include <string>
 #include <turnscan/core/result.hpp>
 #include <turnscan/io/file/random_access_file.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <vector>
 
 namespace turnscan::zip {
@@ -33,9 +34,10 @@ struct Directory {
   bool cut_off = false;
 };
 
-/// Fails with kFormat if no entry is found, and with kResourceLimit for a central directory beyond
-/// 256 MB.
-Result<Directory> read_directory(const file::RandomAccessFile& file);
+/// Fails with kFormat if no entry is found, with kResourceLimit for a central directory beyond
+/// 256 MB or entries beyond the budget, and with kCancelled.
+Result<Directory> read_directory(const file::RandomAccessFile& file,
+                                 const file::ReadBudget& budget);
 
 /// The entry's content. Fails with kResourceLimit if it is larger than max_bytes, kUnsupported for
 /// methods other than 0 and 8 or an encrypted entry, and with kFormat if it is damaged: its

@@ -211,14 +211,17 @@ class Painter {
 
 }  // namespace
 
-Result<Subject> Subject::create(std::span<const TriangleMesh> meshes,
-                                const PictureOptions& options) {
+Result<Subject> Subject::create(std::span<const TriangleMesh> meshes, const PictureOptions& options,
+                                const RunContext& context) {
   PictureOptions copy = options;
   TURNSCAN_TRY(describe(copy).check());
-  TURNSCAN_ASSIGN(Scene scene, Scene::create(meshes));
+  TURNSCAN_ASSIGN(Scene scene, Scene::create(meshes, std::nullopt, context));
   Subject subject{std::move(scene), {}, used_vertices(meshes)};
   subject.surfaces.reserve(meshes.size());
-  for (const TriangleMesh& mesh : meshes) subject.surfaces.emplace_back(mesh, options.smooth);
+  for (const TriangleMesh& mesh : meshes) {
+    TURNSCAN_TRY(context.check());
+    subject.surfaces.emplace_back(mesh, options.smooth);
+  }
   return subject;
 }
 

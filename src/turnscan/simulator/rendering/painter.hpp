@@ -17,8 +17,8 @@ struct Subject {
   std::vector<Vec3f> points;  ///< vertices of triangles
 
   /// Fails with kInvalidOption, and as Scene::create() does.
-  static Result<Subject> create(std::span<const TriangleMesh> meshes,
-                                const PictureOptions& options);
+  static Result<Subject> create(std::span<const TriangleMesh> meshes, const PictureOptions& options,
+                                const RunContext& context);
 };
 
 struct ViewSetup {

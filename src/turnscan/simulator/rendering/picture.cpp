@@ -46,7 +46,8 @@ OptionTable describe(PictureOptions& o) {
 
 Result<ColorImage> render_picture(std::span<const TriangleMesh> meshes,
                                   const PictureOptions& options, const RunContext& context) {
-  TURNSCAN_ASSIGN(const rendering::Subject subject, rendering::Subject::create(meshes, options));
+  TURNSCAN_ASSIGN(const rendering::Subject subject,
+                  rendering::Subject::create(meshes, options, context));
   ColorImage image(options.width * options.views, options.height, options.background);
   if (subject.scene.object_box().empty()) return image;
   const std::vector<rendering::ViewSetup> views = views_around(subject.points, options);

@@ -41,7 +41,8 @@ Result<> render_turn(std::span<const TriangleMesh> meshes, const PictureOptions&
   if (options.views != 1)
     return fail(ErrorCode::kInvalidOption,
                 "picture-views: {} is more than the one view of an animation", options.views);
-  TURNSCAN_ASSIGN(const rendering::Subject subject, rendering::Subject::create(meshes, options));
+  TURNSCAN_ASSIGN(const rendering::Subject subject,
+                  rendering::Subject::create(meshes, options, context));
   const std::vector<rendering::ViewSetup> views =
       views_of_turn(subject.points, options, turn.frames);
   context.begin_phase("render turn", std::uint64_t(options.height) * views.size());

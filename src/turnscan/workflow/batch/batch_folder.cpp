@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <turnscan/core/version.hpp>
-#include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/file_lock.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 
@@ -14,15 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kList = "batch.json";
+constexpr const char* kTask = "task.json";
+constexpr const char* kState = "state.json";
 constexpr std::uint64_t kLongestTaskFile = std::uint64_t(64) << 20;
 constexpr std::size_t kLongestName = 150;
-
-Result<> make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error) return {};
-  return fail_at(folder.string(), ErrorCode::kIo, "the folder cannot be made: {}", error.message());
-}
 
 bool has_other_content(const fs::path& folder) {
   std::error_code error;
@@ -53,41 +48,63 @@ Result<> check_task_name(const std::string& name) {
 
 bool BatchFolder::planned() const {
   std::error_code error;
-  return fs::exists(list_file(), error);
+  return fs::exists(folder_ / kList, error);
+}
+
+Result<file::Folder> BatchFolder::open() const {
+  TURNSCAN_ASSIGN(file::Folder folder, file::Folder::open(folder_));
+  TURNSCAN_TRY(folder.check_own());
+  return folder;
+}
+
+Result<file::Folder> BatchFolder::open_task(const std::string& name) const {
+  TURNSCAN_ASSIGN(const file::Folder folder, open());
+  TURNSCAN_ASSIGN(const file::Folder tasks, folder.subfolder("tasks"));
+  return tasks.subfolder(name);
+}
+
+Result<file::Folder> BatchFolder::open_engine() const {
+  TURNSCAN_ASSIGN(const file::Folder folder, open());
+  return folder.make_subfolder("engine");
 }
 
 Result<> BatchFolder::save_plan(const std::vector<BatchTask>& tasks) const {
   if (!planned() && has_other_content(folder_))
     return fail_at(folder_.string(), ErrorCode::kAlreadyExists,
                    "there is something else than a batch; choose a new folder");
-  TURNSCAN_TRY(make_folder(engine_folder()));
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error)
+    return fail_at(folder_.string(), ErrorCode::kIo, "the folder cannot be made: {}",
+                   error.message());
+  TURNSCAN_ASSIGN(const file::Folder folder, open());
+  TURNSCAN_TRY(folder.make_subfolder("engine"));
+  TURNSCAN_ASSIGN(const file::Folder all, folder.make_subfolder("tasks"));
   text::OrderedJson list = text::OrderedJson::object();
   list["schema"] = 1;
   list["software"] = std::string("turnscan ") + version();
   list["tasks"] = text::OrderedJson::array();
   for (const BatchTask& task : tasks) {
-    TURNSCAN_TRY(make_folder(task_folder(task.name)));
-    const fs::path file = task_folder(task.name) / "task.json";
+    TURNSCAN_ASSIGN(const file::Folder own, all.make_subfolder(task.name));
     const std::string text = task_json(task);
-    const auto known = read_file(file, kLongestTaskFile);
-    if (!known || *known != text)
-      TURNSCAN_TRY(write_file_atomically(file, text, Durability::kNamed));
+    const auto known = own.read(kTask, kLongestTaskFile);
+    if (!known || *known != text) TURNSCAN_TRY(own.write(kTask, text, Durability::kNamed));
     list["tasks"].push_back(task.name);
   }
-  return write_file_atomically(list_file(), list.dump(1) + "\n");
+  return folder.write(kList, list.dump(1) + "\n");
 }
 
 Result<std::vector<BatchTask>> BatchFolder::load_plan() const {
   if (!planned())
     return fail_at(folder_.string(), ErrorCode::kNotFound,
                    "there is no batch; begin one with 'turnscan batch run INPUT --out FOLDER'");
-  TURNSCAN_ASSIGN(const std::string text, read_file(list_file()));
+  TURNSCAN_ASSIGN(const std::string text, read_file(folder_ / kList));
   const auto parsed = text::parse_json(text);
-  if (!parsed) return tl::unexpected<Error>(with_path(parsed.error(), list_file()));
+  if (!parsed) return tl::unexpected<Error>(with_path(parsed.error(), folder_ / kList));
   const auto object = text::JsonObject::from(*parsed);
-  if (!object) return tl::unexpected<Error>(with_path(object.error(), list_file()));
+  if (!object) return tl::unexpected<Error>(with_path(object.error(), folder_ / kList));
   const auto names = object->texts("tasks");
-  if (!names) return tl::unexpected<Error>(with_path(names.error(), list_file()));
+  if (!names) return tl::unexpected<Error>(with_path(names.error(), folder_ / kList));
   std::vector<BatchTask> tasks;
   for (const std::string& name : *names) {
     TURNSCAN_ASSIGN(BatchTask task, load_task(name));
@@ -98,8 +115,9 @@ Result<std::vector<BatchTask>> BatchFolder::load_plan() const {
 
 Result<BatchTask> BatchFolder::load_task(const std::string& name) const {
   TURNSCAN_TRY(check_task_name(name));
-  const fs::path file = task_folder(name) / "task.json";
-  TURNSCAN_ASSIGN(const std::string text, read_file(file, kLongestTaskFile));
+  TURNSCAN_ASSIGN(const file::Folder own, open_task(name));
+  const fs::path file = own.path() / kTask;
+  TURNSCAN_ASSIGN(const std::string text, own.read(kTask, kLongestTaskFile));
   auto task = task_of(text);
   if (!task) return tl::unexpected<Error>(with_path(task.error(), file));
   task->name = name;
@@ -109,19 +127,21 @@ Result<BatchTask> BatchFolder::load_task(const std::string& name) const {
 }
 
 TaskRecord BatchFolder::record(const std::string& name) const {
-  const auto text = read_file(state_file(name), kLongestTaskFile);
+  const auto own = open_task(name);
+  if (!own) return {};
+  const auto text = own->read(kState, kLongestTaskFile);
   if (!text) return {};
   auto record = record_of(*text);
   if (!record) return {};
-  if (record->state == TaskState::kRunning && !file::FileLock::held(task_lock(name)))
+  if (record->state == TaskState::kRunning && !file::FileLock::held(*own, kLock))
     record->state = TaskState::kWaiting;
   return std::move(*record);
 }
 
 Result<> BatchFolder::save_record(const std::string& name, const TaskRecord& record) const {
-  return write_file_atomically(
-      state_file(name), record_json(record),
-      record.state == TaskState::kDone ? Durability::kSynced : Durability::kNamed);
+  TURNSCAN_ASSIGN(const file::Folder own, open_task(name));
+  return own.write(kState, record_json(record),
+                   record.state == TaskState::kDone ? Durability::kSynced : Durability::kNamed);
 }
 
 TaskRecord current_record(const BatchFolder& folder, const BatchTask& task) {

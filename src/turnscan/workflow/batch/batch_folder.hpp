@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <turnscan/core/result.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/workflow/batch/batch_task.hpp>
 #include <turnscan/workflow/batch/task_state.hpp>
 #include <vector>
@@ -16,21 +17,17 @@ class BatchFolder {
   explicit BatchFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path list_file() const { return folder_ / "batch.json"; }
-  std::filesystem::path lock_file() const { return folder_ / "lock"; }
-  std::filesystem::path engine_folder() const { return folder_ / "engine"; }
-  std::filesystem::path task_folder(const std::string& name) const {
-    return folder_ / "tasks" / name;
-  }
   std::filesystem::path result_folder(const std::string& name) const {
-    return task_folder(name) / "result";
+    return folder_ / "tasks" / name / "result";
   }
-  std::filesystem::path state_file(const std::string& name) const {
-    return task_folder(name) / "state.json";
-  }
-  std::filesystem::path task_lock(const std::string& name) const {
-    return task_folder(name) / "lock";
-  }
+
+  /// The folder itself, held open. Fails with kNotFound, kIo or, if it belongs to another user,
+  /// kNoPermission.
+  Result<file::Folder> open() const;
+  /// A task's folder. Fails as open(), and with kNoPermission if a link leads to it.
+  Result<file::Folder> open_task(const std::string& name) const;
+  /// What engines write, created if necessary.
+  Result<file::Folder> open_engine() const;
 
   /// Whether the folder holds a planned batch.
   bool planned() const;
@@ -46,6 +43,9 @@ class BatchFolder {
   /// whose lock nobody holds was killed and counts as waiting.
   TaskRecord record(const std::string& name) const;
   Result<> save_record(const std::string& name, const TaskRecord& record) const;
+
+  static constexpr const char* kLock = "lock";  ///< of a batch in its folder, of a task in its own
+  static constexpr const char* kResult = "result";
 
  private:
   std::filesystem::path folder_;

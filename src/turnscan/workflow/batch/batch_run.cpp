@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<file::FileLock> lock_batch(const BatchFolder& folder) {
-  TURNSCAN_ASSIGN(auto lock, file::FileLock::try_lock(folder.lock_file()));
+  TURNSCAN_ASSIGN(const file::Folder open, folder.open());
+  TURNSCAN_ASSIGN(auto lock, file::FileLock::try_lock(open, BatchFolder::kLock));
   if (lock) return std::move(*lock);
   return fail_at(folder.path().string(), ErrorCode::kAlreadyExists,
                  "another turnscan is at work on this batch; wait for it, or stop it first");
@@ -57,7 +58,7 @@ class BatchRunner {
     if (!ran && ran.error().code != ErrorCode::kCancelled)
       return tl::unexpected<Error>(std::move(ran).error());
     const BatchSummary summary = summarize(folder_, tasks_);
-    TURNSCAN_ASSIGN(outcome_.files, write_summary(summary, folder_.path()));
+    TURNSCAN_ASSIGN(outcome_.files, write_summary(summary, folder_));
     if (!ran)
       return fail(ErrorCode::kCancelled,
                   "batch: stopped with {} of {} tasks done; run it again to go on",
@@ -129,13 +130,14 @@ class BatchRunner {
                                o.task_threads.value_or(spare)};
     command.arguments.push_back(fmt::format("--task-threads={}", command.threads));
     command.arguments.emplace_back("--quiet");
+    TURNSCAN_ASSIGN(file::Folder folder, folder_.open_engine());
     if (slurm)
       return engine::make_slurm_engine(command, {o.engine_options, o.tasks_per_job},
-                                       folder_.engine_folder(), context_);
+                                       std::move(folder), context_);
     if (!o.engine_options.empty())
       return fail(ErrorCode::kInvalidOption, "--engine-options: there are none of --engine local");
     return engine::make_local_engine(command, {jobs, engine::usable_memory_bytes()},
-                                     folder_.engine_folder());
+                                     std::move(folder));
   }
 
   Result<> run_due() {

@@ -67,7 +67,8 @@ Result<std::string> batch_status_text(const std::string& path) {
       fmt::format("{}: {} tasks, {} done, {} failed, {} running, {} waiting\n", path, tasks.size(),
                   summary.count(TaskState::kDone), summary.count(TaskState::kFailed),
                   summary.count(TaskState::kRunning), summary.count(TaskState::kWaiting));
-  if (file::FileLock::held(folder.lock_file())) text += "A run goes on\n";
+  const auto open = folder.open();
+  if (open && file::FileLock::held(*open, BatchFolder::kLock)) text += "A run goes on\n";
   text += time_left(summary);
   add_rows(summary, TaskState::kRunning, text);
   add_rows(summary, TaskState::kFailed, text);

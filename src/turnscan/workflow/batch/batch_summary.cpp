@@ -76,10 +76,17 @@ std::vector<std::string> option_names(const BatchSummary& summary) {
   return {names.begin(), names.end()};
 }
 
-/// Line ends would end the row.
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+/// A field of one line that no spreadsheet takes for a formula: it begins with an apostrophe then.
+std::string shown_field(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  const char first = text.empty() ? ' ' : text.front();
+  // -5mm and +1e-3 stay what they are.
+  constexpr std::string_view kOfNumbers = "0123456789abcdefghijklmnopqrstuvwxyzE.,;+-%_";
+  const bool number = text.find_first_not_of(kOfNumbers) == std::string::npos;
+  if (first == '=' || first == '@' || ((first == '+' || first == '-') && !number))
+    text.insert(0, 1, '\'');
+  return text::csv_field(text);
 }
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
@@ -111,21 +118,21 @@ std::string summary_csv(const BatchSummary& summary) {
   std::string text =
       "name,state,verdict,objects,triangles,watertight,frames,seconds,cpu_seconds,peak_mb,attempts,"
       "host,reason,inputs";
-  for (const std::string& name : names) text += "," + text::csv_field(name);
+  for (const std::string& name : names) text += "," + shown_field(name);
   text += "\n";
   for (const SummaryRow& row : summary.rows) {
     const TaskRecord& r = row.record;
     const bool done = r.state == TaskState::kDone;
-    text += fmt::format("{},{},{},", row.task->name, name_of(r.state), row.facts.verdict);
+    text += fmt::format("{},{},{},", shown_field(row.task->name), name_of(r.state),
+                        shown_field(row.facts.verdict));
     text += done ? fmt::format("{},{},{},{},", row.facts.objects, row.facts.triangles,
                                row.facts.watertight ? "yes" : "no", row.facts.frames)
                  : ",,,,";
-    text += fmt::format("{:.3f},{:.3f},{:.1f},{},{},{},{}", r.seconds, r.cpu_seconds,
-                        megabytes(r.peak_bytes), r.attempts, text::csv_field(r.host),
-                        text::csv_field(one_line(r.reason)),
-                        text::csv_field(fmt::format("{}", fmt::join(row.task->inputs, ";"))));
-    for (const std::string& name : names)
-      text += "," + text::csv_field(one_line(option_value(*row.task, name)));
+    text +=
+        fmt::format("{:.3f},{:.3f},{:.1f},{},{},{},{}", r.seconds, r.cpu_seconds,
+                    megabytes(r.peak_bytes), r.attempts, shown_field(r.host), shown_field(r.reason),
+                    shown_field(fmt::format("{}", fmt::join(row.task->inputs, ";"))));
+    for (const std::string& name : names) text += "," + shown_field(option_value(*row.task, name));
     text += "\n";
   }
   return text;
@@ -171,14 +178,17 @@ std::string summary_json(const BatchSummary& summary) {
 }
 
 Result<std::vector<std::string>> write_summary(const BatchSummary& summary,
-                                               const fs::path& folder) {
-  const std::string csv = (folder / "summary.csv").string(),
-                    json = (folder / "summary.json").string(),
-                    html = (folder / "summary.html").string();
-  TURNSCAN_TRY(write_file_atomically(csv, summary_csv(summary)));
-  TURNSCAN_TRY(write_file_atomically(json, summary_json(summary)));
-  TURNSCAN_TRY(write_file_atomically(html, summary_page(summary, folder.filename().string())));
-  return std::vector<std::string>{csv, json, html};
+                                               const BatchFolder& batch) {
+  TURNSCAN_ASSIGN(const file::Folder folder, batch.open());
+  std::vector<std::string> files;
+  for (const auto& [name, text] :
+       {std::pair("summary.csv", summary_csv(summary)),
+        std::pair("summary.json", summary_json(summary)),
+        std::pair("summary.html", summary_page(summary, batch.path().filename().string()))}) {
+    TURNSCAN_TRY(folder.write(name, text));
+    files.push_back((batch.path() / name).string());
+  }
+  return files;
 }
 
 }  // namespace turnscan::batch

@@ -39,6 +39,6 @@ std::string summary_page(const BatchSummary& summary, const std::string& title);
 
 /// Writes summary.csv, .json and .html into the batch's folder; returns their names.
 Result<std::vector<std::string>> write_summary(const BatchSummary& summary,
-                                               const std::filesystem::path& folder);
+                                               const BatchFolder& batch);
 
 }  // namespace turnscan::batch

@@ -102,7 +102,6 @@ Result<> check_task(const BatchTask& task) {
 std::vector<std::string> arguments_of(const BatchTask& task, int threads) {
   const bool simulate = task.command == "simulate";
   std::vector<std::string> words{task.command};
-  words.insert(words.end(), task.inputs.begin(), task.inputs.end());
   words.emplace_back(simulate ? "--out=recording" : "--out=mesh.ply");
   words.emplace_back("--report=report.json");
   words.emplace_back(fmt::format("--threads={}", threads));
@@ -122,6 +121,8 @@ std::vector<std::string> arguments_of(const BatchTask& task, int threads) {
     }
     return 0;
   });
+  words.emplace_back("--");  // whatever an input begins with, it is none of the options
+  words.insert(words.end(), task.inputs.begin(), task.inputs.end());
   return words;
 }
 

@@ -9,7 +9,6 @@
 #include <thread>
 #include <turnscan/core/process/background_process.hpp>
 #include <turnscan/core/stopwatch.hpp>
-#include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/file_lock.hpp>
 #include <turnscan/workflow/batch/batch_folder.hpp>
 #include <turnscan/workflow/batch/thumbnail.hpp>
@@ -22,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLog = "log.txt";
 constexpr auto kGrace = std::chrono::seconds(5);  // between SIGTERM and SIGKILL
 
 double seconds_since_1970() {
@@ -33,32 +33,31 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-Result<> remove_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::remove_all(folder, error);
-  if (!error) return {};
-  return fail_at(folder.string(), ErrorCode::kIo, "the folder cannot be removed: {}",
-                 error.message());
+// In each folder that a task's outputs are made in, so that only such a folder is ever deleted.
+constexpr const char* kMark = ".made-by-batch";
+
+/// Removes a folder with outputs, or an empty one; leaves any other as it is.
+Result<> remove_outputs(const file::Folder& task, const std::string& name) {
+  const auto outputs = task.subfolder(name);
+  if (!outputs || (!outputs->has(kMark) && !outputs->names().empty())) return {};
+  return task.remove(name);
 }
 
 /// Removes what killed attempts left.
-Result<> remove_leftovers(const fs::path& task_folder) {
-  std::error_code error;
-  std::vector<fs::path> old;
-  for (const fs::directory_entry& entry : fs::directory_iterator(task_folder, error))
-    if (entry.path().filename().string().starts_with("work-")) old.push_back(entry.path());
-  for (const fs::path& folder : old) TURNSCAN_TRY(remove_folder(folder));
+Result<> remove_leftovers(const file::Folder& task) {
+  for (const std::string& name : task.names())
+    if (name.starts_with("work-")) TURNSCAN_TRY(remove_outputs(task, name));
   return {};
 }
 
 /// The error of the command: the last line of its log that is one.
-std::string reason_in(const fs::path& log, const process::ProcessEnd& end) {
+std::string reason_in(const file::Folder& task, const process::ProcessEnd& end) {
   if (end.signal == 9)
     return "killed (signal 9): perhaps it needed more memory than there was; give it more, or "
            "fewer tasks at once (--jobs)";
   if (end.signal != 0) return fmt::format("ended by signal {}; see log.txt", end.signal);
   std::string reason = fmt::format("exit code {}; see log.txt", end.exit_code);
-  const auto text = read_file(log);
+  const auto text = task.read(kLog);
   if (!text) return reason;
   constexpr std::string_view kBegin = "turnscan: ";
   std::size_t at = text->rfind("\n" + std::string(kBegin));
@@ -91,17 +90,17 @@ Result<process::ProcessEnd> wait_for_command(process::BackgroundProcess& command
 
 class TaskRun {
  public:
-  TaskRun(const BatchFolder& folder, const BatchTask& task, const TaskRunSettings& settings,
-          const RunContext& context)
+  TaskRun(const BatchFolder& folder, const file::Folder& own, const BatchTask& task,
+          const TaskRunSettings& settings, const RunContext& context)
       : folder_(folder),
         task_(task),
         settings_(settings),
         context_(context),
-        task_folder_(folder.task_folder(task.name)),
-        work_(task_folder_ / fmt::format("work-{}-{}", host_name(), ::getpid())) {}
+        own_(own),
+        work_(fmt::format("work-{}-{}", host_name(), ::getpid())) {}
 
   Result<> run(const TaskRecord& before) {
-    TURNSCAN_TRY(remove_leftovers(task_folder_));
+    TURNSCAN_TRY(remove_leftovers(own_));
     record_.state = TaskState::kRunning;
     record_.attempts = before.attempts + 1;
     record_.host = host_name();
@@ -113,13 +112,13 @@ class TaskRun {
     record_.seconds = seconds_since(begin);
     if (!made && made.error().code == ErrorCode::kCancelled) {
       record_.state = TaskState::kWaiting;
-      TURNSCAN_TRY(remove_folder(work_));
+      TURNSCAN_TRY(remove_outputs(own_, work_));
       TURNSCAN_TRY(folder_.save_record(task_.name, record_));
       return made;
     }
     if (!made) record_.reason = made.error().text();
     record_.state = made ? TaskState::kDone : TaskState::kFailed;
-    if (!made) TURNSCAN_TRY(remove_folder(work_));
+    if (!made) TURNSCAN_TRY(remove_outputs(own_, work_));
     return folder_.save_record(task_.name, record_);
   }
 
@@ -133,56 +132,49 @@ class TaskRun {
     }
     record_.inputs = std::move(*prints);
     record_.digest = digest_of(task_, record_.inputs);
-    std::error_code error;
-    fs::create_directories(work_, error);
-    if (error)
-      return fail_at(work_.string(), ErrorCode::kIo, "the folder cannot be made: {}",
-                     error.message());
-    TURNSCAN_TRY(run_command());
+    TURNSCAN_ASSIGN(const file::Folder work, own_.make_subfolder(work_));
+    TURNSCAN_TRY(work.write(kMark, task_.name + "\n", Durability::kNamed));
+    TURNSCAN_TRY(run_command(work));
     for (const InputPrint& input : record_.inputs) {
       const auto stamp = stamp_of(input.path);
       if (!stamp || *stamp != input.stamp)
         return fail_at(input.path, ErrorCode::kIo,
                        "the input changed while it was read; run the batch again");
     }
-    draw_thumbnail(work_);
+    draw_thumbnail(work.anchor());
     return put_in_place();
   }
 
-  Result<> run_command() {
-    const fs::path log = task_folder_ / "log.txt";
-    fs::path program = settings_.program;
-    std::error_code error;
-    fs::remove(log, error);
+  Result<> run_command(const file::Folder& work) {
+    TURNSCAN_TRY(own_.remove(kLog));
     const auto begin = std::chrono::steady_clock::now();
-    TURNSCAN_ASSIGN(process::BackgroundProcess command,
-                    process::BackgroundProcess::start(
-                        program, arguments_of(task_, settings_.threads), log, work_));
+    TURNSCAN_ASSIGN(
+        process::BackgroundProcess command,
+        process::BackgroundProcess::start(settings_.program, arguments_of(task_, settings_.threads),
+                                          own_.anchor() / kLog, work.anchor()));
     TURNSCAN_ASSIGN(const process::ProcessEnd end, wait_for_command(command, context_));
     record_.command_seconds = seconds_since(begin);
     record_.cpu_seconds = end.cpu_seconds;
     record_.peak_bytes = end.peak_bytes;
     if (end.exit_code == 0) return {};
-    return fail(ErrorCode::kLibrary, "{}", reason_in(log, end));
+    return fail(ErrorCode::kLibrary, "{}", reason_in(own_, end));
   }
 
-  /// The old result is removed first: until the record says done, the task has to be run again
-  /// anyway.
+  /// The old result is there until the new one is. If the batch did not make it, it is kept.
   Result<> put_in_place() const {
-    const fs::path result = folder_.result_folder(task_.name);
-    TURNSCAN_TRY(remove_folder(result));
-    std::error_code error;
-    fs::rename(work_, result, error);
-    if (!error) return {};
-    return fail_at(result.string(), ErrorCode::kIo, "the result cannot be put in its place: {}",
-                   error.message());
+    const auto before = own_.subfolder(BatchFolder::kResult);
+    const bool made =
+        before ? before->has(kMark) || before->names().empty() : !own_.has(BatchFolder::kResult);
+    TURNSCAN_TRY(own_.exchange(work_, BatchFolder::kResult));
+    return made ? own_.remove(work_) : own_.exchange(work_, "kept-" + work_);
   }
 
   const BatchFolder& folder_;
   const BatchTask& task_;
   const TaskRunSettings& settings_;
   const RunContext& context_;
-  const fs::path task_folder_, work_;
+  const file::Folder& own_;
+  const std::string work_;
   TaskRecord record_;
 };
 
@@ -194,10 +186,12 @@ Result<> run_task(const fs::path& path, const std::string& name, const TaskRunSe
   const BatchFolder folder(fs::absolute(path, error));
   TURNSCAN_ASSIGN(const BatchTask task, folder.load_task(name));
   context.begin_phase(name, 0);
-  TURNSCAN_ASSIGN(const file::FileLock lock, file::FileLock::wait(folder.task_lock(name), context));
+  TURNSCAN_ASSIGN(const file::Folder own, folder.open_task(name));
+  TURNSCAN_ASSIGN(const file::FileLock lock,
+                  file::FileLock::wait(own, BatchFolder::kLock, context));
   const TaskRecord before = current_record(folder, task);
   if (before.state == TaskState::kDone) return {};
-  return TaskRun(folder, task, settings, context).run(before);
+  return TaskRun(folder, own, task, settings, context).run(before);
 }
 
 }  // namespace turnscan

@@ -44,7 +44,7 @@ std::uint64_t available_bytes() {
 
 class LocalEngine : public Engine {
  public:
-  LocalEngine(JobCommand command, const LocalLimits& limits, fs::path folder)
+  LocalEngine(JobCommand command, const LocalLimits& limits, file::Folder folder)
       : command_(std::move(command)), limits_(limits), folder_(std::move(folder)) {}
 
   Result<std::vector<std::string>> adopt() override { return std::vector<std::string>(); }
@@ -91,17 +91,17 @@ class LocalEngine : public Engine {
     return used <= limits_.memory_bytes;
   }
 
-  fs::path log_of(const std::string& name) const { return folder_ / (name + ".log"); }
+  static std::string log_of(const std::string& name) { return name + ".log"; }
 
   Result<> start_what_fits() {
     while (!waiting_.empty() && fits(waiting_.front())) {
       std::vector<std::string> arguments = command_.arguments;
       arguments.push_back(waiting_.front().name);
-      std::error_code error;
-      fs::remove(log_of(waiting_.front().name), error);
-      TURNSCAN_ASSIGN(process::BackgroundProcess process,
-                      process::BackgroundProcess::start(command_.program, arguments,
-                                                        log_of(waiting_.front().name)));
+      const std::string log = log_of(waiting_.front().name);
+      TURNSCAN_TRY(folder_.remove(log));
+      TURNSCAN_ASSIGN(
+          process::BackgroundProcess process,
+          process::BackgroundProcess::start(command_.program, arguments, folder_.anchor() / log));
       running_.push_back({std::move(waiting_.front()), std::move(process)});
       waiting_.pop_front();
     }
@@ -123,19 +123,18 @@ class LocalEngine : public Engine {
   }
 
   Ended end_of(const std::string& name, const process::ProcessEnd& end) const {
-    const fs::path log = log_of(name);
+    const std::string log = log_of(name);
     Ended ended{name, {}, end.signal != 0};
     if (end.signal != 0)
       ended.reason = fmt::format("its process was killed by signal {}", end.signal);
-    if (end.signal == 0 && end.exit_code != 0) ended.reason = last_line_of(log);
-    std::error_code error;
-    if (end.exit_code == 0) fs::remove(log, error);
+    if (end.signal == 0 && end.exit_code != 0) ended.reason = last_line_of(folder_, log);
+    if (end.exit_code == 0) (void)folder_.remove(log);
     return ended;
   }
 
   const JobCommand command_;
   const LocalLimits limits_;
-  const fs::path folder_;
+  const file::Folder folder_;
   std::deque<Job> waiting_;
   std::vector<Running> running_;
 };
@@ -152,8 +151,8 @@ std::uint64_t usable_memory_bytes() {
 }
 
 std::unique_ptr<Engine> make_local_engine(const JobCommand& command, const LocalLimits& limits,
-                                          const fs::path& folder) {
-  return std::make_unique<LocalEngine>(command, limits, folder);
+                                          file::Folder folder) {
+  return std::make_unique<LocalEngine>(command, limits, std::move(folder));
 }
 
 }  // namespace turnscan::engine

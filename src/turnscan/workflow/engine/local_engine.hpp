@@ -2,6 +2,7 @@
 // Runs tasks on this machine, each in its own process.
 
 #include <memory>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/workflow/engine/engine.hpp>
 
 namespace turnscan::engine {
@@ -18,6 +19,6 @@ std::uint64_t usable_memory_bytes();
 /// Starts jobs in order as long as they fit; their output goes to the engine's folder. Jobs end
 /// with the thread that created the engine.
 std::unique_ptr<Engine> make_local_engine(const JobCommand& command, const LocalLimits& limits,
-                                          const std::filesystem::path& folder);
+                                          file::Folder folder);
 
 }  // namespace turnscan::engine

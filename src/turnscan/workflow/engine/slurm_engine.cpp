@@ -5,7 +5,6 @@
 #include <set>
 #include <system_error>
 #include <thread>
-#include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/sha256.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 #include <turnscan/workflow/engine/job_log.hpp>
@@ -23,10 +22,17 @@ constexpr auto kNoAnswer = std::chrono::hours(1);      // after which the engine
 constexpr auto kCancelled = std::chrono::seconds(40);  // KillWait is 30 s
 constexpr double kMemoryMargin = 1.3;
 
+/// A path in a file name pattern of sbatch, where %% stands for %.
+std::string file_pattern(const fs::path& path) {
+  std::string pattern;
+  for (const char c : path.string()) pattern.append(c == '%' ? 2 : 1, c);
+  return pattern;
+}
+
 class SlurmEngine : public Engine {
  public:
   SlurmEngine(JobCommand command, SlurmSettings settings, std::vector<std::string> options,
-              fs::path folder, const RunContext& context)
+              file::Folder folder, const RunContext& context)
       : command_(std::move(command)),
         settings_(std::move(settings)),
         options_(std::move(options)),
@@ -35,7 +41,7 @@ class SlurmEngine : public Engine {
 
   Result<std::vector<std::string>> adopt() override {
     std::vector<std::string> names;
-    for (int number = 1; fs::exists(list_file(number)); ++number) {
+    for (int number = 1; folder_.has(list_file(number)); ++number) {
       next_ = number + 1;
       TURNSCAN_ASSIGN(const std::vector<std::string> jobs, client_.live_jobs(job_name(number)));
       for (const std::string& job : jobs) {
@@ -110,18 +116,18 @@ class SlurmEngine : public Engine {
   }
 
  private:
-  fs::path list_file(int number) const { return folder_ / fmt::format("slurm-{}.list", number); }
+  static std::string list_file(int number) { return fmt::format("slurm-{}.list", number); }
 
   /// Identifies a job whose number was lost with its submitter.
   std::string job_name(int number) const {
     file::Sha256 sum;
-    sum.add(folder_.string());
+    sum.add(folder_.path().string());
     return fmt::format("turnscan-{}-{}", file::hex_of(sum.finish()).substr(0, 12), number);
   }
 
   /// Adds the elements of a job from its list file.
   Result<> take(const std::string& job, int number) {
-    TURNSCAN_ASSIGN(const std::string text, read_file(list_file(number)));
+    TURNSCAN_ASSIGN(const std::string text, folder_.read(list_file(number)));
     text::LineReader lines(text);
     for (int index = 0; const auto line = lines.next(); ++index)
       for (const std::string_view name : text::words_of(line->text))
@@ -134,9 +140,9 @@ class SlurmEngine : public Engine {
     std::string list;
     for (std::size_t i = 0; i < jobs.size(); ++i)
       list += jobs[i].name + ((i + 1) % per_element == 0 || i + 1 == jobs.size() ? "\n" : " ");
-    while (fs::exists(list_file(next_))) ++next_;
+    while (folder_.has(list_file(next_))) ++next_;
     const int number = next_++;
-    TURNSCAN_TRY(write_file_atomically(list_file(number), list));
+    TURNSCAN_TRY(folder_.write(list_file(number), list));
     const std::size_t elements = (jobs.size() + per_element - 1) / per_element;
     TURNSCAN_ASSIGN(const std::string text,
                     client_.call("sbatch", arguments(jobs, number, elements), script(number)));
@@ -149,14 +155,15 @@ class SlurmEngine : public Engine {
 
   std::vector<std::string> arguments(const std::vector<Job>& jobs, int number,
                                      std::size_t elements) const {
-    std::vector<std::string> words{"--parsable",
-                                   "--requeue",
-                                   "--open-mode=append",
-                                   "--job-name=" + job_name(number),
-                                   fmt::format("--array=0-{}", elements - 1),
-                                   fmt::format("--cpus-per-task={}", command_.threads),
-                                   "--chdir=" + folder_.string(),
-                                   "--output=" + (folder_ / "slurm-%A_%a.log").string()};
+    std::vector<std::string> words{
+        "--parsable",
+        "--requeue",
+        "--open-mode=append",
+        "--job-name=" + job_name(number),
+        fmt::format("--array=0-{}", elements - 1),
+        fmt::format("--cpus-per-task={}", command_.threads),
+        "--chdir=" + folder_.path().string(),
+        "--output=" + file_pattern(folder_.path() / "slurm-") + "%A_%a.log"};
     std::uint64_t peak = 0;
     for (const Job& job : jobs) peak = std::max(peak, job.peak_bytes);
     const auto megabytes =
@@ -171,7 +178,7 @@ class SlurmEngine : public Engine {
     std::string words = quoted_word(command_.program.string());
     for (const std::string& argument : command_.arguments) words += " " + quoted_word(argument);
     return fmt::format("#!/bin/sh\nexec {} $(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\n", words,
-                       quoted_word(list_file(number).string()));
+                       quoted_word((folder_.path() / list_file(number)).string()));
   }
 
   Result<> note_no_answer(const Error& error) {
@@ -219,17 +226,17 @@ class SlurmEngine : public Engine {
 
   /// The message of the task's own process; Slurm only knows its exit code.
   std::string end_reason(const SlurmElement& element, const SlurmState& state) const {
-    const fs::path log = folder_ / fmt::format("slurm-{}_{}.log", element.job, element.index);
-    std::error_code error;
-    if (state.state == "COMPLETED" && fs::file_size(log, error) == 0) fs::remove(log, error);
-    if (state.state == "FAILED") return last_line_of(log);
+    const std::string log = fmt::format("slurm-{}_{}.log", element.job, element.index);
+    const auto text = folder_.read(log);
+    if (state.state == "COMPLETED" && text && text->empty()) (void)folder_.remove(log);
+    if (state.state == "FAILED") return last_line_of(folder_, log);
     return reason_of(state);
   }
 
   const JobCommand command_;
   const SlurmSettings settings_;
   const std::vector<std::string> options_;
-  const fs::path folder_;
+  const file::Folder folder_;
   const SlurmClient client_;
   std::vector<std::string> jobs_;
   std::map<SlurmElement, std::vector<std::string>> open_;  ///< names of tasks
@@ -245,15 +252,15 @@ class SlurmEngine : public Engine {
 
 Result<std::unique_ptr<Engine>> make_slurm_engine(const JobCommand& command,
                                                   const SlurmSettings& settings,
-                                                  const fs::path& folder,
-                                                  const RunContext& context) {
+                                                  file::Folder folder, const RunContext& context) {
   auto options = split_words(settings.options);
   if (!options)
     return fail(ErrorCode::kInvalidOption, "--engine-options {}: a quote is not closed",
                 settings.options);
   const SlurmClient client(context);
   TURNSCAN_TRY(client.call("sbatch", {"--version"}));
-  return std::make_unique<SlurmEngine>(command, settings, std::move(*options), folder, context);
+  return std::make_unique<SlurmEngine>(command, settings, std::move(*options), std::move(folder),
+                                       context);
 }
 
 }  // namespace turnscan::engine

@@ -3,6 +3,7 @@
 // same path on all nodes.
 
 #include <memory>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/workflow/engine/engine.hpp>
 
 namespace turnscan::engine {
@@ -19,7 +20,6 @@ struct SlurmSettings {
 /// kInvalidOption if the options cannot be parsed, with kMissingData if there is no sbatch.
 Result<std::unique_ptr<Engine>> make_slurm_engine(const JobCommand& command,
                                                   const SlurmSettings& settings,
-                                                  const std::filesystem::path& folder,
-                                                  const RunContext& context);
+                                                  file::Folder folder, const RunContext& context);
 
 }  // namespace turnscan::engine

@@ -245,7 +245,8 @@ Result<std::optional<NextPassAdvice>> advise_next_pass(const ObjectResult& objec
   if (!(out.unseen.unseen_m2() > kWorthShare * out.unseen.surface_m2)) return std::nullopt;
   context.begin_phase("advise", 0);
   TURNSCAN_ASSIGN(const SampledObject samples, sample_object(object));
-  TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&object.mesh, 1)));
+  TURNSCAN_ASSIGN(const Scene scene,
+                  Scene::create(std::span(&object.mesh, 1), std::nullopt, context));
   TURNSCAN_ASSIGN(out.poses, PoseSearch(object, pass, samples, scene).run(context));
   return std::optional(std::move(out));
 }

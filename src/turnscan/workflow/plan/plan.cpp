@@ -5,6 +5,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/workflow/plan/plan_files.hpp>
@@ -218,11 +219,10 @@ class PlanRun {
 
 /// Removes the plans of an earlier run, which may have been more.
 void remove_earlier(const std::string& folder) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (is_plan_file(name)) fs::remove(entry.path(), ignored);
-  }
+  const auto own = file::Folder::open(folder);
+  if (!own) return;
+  for (const std::string& name : own->names())
+    if (is_plan_file(name)) (void)own->remove(name);
 }
 
 }  // namespace

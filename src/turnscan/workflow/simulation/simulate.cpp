@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
@@ -68,13 +69,11 @@ Result<Simulation> ready(const SceneDescription& scene, VirtualScanOptions optio
 
 /// Removes a recording without ground truth; a folder that existed before is kept.
 void discard(const fs::path& folder, bool existed) {
+  const auto own = file::Folder::open(folder);
+  if (!own) return;
+  for (const std::string& name : own->names()) (void)own->remove(name);
   std::error_code ignored;
-  if (!existed) {
-    fs::remove_all(folder, ignored);
-    return;
-  }
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    fs::remove_all(entry.path(), ignored);
+  if (!existed) fs::remove(folder, ignored);
 }
 
 Result<CoverageMap> cover(const Simulation& simulation, const SimulateRequest& request,

@@ -45,7 +45,7 @@ Result<SeenVertices> seen_vertices(const TriangleMesh& mesh, const std::vector<M
     points.push_back(mesh.vertices[v]);
     normals.push_back(all_normals[v]);
   }
-  TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&mesh, 1)));
+  TURNSCAN_ASSIGN(const Scene scene, Scene::create(std::span(&mesh, 1), std::nullopt, context));
   TURNSCAN_ASSIGN(const auto sums,
                   view_information(scene, views, points, normals, options, context));
   for (const float sum : sums) out.seen.push_back(std::uint8_t(double(sum) >= options.enough));
