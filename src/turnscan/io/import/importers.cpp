@@ -32,7 +32,7 @@ const std::vector<Importer>& table() {
        {"point-unit", "sensor-position", "sensor-direction", "world-up"}},
       {{ImportFormat::kCloudFolder, "cloud-folder", "PLY or PCD scans with a table of angles"},
        open_cloud_folder,
-       {"angles", "point-unit", "sensor-position", "sensor-direction", "clockwise"}},
+       {"angles", "point-unit", "axes", "sensor-position", "sensor-direction", "clockwise"}},
       {{ImportFormat::kTumRgbd, "tum", "TUM RGB-D folder (depth.txt, rgb.txt, groundtruth.txt)"},
        open_tum,
        {"depth-unit", "intrinsics", "iai-kinect2", "world-up", "clockwise"}},
@@ -178,6 +178,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   note(!o.angles.empty(), "angles");
   note(o.depth_unit_m.has_value(), "depth-unit");
   note(o.point_unit != LengthUnit::kAuto, "point-unit");
+  note(!o.axes.empty(), "axes");
   note(!o.intrinsics.empty(), "intrinsics");
   note(!o.iai_kinect2.empty(), "iai-kinect2");
   note(!o.sensor_position.empty(), "sensor-position");
@@ -232,6 +233,10 @@ OptionTable describe(ImportOptions& o) {
                "Length of one step of the depth images; auto takes it from the data set");
   table.choice("point-unit", o.point_unit, {"auto", "m", "mm", "cm", "um", "in"},
                "Unit of the coordinates of scans; auto takes it from the layout's definition");
+  table.text(
+      "axes", o.axes,
+      "Where x, y and z of scans point, seen by the scanner, e.g. rdf (right, down, forward: "
+      "PCL, Open3D, ROS), rub (OpenGL), ruf (Unity); found where they are right-handed");
   table.text("intrinsics", o.intrinsics,
              "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
   table.text("iai-kinect2", o.iai_kinect2,

@@ -21,9 +21,9 @@ struct ForeignFrame {
 /// A data set whose files are read when their frames are read.
 class ForeignSequence : public FrameSequence {
  public:
-  /// metres_per_unit scales the coordinates of scans.
+  /// scan_to_sensor maps the coordinates of scans to metres in the sensor frame.
   ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                  double metres_per_unit);
+                  const Eigen::Matrix3d& scan_to_sensor = Eigen::Matrix3d::Identity());
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return frames_; }
   Result<Frame> read(std::size_t position) const override;
@@ -35,7 +35,7 @@ class ForeignSequence : public FrameSequence {
   SequenceHeader header_;
   std::vector<FrameInfo> frames_;
   std::vector<Files> files_;
-  double metres_per_unit_;
+  Eigen::Matrix3d scan_to_sensor_;
 };
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
@@ -80,6 +80,10 @@ tl::unexpected<Error> at_path(const std::filesystem::path& path, Error error);
 
 /// Metres per unit of scans: as stated, else `by_format`, else an error that asks for it.
 Result<double> point_scale(const ImportOptions& options, std::optional<double> by_format);
+
+/// Rotation, or reflection, from the axes of scans (options.axes) to the sensor frame: x right, y
+/// down, z forward. Identity if they are not stated.
+Result<Eigen::Matrix3d> stated_axes(const ImportOptions& options);
 
 /// Metres per step of depth images: as stated, else `by_format`, else an error that asks for it.
 Result<double> depth_scale(const ImportOptions& options, std::optional<double> by_format);

@@ -6,6 +6,8 @@
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/check.hpp>
+#include <turnscan/turntable/checks/turning_sense.hpp>
+#include <turnscan/turntable/clouds/cloud_convention.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
@@ -274,7 +276,9 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
     auto found = completed(sequence, request, memory, context);
-    if (found || found.error().code == ErrorCode::kCancelled) return found;
+    if (found || found.error().code == ErrorCode::kCancelled ||
+        found.error().code == ErrorCode::kInvalidOption)
+      return found;
     return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
                 found.error().message);
   }
@@ -307,6 +311,64 @@ Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
   return out;
 }
 
+/// For angles of the right sense.
+Result<CalibrationChoice> choose_forwards(const FrameSequence& sequence,
+                                          const CalibrationRequest& request,
+                                          const RunContext& context) {
+  if (request.mode == "auto" && workflow::are_coarser_for_checks(sequence.header())) {
+    const SequenceView coarse = workflow::reduced_frames(sequence, workflow::kPixelsToCheck);
+    TURNSCAN_ASSIGN(auto sound, if_sound(coarse, request, context));
+    if (sound) return std::move(*sound);
+  }
+  const SequenceView reduced = workflow::reduced_frames(sequence);
+  PlatterMemory memory;  // the platter's position does not depend on which check asks for it
+  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
+  if (request.mode == "motion")
+    return from_motion(reduced, request, "--calibration motion was given", memory, context);
+  if (request.mode == "auto") return automatic(reduced, request, memory, context);
+  return fail(ErrorCode::kInvalidOption,
+              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
+}
+
+/// Whether the angles of a recording with a turntable count in the wrong sense.
+Result<bool> counts_backwards(const FrameSequence& sequence, const CalibrationRequest& request,
+                              const RunContext& context) {
+  if (request.speed_rad_s || !sequence.header().turntable || workflow::has_poses(sequence) ||
+      !frame_poses(sequence.header(), sequence.frames(), std::nullopt))
+    return false;
+  TURNSCAN_ASSIGN(const auto sense,
+                  if_measurable(measure_turning_sense(
+                      workflow::reduced_frames(sequence, workflow::kPixelsToCheck), context)));
+  return sense && sense->reversed();
+}
+
+/// The choice for angles of the opposite sign.
+Result<CalibrationChoice> with_sense_corrected(const FrameSequence& sequence,
+                                               const CalibrationRequest& request,
+                                               const RunContext& context) {
+  const auto& header = sequence.header();
+  TURNSCAN_TRY(motion::check_handedness(header.sensors.front(), header.turntable->axis,
+                                        header.turntable->center_m,
+                                        header.turntable->radius_m.value_or(0.0)));
+  const SequenceView reversed = with_reversed_angles(sequence);
+  TURNSCAN_ASSIGN(CalibrationChoice out, choose_forwards(reversed, request, context));
+  if (!out.calibration) {
+    Calibration& turned = out.calibration.emplace();
+    turned.method = CalibrationMethod::kMotion;
+    turned.table = *reversed.header().turntable;
+    turned.axis_found = turned.center_found = turned.height_found = "the recording's";
+    turned.angles_found = "the recording's, with the opposite sign";
+    for (const FrameInfo& frame : reversed.frames())
+      if (frame.angle_rad) turned.angles_rad.push_back(*frame.angle_rad);
+    if (turned.angles_rad.size() != reversed.frames().size()) turned.angles_rad.clear();
+  }
+  const std::string note =
+      "the recorded angles count the wrong way round: the frames fit about the recorded axis when "
+      "their sign is changed, so it was";
+  out.note = out.note.empty() ? note : note + "; " + out.note;
+  return out;
+}
+
 }  // namespace
 
 double CalibrationChecks::misfit_m() const {
@@ -324,19 +386,11 @@ double CalibrationChecks::misfit_m() const {
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
-  if (request.mode == "auto" && workflow::are_coarser_for_checks(sequence.header())) {
-    const SequenceView coarse = workflow::reduced_frames(sequence, workflow::kPixelsToCheck);
-    TURNSCAN_ASSIGN(auto sound, if_sound(coarse, request, context));
-    if (sound) return std::move(*sound);
+  if (request.mode == "auto") {
+    TURNSCAN_ASSIGN(const bool backwards, counts_backwards(sequence, request, context));
+    if (backwards) return with_sense_corrected(sequence, request, context);
   }
-  const SequenceView reduced = workflow::reduced_frames(sequence);
-  PlatterMemory memory;  // the platter's position does not depend on which check asks for it
-  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
-  if (request.mode == "motion")
-    return from_motion(reduced, request, "--calibration motion was given", memory, context);
-  if (request.mode == "auto") return automatic(reduced, request, memory, context);
-  return fail(ErrorCode::kInvalidOption,
-              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
+  return choose_forwards(sequence, request, context);
 }
 
 Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
