@@ -66,7 +66,11 @@ const std::vector<Importer>& table() {
       {{ImportFormat::kRosbag, "rosbag",
         "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
        open_rosbag,
-       {"depth-unit", "intrinsics", "topic", "clockwise"}}};
+       {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kDepthFolder, "depth-folder",
+        "depth images (16-bit PNG, in the folder or its depth/) and the camera's intrinsics"},
+       open_depth_folder,
+       {"depth-unit", "intrinsics", "fps", "angles", "clockwise"}}};
   return importers;
 }
 
@@ -80,7 +84,10 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (!options.angles.empty()) return ImportFormat::kCloudFolder;
+  const bool clouds = any_ends_with(names, ".ply") || any_ends_with(names, ".pcd");
+  const bool images = has("depth") || any_ends_with(names, ".png");
+  if (!options.angles.empty())
+    return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
   if (has("depth") && (has("intrinsic.json") || has("camera_intrinsic.json")))
     return ImportFormat::kOpen3dRgbd;
@@ -91,11 +98,11 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   if (frame_pose) return ImportFormat::kFramePose;
   const auto any = [&](const auto& fits) { return std::any_of(names.begin(), names.end(), fits); };
   if (any(is_scanner_app_frame)) return ImportFormat::kScannerApp;
-  if (any(is_rtabmap_depth_folder)) return ImportFormat::kRtabmap;
+  if (any(is_rtabmap_depth_folder) && (has("calib") || !has("depth")))
+    return ImportFormat::kRtabmap;
   if (any_ends_with(names, ".json") && any_ends_with(names, ".png")) return ImportFormat::kJsonPng;
-  if (any_ends_with(names, ".ply") || any_ends_with(names, ".pcd"))
-    return ImportFormat::kCloudFolder;
-  return ImportFormat::kAuto;
+  if (clouds) return ImportFormat::kCloudFolder;
+  return images ? ImportFormat::kDepthFolder : ImportFormat::kAuto;
 }
 
 /// Recognises a file by its first bytes; kAuto: not recognised.
@@ -136,9 +143,10 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  const bool images = any_ends_with(names, ".png") && !any_ends_with(names, ".json");
-  return fmt::format("a folder of {} entries such as {}{}", names.size(), names.front(),
-                     images ? " without a JSON file of the camera's intrinsics" : "");
+  for (const char* ending : {".npy", ".npz", ".tiff", ".tif", ".exr"})
+    if (any_ends_with(names, ending))
+      return fmt::format("a folder of {} files (write depth as 16-bit PNG to import it)", ending);
+  return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
 }
 
 Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& options) {
@@ -224,11 +232,12 @@ OptionTable describe(ImportOptions& o) {
   table.choice(
       "format", o.format,
       {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png", "matroska",
-       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag"},
+       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag", "depth-folder"},
       "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
-  table.text("angles", o.angles,
-             "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
+  table.text(
+      "angles", o.angles,
+      "Table of a folder of scans or images, with the columns file,angle_deg or file,time_s");
   table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},
                "Length of one step of the depth images; auto takes it from the data set");
   table.choice("point-unit", o.point_unit, {"auto", "m", "mm", "cm", "um", "in"},

@@ -27,7 +27,8 @@ enum class ImportFormat {
   kSens,
   kScannerApp,
   kRtabmap,
-  kRosbag
+  kRosbag,
+  kDepthFolder
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };

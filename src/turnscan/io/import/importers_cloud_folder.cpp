@@ -1,9 +1,9 @@
 // Imports a folder of scans with a table of angles or times.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
-#include <turnscan/io/import/angle_table.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
 namespace turnscan::importers {
@@ -25,9 +25,9 @@ Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options
 
 Result<std::vector<ForeignFrame>> frames_of(const fs::path& path, const fs::path& folder,
                                             bool clockwise) {
-  TURNSCAN_ASSIGN(const std::vector<AngleRow> rows, read_angle_table(path));
+  TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::vector<ForeignFrame> frames;
-  for (const AngleRow& row : rows) {
+  for (const text::AngleRow& row : rows) {
     ForeignFrame& frame = frames.emplace_back();
     FrameInfo& info = frame.info;
     if (row.angle_rad) info.angle_rad = clockwise ? -*row.angle_rad : *row.angle_rad;
@@ -59,6 +59,15 @@ void put_in_order(std::vector<ForeignFrame>& frames) {
     frames[i].info.index = static_cast<std::uint32_t>(i);
 }
 
+/// Whether the origin lies well within the box of the points.
+bool stands_among(const std::vector<Vec3f>& points) {
+  Eigen::AlignedBox3f box;
+  for (const Vec3f& p : points) box.extend(p);
+  const Vec3f margin = 0.05f * box.sizes();
+  return !box.isEmpty() && (box.min() + margin).maxCoeff() < 0.0f &&
+         (box.max() - margin).minCoeff() > 0.0f;
+}
+
 /// As stated, else from the first file, else the origin of the scans' frame.
 Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
                                const ImportOptions& options, double metres_per_unit,
@@ -72,6 +81,12 @@ Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
     if (!viewpoint.parallel) viewpoint.value *= metres_per_unit;
     return viewpoint;
   }
+  if (stands_among(first.cloud.points))
+    return fail_at(
+        frames.front().data.string(), ErrorCode::kMissingData,
+        "the scan lies around the origin of its frame, where the scanner cannot have "
+        "stood; say where it stood, --sensor-position x,y,z, or from which side it looked, "
+        "--sensor-direction x,y,z");
   add_note(header,
            "the scanner was taken to stand at the origin of the scans' frame; if it did not, "
            "import again with --sensor-position or --sensor-direction");

@@ -109,6 +109,13 @@ Result<double> point_scale(const ImportOptions& options, std::optional<double> b
               "--point-unit mm");
 }
 
+Result<std::vector<text::AngleRow>> read_angle_table(const fs::path& path) {
+  TURNSCAN_ASSIGN(const std::string bytes, read_file(path, kMaxTextBytes));
+  auto rows = text::parse_angle_table(bytes);
+  if (!rows) return at_path(path, std::move(rows).error());
+  return rows;
+}
+
 Result<Eigen::Matrix3d> stated_axes(const ImportOptions& options) {
   Eigen::Matrix3d out = Eigen::Matrix3d::Identity();
   if (options.axes.empty()) return out;

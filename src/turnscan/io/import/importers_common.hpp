@@ -7,6 +7,7 @@
 #include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/io/import/importers.hpp>
+#include <turnscan/io/text/angle_table.hpp>
 #include <vector>
 
 namespace turnscan::importers {
@@ -51,6 +52,7 @@ OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions&
 OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions& options);
 OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
 /// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
@@ -80,6 +82,9 @@ tl::unexpected<Error> at_path(const std::filesystem::path& path, Error error);
 
 /// Metres per unit of scans: as stated, else `by_format`, else an error that asks for it.
 Result<double> point_scale(const ImportOptions& options, std::optional<double> by_format);
+
+/// A table of angles or times. Fails as text::parse_angle_table() and reading do.
+Result<std::vector<text::AngleRow>> read_angle_table(const std::filesystem::path& path);
 
 /// Rotation, or reflection, from the axes of scans (options.axes) to the sensor frame: x right, y
 /// down, z forward. Identity if they are not stated.

@@ -1,13 +1,14 @@
 #pragma once
 // Tables of the angles or times of scans and images.
 
-#include <filesystem>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <turnscan/core/result.hpp>
 #include <vector>
 
-namespace turnscan::importers {
+namespace turnscan::text {
 
 struct AngleRow {
   std::size_t line = 0;
@@ -18,8 +19,7 @@ struct AngleRow {
 
 /// Columns file, and angle (in degrees, or as the unit says) or time (in seconds, or as the unit
 /// says); pass and sensor may follow, others are ignored. Separated by comma, semicolon or
-/// tabulator, in UTF-8 or UTF-16, with decimal points or commas. Fails with kFormat, and as reading
-/// does.
-Result<std::vector<AngleRow>> read_angle_table(const std::filesystem::path& path);
+/// tabulator, in UTF-8 or UTF-16, with decimal points or commas. Fails with kFormat.
+Result<std::vector<AngleRow>> parse_angle_table(std::string_view bytes);
 
-}  // namespace turnscan::importers
+}  // namespace turnscan::text

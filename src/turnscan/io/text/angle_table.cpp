@@ -1,15 +1,11 @@
 #include <fmt/ranges.h>
 #include <array>
 #include <turnscan/core/angles.hpp>
-#include <turnscan/io/file/atomic_file.hpp>
-#include <turnscan/io/import/angle_table.hpp>
-#include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/text/angle_table.hpp>
 #include <turnscan/io/text/table_text.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
-namespace turnscan::importers {
-
-namespace fs = std::filesystem;
+namespace turnscan::text {
 
 namespace {
 
@@ -35,8 +31,8 @@ class AngleColumns {
  public:
   static Result<AngleColumns> parse(std::string_view header_line) {
     AngleColumns out;
-    out.delimiter_ = text::delimiter_of(header_line);
-    TURNSCAN_ASSIGN(out.names_, text::csv_fields(header_line, out.delimiter_));
+    out.delimiter_ = delimiter_of(header_line);
+    TURNSCAN_ASSIGN(out.names_, csv_fields(header_line, out.delimiter_));
     TURNSCAN_ASSIGN(out.file_, out.column("file", {}));
     TURNSCAN_ASSIGN(out.angle_, out.column("angle", kAngleUnits));
     TURNSCAN_ASSIGN(out.time_, out.column("time", kTimeUnits));
@@ -51,7 +47,7 @@ class AngleColumns {
   }
 
   Result<AngleRow> row(std::string_view line) const {
-    TURNSCAN_ASSIGN(const std::vector<std::string> fields, text::csv_fields(line, delimiter_));
+    TURNSCAN_ASSIGN(const std::vector<std::string> fields, csv_fields(line, delimiter_));
     if (fields.size() != names_.size())
       return fail(ErrorCode::kFormat, "there are {} fields, not {}", fields.size(), names_.size());
     AngleRow out;
@@ -70,7 +66,7 @@ class AngleColumns {
                                             std::span<const TableUnit> units) const {
     std::optional<TableColumn> found;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const text::ColumnName name = text::column_name(names_[i]);
+      const ColumnName name = column_name(names_[i]);
       if (name.base != base) continue;
       if (found) return fail(ErrorCode::kFormat, "two columns are named {}", base);
       found = TableColumn{i, units.empty() ? 1.0 : units.front().scale};
@@ -88,7 +84,7 @@ class AngleColumns {
   Result<std::optional<double>> number(const std::vector<std::string>& fields,
                                        const std::optional<TableColumn>& column) const {
     if (!column || fields[column->position].empty()) return std::optional<double>();
-    const auto value = text::parse_decimal(fields[column->position]);
+    const auto value = parse_decimal(fields[column->position]);
     if (!value)
       return fail(ErrorCode::kFormat, "column {}: {}", names_[column->position],
                   value.error().message);
@@ -98,7 +94,7 @@ class AngleColumns {
   Result<std::uint32_t> index(const std::vector<std::string>& fields,
                               const std::optional<TableColumn>& column, std::uint32_t max) const {
     if (!column || fields[column->position].empty()) return 0U;
-    auto value = text::parse_index(fields[column->position], max);
+    auto value = parse_index(fields[column->position], max);
     if (!value)
       return fail(ErrorCode::kFormat, "column {}: {}", names_[column->position],
                   value.error().message);
@@ -112,31 +108,25 @@ class AngleColumns {
 
 }  // namespace
 
-Result<std::vector<AngleRow>> read_angle_table(const fs::path& path) {
-  TURNSCAN_ASSIGN(const std::string bytes, read_file(path, kMaxTextBytes));
-  const auto text = text::utf8_of(bytes);
-  if (!text) return at_path(path, text.error());
-  text::LineReader lines(*text);
+Result<std::vector<AngleRow>> parse_angle_table(std::string_view bytes) {
+  TURNSCAN_ASSIGN(const std::string text, utf8_of(bytes));
+  LineReader lines(text);
   const auto first = lines.next_content();
-  if (!first) return fail_at(path.string(), ErrorCode::kFormat, "the table is empty");
+  if (!first) return fail(ErrorCode::kFormat, "the table is empty");
   const auto columns = AngleColumns::parse(first->text);
   if (!columns)
-    return fail_at(path.string(), ErrorCode::kFormat, "line {}: {}", first->number,
-                   columns.error().message);
+    return fail(ErrorCode::kFormat, "line {}: {}", first->number, columns.error().message);
   std::vector<AngleRow> rows;
   while (const auto line = lines.next_content()) {
     auto row = columns->row(line->text);
-    if (!row)
-      return fail_at(path.string(), row.error().code, "line {}: {}", line->number,
-                     row.error().text());
+    if (!row) return fail(row.error().code, "line {}: {}", line->number, row.error().message);
     if (rows.size() == kMaxTableRows)
-      return fail_at(path.string(), ErrorCode::kResourceLimit, "there are more than {} scans",
-                     kMaxTableRows);
+      return fail(ErrorCode::kResourceLimit, "there are more than {} scans", kMaxTableRows);
     row->line = line->number;
     rows.push_back(std::move(*row));
   }
-  if (rows.empty()) return fail_at(path.string(), ErrorCode::kFormat, "the table has no scans");
+  if (rows.empty()) return fail(ErrorCode::kFormat, "the table has no scans");
   return rows;
 }
 
-}  // namespace turnscan::importers
+}  // namespace turnscan::text
