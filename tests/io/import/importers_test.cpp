@@ -283,17 +283,6 @@ TEST(CloudFolder, TimesPassesAndSensorsAreKept) {
   EXPECT_NEAR(*table.speed_rad_s, -10 * kDeg, 1e-12);
 }
 
-TEST(CloudFolder, WhatLiesAroundTheScannersPositionAsksForIt) {
-  const TempFolder folder;
-  CloudFile file;
-  file.cloud.points = {Vec3f(-1, -1, -1), Vec3f(1, 1, 1)};
-  ASSERT_TRUE(write_cloud(folder / "a.ply", file));
-  folder.put("angles.csv", "file,angle_deg\na.ply,0\n");
-  EXPECT_THAT(refusal(folder.path(), with({{"point-unit", "m"}})).message,
-              HasSubstr("the scanner cannot have stood; say where it stood, --sensor-position"));
-  open(folder.path(), with({{"point-unit", "m"}, {"sensor-position", "0m,0m,3m"}}));
-}
-
 TEST(CloudFolder, UnitMustBeStated) {
   const TempFolder folder;
   put_scan(folder, "a.ply");

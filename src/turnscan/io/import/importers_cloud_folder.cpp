@@ -1,6 +1,5 @@
 // Imports a folder of scans with a table of angles or times.
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
@@ -59,15 +58,6 @@ void put_in_order(std::vector<ForeignFrame>& frames) {
     frames[i].info.index = static_cast<std::uint32_t>(i);
 }
 
-/// Whether the origin lies well within the box of the points.
-bool stands_among(const std::vector<Vec3f>& points) {
-  Eigen::AlignedBox3f box;
-  for (const Vec3f& p : points) box.extend(p);
-  const Vec3f margin = 0.05f * box.sizes();
-  return !box.isEmpty() && (box.min() + margin).maxCoeff() < 0.0f &&
-         (box.max() - margin).minCoeff() > 0.0f;
-}
-
 /// As stated, else from the first file, else the origin of the scans' frame.
 Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
                                const ImportOptions& options, double metres_per_unit,
@@ -81,12 +71,6 @@ Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
     if (!viewpoint.parallel) viewpoint.value *= metres_per_unit;
     return viewpoint;
   }
-  if (stands_among(first.cloud.points))
-    return fail_at(
-        frames.front().data.string(), ErrorCode::kMissingData,
-        "the scan lies around the origin of its frame, where the scanner cannot have "
-        "stood; say where it stood, --sensor-position x,y,z, or from which side it looked, "
-        "--sensor-direction x,y,z");
   add_note(header,
            "the scanner was taken to stand at the origin of the scans' frame; if it did not, "
            "import again with --sensor-position or --sensor-direction");
@@ -96,6 +80,11 @@ Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
 /// From the axes of the scans to the sensor frame.
 Result<> turn_header(const ImportOptions& options, SequenceHeader& header) {
   TURNSCAN_ASSIGN(const Eigen::Matrix3d axes, stated_axes(options));
+  if (!options.axes.empty())
+    add_note(header,
+             fmt::format("the scans were turned from the axes {} to rdf: x right, y down, z "
+                         "forward",
+                         options.axes));
   for (SensorInfo& sensor : header.sensors) sensor.viewpoint.value = axes * sensor.viewpoint.value;
   if (!header.turntable) return {};
   header.turntable->axis = axes * header.turntable->axis;

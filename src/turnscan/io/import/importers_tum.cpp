@@ -8,7 +8,6 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/existence.hpp>
-#include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
@@ -20,7 +19,6 @@ namespace {
 
 constexpr double kMaxTimeDifference = 0.02;  // seconds
 constexpr double kDepthUnit = 1.0 / 5000.0;  // metres
-constexpr double kNearestKinect_m = 0.4;     // of the Kinect's near mode
 constexpr std::size_t kMaxEntries = 1000000;
 
 struct TimedFile {
@@ -183,25 +181,6 @@ Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder, const Impo
   return frames;
 }
 
-/// Other programs write this layout with other units.
-Result<> check_default_unit(const fs::path& path) {
-  TURNSCAN_ASSIGN(const DepthImage depth, read_depth_png(path));
-  std::vector<std::uint16_t> steps;
-  for (const std::uint16_t value : depth.pixels)
-    if (value != kNoReturn && value != kOutsideCrop) steps.push_back(value);
-  if (steps.empty()) return {};
-  const auto at = steps.begin() + std::ptrdiff_t(steps.size() / 2);
-  std::nth_element(steps.begin(), at, steps.end());
-  const double usual_m = *at * kDepthUnit;
-  if (usual_m > kNearestKinect_m) return {};
-  return fail_at(
-      path.string(), ErrorCode::kMissingData,
-      "with the benchmark's 5000 steps a metre half of the image would be nearer than "
-      "{:.2f} m, where its Kinects see nothing; with --depth-unit 1mm it is {:.2f} m: state "
-      "the length of one step",
-      usual_m, *at * 1e-3);
-}
-
 }  // namespace
 
 OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
@@ -210,13 +189,15 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
   SensorInfo sensor;
   TURNSCAN_ASSIGN(sensor.intrinsics, intrinsics_of(folder, options, header));
   TURNSCAN_ASSIGN(sensor.depth_unit_m, depth_scale(options, kDepthUnit));
-  if (!options.depth_unit_m)
-    add_note(header, "depth images have 5000 steps a metre, as the benchmark defines");
+  if (!options.depth_unit_m) {
+    sensor.model = "kinect-v1";
+    add_note(header,
+             "depth images have 5000 steps a metre, as the benchmark defines for its Kinects");
+  }
   header.sensors.push_back(sensor);
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, header));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
-  if (!options.depth_unit_m) TURNSCAN_TRY(check_default_unit(frames.front().data));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   return std::make_unique<ForeignSequence>(std::move(header), frames);
 }

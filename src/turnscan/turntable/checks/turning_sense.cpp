@@ -36,8 +36,7 @@ bool TurningSense::reversed() const {
 }
 
 Result<std::optional<TurningSense>> measure_turning_sense(const FrameSequence& sequence,
-                                                          const RunContext& context,
-                                                          PlatterMemory* memory) {
+                                                          const RunContext& context) {
   const auto& table = sequence.header().turntable;
   if (!table)
     return fail(ErrorCode::kMissingData, "the recording does not say where the turntable is");
@@ -46,7 +45,7 @@ Result<std::optional<TurningSense>> measure_turning_sense(const FrameSequence& s
   if (positions.size() < checks::kMinSenseFrames) return std::nullopt;
   motion::MotionDataOptions loading;
   loading.hint = table;
-  loading.memory = memory;
+  loading.use_platter = false;  // what is asked is whether frames fit about the recorded axis
   const auto data = motion::load_motion(SequenceView(sequence, positions), loading, context);
   if (!data) {
     if (data.error().code == ErrorCode::kTooFewPoints) return std::nullopt;

@@ -5,7 +5,6 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/sequence_views.hpp>
-#include <turnscan/turntable/detection/detect.hpp>
 
 namespace turnscan {
 
@@ -21,8 +20,7 @@ struct TurningSense {
 /// have a known angle, or too little of an object is visible. Fails with kMissingData if the
 /// recording has no turntable, with kCancelled, and with the errors of reading.
 Result<std::optional<TurningSense>> measure_turning_sense(const FrameSequence& sequence,
-                                                          const RunContext& context,
-                                                          PlatterMemory* memory = nullptr);
+                                                          const RunContext& context);
 
 /// The sequence with angles and speed of the opposite sign; it must outlive the result.
 SequenceView with_reversed_angles(const FrameSequence& sequence);

@@ -63,30 +63,33 @@ double upward(const MotionData& data, const Viewpoint& viewpoint, const Vec3d& a
   return 0.0;
 }
 
-std::string convention_text(const MotionData& data, const Vec3d& axis) {
+std::string convention_text(const Vec3d& axis, const Vec3d& to_sensor) {
   int most = 0;
   axis.cwiseAbs().maxCoeff(&most);
   const bool down = axis[most] < 0.0;
   std::string text = std::string("the clouds are ") + "xyz"[most] + (down ? " down" : " up");
   if (most == 1 && down) text += ", as PCL, Open3D and ROS write them";
-  if (most == 1 && !down)
-    text += data.to_sensor.z() > 0.0
-                ? ", as OpenGL writes them"
-                : "; if the mesh is a mirror image, they are left-handed (--axes ruf)";
+  if (most == 1 && !down && to_sensor.z() > 0.0) text += ", as OpenGL writes them";
   return text;
 }
 
 Result<> check_handedness(const SensorInfo& sensor, const Vec3d& axis, const Vec3d& middle,
                           double reach_m) {
-  const Viewpoint& viewpoint = sensor.viewpoint;
-  const bool in_sensor_frame = !viewpoint.parallel && viewpoint.value.isZero();
-  if (sensor.kind == SensorKind::kDepthCamera || !in_sensor_frame ||
-      !(axis.normalized().y() > kMostlyUp) || !(middle.z() > reach_m))
-    return {};
-  return fail(ErrorCode::kInvalidOption,
-              "the clouds are y up and z forward, and fit if they are mirrored (left-handed, as "
-              "Unity writes them) or if the angles count clockwise: say which when importing, "
-              "--axes ruf or --clockwise");
+  const bool in_sensor_frame = !sensor.viewpoint.parallel && sensor.viewpoint.value.isZero();
+  if (sensor.kind == SensorKind::kDepthCamera || !in_sensor_frame) return {};
+  const auto ask = [](const char* seen, const char* right_handed, const char* left_handed) {
+    return fail(ErrorCode::kInvalidOption,
+                "the clouds are {}, which programs write right-handed ({}) and left-handed ({}); "
+                "both fit, one as a mirror image with angles of the opposite sign: say which when "
+                "importing, --axes {:.3} or --axes {:.3}",
+                seen, right_handed, left_handed, right_handed, left_handed);
+  };
+  const Vec3d up = axis.normalized();
+  if (up.y() > kMostlyUp && middle.z() > reach_m)
+    return ask("y up and z forward", "luf: Kinect's SDK", "ruf: Unity");
+  if (up.z() > kMostlyUp && middle.x() > reach_m && middle.x() > std::abs(middle.y()))
+    return ask("z up and x forward", "flu: ROS", "fru: Unreal");
+  return {};
 }
 
 }  // namespace turnscan::motion

@@ -12,13 +12,13 @@ namespace turnscan::motion {
 double upward(const MotionData& data, const Viewpoint& viewpoint, const Vec3d& axis);
 
 /// How the axes of clouds lie by the turntable's axis, e.g. "the clouds are y down, as PCL, Open3D
-/// and ROS write them".
-std::string convention_text(const MotionData& data, const Vec3d& axis);
+/// and ROS write them". to_sensor: from the middle of what is seen.
+std::string convention_text(const Vec3d& axis, const Vec3d& to_sensor);
 
-/// For clouds whose angles fit with the opposite sign only: mirrored clouds do so as well as clouds
-/// with such angles. Fails with kInvalidOption if they are y up and z forward in the sensor frame,
-/// as programs with left-handed axes write them, and others with x left. middle, reach_m: of what
-/// is seen, which does not reach the scanner.
+/// A mirrored object whose angles have the opposite sign fits as well as the object itself. Fails
+/// with kInvalidOption if clouds lie, in the frame of their scanner, as some programs write them
+/// left-handed and others right-handed. middle, reach_m: of what is seen, which does not reach the
+/// scanner.
 Result<> check_handedness(const SensorInfo& sensor, const Vec3d& axis, const Vec3d& middle,
                           double reach_m);
 

@@ -48,9 +48,8 @@ class Publication {
       return fail(ErrorCode::kLibrary,
                   "motion: no axis was found about which the frames fit; calibrate with --detect "
                   "or --points, or take more frames a turn");
-    if (motion_.prior.nominal_sign < 0.0)
-      TURNSCAN_TRY(check_handedness(sequence_.header().sensors.front(), state_.axis, data_.middle,
-                                    data_.extent_m));
+    TURNSCAN_TRY(check_handedness(sequence_.header().sensors.front(), state_.axis, data_.middle,
+                                  data_.extent_m));
     Calibration out;
     out.method = CalibrationMethod::kMotion;
     out.residual_rms_m = solution_.rms_m;
@@ -64,7 +63,7 @@ class Publication {
           "the recorded angles count clockwise seen from above: the frames fit "
           "when their sign is changed");
     if (!data_.projective && !sequence_.header().turntable)
-      out.notes.push_back(convention_text(data_, state_.axis));
+      out.notes.push_back(convention_text(state_.axis, data_.to_sensor));
     return out;
   }
 

@@ -346,10 +346,6 @@ Result<bool> counts_backwards(const FrameSequence& sequence, const CalibrationRe
 Result<CalibrationChoice> with_sense_corrected(const FrameSequence& sequence,
                                                const CalibrationRequest& request,
                                                const RunContext& context) {
-  const auto& header = sequence.header();
-  TURNSCAN_TRY(motion::check_handedness(header.sensors.front(), header.turntable->axis,
-                                        header.turntable->center_m,
-                                        header.turntable->radius_m.value_or(0.0)));
   const SequenceView reversed = with_reversed_angles(sequence);
   TURNSCAN_ASSIGN(CalibrationChoice out, choose_forwards(reversed, request, context));
   if (!out.calibration) {
@@ -369,6 +365,20 @@ Result<CalibrationChoice> with_sense_corrected(const FrameSequence& sequence,
   return out;
 }
 
+/// Whether the object turns against the angles, or the speed, that are recorded.
+bool turns_against(const FrameSequence& recorded, const Calibration& found) {
+  const auto& frames = recorded.frames();
+  const auto& table = recorded.header().turntable;
+  double along = 0.0;
+  for (std::size_t i = 0; i < found.angles_rad.size(); ++i)
+    if (frames[i].angle_rad && frames[0].angle_rad)
+      along += (*frames[i].angle_rad - *frames[0].angle_rad) *
+               (found.angles_rad[i] - found.angles_rad[0]);
+  if (along == 0.0 && table && table->speed_rad_s && found.table.speed_rad_s)
+    along = *table->speed_rad_s * *found.table.speed_rad_s;
+  return along < 0.0;
+}
+
 }  // namespace
 
 double CalibrationChecks::misfit_m() const {
@@ -386,11 +396,25 @@ double CalibrationChecks::misfit_m() const {
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
-  if (request.mode == "auto") {
-    TURNSCAN_ASSIGN(const bool backwards, counts_backwards(sequence, request, context));
-    if (backwards) return with_sense_corrected(sequence, request, context);
+  if (request.mode != "auto") return choose_forwards(sequence, request, context);
+  const SensorInfo& sensor = sequence.header().sensors.front();
+  const auto& table = sequence.header().turntable;
+  const bool stated = table && !workflow::has_poses(sequence);
+  if (stated)
+    TURNSCAN_TRY(motion::check_handedness(sensor, table->axis, table->center_m,
+                                          table->radius_m.value_or(0.0)));
+  TURNSCAN_ASSIGN(const bool backwards, counts_backwards(sequence, request, context));
+  TURNSCAN_ASSIGN(CalibrationChoice out, backwards
+                                             ? with_sense_corrected(sequence, request, context)
+                                             : choose_forwards(sequence, request, context));
+  out.may_be_mirrored = sensor.kind == SensorKind::kDepthCamera && out.calibration &&
+                        turns_against(sequence, *out.calibration);
+  if (stated && sensor.kind == SensorKind::kPointScanner) {
+    std::string note =
+        motion::convention_text(table->axis, sensor.viewpoint.direction_from(table->center_m));
+    out.note = out.note.empty() ? std::move(note) : note + "; " + out.note;
   }
-  return choose_forwards(sequence, request, context);
+  return out;
 }
 
 Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,
