@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <turnscan/core/image.hpp>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/units.hpp>
 #include <turnscan/recording/plausibility/finders.hpp>
 #include <turnscan/sensors/scanner_file.hpp>
@@ -80,21 +79,22 @@ std::string unit_that_fits(bool camera, double distance_m, double unit_m, const 
   return out;
 }
 
-/// Median difference of neighbours that both have a return.
+/// Mean difference of neighbours that both have a return.
 double roughness(const std::vector<Frame>& frames, bool swapped) {
-  std::vector<int> steps;
   const auto value = [&](std::uint16_t raw) {
     return swapped ? int(std::uint16_t(raw << 8 | raw >> 8)) : int(raw);
   };
+  double sum = 0.0, count = 0.0;
   for (const Frame& frame : frames) {
     const auto& pixels = frame.depth.pixels;
     for (std::size_t i = 1; i < pixels.size(); i += kPixelStep) {
       if (pixels[i] == kNoReturn || pixels[i] == kOutsideCrop) continue;
       if (pixels[i - 1] == kNoReturn || pixels[i - 1] == kOutsideCrop) continue;
-      steps.push_back(std::abs(value(pixels[i]) - value(pixels[i - 1])));
+      sum += std::abs(value(pixels[i]) - value(pixels[i - 1]));
+      count += 1.0;
     }
   }
-  return median(steps);
+  return count > 0.0 ? sum / count : 0.0;
 }
 
 }  // namespace

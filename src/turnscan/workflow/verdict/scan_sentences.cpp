@@ -79,7 +79,7 @@ void add_plausibility(const ScanKnowledge& known, Findings& out) {
   for (const PlausibilityFinding& finding : known.findings)
     if (finding.level == Plausibility::kImplausible)
       out.push_back({"plausibility", Level::kBad, finding.text, std::nan(""), ""});
-  if (known.choice->may_be_mirrored)
+  if (known.choice != nullptr && known.choice->may_be_mirrored)
     out.push_back(
         {"plausibility", Level::kFair,
          "the angles count the wrong way round, or the depth images are mirrored, as some "
