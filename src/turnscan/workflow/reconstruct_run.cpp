@@ -93,15 +93,17 @@ Result<> reconstruct_joined(const std::vector<PlacedRecording>& placed,
 
 using RecordingFindings = std::vector<std::vector<PlausibilityFinding>>;
 
-/// What cannot be in the data is why the work on them failed.
+/// What cannot be in the data, or hardly, is why the work on them failed.
 Error with_cause(Error error, const RecordingFindings& findings) {
   const bool of_data = error.code == ErrorCode::kMissingData ||
                        error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary;
-  for (const auto& of_recording : findings) {
-    for (const PlausibilityFinding& finding : of_recording) {
-      if (!of_data || finding.level != Plausibility::kImplausible) continue;
-      error.message = fmt::format("{} ({})", finding.text, error.message);
-      return error;
+  for (const Plausibility level : {Plausibility::kImplausible, Plausibility::kDoubtful}) {
+    for (const auto& of_recording : findings) {
+      for (const PlausibilityFinding& finding : of_recording) {
+        if (!of_data || finding.level != level) continue;
+        error.message = fmt::format("{} ({})", finding.text, error.message);
+        return error;
+      }
     }
   }
   return error;

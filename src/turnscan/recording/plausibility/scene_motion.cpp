@@ -8,9 +8,9 @@ namespace turnscan::plausibility {
 namespace {
 
 constexpr std::size_t kMinFrames = 4, kMinPixels = 500;
-/// Pixels that change by more than all but this share of them do between frames in succession.
-/// Where nothing turns, as many do at any time.
-constexpr double kChanging = 0.01, kNothingTurns = 0.015;
+/// What all but this share of the pixels do not exceed between frames in succession. Where nothing
+/// turns, as many exceed it at any time, within so many deviations of the two counts.
+constexpr double kChanging = 0.01, kDeviations = 4.0;
 /// A change beyond noise, in median differences of frames in succession.
 constexpr double kBeyondNoise = 6.0;
 constexpr double kBorder = 0.1;    ///< of the image's size
@@ -59,7 +59,8 @@ void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findin
     if (border.size() >= kMinPixels)
       most_moved = std::max(most_moved, share_above(border, beyond_noise));
   }
-  if (most_changed < kNothingTurns)
+  const double chance = kDeviations * std::sqrt(2.0 * kChanging / double(noise.size()));
+  if (most_changed < kChanging + chance)
     out.push_back({Plausibility::kDoubtful,
                    fmt::format("nothing changes in the images of sensor {}: the table stood still "
                                "while they were taken, or the object looks the same from all sides",
