@@ -57,7 +57,8 @@ Result<> check_assumptions(const FrameSequence& imported, const ImportOptions& o
                            const RunContext& context) {
   TURNSCAN_ASSIGN(const auto findings, find_implausible(imported, context));
   for (const PlausibilityFinding& finding : findings)
-    if (!finding.option.empty() && !states(options, finding.option))
+    if (finding.level == Plausibility::kImplausible && !finding.option.empty() &&
+        !states(options, finding.option))
       return fail(ErrorCode::kMissingData, "{}", finding.text);
   return {};
 }

@@ -78,7 +78,7 @@ TEST(Plausibility, KnowsTheRangeOfANamedSensor) {
   EXPECT_EQ(only(scan).text, "");
   for (const char* name : {"virtual realsense-d455", "d455"}) {
     sensor_of(scan).model = name;
-    expect_implausible(scan, "a realsense-d455 sees from 0.52 m", "depth-unit");
+    expect_implausible(scan, "the realsense-d455 sees from 0.52 m", "depth-unit");
   }
   sensor_of(scan).depth_unit_m = 4e-4;
   EXPECT_EQ(only(scan).level, Plausibility::kDoubtful);
@@ -143,6 +143,13 @@ TEST(Plausibility, SaysWhereNothingTurns) {
     scan.data[i].depth = bump_at(30, int(i), 900.0);
   EXPECT_EQ(only(scan).level, Plausibility::kDoubtful);
   EXPECT_EQ(only(scan).text.find("nothing changes in the images of sensor 0"), 0u);
+}
+
+TEST(Plausibility, AFewViewsFarApartShowThatSomethingTurns) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.data.size(); ++i)
+    scan.data[i].depth = bump_at(i % 2 == 0 ? 16 : 40, int(i), 900.0);
+  EXPECT_EQ(only(scan).text, "");
 }
 
 TEST(Plausibility, SaysWhereTheSurroundingsMove) {

@@ -40,7 +40,7 @@ std::optional<DepthRange> range_of(const std::string& model) {
     const auto preset = find_scanner(name);
     if (!preset) continue;
     const bool same = model.ends_with(name) || (model.size() > 3 && name.ends_with(model));
-    if (same) return DepthRange{preset->near_m, preset->far_m, "a " + name, true};
+    if (same) return DepthRange{preset->near_m, preset->far_m, "the " + name, true};
     if (preset->sensing != Sensing::kIdeal && preset->kind == ScannerKind::kMatrix)
       extend(all, *preset);
   }

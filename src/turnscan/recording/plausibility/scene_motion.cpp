@@ -60,7 +60,9 @@ void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findin
       most_moved = std::max(most_moved, share_above(border, beyond_noise));
   }
   const double chance = kDeviations * std::sqrt(2.0 * kChanging / double(noise.size()));
-  if (most_changed < kChanging + chance)
+  // Where frames in succession differ by more than noise, they show that something turns.
+  const bool only_noise = *rare <= beyond_noise;
+  if (only_noise && most_changed < kChanging + chance)
     out.push_back({Plausibility::kDoubtful,
                    fmt::format("nothing changes in the images of sensor {}: the table stood still "
                                "while they were taken, or the object looks the same from all sides",
