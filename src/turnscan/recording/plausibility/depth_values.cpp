@@ -132,10 +132,11 @@ void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vect
   out.push_back(
       {maybe ? Plausibility::kDoubtful : Plausibility::kImplausible,
        fmt::format("the nearest tenth of what sensor {} sees would lie within {}, and {} sees from "
-                   "{:.2g} m to {:.2g} m: the unit is another one; state it when importing, "
+                   "{:.2g} m to {:.2g} m: the unit {} another one; state it when importing, "
                    "--{}{}",
                    number, format_quantity(m, Quantity::kLength), range->whose, range->near_m,
-                   range->far_m, option, unit_that_fits(camera, m, unit_m, *range)),
+                   range->far_m, maybe ? "may be" : "is", option,
+                   unit_that_fits(camera, m, unit_m, *range)),
        option});
 }
 
