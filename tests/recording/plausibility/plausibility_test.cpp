@@ -85,6 +85,16 @@ TEST(Plausibility, KnowsTheRangeOfANamedSensor) {
   EXPECT_EQ(only(scan).option, "depth-unit");
 }
 
+TEST(Plausibility, ATableThatIsNowhereNearWhatIsSeenTellsTheUnit) {
+  MemorySequence scan = scan_of_bump();
+  scan.header_value.turntable.emplace().center_m = Vec3d(0.0, 0.1, 0.85);
+  EXPECT_EQ(only(scan).text, "");
+  for (const double unit_m : {2e-4, 5e-3}) {
+    sensor_of(scan).depth_unit_m = unit_m;
+    expect_implausible(scan, "the unit is another one (with 1mm it would be 0.7");
+  }
+}
+
 TEST(Plausibility, KnowsSwappedBytes) {
   MemorySequence scan = scan_of_bump();
   for (Frame& frame : scan.data)

@@ -19,6 +19,7 @@ constexpr std::array<std::pair<double, const char*>, 5> kPointUnits{
 /// The presets' ranges are those of use: the Kinect v1's drivers return depth from 0.8 of the
 /// nearest to 2.5 of the farthest, and the D435's smallest images begin at half of it.
 constexpr double kNearer = 0.8, kFarther = 2.5, kNearest = 0.4;
+constexpr double kNearTenth = 0.1;
 constexpr std::size_t kPixelStep = 7;
 
 struct DepthRange {
@@ -47,19 +48,24 @@ std::optional<DepthRange> range_of(const std::string& model) {
   return all;
 }
 
-/// The distance that a tenth of the returns is nearer than, in units; 0 if there are none.
-double near_tenth(const SensorInfo& sensor, const std::vector<Frame>& frames) {
-  std::vector<double> distances;
+/// Distances of the returns, in units.
+std::vector<double> distances_of(const SensorInfo& sensor, const std::vector<Frame>& frames) {
+  std::vector<double> out;
   for (const Frame& frame : frames) {
     for (std::size_t i = 0; i < frame.depth.pixels.size(); i += kPixelStep) {
       const std::uint16_t raw = frame.depth.pixels[i];
-      if (raw != kNoReturn && raw != kOutsideCrop) distances.push_back(raw);
+      if (raw != kNoReturn && raw != kOutsideCrop) out.push_back(raw);
     }
     for (std::size_t i = 0; i < frame.points.size(); i += kPixelStep)
-      distances.push_back((frame.points.points[i].cast<double>() - sensor.viewpoint.value).norm());
+      out.push_back((frame.points.points[i].cast<double>() - sensor.viewpoint.value).norm());
   }
+  return out;
+}
+
+/// The distance that this share of the returns is nearer than; 0 if there are none.
+double quantile(std::vector<double>& distances, double share) {
   if (distances.empty()) return 0.0;
-  const auto at = distances.begin() + std::ptrdiff_t(distances.size() / 10);
+  const auto at = distances.begin() + std::ptrdiff_t(share * double(distances.size()));
   std::nth_element(distances.begin(), at, distances.end());
   return *at;
 }
@@ -118,7 +124,8 @@ void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vect
                    Findings& out) {
   const bool camera = sensor.kind == SensorKind::kDepthCamera;
   if (!camera && sensor.viewpoint.parallel) return;
-  const double distance = near_tenth(sensor, frames);
+  std::vector<double> distances = distances_of(sensor, frames);
+  const double distance = quantile(distances, kNearTenth);
   const auto range = range_of(camera ? sensor.model : std::string());
   if (!(distance > 0.0) || !range) return;
   const double unit_m = camera ? sensor.depth_unit_m : 1.0;
@@ -138,6 +145,30 @@ void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vect
                    range->far_m, maybe ? "may be" : "is", option,
                    unit_that_fits(camera, m, unit_m, *range)),
        option});
+}
+
+void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
+                   const std::vector<Frame>& frames, Findings& out) {
+  constexpr double kFarOff = 2.0;
+  const bool camera = sensor.kind == SensorKind::kDepthCamera;
+  if (sensor.viewpoint.parallel) return;
+  const double unit_m = camera ? sensor.depth_unit_m : 1.0;
+  const double there_m =
+      camera ? table.center_m.z() : (table.center_m - sensor.viewpoint.value).norm();
+  std::vector<double> distances = distances_of(sensor, frames);
+  const double near_m = unit_m * quantile(distances, kNearTenth),
+               far_m = unit_m * quantile(distances, 1.0 - kNearTenth);
+  const bool beyond = near_m > kFarOff * there_m;
+  if (!(far_m > 0.0) || (!beyond && kFarOff * far_m > there_m)) return;
+  out.push_back(
+      {Plausibility::kImplausible,
+       fmt::format(
+           "the turntable is stated {} from sensor 0, and nine tenths of what it "
+           "sees lie {} {}: the unit is another one{}, or that place is wrong",
+           format_quantity(there_m, Quantity::kLength), beyond ? "beyond" : "within",
+           format_quantity(beyond ? near_m : far_m, Quantity::kLength),
+           unit_that_fits(camera, near_m, unit_m, {there_m / kFarOff, there_m * kFarOff, ""})),
+       ""});
 }
 
 }  // namespace turnscan::plausibility

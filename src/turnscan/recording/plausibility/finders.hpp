@@ -17,6 +17,10 @@ void look_at_intrinsics(std::size_t number, const SensorInfo& sensor, Findings& 
 void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out);
 
+/// A turntable of sensor 0 that is nowhere near what the sensor sees.
+void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
+                   const std::vector<Frame>& frames, Findings& out);
+
 /// 16-bit depth whose bytes are swapped. True if they are: other findings have no meaning then.
 bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Findings& out);
 

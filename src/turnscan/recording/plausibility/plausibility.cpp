@@ -47,7 +47,10 @@ Result<std::vector<PlausibilityFinding>> find_implausible(const FrameSequence& s
     TURNSCAN_ASSIGN(const auto frames, frames_to_look_at(sequence, i, context));
     plausibility::look_at_viewpoint(i, sensors[i], frames, out);
     if (plausibility::look_at_bytes(i, frames, out)) continue;
+    const std::size_t before = out.size();
     plausibility::look_at_range(i, sensors[i], frames, out);
+    if (const auto& table = sequence.header().turntable; table && i == 0 && out.size() == before)
+      plausibility::look_at_table(sensors[i], *table, frames, out);
     const bool posed = std::any_of(frames.begin(), frames.end(), [](const Frame& f) {
       return f.info.T_table_sensor.has_value();
     });
