@@ -10,7 +10,7 @@ FLOORS = {
     "core": set(),
     "geometry": {"core"},
     "io": {"core"},
-    "recording": {"core", "io"},
+    "recording": {"core", "io", "sensors"},
     "turntable": {"core", "geometry"},
     "reconstruction": {"core", "geometry", "turntable"},
     "sensors": {"core", "io"},

@@ -59,10 +59,10 @@ class MissingOrDamaged(harness.TestCase):
             self.assertLess(len(result.stderr), 200)
         (self.dir / "images").mkdir()
         (self.dir / "images" / "depth_0.png").write_text("")
-        self.refused(FAILED, "reconstruct", "images", "-o", "m.ply", says="camera's intrinsics")
+        self.refused(FAILED, "reconstruct", "images", "-o", "m.ply", says="the intrinsics of their camera")
         lines = self.ok("import", "--list").stdout.splitlines()
         self.assertIn("format", lines[0])
-        self.assertEqual(len(lines), 13)
+        self.assertEqual(len(lines), 14)
 
     def test_a_mesh_is_no_recording(self):
         for name in ("m.ply", "m.3mf"):

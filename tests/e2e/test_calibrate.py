@@ -80,6 +80,25 @@ class Calibrate(harness.TestCase):
         self.refused(FAILED, "reconstruct", "bare", "-o", "n.ply", "--calibration", "recorded")
         self.refused(USAGE, "reconstruct", "bare", "-o", "n.ply", "--calibration", "magic")
 
+    def test_angles_of_the_wrong_sign_beside_a_stated_turntable_are_corrected(self):
+        recordings.copy(self.rec, self.dir / "mirrored")
+        path = self.dir / "mirrored" / "recording.json"
+        recording = json.loads(path.read_text())
+        recording["turntable"].pop("speed_rad_s")
+        path.write_text(json.dumps(recording))
+        path = self.dir / "mirrored" / "frames.csv"
+        rows = [line.split(",") for line in path.read_text().splitlines()]
+        column = rows[0].index("angle_deg")
+        for row in rows[1:]:
+            row[column] = str(-float(row[column]))
+        path.write_text("".join(",".join(row) + "\n" for row in rows))
+        right = self.ok("reconstruct", self.rec, "-o", "right.ply", *harness.FAST).stdout
+        self.assertNotIn("wrong way round", right)
+        out = self.ok("reconstruct", "mirrored", "-o", "m.ply", *harness.FAST).stdout
+        self.assertIn("count the wrong way round", out)
+        self.ok("evaluate", "m.ply", "--reference", "right.ply", "--samples", "20000", "--json", "e.json")
+        self.assertLess(json.loads((self.dir / "e.json").read_text())["accuracy"]["median_m"], 1e-4)
+
     def test_a_table_that_has_moved_since_it_was_calibrated_is_noticed_and_found_anew(self):
         scene = ("simulate", recordings.mesh_of("doll"), "--height", "160mm", "--frames", "60", *NARROW,
                  "--fps", "6", "--turns", "1.1", "--calibration", "nominal")

@@ -50,6 +50,24 @@ TEST(Input, OfAnotherProgramIsImported) {
   EXPECT_EQ(input->frames->frames().size(), 1u);
 }
 
+TEST(Input, OfAnotherProgramAsksForWhatCannotBeAsAssumed) {
+  const TempFolder folder;
+  folder.put("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n-1 -1 -1\n1 1 1\n");
+  folder.put("angles.csv", "file,angle_deg\na.ply,0\n");
+  ImportOptions options;
+  options.point_unit = LengthUnit::kMetre;
+  const auto inside = open_input(folder.path(), options);
+  ASSERT_FALSE(inside);
+  EXPECT_EQ(inside.error().code, ErrorCode::kMissingData);
+  EXPECT_NE(inside.error().message.find("--sensor-position"), std::string::npos);
+  options.sensor_position = "0m,0m,3m";
+  EXPECT_TRUE(open_input(folder.path(), options));
+  options.sensor_position = "0m,0m,0.1m";
+  EXPECT_TRUE(open_input(folder.path(), options)) << "what is stated is not refused";
+}
+
 TEST(Input, MustExist) {
   const TempFolder folder;
   const auto input = open_input(folder / "nothing");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/geometry/mesh/winding_faults.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
@@ -109,6 +110,36 @@ TEST_F(ReconstructRunOf, AnUnknownWayToCalibrateFails) {
   const auto run = run_reconstruction(scan->scan, request, RunContext());
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, ErrorCode::kInvalidOption);
+}
+
+class SwappedBytes : public SequenceView {
+ public:
+  using SequenceView::SequenceView;
+  Result<Frame> read(std::size_t position) const override {
+    auto frame = SequenceView::read(position);
+    for (std::uint16_t& raw : frame->depth.pixels)
+      if (raw != kOutsideCrop) raw = std::uint16_t(raw << 8 | raw >> 8);
+    return frame;
+  }
+};
+
+TEST_F(ReconstructRunOf, DataThatCannotBeFailsWithTheCause) {
+  const auto run = run_reconstruction(SwappedBytes(scan->scan), request, RunContext());
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().message.find("the bytes of sensor 0's depth are swapped"), 0U)
+      << run.error().message;
+}
+
+TEST_F(ReconstructRunOf, TimesThatGoBackAreNotGreen) {
+  SequenceView view(scan->scan);
+  std::vector<FrameInfo> frames = view.frames();
+  std::swap(frames[3].time_s, frames[4].time_s);
+  view.set_frames(std::move(frames));
+  const auto run = run_reconstruction(view, request, RunContext());
+  ASSERT_TRUE(run) << run.error().text();
+  const Verdict& verdict = *run->reconstruction.objects.at(0).verdict;
+  EXPECT_EQ(verdict.level(), Level::kBad);
+  EXPECT_NE(verdict.sentences.front().text.find("times go back at frame 4"), std::string::npos);
 }
 
 TEST_F(ReconstructRunOf, ACancelledContextIsCancelled) {

@@ -3,6 +3,7 @@
 #include <turnscan/capture/session/device_calibration.hpp>
 #include <turnscan/capture/session/taken_frames.hpp>
 #include <turnscan/recording/calibration_file.hpp>
+#include <turnscan/recording/plausibility/plausibility.hpp>
 #include <turnscan/turntable/checks/check.hpp>
 
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
@@ -164,18 +165,23 @@ class CalibrateCommand : public Command {
 
   /// Fails if something is wrong, after reporting it.
   Result<> check(const FrameSequence& recording, Session& session) const {
+    std::map<Rating, std::size_t> count;
+    const auto tell = [&](Rating rating, const std::string& text) {
+      session.print("{:<9}  {}\n", word_of(rating), text);
+      ++count[rating];
+    };
+    TURNSCAN_ASSIGN(const auto implausible, find_implausible(recording, session.context()));
+    for (const PlausibilityFinding& finding : implausible)
+      tell(finding.level == Plausibility::kImplausible ? Rating::kWrong : Rating::kNotKnown,
+           fmt::format("Data: {}.", finding.text));
     TURNSCAN_ASSIGN(
         const auto findings,
         check_recording(recording, {request_.motion, request_.detect}, session.context()));
-    std::map<Rating, std::size_t> count;
-    for (const Finding& finding : findings) {
-      session.print("{:<9}  {}\n", word_of(finding.rating), finding.text);
-      ++count[finding.rating];
-    }
+    for (const Finding& finding : findings) tell(finding.rating, finding.text);
     if (count[Rating::kWrong] > 0)
       return fail(ErrorCode::kMissingData,
                   "{} of {} checks failed; calibrate again with 'turnscan calibrate'",
-                  count[Rating::kWrong], findings.size());
+                  count[Rating::kWrong], implausible.size() + findings.size());
     if (count[Rating::kGood] > 0) return {};
     return fail(ErrorCode::kMissingData,
                 "nothing could be checked; record a whole turn of an object that is not "

@@ -45,6 +45,7 @@ class ImportCommand : public Command {
     TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_ASSIGN(const auto sequence, open_foreign_passes({sources_.begin(), sources_.end()},
                                                              options_, session.context()));
+    TURNSCAN_TRY(check_assumptions(*sequence, options_, session.context()));
     TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     session.plan({{"write recording", 30.0}, {"look at frames", 1.0}});
     TURNSCAN_TRY(write_recording(out_, *sequence, session.context()));

@@ -164,6 +164,7 @@ Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContex
     TURNSCAN_TRY(sample_sensor(sequence, i, context, summary));
   TURNSCAN_ASSIGN(std::optional<std::string> smoothed, temporal_filter_note(sequence, context));
   if (smoothed) summary.notes.push_back(std::move(*smoothed));
+  TURNSCAN_ASSIGN(summary.findings, find_implausible(sequence, context));
   return summary;
 }
 

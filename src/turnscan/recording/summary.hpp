@@ -4,6 +4,7 @@
 #include <string>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/recording/plausibility/plausibility.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <vector>
 
@@ -43,11 +44,12 @@ struct SequenceSummary {
   /// What would determine the poses of frames on the table; reconstruction estimates it from the
   /// object's motion.
   std::vector<std::string> not_known;
-  std::vector<std::string> missing;  ///< what is necessary for reconstruction
+  std::vector<std::string> missing;           ///< what is necessary for reconstruction
+  std::vector<PlausibilityFinding> findings;  ///< see find_implausible()
 };
 
-/// Decodes at most 16 frames of each sensor, evenly spread. A frame that cannot be read becomes a
-/// note. Fails only with kCancelled.
+/// Decodes at most 16 frames of each sensor, evenly spread, and those of find_implausible(). A
+/// frame that cannot be read becomes a note. Fails only with kCancelled.
 Result<SequenceSummary> summarize(const FrameSequence& sequence, const RunContext& context);
 /// As above, with the recording's own notes.
 Result<SequenceSummary> summarize(const Recording& recording, const RunContext& context);

@@ -159,6 +159,8 @@ std::string summary_text(const SequenceSummary& s) {
   for (std::size_t i = 0; i < s.sensors.size(); ++i) put_sensor(i, s.sensors[i], out);
   put_turntable(s, out);
   for (const std::string& note : s.notes) out += fmt::format("note:        {}\n", note);
+  for (const PlausibilityFinding& finding : s.findings)
+    out += fmt::format("{:<12} {}\n", fmt::format("{}:", name_of(finding.level)), finding.text);
   for (const std::string& what : s.not_known) out += fmt::format("not known:   {}\n", what);
   for (const std::string& what : s.missing) out += fmt::format("missing:     {}\n", what);
   return out;
@@ -183,6 +185,9 @@ std::string summary_json(const SequenceSummary& s) {
   for (const SensorSummary& sensor : s.sensors) out["sensors"].push_back(sensor_json(sensor));
   if (s.turntable) out["turntable"] = turntable_json(*s.turntable);
   out["notes"] = s.notes;
+  out["findings"] = text::OrderedJson::array();
+  for (const PlausibilityFinding& finding : s.findings)
+    out["findings"].push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
   out["not_known"] = s.not_known;
   out["missing"] = s.missing;
   std::string text = text::json_text(out);

@@ -1,6 +1,7 @@
 #include <turnscan/workflow/input.hpp>
 
 #include <turnscan/io/file/existence.hpp>
+#include <turnscan/recording/plausibility/plausibility.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/workflow/device_notes.hpp>
 
@@ -41,7 +42,26 @@ std::uint64_t bytes_of(const fs::path& path) {
   return sum;
 }
 
+/// Whether an option that settles a finding was given.
+bool states(const ImportOptions& options, std::string_view name) {
+  return (name == "depth-unit" && options.depth_unit_m) ||
+         (name == "point-unit" && options.point_unit != LengthUnit::kAuto) ||
+         (name == "intrinsics" && !options.intrinsics.empty()) ||
+         (name == "sensor-position" &&
+          !(options.sensor_position.empty() && options.sensor_direction.empty()));
+}
+
 }  // namespace
+
+Result<> check_assumptions(const FrameSequence& imported, const ImportOptions& options,
+                           const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto findings, find_implausible(imported, context));
+  for (const PlausibilityFinding& finding : findings)
+    if (finding.level == Plausibility::kImplausible && !finding.option.empty() &&
+        !states(options, finding.option))
+      return fail(ErrorCode::kMissingData, "{}", finding.text);
+  return {};
+}
 
 Result<Input> open_input(const fs::path& path, const ImportOptions& options,
                          const RunContext& context) {
@@ -51,6 +71,7 @@ Result<Input> open_input(const fs::path& path, const ImportOptions& options,
   Input out;
   if (!named && !recording_there) {
     TURNSCAN_ASSIGN(out.frames, open_foreign(path, options, context));
+    TURNSCAN_TRY(check_assumptions(*out.frames, options, context));
     out.imported = true;
     out.notes = assumptions_of(out.frames->header().source);
     out.bytes = bytes_of(path);

@@ -24,10 +24,15 @@ struct Input {
 
 /// path: a recording's folder or its recording.json (see Recording::open), or a data set of another
 /// program (see open_foreign; the options apply to these only). Fails as Recording::open() if there
-/// is a recording, else as open_foreign().
+/// is a recording, else as open_foreign() and check_assumptions().
 Result<Input> open_input(const std::filesystem::path& path,
                          const ImportOptions& options = ImportOptions(),
                          const RunContext& context = RunContext());
+
+/// Fails with kMissingData if what is recorded cannot be (see find_implausible()) for an assumption
+/// that an option which was not given would replace; with kCancelled.
+Result<> check_assumptions(const FrameSequence& imported, const ImportOptions& options,
+                           const RunContext& context = {});
 
 /// Parses import options given as NAME=VALUE, with names and values of `turnscan import`. Fails
 /// with kInvalidOption.

@@ -91,27 +91,40 @@ Result<> reconstruct_joined(const std::vector<PlacedRecording>& placed,
   return {};
 }
 
+using RecordingFindings = std::vector<std::vector<PlausibilityFinding>>;
+
+/// What cannot be in the data, or hardly, is why the work on them failed.
+Error with_cause(Error error, const RecordingFindings& findings) {
+  const bool of_data = error.code == ErrorCode::kMissingData ||
+                       error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary;
+  for (const Plausibility level : {Plausibility::kImplausible, Plausibility::kDoubtful}) {
+    for (const auto& of_recording : findings) {
+      for (const PlausibilityFinding& finding : of_recording) {
+        if (!of_data || finding.level != level) continue;
+        error.message = fmt::format("{} ({})", finding.text, error.message);
+        return error;
+      }
+    }
+  }
+  return error;
+}
+
 Result<> check_meshes(const ReconstructRun& run) {
   TURNSCAN_TRY(check_watertight(run.reconstruction));
   for (const PassApart& pass : run.apart) TURNSCAN_TRY(check_watertight(pass.reconstruction));
   return {};
 }
 
-}  // namespace
-
-Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
-                                          const ReconstructRequest& request,
-                                          const RunContext& context, const MeshSink& write_meshes) {
-  return run_reconstruction(std::vector<NamedSequence>{{"", &sequence}}, request, context,
-                            write_meshes);
-}
-
-Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& recordings,
-                                          const ReconstructRequest& request,
-                                          const RunContext& context, const MeshSink& write_meshes) {
+Result<ReconstructRun> reconstruct_recordings(const std::vector<NamedSequence>& recordings,
+                                              const RecordingFindings& findings,
+                                              const ReconstructRequest& request,
+                                              const RunContext& context,
+                                              const MeshSink& write_meshes) {
   std::vector<PlacedRecording> placed;
-  for (const NamedSequence& recording : recordings) {
-    TURNSCAN_ASSIGN(PlacedRecording one, workflow::place_recording(recording, request, context));
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    TURNSCAN_ASSIGN(PlacedRecording one,
+                    workflow::place_recording(recordings[i], request, context));
+    one.findings = findings[i];
     placed.push_back(std::move(one));
   }
   ReconstructRun run;
@@ -130,6 +143,28 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
   if (!request.allow_open) TURNSCAN_TRY(check_meshes(run));
   if (write_meshes) TURNSCAN_TRY(write_meshes(run));
   TURNSCAN_TRY(workflow::conclude_run(placed, passes, request, context, run));
+  return run;
+}
+
+}  // namespace
+
+Result<ReconstructRun> run_reconstruction(const FrameSequence& sequence,
+                                          const ReconstructRequest& request,
+                                          const RunContext& context, const MeshSink& write_meshes) {
+  return run_reconstruction(std::vector<NamedSequence>{{"", &sequence}}, request, context,
+                            write_meshes);
+}
+
+Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& recordings,
+                                          const ReconstructRequest& request,
+                                          const RunContext& context, const MeshSink& write_meshes) {
+  RecordingFindings findings;
+  for (const NamedSequence& recording : recordings) {
+    TURNSCAN_ASSIGN(auto found, find_implausible(*recording.frames, context));
+    findings.push_back(std::move(found));
+  }
+  auto run = reconstruct_recordings(recordings, findings, request, context, write_meshes);
+  if (!run) return tl::unexpected<Error>(with_cause(std::move(run).error(), findings));
   return run;
 }
 

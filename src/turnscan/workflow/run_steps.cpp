@@ -47,6 +47,15 @@ void note_calibrations(const std::vector<PlacedRecording>& placed,
   notes.insert(notes.begin(), first.begin(), first.end());
 }
 
+/// Adds notes on findings that no verdict names.
+void note_findings(const std::vector<PlacedRecording>& placed, bool judged,
+                   std::vector<std::string>& notes) {
+  for (const PlacedRecording& recording : placed)
+    for (const PlausibilityFinding& finding : recording.findings)
+      if (!judged || finding.level == Plausibility::kDoubtful)
+        notes.push_back(note_of(recording, placed, finding.text));
+}
+
 /// Adds notes on what the devices did to depth.
 Result<> note_devices(const std::vector<PlacedRecording>& placed, const RunContext& context,
                       std::vector<std::string>& notes) {
@@ -97,6 +106,8 @@ Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<Pas
     const CalibratedFrames& calibrated = recording.calibrated;
     const auto turn = turn_seen(*calibrated.frames, calibrated.options.merge.speed_rad_s);
     if (turn && (!known.turn || turn->share > known.turn->share)) known.turn = turn;
+    known.findings.insert(known.findings.end(), recording.findings.begin(),
+                          recording.findings.end());
   }
   const FrameSequence& first = *placed[0].on_table;
   known.dates = dates_of(*placed[0].recorded, request.turntable);
@@ -148,6 +159,7 @@ Result<> conclude_run(const std::vector<PlacedRecording>& placed,
                       const RunContext& context, ReconstructRun& run) {
   std::vector<std::string>& notes = run.reconstruction.notes;
   note_calibrations(placed, notes);
+  note_findings(placed, request.judge, notes);
   run.choice = placed[0].calibrated.choice;
   const CalibratedFrames& first = placed[0].calibrated;
   run.turn = turn_of(*first.frames);

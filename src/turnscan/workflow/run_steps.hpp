@@ -2,16 +2,18 @@
 // Steps of a reconstruction shared by commands: choosing the calibration of a recording and, once
 // its mesh exists, evaluating it. run_reconstruction() and run_scan() consist of them.
 
+#include <turnscan/recording/plausibility/plausibility.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
 
 namespace turnscan::workflow {
 
 /// A recording with calibrated poses on its table.
 struct PlacedRecording {
-  std::string name;                         ///< human-readable; used if there are several
-  const FrameSequence* recorded = nullptr;  ///< must outlive this
-  std::unique_ptr<FrameSequence> on_table;  ///< refers to `recorded`
-  CalibratedFrames calibrated;              ///< refers to on_table
+  std::string name;                                ///< human-readable; used if there are several
+  const FrameSequence* recorded = nullptr;         ///< must outlive this
+  std::unique_ptr<FrameSequence> on_table;         ///< refers to `recorded`
+  CalibratedFrames calibrated;                     ///< refers to on_table
+  std::vector<PlausibilityFinding> findings = {};  ///< see find_implausible()
 };
 
 /// Chooses the calibration. Fails as with_turntable() and calibrate_frames().
@@ -24,10 +26,11 @@ Result<PlacedRecording> place_recording(const NamedSequence& recording,
                                         const ReconstructRequest& request,
                                         CalibrationChoice choice);
 
-/// Adds to a run with meshes all that is derived from them: the notes of the calibrations and of
-/// the devices, the turn, the choice, the advice for the next pass and, if request.judge, the
-/// verdicts. placed: at least one; passes: those that were joined, empty if none were.
-/// A failing step only loses its own result: a note says which and why. Fails only with kCancelled.
+/// Adds to a run with meshes all that is derived from them: the notes of the calibrations, of the
+/// findings and of the devices, the turn, the choice, the advice for the next pass and, if
+/// request.judge, the verdicts. placed: at least one; passes: those that were joined, empty if none
+/// were. A failing step only loses its own result: a note says which and why. Fails only with
+/// kCancelled.
 Result<> conclude_run(const std::vector<PlacedRecording>& placed,
                       const std::vector<PassOfMany>& passes, const ReconstructRequest& request,
                       const RunContext& context, ReconstructRun& run);

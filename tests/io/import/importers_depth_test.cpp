@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <turnscan/core/angles.hpp>
+
 #include "tests/io/import/foreign_data.hpp"
 
 namespace turnscan {
@@ -35,6 +37,76 @@ void put_frame_pose(const TempFolder& folder) {
   folder.put("frame-000007.pose.txt", kIdentity);
   folder.put("frame-000010.pose.txt", " 0 0 1e+000 1\n 0 1 0 0\n -1 0 0 0\n 0 0 0 1\n");
   folder.put("camera-intrinsics.txt", " 5.85e+02\t 0 2\n0 585.5 1\n0 0 1\n");
+}
+
+TEST(DepthFolder, NamesAreSortedAsNumbersAndColourStandsBeside) {
+  const TempFolder folder;
+  for (const char* name : {"shot_9.png", "shot_10.png", "shot_100.png"})
+    put_depth(folder, name, 700);
+  ASSERT_TRUE(fs::create_directory(folder / "rgb"));
+  put_color(folder, "rgb/shot_10.png");
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1.5,1";
+  options.fps = 2.0;
+  const auto sequence = open(folder.path(), options);
+  ASSERT_EQ(sequence->frames().size(), 3u);
+  EXPECT_EQ(sequence->frames()[0].file, "shot_9.png");
+  EXPECT_EQ(sequence->frames()[1].file, "shot_10.png");
+  EXPECT_EQ(sequence->frames()[2].time_s, 1.0);
+  EXPECT_EQ(frame_of(*sequence, 1).color.at(1, 1), (Rgb{1, 2, 3}));
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.width, 4);
+}
+
+TEST(DepthFolder, AsksForWhatImagesDoNotSay) {
+  const TempFolder folder;
+  put_depth(folder, "a.png", 700);
+  EXPECT_THAT(refusal(folder.path(), with_depth_unit()).message, HasSubstr("--intrinsics fx,fy"));
+  ImportOptions options;
+  options.intrinsics = "585,585,1.5,1";
+  EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("--depth-unit"));
+  EXPECT_THAT(open(folder.path(),
+                   [&] {
+                     options.depth_unit_m = 1e-3;
+                     return options;
+                   }())
+                  ->header()
+                  .source,
+              HasSubstr("neither times nor angles"));
+}
+
+TEST(DepthFolder, TakesAnglesFromATable) {
+  const TempFolder folder;
+  put_depth(folder, "a.png", 700);
+  put_depth(folder, "b.png", 700);
+  folder.put("turns.csv", "File;Angle\nb.png;90,5\na.png;0\n");
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1.5,1";
+  options.angles = (folder / "turns.csv").string();
+  const auto sequence = open(folder.path(), options);
+  EXPECT_NEAR(*sequence->frames()[1].angle_rad, 90.5 * kRadiansPerDegree, 1e-12);
+  folder.put("turns.csv", "file,angle_deg\nb.png,0\n");
+  EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("does not name a.png"));
+}
+
+TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
+  const TempFolder folder;
+  ASSERT_TRUE(fs::create_directory(folder / "depth"));
+  put_depth(folder, "depth/000000.png", 700);
+  folder.put("camera_matrix.csv", "1600.0, 0.0, 1000.0\n0.0, 1600.0, 750.0\n0.0, 0.0, 1.0\n");
+  folder.put("odometry.csv", "timestamp, frame, x, y, z, qx, qy, qz, qw\n");
+  const auto sequence = open(folder.path());
+  const SensorInfo& sensor = sequence->header().sensors[0];
+  EXPECT_EQ(sensor.depth_unit_m, 1e-3);
+  EXPECT_NEAR(sensor.intrinsics.fx, 1600.0 * 4 / 2000, 1e-9);
+  EXPECT_NEAR(sensor.intrinsics.cy, 1.5, 1e-9);
+  EXPECT_THAT(sequence->header().source, HasSubstr("images of about 2000 x 1500 pixels"));
+}
+
+TEST(DepthFolder, OfOtherFilesIsToldToConvertThem) {
+  const TempFolder folder;
+  folder.put("depth_0.npy", "x");
+  folder.put("views.json", "{}");
+  EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG"));
 }
 
 TEST(FramePose, ReadsDepthColourPosesAndIntrinsics) {
@@ -183,6 +255,7 @@ TEST(Tum, DepthHas5000StepsAMetreAndItSaysSo) {
   const auto sequence = open(folder.path(), with_intrinsics());
   EXPECT_DOUBLE_EQ(sequence->header().sensors[0].depth_unit_m, 0.0002);
   EXPECT_THAT(sequence->header().source, HasSubstr("5000 steps"));
+  EXPECT_EQ(sequence->header().sensors[0].model, "kinect-v1") << "whose range the unit has to fit";
   ImportOptions stated = with_intrinsics();
   stated.depth_unit_m = 1e-3;
   EXPECT_DOUBLE_EQ(open(folder.path(), stated)->header().sensors[0].depth_unit_m, 0.001);

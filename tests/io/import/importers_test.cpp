@@ -199,6 +199,62 @@ TEST(CloudFolder, ClockwiseAnglesChangeTheirSign) {
   EXPECT_NEAR(*sequence->frames()[1].angle_rad, -30 * kDeg, 1e-15);
 }
 
+TEST(CloudFolder, TablesOfSpreadsheetsAreRead) {
+  using namespace std::string_literals;
+  const std::string excel =
+      "\xEF\xBB\xBF"
+      "file;angle_deg\r\na.ply;0,0\r\nb.ply;30,5\r\n";
+  std::string utf16 = "\xFF\xFE";
+  for (const char c : "File\tAngle [deg]\r\na.ply\t0\r\nb.ply\t30,5\r\n"s) utf16 += {c, '\0'};
+  for (const std::string& table : {excel, utf16, "File, Angle\na.ply,0\nb.ply,30.5\n"s,
+                                   "file,angle (\xC2\xB0)\na.ply,0\nb.ply,\"30,5\"\n"s,
+                                   "FILE,ANGLE_RAD\na.ply,0\nb.ply,0.5323254218582705\n"s}) {
+    const TempFolder folder;
+    for (const char* name : {"a.ply", "b.ply"}) put_scan(folder, name);
+    folder.put("angles.csv", table);
+    const auto sequence = open_foreign(folder.path(), with({{"point-unit", "m"}}));
+    ASSERT_TRUE(sequence) << sequence.error().text();
+    ASSERT_EQ((*sequence)->frames().size(), 2u);
+    EXPECT_NEAR(*(*sequence)->frames()[1].angle_rad, 30.5 * std::numbers::pi / 180.0, 1e-9);
+  }
+}
+
+TEST(CloudFolder, UnknownNamesOfColumnsAreToldTheKnownOnes) {
+  const TempFolder folder;
+  put_scan(folder, "a.ply");
+  folder.put("angles.csv", "Datei;Winkel [\xC2\xB0]\na.ply;0\n");
+  const auto sequence = open_foreign(folder.path(), with({{"point-unit", "m"}}));
+  ASSERT_FALSE(sequence);
+  EXPECT_THAT(sequence.error().text(),
+              HasSubstr("names Datei, Winkel [\xC2\xB0]; known are file and angle_deg"));
+  folder.put("angles.csv", "file,angle [grad]\na.ply,0\n");
+  EXPECT_THAT(open_foreign(folder.path(), with({{"point-unit", "m"}})).error().text(),
+              HasSubstr("unknown unit; known are deg and rad"));
+}
+
+TEST(CloudFolder, StatedAxesAreTurnedToTheSensorsFrame) {
+  const TempFolder folder;
+  put_scan(folder, "a.ply");
+  folder.put("angles.csv", "file,angle_deg\na.ply,0\n");
+  const auto plain = open_foreign(folder.path(), with({{"point-unit", "mm"}}));
+  const auto unity = open_foreign(folder.path(), with({{"point-unit", "mm"},
+                                                       {"axes", "RUF"},
+                                                       {"sensor-position", "1m,2m,3m"},
+                                                       {"turntable-axis", "0,1,0"},
+                                                       {"turntable-center", "0m,-1m,2m"}}));
+  ASSERT_TRUE(plain && unity);
+  const Vec3f a = (*plain)->read(0)->points.points[0], b = (*unity)->read(0)->points.points[0];
+  EXPECT_EQ(b, Vec3f(a.x(), -a.y(), a.z()));
+  const SequenceHeader& header = (*unity)->header();
+  EXPECT_EQ(header.sensors[0].viewpoint.value, Vec3d(1.0, -2.0, 3.0));
+  EXPECT_EQ(header.turntable->axis, Vec3d(0.0, -1.0, 0.0));
+  EXPECT_EQ(header.turntable->center_m, Vec3d(0.0, 1.0, 2.0));
+  for (const char* wrong : {"ru", "ruu", "rux", "rudf"})
+    EXPECT_THAT(
+        open_foreign(folder.path(), with({{"point-unit", "mm"}, {"axes", wrong}})).error().text(),
+        HasSubstr("where x, y and z point"));
+}
+
 TEST(CloudFolder, TimesPassesAndSensorsAreKept) {
   const TempFolder folder;
   put_scan(folder, "a.ply");
@@ -253,7 +309,7 @@ TEST(CloudFolder, WrongTablesAreNamed) {
   };
   EXPECT_THAT(message("file,angle_deg\na.ply,0\nb.ply,1\n"), HasSubstr("no such file"));
   EXPECT_THAT(message("a.ply,0\n"), HasSubstr("must name the columns"));
-  EXPECT_THAT(message("file,angle\na.ply,0\n"), HasSubstr("must name the columns"));
+  EXPECT_THAT(message("file,angel\na.ply,0\n"), HasSubstr("must name the columns"));
   EXPECT_THAT(message("file,angle_deg\n"), HasSubstr("no scans"));
   EXPECT_THAT(message(""), HasSubstr("empty"));
   EXPECT_THAT(message("file,angle_deg\na.ply,1 deg\n"), HasSubstr("line 2: column angle_deg"));

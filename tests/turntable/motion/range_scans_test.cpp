@@ -14,6 +14,45 @@
 namespace turnscan {
 namespace {
 
+/// The doll on its platter.
+testing::Rig rig_of_clouds(int count) {
+  testing::RigOptions o;
+  o.shrink = 2;
+  o.room = false;
+  o.mixed_pixels = 0.0;
+  o.noise_m = 0.0002;
+  o.distance_m = 0.6;
+  o.elevation_rad = 0.35;
+  o.aim_height_m = 0.09;
+  o.frames = count;
+  o.fps = 1.0;
+  o.angle = [count](double t) { return kTurn / count * t; };
+  o.objects = {*builtin_object("doll")};
+  return testing::Rig(o);
+}
+
+/// What a scanner at the origin sees, with other axes than a camera's. told: the sign with which
+/// the angles are written down.
+testing::MemorySequence clouds_with_axes(const testing::Rig& rig,
+                                         const Eigen::Matrix3d& scan_from_camera, double told) {
+  testing::MemorySequence out;
+  SensorInfo scanner;
+  scanner.kind = SensorKind::kPointScanner;
+  out.header_value.sensors = {scanner};
+  const SensorInfo& camera = rig.header().sensors.front();
+  const auto count = double(rig.frames().size());
+  for (std::size_t i = 0; i < rig.frames().size(); ++i) {
+    const auto points = points_of(*rig.read(i), camera, RayTable(camera.intrinsics));
+    Frame scan;
+    scan.info.index = std::uint32_t(i);
+    scan.info.angle_rad = told * kTurn / count * double(i);
+    for (const Vec3f& p : points->cloud.points)
+      scan.points.points.push_back((scan_from_camera * p.cast<double>()).cast<float>());
+    out.add(std::move(scan));
+  }
+  return out;
+}
+
 struct RangeScans {
   testing::MemorySequence sequence;
   TurntableInfo truth;  ///< in the frame of the scans
@@ -93,6 +132,51 @@ TEST(RangeScans, AreAlignedTheSameWayForAnyNumberOfThreads) {
   EXPECT_EQ(many->table.axis, one->table.axis);
   EXPECT_EQ(many->table.center_m, one->table.center_m);
   EXPECT_LT(axis_error_deg(many->table, scans.truth), 0.1);
+}
+
+TEST(RangeScans, StandOnTheirPlatterWhateverTheirAxes) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const testing::Rig rig = rig_of_clouds(12);
+  Eigen::Matrix3d z_up;
+  z_up << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  struct Convention {
+    Eigen::Matrix3d axes;
+    double told;
+    std::string text;
+  };
+  for (const auto& [axes, told, text] :
+       {Convention{Eigen::Matrix3d::Identity(), 1.0, "the clouds are y down, as PCL"},
+        Convention{Vec3d(1.0, -1.0, -1.0).asDiagonal(), -1.0, "the clouds are y up, as OpenGL"},
+        Convention{z_up, -1.0, "the clouds are z up"}}) {
+    const auto found = calibrate_from_motion(clouds_with_axes(rig, axes, told), {}, {}, {});
+    ASSERT_TRUE(found) << text << ": " << found.error().text();
+    TurntableInfo truth = rig.truth();
+    truth.axis = axes * truth.axis;
+    truth.center_m = axes * truth.center_m;
+    EXPECT_LT(axis_error_deg(found->table, truth), 0.1) << text;
+    EXPECT_LT((found->table.center_m - truth.center_m).norm(), 0.001) << text;
+    ASSERT_TRUE(found->table.radius_m) << text;
+    EXPECT_NEAR(*found->table.radius_m, *truth.radius_m, 0.003) << text;
+    EXPECT_TRUE(found->notes.back().starts_with(text)) << found->notes.back();
+    EXPECT_GT(found->angles_rad[1], 0.0);
+  }
+}
+
+TEST(RangeScans, ThatMayBeMirroredAreAskedAbout) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const testing::Rig rig = rig_of_clouds(12);
+  Eigen::Matrix3d fru;
+  fru << 0, 0, 1, 1, 0, 0, 0, -1, 0;
+  for (const auto& [axes, told, ways] :
+       {std::tuple{Eigen::Matrix3d(Vec3d(1.0, -1.0, 1.0).asDiagonal()), 1.0, "luf or --axes ruf"},
+        std::tuple{Eigen::Matrix3d(Vec3d(1.0, -1.0, 1.0).asDiagonal()), -1.0, "luf or --axes ruf"},
+        std::tuple{Eigen::Matrix3d(Vec3d(-1.0, -1.0, 1.0).asDiagonal()), 1.0, "luf or --axes ruf"},
+        std::tuple{fru, -1.0, "flu or --axes fru"}}) {
+    const auto found = calibrate_from_motion(clouds_with_axes(rig, axes, told), {}, {}, {});
+    ASSERT_FALSE(found) << ways;
+    EXPECT_EQ(found.error().code, ErrorCode::kInvalidOption);
+    EXPECT_NE(found.error().message.find(ways), std::string::npos) << found.error().message;
+  }
 }
 
 TEST(RangeScans, AreNotAlignedOnceCancelled) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <turnscan/core/sequence_views.hpp>
+#include <turnscan/turntable/checks/turning_sense.hpp>
 #include <turnscan/workflow/calibration/calibrate_run.hpp>
 #include <turnscan/workflow/calibration/calibration_choice.hpp>
 #include <turnscan/workflow/calibration/sensor_correction.hpp>
@@ -135,6 +136,30 @@ TEST(CalibrationChoiceOf, AutoMovesFramesBackAndRecordedOnlySaysWhatHappened) {
   ASSERT_TRUE(recorded);
   EXPECT_TRUE(recorded->poses.empty());
   EXPECT_NE(recorded->note.find("nothing was corrected"), std::string::npos) << recorded->note;
+}
+
+TEST(CalibrationChoiceOf, AnglesOfTheWrongSignAreCorrectedAndMayBeAMirrorImage) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const MovedLetter letter(60, 60);
+  for (const bool reversed : {false, true}) {
+    const SequenceView sequence = reversed ? with_reversed_angles(letter) : SequenceView(letter);
+    const auto choice = choose_calibration(sequence, {"auto", {}, false}, RunContext());
+    ASSERT_TRUE(choice) << choice.error().text();
+    EXPECT_EQ(choice->may_be_mirrored, reversed);
+    EXPECT_EQ(choice->note.find("count the wrong way round") != std::string::npos, reversed);
+  }
+}
+
+TEST(CalibrationChoiceOf, CloudsThatMayBeLeftHandedAreAskedAbout) {
+  MemorySequence clouds = empty_sequence(1);
+  clouds.add(Frame());
+  clouds.header_value.sensors[0].kind = SensorKind::kPointScanner;
+  TurntableInfo& table = clouds.header_value.turntable.emplace();
+  table.center_m = Vec3d(0.0, -0.1, 0.8);
+  const auto choice = choose_calibration(clouds, {"auto", {}, false}, RunContext());
+  ASSERT_FALSE(choice);
+  EXPECT_NE(choice.error().message.find("--axes luf or --axes ruf"), std::string::npos)
+      << choice.error().message;
 }
 
 /// Every pixel as 3 x 3 of them: so many that checks look at every other one.

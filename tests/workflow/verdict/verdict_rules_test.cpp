@@ -111,6 +111,24 @@ TEST(JudgeObjects, CallsUncorrectedDisturbancesAndOpenMeshesBad) {
   EXPECT_EQ(sentence(*run.objects[0].verdict, "disturbance")->level, Level::kGood);
 }
 
+TEST(JudgeObjects, CallWhatCannotBeBadAndWhatMayBeAMirrorImageFair) {
+  Reconstruction run;
+  run.objects.emplace_back().mesh.vertices.resize(3, Vec3f::Zero());
+  CalibrationChoice choice;
+  ScanKnowledge known;
+  known.choice = &choice;
+  known.findings = {{Plausibility::kDoubtful, "nothing changes", ""}};
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility"), nullptr);
+  choice.may_be_mirrored = true;
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->level, Level::kFair);
+  known.findings.push_back({Plausibility::kImplausible, "times go back", ""});
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->level, Level::kBad);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->text, "times go back");
+}
+
 /// An upright square sheet.
 Reconstruction sheet() {
   Reconstruction run;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <turnscan/geometry/hull/convex_hull.hpp>
-#include <unordered_map>
 
 namespace turnscan {
 
@@ -10,20 +9,33 @@ namespace {
 
 /// Points less than this share of the extent outside a face count as being on it.
 constexpr double kOnFaceShare = 1e-6;
+/// Points are rounded to a grid with this many steps in the extent, finer than floats are, and fine
+/// enough for normals in 64 bits and volumes in 128: then which side of a face a point is on is
+/// known exactly, and the faces that a point sees are connected and have one border, however flat,
+/// round or crowded the points are.
+constexpr double kGridSteps = 1 << 30;
 
+__extension__ using Int128 = __int128;
+using GridVector = Eigen::Matrix<std::int64_t, 3, 1>;
 using Corners = std::array<std::uint32_t, 3>;
+
+Int128 exact_dot(const GridVector& normal, const GridVector& v) {
+  return Int128(normal.x()) * v.x() + Int128(normal.y()) * v.y() + Int128(normal.z()) * v.z();
+}
 
 struct HullFace {
   Corners corners{};
-  Vec3d normal = Vec3d::Zero();  // unit, outwards
-  double offset = 0.0;
-  std::vector<std::uint32_t> outside;  // points, each at one face only
+  Corners beyond{};                        // faces across the edges from each corner to the next
+  GridVector normal = GridVector::Zero();  // outwards
+  double length = 0.0;                     // of the normal
+  std::vector<std::uint32_t> outside;      // points, each at one face only
   bool removed = false;
 };
 
-std::uint64_t edge_key(std::uint32_t from, std::uint32_t to) {
-  return std::uint64_t(from) << 32 | to;
-}
+/// An edge between a face that a point sees and one that it does not see.
+struct HorizonEdge {
+  std::uint32_t from, to, beyond;
+};
 
 class Quickhull {
  public:
@@ -31,7 +43,7 @@ class Quickhull {
 
   std::vector<Corners> run() {
     if (!make_first_faces()) return {};
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
       while (!faces_[i].removed && !faces_[i].outside.empty()) add_farthest(i);
     }
     std::vector<Corners> out;
@@ -42,8 +54,13 @@ class Quickhull {
 
  private:
   Vec3d at(std::uint32_t i) const { return points_[i].cast<double>(); }
+  /// In steps of the grid, times the length of the face's normal; exact.
+  Int128 volume(const HullFace& face, std::uint32_t i) const {
+    return exact_dot(face.normal, grid_[i] - grid_[face.corners[0]]);
+  }
+  /// In steps of the grid.
   double above(const HullFace& face, std::uint32_t i) const {
-    return face.normal.dot(at(i)) - face.offset;
+    return double(volume(face, i)) / face.length;
   }
 
   template <class Measure>
@@ -64,35 +81,56 @@ class Quickhull {
     const std::uint32_t a = largest([](const Vec3d& p) { return p.x(); });
     const std::uint32_t b = largest([&](const Vec3d& p) { return (p - at(a)).squaredNorm(); });
     const double extent = (at(b) - at(a)).norm();
-    on_face_m_ = kOnFaceShare * extent;
     if (!(extent > 0.0)) return false;
+    const double on_face_m = kOnFaceShare * extent;
     const Vec3d along = (at(b) - at(a)) / extent;
     const auto from_line = [&](const Vec3d& p) { return along.cross(p - at(a)).norm(); };
     const std::uint32_t c = largest(from_line);
-    if (!(from_line(at(c)) > on_face_m_)) return false;
+    if (!(from_line(at(c)) > on_face_m)) return false;
     const Vec3d normal = along.cross(at(c) - at(a)).normalized();
     const auto from_plane = [&](const Vec3d& p) { return std::abs(normal.dot(p - at(a))); };
     const std::uint32_t d = largest(from_plane);
-    if (!(from_plane(at(d)) > on_face_m_)) return false;
+    if (!(from_plane(at(d)) > on_face_m)) return false;
+    face_from_.resize(points_.size());
+    grid_.reserve(points_.size());
+    for (const Vec3f& p : points_)
+      grid_.push_back(((p.cast<double>() - at(a)) * (kGridSteps / extent))
+                          .array()
+                          .round()
+                          .matrix()
+                          .cast<std::int64_t>());
     const bool below = normal.dot(at(d) - at(a)) < 0.0;
     const Corners base = below ? Corners{a, b, c} : Corners{a, c, b};
     add_face(base);
-    for (int k = 0; k < 3; ++k) add_face({base[std::size_t((k + 1) % 3)], base[std::size_t(k)], d});
+    add_cone({{base[1], base[0], 0}, {base[0], base[2], 0}, {base[2], base[1], 0}}, d);
     std::vector<std::uint32_t> all(points_.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     share_out(all, 0);
     return true;
   }
 
-  void add_face(const Corners& corners) {
-    HullFace face;
+  HullFace& add_face(const Corners& corners) {
+    HullFace& face = faces_.emplace_back();
     face.corners = corners;
-    face.normal =
-        (at(corners[1]) - at(corners[0])).cross(at(corners[2]) - at(corners[0])).normalized();
-    face.offset = face.normal.dot(at(corners[0]));
-    for (std::size_t k = 0; k < 3; ++k)
-      face_of_edge_[edge_key(corners[k], corners[(k + 1) % 3])] = faces_.size();
-    faces_.push_back(std::move(face));
+    const GridVector origin = grid_[corners[0]];
+    face.normal = (grid_[corners[1]] - origin).cross(grid_[corners[2]] - origin);
+    face.length = face.normal.cast<double>().norm();
+    return face;
+  }
+
+  /// Faces from the edges of a horizon to its tip.
+  void add_cone(const std::vector<HorizonEdge>& horizon, std::uint32_t tip) {
+    for (const auto& [from, to, beyond] : horizon) {
+      const auto here = std::uint32_t(faces_.size());
+      face_from_[from] = here;
+      add_face({from, to, tip}).beyond[0] = beyond;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (faces_[beyond].corners[k] == to) faces_[beyond].beyond[k] = here;
+    }
+    for (const auto& [from, to, beyond] : horizon) {
+      faces_[face_from_[from]].beyond[1] = face_from_[to];
+      faces_[face_from_[to]].beyond[2] = face_from_[from];
+    }
   }
 
   /// Assigns each point to the first face, starting at `first`, that it is outside of; others are
@@ -100,7 +138,7 @@ class Quickhull {
   void share_out(const std::vector<std::uint32_t>& points, std::size_t first) {
     for (const std::uint32_t i : points) {
       for (std::size_t f = first; f < faces_.size(); ++f) {
-        if (!(above(faces_[f], i) > on_face_m_)) continue;
+        if (!(above(faces_[f], i) > kOnFaceShare * kGridSteps)) continue;
         faces_[f].outside.push_back(i);
         break;
       }
@@ -108,45 +146,39 @@ class Quickhull {
   }
 
   /// The faces that see a point are connected; their border is its horizon.
-  void add_farthest(std::size_t start) {
+  void add_farthest(std::uint32_t start) {
     const auto& outside = faces_[start].outside;
     const std::uint32_t tip = *std::max_element(
         outside.begin(), outside.end(),
         [&](auto i, auto j) { return above(faces_[start], i) < above(faces_[start], j); });
-    std::vector<std::size_t> seen{start};
+    std::vector<std::uint32_t> seen{start}, orphans;
+    std::vector<HorizonEdge> horizon;
     faces_[start].removed = true;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> horizon;
     for (std::size_t k = 0; k < seen.size(); ++k) {
-      const Corners corners = faces_[seen[k]].corners;
-      for (std::size_t e = 0; e < 3; ++e) {
-        const std::uint32_t from = corners[e], to = corners[(e + 1) % 3];
-        HullFace& beyond = faces_[face_of_edge_.at(edge_key(to, from))];
-        if (beyond.removed) continue;
-        if (above(beyond, tip) > on_face_m_) {
-          beyond.removed = true;
-          seen.push_back(std::size_t(&beyond - faces_.data()));
-        }
+      for (const std::uint32_t beyond : faces_[seen[k]].beyond) {
+        if (faces_[beyond].removed || volume(faces_[beyond], tip) <= 0) continue;
+        faces_[beyond].removed = true;
+        seen.push_back(beyond);
       }
     }
-    std::vector<std::uint32_t> orphans;
-    for (const std::size_t f : seen) {
-      for (std::size_t e = 0; e < 3; ++e) {
-        const std::uint32_t from = faces_[f].corners[e], to = faces_[f].corners[(e + 1) % 3];
-        if (!faces_[face_of_edge_.at(edge_key(to, from))].removed) horizon.emplace_back(from, to);
-      }
-      orphans.insert(orphans.end(), faces_[f].outside.begin(), faces_[f].outside.end());
-      faces_[f].outside = {};
+    for (const std::uint32_t f : seen) {
+      HullFace& face = faces_[f];
+      for (std::size_t e = 0; e < 3; ++e)
+        if (!faces_[face.beyond[e]].removed)
+          horizon.push_back({face.corners[e], face.corners[(e + 1) % 3], face.beyond[e]});
+      orphans.insert(orphans.end(), face.outside.begin(), face.outside.end());
+      face.outside = {};
     }
     std::erase(orphans, tip);
     const std::size_t first = faces_.size();
-    for (const auto& [from, to] : horizon) add_face({from, to, tip});
+    add_cone(horizon, tip);
     share_out(orphans, first);
   }
 
   std::span<const Vec3f> points_;
-  double on_face_m_ = 0.0;
+  std::vector<GridVector> grid_;
   std::vector<HullFace> faces_;
-  std::unordered_map<std::uint64_t, std::size_t> face_of_edge_;
+  std::vector<std::uint32_t> face_from_;  // of the last cone, by the corner that it starts at
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ const std::vector<Importer>& table() {
        {"point-unit", "sensor-position", "sensor-direction", "world-up"}},
       {{ImportFormat::kCloudFolder, "cloud-folder", "PLY or PCD scans with a table of angles"},
        open_cloud_folder,
-       {"angles", "point-unit", "sensor-position", "sensor-direction", "clockwise"}},
+       {"angles", "point-unit", "axes", "sensor-position", "sensor-direction", "clockwise"}},
       {{ImportFormat::kTumRgbd, "tum", "TUM RGB-D folder (depth.txt, rgb.txt, groundtruth.txt)"},
        open_tum,
        {"depth-unit", "intrinsics", "iai-kinect2", "world-up", "clockwise"}},
@@ -81,7 +81,11 @@ const std::vector<Importer>& table() {
       {{ImportFormat::kRosbag, "rosbag",
         "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
        open_rosbag,
-       {"depth-unit", "intrinsics", "topic", "clockwise"}}};
+       {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kDepthFolder, "depth-folder",
+        "depth images (16-bit PNG, in the folder or its depth/) and the camera's intrinsics"},
+       open_depth_folder,
+       {"depth-unit", "intrinsics", "fps", "angles", "clockwise"}}};
   return importers;
 }
 
@@ -95,7 +99,10 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (!options.angles.empty()) return ImportFormat::kCloudFolder;
+  const bool clouds = any_ends_with(names, ".ply") || any_ends_with(names, ".pcd");
+  const bool images = has("depth") || any_ends_with(names, ".png");
+  if (!options.angles.empty())
+    return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
   if (has("depth") && (has("intrinsic.json") || has("camera_intrinsic.json")))
     return ImportFormat::kOpen3dRgbd;
@@ -106,11 +113,11 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   if (frame_pose) return ImportFormat::kFramePose;
   const auto any = [&](const auto& fits) { return std::any_of(names.begin(), names.end(), fits); };
   if (any(is_scanner_app_frame)) return ImportFormat::kScannerApp;
-  if (any(is_rtabmap_depth_folder)) return ImportFormat::kRtabmap;
+  if (any(is_rtabmap_depth_folder) && (has("calib") || !has("depth")))
+    return ImportFormat::kRtabmap;
   if (any_ends_with(names, ".json") && any_ends_with(names, ".png")) return ImportFormat::kJsonPng;
-  if (any_ends_with(names, ".ply") || any_ends_with(names, ".pcd"))
-    return ImportFormat::kCloudFolder;
-  return ImportFormat::kAuto;
+  if (clouds) return ImportFormat::kCloudFolder;
+  return images ? ImportFormat::kDepthFolder : ImportFormat::kAuto;
 }
 
 /// Recognises a file by its first bytes; kAuto: not recognised.
@@ -151,9 +158,10 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  const bool images = any_ends_with(names, ".png") && !any_ends_with(names, ".json");
-  return fmt::format("a folder of {} entries such as {}{}", names.size(), names.front(),
-                     images ? " without a JSON file of the camera's intrinsics" : "");
+  for (const char* ending : {".npy", ".npz", ".tiff", ".tif", ".exr"})
+    if (any_ends_with(names, ending))
+      return fmt::format("a folder of {} files (write depth as 16-bit PNG to import it)", ending);
+  return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
 }
 
 Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& options) {
@@ -193,6 +201,7 @@ std::vector<std::string_view> stated_options(const ImportOptions& o) {
   note(!o.angles.empty(), "angles");
   note(o.depth_unit_m.has_value(), "depth-unit");
   note(o.point_unit != LengthUnit::kAuto, "point-unit");
+  note(!o.axes.empty(), "axes");
   note(!o.intrinsics.empty(), "intrinsics");
   note(!o.iai_kinect2.empty(), "iai-kinect2");
   note(!o.sensor_position.empty(), "sensor-position");
@@ -238,15 +247,20 @@ OptionTable describe(ImportOptions& o) {
   table.choice(
       "format", o.format,
       {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png", "matroska",
-       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag"},
+       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag", "depth-folder"},
       "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
-  table.text("angles", o.angles,
-             "Table of a folder of scans, with the columns file,angle_deg or file,time_s");
+  table.text(
+      "angles", o.angles,
+      "Table of a folder of scans or images, with the columns file,angle_deg or file,time_s");
   table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},
                "Length of one step of the depth images; auto takes it from the data set");
   table.choice("point-unit", o.point_unit, {"auto", "m", "mm", "cm", "um", "in"},
                "Unit of the coordinates of scans; auto takes it from the layout's definition");
+  table.text(
+      "axes", o.axes,
+      "Where x, y and z of scans point, seen by the scanner, e.g. rdf (right, down, forward: "
+      "PCL, Open3D, ROS), rub (OpenGL), ruf (Unity); found where they are right-handed");
   table.text("intrinsics", o.intrinsics,
              "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
   table.text("iai-kinect2", o.iai_kinect2,

@@ -28,7 +28,8 @@ enum class ImportFormat {
   kSens,
   kScannerApp,
   kRtabmap,
-  kRosbag
+  kRosbag,
+  kDepthFolder
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
 enum class PoseDirection { kAuto, kCameraToWorld, kWorldToCamera };
@@ -43,6 +44,7 @@ struct ImportOptions {
   std::string angles;                         ///< file with a cloud folder's angles or times
   std::optional<double> depth_unit_m;         ///< per step of the depth images
   LengthUnit point_unit = LengthUnit::kAuto;  ///< of scans
+  std::string axes;                           ///< of scans, such as "rdf"; empty: found
   std::string intrinsics;                     ///< "fx,fy,cx,cy" or a file with a 3x3 matrix
   std::string iai_kinect2;                    ///< folder of a calibration, see iai_kinect2.hpp
   std::string sensor_position;                ///< of scans: "x,y,z" with units

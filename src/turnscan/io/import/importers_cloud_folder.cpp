@@ -1,13 +1,9 @@
 // Imports a folder of scans with a table of angles or times.
 
 #include <algorithm>
-#include <numbers>
-#include <turnscan/core/units.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
-#include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/importers_common.hpp>
-#include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan::importers {
 
@@ -15,9 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t kMaxSensor = 63;
-constexpr std::uint32_t kMaxPass = 1000000;
-constexpr std::size_t kMaxTableScans = 1000000;
 constexpr const char* kDefaultTable = "angles.csv";
 
 Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options) {
@@ -29,73 +22,24 @@ Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options
                  "columns file,angle_deg or file,time_s: --angles angles.csv");
 }
 
-Result<text::CsvColumns> parse_header(text::LineReader& lines) {
-  const auto line = lines.next_content();
-  if (!line) return fail(ErrorCode::kFormat, "the table is empty");
-  auto columns = text::CsvColumns::parse(line->text);
-  if (!columns)
-    return fail(ErrorCode::kFormat, "line {}: {}", line->number, columns.error().message);
-  if (!columns->has("file") || (!columns->has("angle_deg") && !columns->has("time_s")))
-    return fail(ErrorCode::kFormat,
-                "line {}: the first line must name the columns file,angle_deg or file,time_s "
-                "(pass and sensor may follow)",
-                line->number);
-  return columns;
-}
-
-Result<std::optional<double>> number_field(std::string_view name, std::string_view text) {
-  if (text.empty()) return std::optional<double>();
-  const auto value = parse_number(text);
-  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
-  return std::optional<double>(*value);
-}
-
-Result<std::uint32_t> index_field(std::string_view name, std::string_view text, std::uint32_t max) {
-  if (text.empty()) return 0U;
-  auto value = text::parse_index(text, max);
-  if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
-  return value;
-}
-
-Result<ForeignFrame> parse_row(const text::CsvColumns& columns, std::string_view text,
-                               const fs::path& folder, bool clockwise) {
-  TURNSCAN_ASSIGN(const std::vector<std::string> fields, text::csv_fields(text));
-  if (fields.size() != columns.size())
-    return fail(ErrorCode::kFormat, "there are {} fields, not {}", fields.size(), columns.size());
-  ForeignFrame frame;
-  FrameInfo& info = frame.info;
-  TURNSCAN_ASSIGN(const std::optional<double> degrees,
-                  number_field("angle_deg", columns.field(fields, "angle_deg")));
-  TURNSCAN_ASSIGN(const std::optional<double> time_s,
-                  number_field("time_s", columns.field(fields, "time_s")));
-  if (!degrees && !time_s) return fail(ErrorCode::kFormat, "there is neither an angle nor a time");
-  if (degrees) info.angle_rad = (clockwise ? -*degrees : *degrees) * std::numbers::pi / 180.0;
-  if (time_s) info.time_s = *time_s;
-  TURNSCAN_ASSIGN(info.pass, index_field("pass", columns.field(fields, "pass"), kMaxPass));
-  TURNSCAN_ASSIGN(info.sensor, index_field("sensor", columns.field(fields, "sensor"), kMaxSensor));
-  info.file = std::string(columns.field(fields, "file"));
-  TURNSCAN_ASSIGN(frame.data, existing_file(folder, info.file, "the table"));
-  return frame;
-}
-
-Result<std::vector<ForeignFrame>> parse_table(const fs::path& path, const fs::path& folder,
-                                              bool clockwise) {
-  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  text::LineReader lines(text);
-  auto columns = parse_header(lines);
-  if (!columns) return at_path(path, std::move(columns).error());
+Result<std::vector<ForeignFrame>> frames_of(const fs::path& path, const fs::path& folder,
+                                            bool clockwise) {
+  TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::vector<ForeignFrame> frames;
-  while (const auto line = lines.next_content()) {
-    auto frame = parse_row(*columns, line->text, folder, clockwise);
-    if (!frame)
-      return fail_at(path.string(), frame.error().code, "line {}: {}", line->number,
-                     frame.error().text());
-    if (frames.size() == kMaxTableScans)
-      return fail_at(path.string(), ErrorCode::kResourceLimit, "there are more than {} scans",
-                     kMaxTableScans);
-    frames.push_back(std::move(*frame));
+  for (const text::AngleRow& row : rows) {
+    ForeignFrame& frame = frames.emplace_back();
+    FrameInfo& info = frame.info;
+    if (row.angle_rad) info.angle_rad = clockwise ? -*row.angle_rad : *row.angle_rad;
+    if (row.time_s) info.time_s = *row.time_s;
+    info.pass = row.pass;
+    info.sensor = row.sensor;
+    info.file = row.file;
+    auto data = existing_file(folder, row.file, "the table");
+    if (!data)
+      return fail_at(path.string(), data.error().code, "line {}: {}", row.line,
+                     data.error().text());
+    frame.data = std::move(*data);
   }
-  if (frames.empty()) return fail_at(path.string(), ErrorCode::kFormat, "the table has no scans");
   return frames;
 }
 
@@ -133,11 +77,26 @@ Result<Viewpoint> viewpoint_of(const std::vector<ForeignFrame>& frames,
   return Viewpoint{};
 }
 
+/// From the axes of the scans to the sensor frame.
+Result<> turn_header(const ImportOptions& options, SequenceHeader& header) {
+  TURNSCAN_ASSIGN(const Eigen::Matrix3d axes, stated_axes(options));
+  if (!options.axes.empty())
+    add_note(header,
+             fmt::format("the scans were turned from the axes {} to rdf: x right, y down, z "
+                         "forward",
+                         options.axes));
+  for (SensorInfo& sensor : header.sensors) sensor.viewpoint.value = axes * sensor.viewpoint.value;
+  if (!header.turntable) return {};
+  header.turntable->axis = axes * header.turntable->axis;
+  header.turntable->center_m = axes * header.turntable->center_m;
+  return {};
+}
+
 }  // namespace
 
 OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& options) {
   TURNSCAN_ASSIGN(const fs::path table, find_table(folder, options));
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, parse_table(table, folder, options.clockwise));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, frames_of(table, folder, options.clockwise));
   TURNSCAN_ASSIGN(const double metres_per_unit, point_scale(options, std::nullopt));
   put_in_order(frames);
   SequenceHeader header;
@@ -149,7 +108,9 @@ OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& option
   for (const ForeignFrame& frame : frames) last_sensor = std::max(last_sensor, frame.info.sensor);
   header.sensors.assign(last_sensor + 1, scanner);
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, metres_per_unit);
+  TURNSCAN_TRY(turn_header(options, header));
+  TURNSCAN_ASSIGN(const Eigen::Matrix3d axes, stated_axes(options));
+  return std::make_unique<ForeignSequence>(std::move(header), frames, metres_per_unit * axes);
 }
 
 }  // namespace turnscan::importers

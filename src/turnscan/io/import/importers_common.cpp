@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <turnscan/core/rotation_between.hpp>
 #include <turnscan/core/units.hpp>
@@ -7,6 +8,7 @@
 #include <turnscan/io/import/iai_kinect2.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/text_fields.hpp>
+#include <utility>
 
 namespace turnscan::importers {
 
@@ -105,6 +107,32 @@ Result<double> point_scale(const ImportOptions& options, std::optional<double> b
   return fail(ErrorCode::kMissingData,
               "import: the files do not say the unit of their coordinates; state it, e.g. "
               "--point-unit mm");
+}
+
+Result<std::vector<text::AngleRow>> read_angle_table(const fs::path& path) {
+  TURNSCAN_ASSIGN(const std::string bytes, read_file(path, kMaxTextBytes));
+  auto rows = text::parse_angle_table(bytes);
+  if (!rows) return at_path(path, std::move(rows).error());
+  return rows;
+}
+
+Result<Eigen::Matrix3d> stated_axes(const ImportOptions& options) {
+  Eigen::Matrix3d out = Eigen::Matrix3d::Identity();
+  if (options.axes.empty()) return out;
+  constexpr std::string_view kLetters = "rldufb";  // x, -x, y, -y, z, -z of the sensor frame
+  std::array<bool, 3> used{};
+  bool good = options.axes.size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    const std::size_t letter = kLetters.find(char(options.axes[i] | 0x20));
+    good = letter != std::string_view::npos && !std::exchange(used[letter / 2], true);
+    if (good) out.col(int(i)) = (letter % 2 == 0 ? 1.0 : -1.0) * Vec3d::Unit(int(letter / 2));
+  }
+  if (good) return out;
+  return fail(ErrorCode::kInvalidOption,
+              "axes = {} does not say where x, y and z point, seen by the scanner: one letter each "
+              "of r or l (right, left), u or d (up, down) and f or b (forward, backward), e.g. rdf "
+              "(PCL, Open3D, ROS), rub (OpenGL), ruf (Unity, left-handed)",
+              options.axes);
 }
 
 Result<double> depth_scale(const ImportOptions& options, std::optional<double> by_format) {

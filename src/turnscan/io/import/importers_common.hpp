@@ -8,6 +8,7 @@
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/io/import/importers.hpp>
+#include <turnscan/io/text/angle_table.hpp>
 #include <vector>
 
 namespace turnscan::importers {
@@ -22,9 +23,9 @@ struct ForeignFrame {
 /// A data set whose files are read when their frames are read.
 class ForeignSequence : public FrameSequence {
  public:
-  /// metres_per_unit scales the coordinates of scans.
+  /// scan_to_sensor maps the coordinates of scans to metres in the sensor frame.
   ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                  double metres_per_unit);
+                  const Eigen::Matrix3d& scan_to_sensor = Eigen::Matrix3d::Identity());
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return frames_; }
   Result<Frame> read(std::size_t position) const override;
@@ -36,7 +37,7 @@ class ForeignSequence : public FrameSequence {
   SequenceHeader header_;
   std::vector<FrameInfo> frames_;
   std::vector<Files> files_;
-  double metres_per_unit_;
+  Eigen::Matrix3d scan_to_sensor_;
 };
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
@@ -56,6 +57,7 @@ OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions&
 OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options,
                      const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
 /// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
@@ -86,6 +88,13 @@ tl::unexpected<Error> at_path(const std::filesystem::path& path, Error error);
 
 /// Metres per unit of scans: as stated, else `by_format`, else an error that asks for it.
 Result<double> point_scale(const ImportOptions& options, std::optional<double> by_format);
+
+/// A table of angles or times. Fails as text::parse_angle_table() and reading do.
+Result<std::vector<text::AngleRow>> read_angle_table(const std::filesystem::path& path);
+
+/// Rotation, or reflection, from the axes of scans (options.axes) to the sensor frame: x right, y
+/// down, z forward. Identity if they are not stated.
+Result<Eigen::Matrix3d> stated_axes(const ImportOptions& options);
 
 /// Metres per step of depth images: as stated, else `by_format`, else an error that asks for it.
 Result<double> depth_scale(const ImportOptions& options, std::optional<double> by_format);

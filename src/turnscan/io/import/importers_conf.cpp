@@ -103,7 +103,8 @@ OpenResult open_stanford_conf(const fs::path& path, const ImportOptions& options
              "each scan is seen along parallel rays from +z of its own frame, as a "
              "Cyberware scanner sees");
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, metres_per_unit);
+  return std::make_unique<ForeignSequence>(std::move(header), frames,
+                                           metres_per_unit * Eigen::Matrix3d::Identity());
 }
 
 }  // namespace turnscan::importers

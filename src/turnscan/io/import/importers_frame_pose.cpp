@@ -129,7 +129,7 @@ OpenResult open_frame_pose(const fs::path& folder, const ImportOptions& options)
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
+  return std::make_unique<ForeignSequence>(std::move(header), frames);
 }
 
 }  // namespace turnscan::importers

@@ -278,7 +278,7 @@ OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, description->on_platter, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
+  return std::make_unique<ForeignSequence>(std::move(header), frames);
 }
 
 }  // namespace turnscan::importers

@@ -161,7 +161,7 @@ OpenResult open_open3d_rgbd(const fs::path& folder, const ImportOptions& options
   header.sensors.push_back(sensor);
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
+  return std::make_unique<ForeignSequence>(std::move(header), frames);
 }
 
 }  // namespace turnscan::importers

@@ -238,7 +238,7 @@ OpenResult open_rtabmap(const fs::path& folder, const ImportOptions& options) {
   std::vector<ForeignFrame> images;
   for (RtabmapFrame& frame : frames)
     images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color)});
-  return std::make_unique<ForeignSequence>(std::move(header), images, 1.0);
+  return std::make_unique<ForeignSequence>(std::move(header), images);
 }
 
 }  // namespace turnscan::importers

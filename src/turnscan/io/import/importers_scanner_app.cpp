@@ -196,9 +196,8 @@ OpenResult open_scanner_app(const fs::path& folder, const ImportOptions& options
     images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color)});
     confidence.push_back(std::move(frame.confidence));
   }
-  return std::make_unique<AppSequence>(
-      std::make_unique<ForeignSequence>(std::move(header), images, 1.0), std::move(confidence),
-      least_confidence(options));
+  return std::make_unique<AppSequence>(std::make_unique<ForeignSequence>(std::move(header), images),
+                                       std::move(confidence), least_confidence(options));
 }
 
 }  // namespace turnscan::importers

@@ -18,10 +18,13 @@ Result<DepthImage> read_foreign_depth(const std::filesystem::path& path) {
   return image;
 }
 
-Result<> read_scan(const std::filesystem::path& path, double metres_per_unit, Frame& frame) {
+Result<> read_scan(const std::filesystem::path& path, const Eigen::Matrix3d& scan_to_sensor,
+                   Frame& frame) {
   TURNSCAN_ASSIGN(CloudFile file, read_cloud(path));
   frame.points = std::move(file.cloud);
-  for (Vec3f& p : frame.points.points) p = (p.cast<double>() * metres_per_unit).cast<float>();
+  for (Vec3f& p : frame.points.points) p = (scan_to_sensor * p.cast<double>()).cast<float>();
+  for (Vec3f& n : frame.points.normals)
+    n = (scan_to_sensor * n.cast<double>()).stableNormalized().cast<float>();
   frame.points.frame.clear();
   frame.grid_width = file.grid_width;
   frame.grid_height = file.grid_height;
@@ -46,8 +49,8 @@ std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<Foreig
 }  // namespace
 
 ForeignSequence::ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                                 double metres_per_unit)
-    : header_(std::move(header)), metres_per_unit_(metres_per_unit) {
+                                 const Eigen::Matrix3d& scan_to_sensor)
+    : header_(std::move(header)), scan_to_sensor_(scan_to_sensor) {
   header_.software = fmt::format("turnscan {}", version());
   for (const ForeignFrame& frame : frames) {
     frames_.push_back(frame.info);
@@ -65,7 +68,7 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
     return fail(ErrorCode::kMissingData, "frame {} was dropped", frame.info.index);
   const SensorInfo& sensor = header_.sensors[frame.info.sensor];
   if (sensor.kind == SensorKind::kPointScanner) {
-    TURNSCAN_TRY(read_scan(files.data, metres_per_unit_, frame));
+    TURNSCAN_TRY(read_scan(files.data, scan_to_sensor_, frame));
     return frame;
   }
   TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data));

@@ -189,14 +189,17 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
   SensorInfo sensor;
   TURNSCAN_ASSIGN(sensor.intrinsics, intrinsics_of(folder, options, header));
   TURNSCAN_ASSIGN(sensor.depth_unit_m, depth_scale(options, kDepthUnit));
-  if (!options.depth_unit_m)
-    add_note(header, "depth images have 5000 steps a metre, as the benchmark defines");
+  if (!options.depth_unit_m) {
+    sensor.model = "kinect-v1";
+    add_note(header,
+             "depth images have 5000 steps a metre, as the benchmark defines for its Kinects");
+  }
   header.sensors.push_back(sensor);
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, header));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames, 1.0);
+  return std::make_unique<ForeignSequence>(std::move(header), frames);
 }
 
 }  // namespace turnscan::importers

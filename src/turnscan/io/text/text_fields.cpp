@@ -10,10 +10,11 @@ namespace {
 constexpr std::size_t kMaxFields = 1000;  // per line, which limits the memory for a line of commas
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
-/// Removes one field from the front of rest, and the comma after it.
-Result<std::string> take_field(std::string_view& rest) {
+/// Removes one field from the front of rest, up to the delimiter after it.
+Result<std::string> take_field(std::string_view& rest, char delimiter) {
   std::string field;
-  const std::size_t begin = std::min(rest.find_first_not_of(" \t"), rest.size());
+  const std::size_t begin =
+      std::min(rest.find_first_not_of(delimiter == '\t' ? " " : " \t"), rest.size());
   if (begin < rest.size() && rest[begin] == '"') {
     std::size_t i = begin + 1;
     for (;; ++i) {
@@ -26,13 +27,13 @@ Result<std::string> take_field(std::string_view& rest) {
         break;
       }
     }
-    const std::size_t comma = std::min(rest.find(',', i), rest.size());
+    const std::size_t comma = std::min(rest.find(delimiter, i), rest.size());
     if (!trimmed(rest.substr(i + 1, comma - i - 1)).empty())
       return fail(ErrorCode::kFormat, "there is text after a closing quote");
     rest.remove_prefix(comma);
     return field;
   }
-  const std::size_t comma = std::min(rest.find(','), rest.size());
+  const std::size_t comma = std::min(rest.find(delimiter), rest.size());
   field = trimmed(rest.substr(0, comma));
   rest.remove_prefix(comma);
   return field;
@@ -77,10 +78,10 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-Result<std::vector<std::string>> csv_fields(std::string_view line) {
+Result<std::vector<std::string>> csv_fields(std::string_view line, char delimiter) {
   std::vector<std::string> fields;
   for (;;) {
-    TURNSCAN_ASSIGN(std::string field, take_field(line));
+    TURNSCAN_ASSIGN(std::string field, take_field(line, delimiter));
     fields.push_back(std::move(field));
     if (line.empty()) return fields;
     if (fields.size() == kMaxFields)

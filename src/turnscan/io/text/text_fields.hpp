@@ -35,9 +35,9 @@ class LineReader {
 std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> words_of(std::string_view text);
 
-/// Comma-separated fields, trimmed; "..." may contain commas, "" inside is a quote. Fails with
+/// Fields between delimiters, trimmed; "..." may contain them, "" inside is a quote. Fails with
 /// kFormat if a quote is not closed.
-Result<std::vector<std::string>> csv_fields(std::string_view line);
+Result<std::vector<std::string>> csv_fields(std::string_view line, char delimiter = ',');
 
 /// A field as csv_fields() reads it back, quoted if necessary. Must not contain line ends.
 std::string csv_field(std::string_view text);

@@ -4,6 +4,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/axis_search.hpp>
 
 namespace turnscan::motion {
@@ -86,17 +87,21 @@ class AxisSearch {
     return best;
   }
 
-  /// Candidate axes: upright, tilted towards the scanner or away from it, and slightly sideways. A
-  /// scanner sees surfaces that face it, so most normals point along its viewing direction.
+  /// Candidate axes: upright, for clouds with y or z upright, tilted towards the scanner or away
+  /// from it, and slightly sideways. A scanner sees surfaces that face it, so most normals point
+  /// along its viewing direction.
   void find_directions() {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const CoarseSurface& surface : surfaces_)
       for (const Vec3f& n : surface.normals)
         spread += n.cast<double>() * n.cast<double>().transpose();
-    const Vec3d up = Vec3d::UnitY();
-    Vec3d view = estimation::symmetric_eigen(spread).vectors.col(2);
-    view -= view.dot(up) * up;
-    view = view.norm() > 0.05 ? Vec3d(view.normalized()) : Vec3d::UnitZ();
+    const Vec3d normal = estimation::symmetric_eigen(spread).vectors.col(2);
+    for (const Vec3d& up : {Vec3d(Vec3d::UnitY()), Vec3d(Vec3d::UnitZ())}) add_tilted(up, normal);
+  }
+
+  void add_tilted(const Vec3d& up, const Vec3d& normal) {
+    Vec3d view = normal - normal.dot(up) * up;
+    view = view.norm() > 0.05 ? Vec3d(view.normalized()) : tangent_basis(up).first;
     const Vec3d right = up.cross(view);
     for (const double tilt : {0.0, 20.0, -20.0, 40.0, -40.0, 60.0, -60.0}) {
       for (const double roll : {0.0, 15.0, -15.0}) {

@@ -119,23 +119,12 @@ void interpolate(const MotionData& data, std::vector<double>& angle) {
   }
 }
 
-}  // namespace
+const double kLowestSensor = -std::sin(15.0 * kRadiansPerDegree);
 
-std::vector<MotionState> candidate_axes(const MotionData& data,
-                                        const std::optional<TurntableInfo>& hint) {
-  std::vector<MotionState> out;
+/// Axes near a direction that is about up for the sensor, which looks down.
+void add_axes(const MotionData& data, const Vec3d& up, std::vector<MotionState>& out) {
   MotionState state;
   state.angle.assign(data.frames.size(), 0.0);
-  if (data.platter || hint) {
-    state.axis = data.platter ? data.platter->axis : hint->axis.normalized();
-    state.center = data.platter ? data.platter->center_m : hint->center_m;
-    // The point of the axis beside the object: tilts about it move the object least.
-    state.center += state.axis.dot(data.middle - state.center) * state.axis;
-    out.push_back(state);
-    return out;
-  }
-  // Upright for the sensor: y down for a camera, y up for point scans; the sensor looks down.
-  const Vec3d up = data.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
   const Vec3d across = up.cross(data.to_sensor);
   // From directly above the direction towards the sensor is undefined: use any.
   const Vec3d right = across.norm() > 0.05 ? Vec3d(across.normalized()) : tangent_basis(up).first;
@@ -152,6 +141,31 @@ std::vector<MotionState> candidate_axes(const MotionData& data,
       }
     }
   }
+}
+
+}  // namespace
+
+std::vector<MotionState> candidate_axes(const MotionData& data,
+                                        const std::optional<TurntableInfo>& hint) {
+  std::vector<MotionState> out;
+  MotionState state;
+  state.angle.assign(data.frames.size(), 0.0);
+  if (data.platter || hint) {
+    state.axis = data.platter ? data.platter->axis : hint->axis.normalized();
+    state.center = data.platter ? data.platter->center_m : hint->center_m;
+    // The point of the axis beside the object: tilts about it move the object least.
+    state.center += state.axis.dot(data.middle - state.center) * state.axis;
+    out.push_back(state);
+    return out;
+  }
+  if (data.projective) {
+    add_axes(data, -Vec3d::UnitY(), out);
+    return out;
+  }
+  // Clouds have y or z upright; sensors do not look up much.
+  for (const Vec3d& line : {Vec3d(Vec3d::UnitY()), Vec3d(Vec3d::UnitZ())})
+    for (const Vec3d& up : {line, Vec3d(-line)})
+      if (up.dot(data.to_sensor) > kLowestSensor) add_axes(data, up, out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <turnscan/turntable/clouds/cloud_convention.hpp>
 #include <turnscan/turntable/motion/axis_search.hpp>
 #include <turnscan/turntable/motion/initial_guess.hpp>
 #include <turnscan/turntable/motion/initialisation.hpp>
@@ -21,7 +22,11 @@ class Initialisation {
  public:
   Initialisation(const MotionData& data, const SequenceHeader& header,
                  const FromMotionOptions& options, const RunContext& context)
-      : data_(data), options_(options), context_(context), source_(source_of_angles()) {
+      : data_(data),
+        viewpoint_(header.sensors.front().viewpoint),
+        options_(options),
+        context_(context),
+        source_(source_of_angles()) {
     if (options.use_table) table_ = header.turntable;
     known_speed_ = options.speed_rad_s;
     if (!known_speed_ && table_) known_speed_ = table_->speed_rad_s;
@@ -34,22 +39,31 @@ class Initialisation {
     double least = std::numeric_limits<double>::infinity();
     for (Start& start : starts) {
       TURNSCAN_TRY(solve_roughly(start, coarse_stride(data_, 6), 6));
+      set_upright(start.state, start.prior);
       const double cost = cost_of(start);
       if (cost < least) least = cost, best = &start;
     }
-    return upright(InitialMotion{best->state, best->prior, source_, known_speed_});
+    return InitialMotion{best->state, best->prior, source_, known_speed_};
   }
 
  private:
   /// An axis that points down turns in the opposite direction.
-  InitialMotion upright(InitialMotion motion) const {
-    const Vec3d up = data_.projective ? Vec3d(-Vec3d::UnitY()) : Vec3d::UnitY();
-    if (data_.platter || table_ || motion.state.axis.dot(up) >= 0.0) return motion;
-    motion.state.axis = -motion.state.axis;
-    for (double& angle : motion.state.angle) angle = -angle;
-    motion.prior.speed_rad_s = -motion.prior.speed_rad_s;
-    motion.prior.nominal_sign = -motion.prior.nominal_sign;
-    return motion;
+  void set_upright(MotionState& state, AnglePrior& prior) const {
+    if (data_.platter || table_ || up_along(state, prior) >= 0.0) return;
+    state.axis = -state.axis;
+    for (double& angle : state.angle) angle = -angle;
+    prior.speed_rad_s = -prior.speed_rad_s;
+    prior.nominal_sign = -prior.nominal_sign;
+  }
+
+  /// Negative if the axis points down. Clouds lie in any way; where they do not show what is up, it
+  /// is the side from which stated angles count counter-clockwise, or else as for cameras.
+  double up_along(const MotionState& state, const AnglePrior& prior) const {
+    if (!data_.projective) {
+      if (const double up = upward(data_, viewpoint_, state.axis); up != 0.0) return up;
+      if (source_ == AngleSource::kAngles) return prior.nominal_sign;
+    }
+    return -state.axis.y();
   }
 
   AngleSource source_of_angles() const {
@@ -194,6 +208,7 @@ class Initialisation {
   }
 
   const MotionData& data_;
+  const Viewpoint viewpoint_;
   const FromMotionOptions& options_;
   const RunContext& context_;
   std::optional<TurntableInfo> table_;  ///< the recording's, if it is to be used

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/turntable/clouds/cloud_convention.hpp>
+#include <turnscan/turntable/clouds/turning_disc.hpp>
 #include <turnscan/turntable/motion/axis.hpp>
 #include <turnscan/turntable/motion/motion_result.hpp>
 #include <turnscan/turntable/motion/pair_residuals.hpp>
@@ -46,6 +48,8 @@ class Publication {
       return fail(ErrorCode::kLibrary,
                   "motion: no axis was found about which the frames fit; calibrate with --detect "
                   "or --points, or take more frames a turn");
+    TURNSCAN_TRY(check_handedness(sequence_.header().sensors.front(), state_.axis, data_.middle,
+                                  data_.extent_m));
     Calibration out;
     out.method = CalibrationMethod::kMotion;
     out.residual_rms_m = solution_.rms_m;
@@ -58,6 +62,8 @@ class Publication {
       out.notes.emplace_back(
           "the recorded angles count clockwise seen from above: the frames fit "
           "when their sign is changed");
+    if (!data_.projective && !sequence_.header().turntable)
+      out.notes.push_back(convention_text(state_.axis, data_.to_sensor));
     return out;
   }
 
@@ -94,8 +100,12 @@ class Publication {
     axis.axis = state_.axis, axis.center_m = state_.center;
     TURNSCAN_ASSIGN(const ObjectBase base, find_base(data_, axis, state_.angle, sequence_));
     const auto& table = sequence_.header().turntable;
+    const auto disc =
+        data_.projective ? std::nullopt : find_turning_disc(data_, axis, state_.angle);
     if (table && options_.use_table && table->radius_m)
       set_recorded_platter(*table, base, out);
+    else if (disc)
+      set_disc(*disc, out);
     else
       set_object(base, out);
     return {};
@@ -111,6 +121,15 @@ class Publication {
     out.confidence = p.confidence;
     out.height_found = "the platter's surface";
     out.radius_found = "the platter's rim";
+  }
+
+  void set_disc(const TurningDisc& disc, Calibration& out) const {
+    out.table.center_m = state_.center + disc.height_m * state_.axis;
+    out.table.radius_m = disc.radius_m;
+    out.height_sigma_m = disc.height_sigma_m;
+    out.radius_sigma_m = disc.radius_sigma_m;
+    out.rim_share = disc.rim_share;
+    out.height_found = out.radius_found = "a level disc that turns";
   }
 
   void set_object(const ObjectBase& base, Calibration& out) const {

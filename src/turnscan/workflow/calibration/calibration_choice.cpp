@@ -6,6 +6,8 @@
 #include <turnscan/core/sequence_views.hpp>
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/check.hpp>
+#include <turnscan/turntable/checks/turning_sense.hpp>
+#include <turnscan/turntable/clouds/cloud_convention.hpp>
 #include <turnscan/turntable/motion/calibrate_from_motion.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <turnscan/turntable/rotation.hpp>
@@ -274,7 +276,9 @@ Result<CalibrationChoice> automatic(const FrameSequence& sequence,
   const auto poses = frame_poses(sequence.header(), sequence.frames(), request.speed_rad_s);
   if (!poses) {
     auto found = completed(sequence, request, memory, context);
-    if (found || found.error().code == ErrorCode::kCancelled) return found;
+    if (found || found.error().code == ErrorCode::kCancelled ||
+        found.error().code == ErrorCode::kInvalidOption)
+      return found;
     return fail(ErrorCode::kMissingData, "{} (and from motion: {})", poses.error().message,
                 found.error().message);
   }
@@ -307,6 +311,74 @@ Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
   return out;
 }
 
+/// For angles of the right sense.
+Result<CalibrationChoice> choose_forwards(const FrameSequence& sequence,
+                                          const CalibrationRequest& request,
+                                          const RunContext& context) {
+  if (request.mode == "auto" && workflow::are_coarser_for_checks(sequence.header())) {
+    const SequenceView coarse = workflow::reduced_frames(sequence, workflow::kPixelsToCheck);
+    TURNSCAN_ASSIGN(auto sound, if_sound(coarse, request, context));
+    if (sound) return std::move(*sound);
+  }
+  const SequenceView reduced = workflow::reduced_frames(sequence);
+  PlatterMemory memory;  // the platter's position does not depend on which check asks for it
+  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
+  if (request.mode == "motion")
+    return from_motion(reduced, request, "--calibration motion was given", memory, context);
+  if (request.mode == "auto") return automatic(reduced, request, memory, context);
+  return fail(ErrorCode::kInvalidOption,
+              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
+}
+
+/// Whether the angles of a recording with a turntable count in the wrong sense.
+Result<bool> counts_backwards(const FrameSequence& sequence, const CalibrationRequest& request,
+                              const RunContext& context) {
+  if (request.speed_rad_s || !sequence.header().turntable || workflow::has_poses(sequence) ||
+      !frame_poses(sequence.header(), sequence.frames(), std::nullopt))
+    return false;
+  TURNSCAN_ASSIGN(const auto sense,
+                  if_measurable(measure_turning_sense(
+                      workflow::reduced_frames(sequence, workflow::kPixelsToCheck), context)));
+  return sense && sense->reversed();
+}
+
+/// The choice for angles of the opposite sign.
+Result<CalibrationChoice> with_sense_corrected(const FrameSequence& sequence,
+                                               const CalibrationRequest& request,
+                                               const RunContext& context) {
+  const SequenceView reversed = with_reversed_angles(sequence);
+  TURNSCAN_ASSIGN(CalibrationChoice out, choose_forwards(reversed, request, context));
+  if (!out.calibration) {
+    Calibration& turned = out.calibration.emplace();
+    turned.method = CalibrationMethod::kMotion;
+    turned.table = *reversed.header().turntable;
+    turned.axis_found = turned.center_found = turned.height_found = "the recording's";
+    turned.angles_found = "the recording's, with the opposite sign";
+    for (const FrameInfo& frame : reversed.frames())
+      if (frame.angle_rad) turned.angles_rad.push_back(*frame.angle_rad);
+    if (turned.angles_rad.size() != reversed.frames().size()) turned.angles_rad.clear();
+  }
+  const std::string note =
+      "the recorded angles count the wrong way round: the frames fit about the recorded axis when "
+      "their sign is changed, so it was";
+  out.note = out.note.empty() ? note : note + "; " + out.note;
+  return out;
+}
+
+/// Whether the object turns against the angles, or the speed, that are recorded.
+bool turns_against(const FrameSequence& recorded, const Calibration& found) {
+  const auto& frames = recorded.frames();
+  const auto& table = recorded.header().turntable;
+  double along = 0.0;
+  for (std::size_t i = 0; i < found.angles_rad.size(); ++i)
+    if (frames[i].angle_rad && frames[0].angle_rad)
+      along += (*frames[i].angle_rad - *frames[0].angle_rad) *
+               (found.angles_rad[i] - found.angles_rad[0]);
+  if (along == 0.0 && table && table->speed_rad_s && found.table.speed_rad_s)
+    along = *table->speed_rad_s * *found.table.speed_rad_s;
+  return along < 0.0;
+}
+
 }  // namespace
 
 double CalibrationChecks::misfit_m() const {
@@ -324,19 +396,25 @@ double CalibrationChecks::misfit_m() const {
 Result<CalibrationChoice> choose_calibration(const FrameSequence& sequence,
                                              const CalibrationRequest& request,
                                              const RunContext& context) {
-  if (request.mode == "auto" && workflow::are_coarser_for_checks(sequence.header())) {
-    const SequenceView coarse = workflow::reduced_frames(sequence, workflow::kPixelsToCheck);
-    TURNSCAN_ASSIGN(auto sound, if_sound(coarse, request, context));
-    if (sound) return std::move(*sound);
+  if (request.mode != "auto") return choose_forwards(sequence, request, context);
+  const SensorInfo& sensor = sequence.header().sensors.front();
+  const auto& table = sequence.header().turntable;
+  const bool stated = table && !workflow::has_poses(sequence);
+  if (stated)
+    TURNSCAN_TRY(motion::check_handedness(sensor, table->axis, table->center_m,
+                                          table->radius_m.value_or(0.0)));
+  TURNSCAN_ASSIGN(const bool backwards, counts_backwards(sequence, request, context));
+  TURNSCAN_ASSIGN(CalibrationChoice out, backwards
+                                             ? with_sense_corrected(sequence, request, context)
+                                             : choose_forwards(sequence, request, context));
+  out.may_be_mirrored = sensor.kind == SensorKind::kDepthCamera && out.calibration &&
+                        turns_against(sequence, *out.calibration);
+  if (stated && sensor.kind == SensorKind::kPointScanner) {
+    std::string note =
+        motion::convention_text(table->axis, sensor.viewpoint.direction_from(table->center_m));
+    out.note = out.note.empty() ? std::move(note) : note + "; " + out.note;
   }
-  const SequenceView reduced = workflow::reduced_frames(sequence);
-  PlatterMemory memory;  // the platter's position does not depend on which check asks for it
-  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
-  if (request.mode == "motion")
-    return from_motion(reduced, request, "--calibration motion was given", memory, context);
-  if (request.mode == "auto") return automatic(reduced, request, memory, context);
-  return fail(ErrorCode::kInvalidOption,
-              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
+  return out;
 }
 
 Result<std::unique_ptr<FrameSequence>> with_choice(const FrameSequence& sequence,

@@ -27,7 +27,8 @@ struct CalibrationChoice {
   std::optional<Calibration> calibration;  ///< nullopt: use the recording's own
   std::vector<Pose> poses;            ///< T_table_sensor corrected after a disturbance; else empty
   std::vector<std::size_t> left_out;  ///< positions of frames that cannot be placed
-  std::string note;                   ///< one sentence for the user; empty: nothing to report
+  bool may_be_mirrored = false;  ///< depth images whose object turns against the recorded angles
+  std::string note;              ///< one sentence for the user; empty: nothing to report
   std::vector<Disturbance> disturbances;  ///< all that were found, corrected or not
   CalibrationChecks checks;               ///< of the recording's calibration, if it was checked
 };

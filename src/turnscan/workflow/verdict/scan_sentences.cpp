@@ -75,6 +75,19 @@ Level level_of(double value, double good, double fair) {
   return value >= good ? Level::kGood : value >= fair ? Level::kFair : Level::kBad;
 }
 
+void add_plausibility(const ScanKnowledge& known, Findings& out) {
+  for (const PlausibilityFinding& finding : known.findings)
+    if (finding.level == Plausibility::kImplausible)
+      out.push_back({"plausibility", Level::kBad, finding.text, std::nan(""), ""});
+  if (known.choice != nullptr && known.choice->may_be_mirrored)
+    out.push_back(
+        {"plausibility", Level::kFair,
+         "the angles count the wrong way round, or the depth images are mirrored, as some "
+         "programs of Kinects record them: their sign was changed, so in that case the "
+         "mesh is a mirror image",
+         std::nan(""), ""});
+}
+
 void add_turn(const ScanKnowledge& known, Findings& out) {
   if (!known.turn) return;
   const TurnSeen& turn = *known.turn;

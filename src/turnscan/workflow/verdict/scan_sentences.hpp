@@ -25,6 +25,9 @@ bool looked_from_all_sides(const TurnSeen& turn);
 /// good: from `good` on; fair: from `fair` on.
 Level level_of(double value, double good, double fair);
 
+/// Adds sentences on what cannot be in the recordings, and on images that may be mirrored.
+void add_plausibility(const ScanKnowledge& known, Findings& out);
+
 void add_turn(const ScanKnowledge& known, Findings& out);
 
 /// Adds sentences on the table's pose, the age of its calibration, whether the platter in this

@@ -84,6 +84,7 @@ class Judge {
 
   Verdict run() {
     add_pose_errors();
+    workflow::add_plausibility(known_, out_.sentences);
     workflow::add_turn(known_, out_.sentences);
     add_seen();
     add_error();

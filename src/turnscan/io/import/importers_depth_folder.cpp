@@ -1,0 +1,165 @@
+// Imports a plain folder of depth images, NAME.png or depth/NAME.png, with whatever stands beside
+// them: colour images of the same name in color/ or rgb/, a 3x3 matrix of the camera, a table of
+// angles. Stray Scanner's folders (depth/, camera_matrix.csv, odometry.csv) are of this kind:
+// https://github.com/strayrobots/scanner: millimetres, and the matrix is that of the colour video.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/import/importers_common.hpp>
+
+namespace turnscan::importers {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<const char*, 4> kMatrixFiles{"camera_matrix.csv", "cam_K.txt",
+                                                  "camera-intrinsics.txt", "intrinsics.txt"};
+/// A principal point farther than this share of the image from its middle belongs to an image of
+/// another size.
+constexpr double kOffMiddle = 0.25;
+constexpr double kSameShape = 0.1;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Whether a precedes b when stretches of digits are compared as numbers.
+bool precedes(std::string_view a, std::string_view b) {
+  while (!a.empty() && !b.empty()) {
+    if (!is_digit(a[0]) || !is_digit(b[0])) {
+      if (a[0] != b[0]) return a[0] < b[0];
+      a.remove_prefix(1), b.remove_prefix(1);
+      continue;
+    }
+    const auto number = [](std::string_view& text) {
+      text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
+      std::size_t end = 0;
+      while (end < text.size() && is_digit(text[end])) ++end;
+      const std::string_view digits = text.substr(0, end);
+      text.remove_prefix(end);
+      return digits;
+    };
+    const std::string_view m = number(a), n = number(b);
+    if (m.size() != n.size()) return m.size() < n.size();
+    if (m != n) return m < n;
+  }
+  return a.size() < b.size();
+}
+
+struct DepthFolder {
+  fs::path images;
+  std::vector<std::string> names;  ///< in order
+};
+
+/// Those named after depth, where some are.
+Result<DepthFolder> depth_images_in(const fs::path& folder) {
+  std::error_code error;
+  DepthFolder out;
+  out.images = fs::is_directory(folder / "depth", error) ? folder / "depth" : folder;
+  TURNSCAN_ASSIGN(out.names, names_in(out.images));
+  std::erase_if(out.names, [](const std::string& name) { return !name.ends_with(".png"); });
+  const auto of_depth = [](const std::string& name) {
+    return name.find("depth") != std::string::npos || name.find("Depth") != std::string::npos;
+  };
+  if (std::any_of(out.names.begin(), out.names.end(), of_depth))
+    std::erase_if(out.names, [&](const std::string& name) { return !of_depth(name); });
+  std::stable_sort(out.names.begin(), out.names.end(), precedes);
+  if (out.names.empty())
+    return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
+                   "there are no depth images (16-bit PNG)");
+  return out;
+}
+
+Result<fs::path> color_beside(const fs::path& folder, const std::string& name) {
+  const std::string stem = fs::path(name).stem().string();
+  for (const char* beside : {"color", "rgb"}) {
+    for (const char* ending : {".jpg", ".png", ".jpeg"}) {
+      fs::path path = folder / beside / (stem + ending);
+      TURNSCAN_ASSIGN(const bool there, file::is_there(path));
+      if (there) return path;
+    }
+  }
+  return fs::path();
+}
+
+Result<> put_angles(const fs::path& path, bool clockwise, const fs::path& folder,
+                    std::vector<ForeignFrame>& frames) {
+  TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
+  std::map<std::string, const text::AngleRow*> of_name;
+  for (const text::AngleRow& row : rows) of_name[fs::path(row.file).filename().string()] = &row;
+  for (ForeignFrame& frame : frames) {
+    const auto row = of_name.find(frame.data.filename().string());
+    if (row == of_name.end())
+      return fail_at(path.string(), ErrorCode::kMissingData, "the table does not name {}",
+                     frame.data.lexically_relative(folder).string());
+    const auto& [line, file, angle_rad, time_s, pass, sensor] = *row->second;
+    if (angle_rad) frame.info.angle_rad = clockwise ? -*angle_rad : *angle_rad;
+    if (time_s) frame.info.time_s = *time_s;
+    frame.info.pass = pass;
+  }
+  return {};
+}
+
+Result<CameraIntrinsics> matrix_beside(const fs::path& folder) {
+  for (const char* name : kMatrixFiles) {
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
+    if (there) return intrinsics_from_file(folder / name);
+  }
+  return fail_at(folder.string(), ErrorCode::kMissingData,
+                 "the depth images do not say the intrinsics of their camera; state them: "
+                 "--intrinsics fx,fy,cx,cy");
+}
+
+/// Intrinsics of a larger or smaller image of the same view are scaled to the depth image.
+void fit_to_image(const DepthImage& image, CameraIntrinsics& camera, SequenceHeader& header) {
+  const double across = 2.0 * camera.cx / image.width, along = 2.0 * camera.cy / image.height;
+  if (std::abs(across - 1.0) < 2.0 * kOffMiddle || !(camera.cx > 0.0) ||
+      std::abs(across / along - 1.0) > kSameShape)
+    return;
+  add_note(header,
+           fmt::format("the intrinsics are those of images of about {:.0f} x {:.0f} pixels: "
+                       "they were scaled to depth's {} x {}",
+                       2.0 * camera.cx, 2.0 * camera.cy, image.width, image.height));
+  for (double* value : {&camera.fx, &camera.cx}) *value /= across;
+  for (double* value : {&camera.fy, &camera.cy}) *value /= along;
+}
+
+}  // namespace
+
+OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options) {
+  TURNSCAN_ASSIGN(const DepthFolder depth, depth_images_in(folder));
+  SequenceHeader header;
+  header.source = fmt::format("depth images of {}", display_name(folder));
+  SensorInfo sensor;
+  TURNSCAN_ASSIGN(sensor.intrinsics,
+                  options.intrinsics.empty() ? matrix_beside(folder) : stated_intrinsics(options));
+  TURNSCAN_ASSIGN(const bool stray, file::is_there(folder / "odometry.csv"));
+  TURNSCAN_ASSIGN(sensor.depth_unit_m,
+                  depth_scale(options, stray ? std::optional(1e-3) : std::nullopt));
+  std::vector<ForeignFrame> frames;
+  for (const std::string& name : depth.names) {
+    ForeignFrame& frame = frames.emplace_back();
+    frame.info.index = std::uint32_t(frames.size() - 1);
+    if (options.fps) frame.info.time_s = double(frame.info.index) / *options.fps;
+    frame.data = depth.images / name;
+    frame.info.file = frame.data.lexically_relative(folder).string();
+    TURNSCAN_ASSIGN(frame.color, color_beside(folder, name));
+  }
+  if (!options.angles.empty())
+    TURNSCAN_TRY(put_angles(options.angles, options.clockwise, folder, frames));
+  TURNSCAN_ASSIGN(const DepthImage first, read_depth_png(frames.front().data));
+  fit_to_image(first, sensor.intrinsics, header);
+  header.sensors.push_back(sensor);
+  if (!options.fps && options.angles.empty())
+    add_note(
+        header,
+        "the images say neither times nor angles: state --fps or --angles where they are known");
+  TURNSCAN_TRY(look_at_first_images(header, frames));
+  TURNSCAN_TRY(apply_turntable_options(options, true, header));
+  return std::make_unique<ForeignSequence>(std::move(header), frames);
+}
+
+}  // namespace turnscan::importers

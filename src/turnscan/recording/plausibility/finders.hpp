@@ -1,0 +1,35 @@
+#pragma once
+// One finder for each kind of finding.
+
+#include <turnscan/recording/plausibility/plausibility.hpp>
+
+namespace turnscan::plausibility {
+
+using Findings = std::vector<PlausibilityFinding>;
+
+/// Times and angles of a pass, as one sensor recorded them, that go back.
+void look_at_order(const FrameSequence& sequence, Findings& out);
+
+/// Intrinsics that are not those of the image. `number`: of the sensor, as in all below.
+void look_at_intrinsics(std::size_t number, const SensorInfo& sensor, Findings& out);
+
+/// Depth beyond the sensor's range or that of all sensors, with the unit that would fit.
+void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
+                   Findings& out);
+
+/// A turntable of sensor 0 that is nowhere near what the sensor sees.
+void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
+                   const std::vector<Frame>& frames, Findings& out);
+
+/// 16-bit depth whose bytes are swapped. True if they are: other findings have no meaning then.
+bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Findings& out);
+
+/// A scanner inside its own scan.
+void look_at_viewpoint(std::size_t number, const SensorInfo& sensor,
+                       const std::vector<Frame>& frames, Findings& out);
+
+/// Depth images in which nothing turns, or everything moves. frames: two in succession, then
+/// others.
+void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findings& out);
+
+}  // namespace turnscan::plausibility

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <turnscan/core/median.hpp>
+#include <turnscan/recording/plausibility/finders.hpp>
+
+namespace turnscan::plausibility {
+
+namespace {
+
+constexpr std::size_t kMinFrames = 4, kMinPixels = 500;
+/// What all but this share of the pixels do not exceed between frames in succession. Where nothing
+/// turns, as many exceed it at any time, within so many deviations of the two counts.
+constexpr double kChanging = 0.01, kDeviations = 4.0;
+/// A change beyond noise, in median differences of frames in succession.
+constexpr double kBeyondNoise = 6.0;
+constexpr double kBorder = 0.1;    ///< of the image's size
+constexpr double kAllMoves = 0.7;  ///< share of the border's pixels
+
+/// Depth differences of the pixels that both frames have.
+std::vector<int> differences(const DepthImage& a, const DepthImage& b, bool border_only) {
+  std::vector<int> out;
+  if (a.width != b.width || a.height != b.height) return out;
+  const int across = int(kBorder * a.width), along = int(kBorder * a.height);
+  for (int row = 0; row < a.height; row += 2) {
+    for (int column = 0; column < a.width; column += 2) {
+      const bool inner =
+          column >= across && column < a.width - across && row >= along && row < a.height - along;
+      const std::uint16_t p = a.at(column, row), q = b.at(column, row);
+      if ((border_only && inner) || p == kNoReturn || q == kNoReturn || p == kOutsideCrop ||
+          q == kOutsideCrop)
+        continue;
+      out.push_back(std::abs(int(p) - int(q)));
+    }
+  }
+  return out;
+}
+
+double share_above(const std::vector<int>& values, double limit) {
+  const auto above =
+      std::count_if(values.begin(), values.end(), [&](int value) { return value > limit; });
+  return values.empty() ? 0.0 : double(above) / double(values.size());
+}
+
+}  // namespace
+
+void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findings& out) {
+  if (frames.size() < kMinFrames) return;
+  std::vector<int> noise = differences(frames[0].depth, frames[1].depth, false);
+  if (noise.size() < kMinPixels) return;
+  const double usual = median(noise);
+  const auto rare = noise.begin() + std::ptrdiff_t((1.0 - kChanging) * double(noise.size()));
+  std::nth_element(noise.begin(), rare, noise.end());
+  const double beyond_noise = kBeyondNoise * std::max(usual, 1.0);
+  double most_changed = 0.0, most_moved = 0.0;
+  for (std::size_t i = 2; i < frames.size(); ++i) {
+    const auto all = differences(frames[0].depth, frames[i].depth, false);
+    const auto border = differences(frames[0].depth, frames[i].depth, true);
+    most_changed = std::max(most_changed, share_above(all, *rare));
+    if (border.size() >= kMinPixels)
+      most_moved = std::max(most_moved, share_above(border, beyond_noise));
+  }
+  const double chance = kDeviations * std::sqrt(2.0 * kChanging / double(noise.size()));
+  // Where frames in succession differ by more than noise, they show that something turns.
+  const bool only_noise = *rare <= beyond_noise;
+  if (only_noise && most_changed < kChanging + chance)
+    out.push_back({Plausibility::kDoubtful,
+                   fmt::format("nothing changes in the images of sensor {}: the table stood still "
+                               "while they were taken, or the object looks the same from all sides",
+                               number),
+                   ""});
+  if (most_moved > kAllMoves)
+    out.push_back(
+        {Plausibility::kDoubtful,
+         fmt::format("what surrounds the object moves in the images of sensor {}, too: the "
+                     "sensor was moved rather than the object turned; frames then need "
+                     "poses of their own",
+                     number),
+         ""});
+}
+
+}  // namespace turnscan::plausibility

@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <turnscan/recording/plausibility/plausibility.hpp>
+
+#include "tests/support/memory_sequence.hpp"
+
+namespace turnscan {
+namespace {
+
+using testing::MemorySequence;
+
+constexpr int kWidth = 64, kHeight = 48, kFrames = 12;
+
+/// A bump that moves to the right by a pixel a frame before a wall, with a little noise.
+DepthImage bump_at(int column, int number, double wall_steps) {
+  DepthImage out(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool bump = std::abs(x - column) < 8 && std::abs(y - 24) < 16;
+      out.at(x, y) = std::uint16_t(wall_steps * (bump ? 0.8 : 1.0)) +
+                     std::uint16_t((x * 7 + y * 3 + number * 5) % 3);
+    }
+  return out;
+}
+
+MemorySequence scan_of_bump() {
+  MemorySequence out;
+  SensorInfo camera;
+  camera.intrinsics.width = kWidth, camera.intrinsics.height = kHeight;
+  camera.intrinsics.fx = camera.intrinsics.fy = 60.0;
+  camera.intrinsics.cx = 31.5, camera.intrinsics.cy = 23.5;
+  camera.depth_unit_m = 1e-3;
+  out.header_value.sensors = {camera};
+  for (int i = 0; i < kFrames; ++i) {
+    Frame frame;
+    frame.info.index = std::uint32_t(i);
+    frame.info.time_s = 0.1 * i;
+    frame.info.angle_rad = 0.1 * i;
+    frame.depth = bump_at(16 + 2 * i, i, 900.0);
+    out.add(std::move(frame));
+  }
+  return out;
+}
+
+SensorInfo& sensor_of(MemorySequence& scan) { return scan.header_value.sensors[0]; }
+
+/// The only finding; of none an empty one.
+PlausibilityFinding only(const MemorySequence& scan) {
+  const auto found = find_implausible(scan, RunContext());
+  if (!found || found->size() > 1) {
+    ADD_FAILURE() << (found ? (*found)[0].text + "; " + (*found)[1].text : found.error().text());
+    return {};
+  }
+  return found->empty() ? PlausibilityFinding{} : found->front();
+}
+
+void expect_implausible(const MemorySequence& scan, const char* text, const char* option = "") {
+  const PlausibilityFinding finding = only(scan);
+  EXPECT_EQ(finding.level, Plausibility::kImplausible) << finding.text;
+  EXPECT_NE(finding.text.find(text), std::string::npos) << finding.text;
+  EXPECT_EQ(finding.option, option);
+}
+
+TEST(Plausibility, NothingIsSaidOfAnOrdinaryScan) { EXPECT_EQ(only(scan_of_bump()).text, ""); }
+
+TEST(Plausibility, OffersTheUnitThatMakesSense) {
+  MemorySequence scan = scan_of_bump();
+  sensor_of(scan).depth_unit_m = 1e-2;
+  expect_implausible(scan, "--depth-unit (with 1mm it would be 0.7", "depth-unit");
+  sensor_of(scan).depth_unit_m = 5e-5;
+  expect_implausible(scan, "any sensor sees from 0.07 m to 5 m", "depth-unit");
+}
+
+TEST(Plausibility, KnowsTheRangeOfANamedSensor) {
+  MemorySequence scan = scan_of_bump();
+  sensor_of(scan).depth_unit_m = 2e-4;
+  EXPECT_EQ(only(scan).text, "");
+  for (const char* name : {"virtual realsense-d455", "d455"}) {
+    sensor_of(scan).model = name;
+    expect_implausible(scan, "the realsense-d455 sees from 0.52 m", "depth-unit");
+  }
+  sensor_of(scan).depth_unit_m = 4e-4;
+  EXPECT_EQ(only(scan).level, Plausibility::kDoubtful);
+  EXPECT_EQ(only(scan).option, "depth-unit");
+}
+
+TEST(Plausibility, ATableThatIsNowhereNearWhatIsSeenTellsTheUnit) {
+  MemorySequence scan = scan_of_bump();
+  scan.header_value.turntable.emplace().center_m = Vec3d(0.0, 0.1, 0.85);
+  EXPECT_EQ(only(scan).text, "");
+  for (const double unit_m : {2e-4, 5e-3}) {
+    sensor_of(scan).depth_unit_m = unit_m;
+    expect_implausible(scan, "the unit is another one (with 1mm it would be 0.7");
+  }
+}
+
+TEST(Plausibility, KnowsSwappedBytes) {
+  MemorySequence scan = scan_of_bump();
+  for (Frame& frame : scan.data)
+    for (std::uint16_t& raw : frame.depth.pixels) raw = std::uint16_t(raw << 8 | raw >> 8);
+  expect_implausible(scan, "the bytes of sensor 0's depth are swapped");
+}
+
+TEST(Plausibility, KnowsIntrinsicsOfAnotherResolution) {
+  for (const double scale : {0.5, 1.5, 2.0}) {
+    MemorySequence scan = scan_of_bump();
+    sensor_of(scan).intrinsics.cx *= scale, sensor_of(scan).intrinsics.cy *= scale;
+    expect_implausible(scan, "the intrinsics are of images of about", "intrinsics");
+  }
+}
+
+TEST(Plausibility, KnowsTimesThatGoBack) {
+  MemorySequence scan = scan_of_bump();
+  std::swap(scan.infos[5].time_s, scan.infos[7].time_s);
+  expect_implausible(scan, "times go back at frame 6");
+}
+
+TEST(Plausibility, TellsAnglesOfOtherFramesFromATableThatIsTurnedBack) {
+  MemorySequence scan = scan_of_bump();
+  scan.infos[6].angle_rad = 0.45;
+  EXPECT_EQ(only(scan).level, Plausibility::kDoubtful);
+  for (const std::size_t i : {2, 4, 8})
+    std::swap(scan.infos[i].angle_rad, scan.infos[i + 1].angle_rad);
+  expect_implausible(scan, "angles go back");
+}
+
+TEST(Plausibility, AnglesMayBeginAnewAfterATurn) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.infos.size(); ++i)
+    scan.infos[i].angle_rad = std::fmod(1.0 * double(i), 6.283185307179586);
+  EXPECT_EQ(only(scan).text, "");
+}
+
+TEST(Plausibility, KnowsAScannerInsideItsScan) {
+  MemorySequence scan;
+  SensorInfo scanner;
+  scanner.kind = SensorKind::kPointScanner;
+  scan.header_value.sensors = {scanner};
+  Frame frame;
+  for (int i = 0; i < 200; ++i)
+    frame.points.points.push_back(
+        Vec3f(std::sin(float(i)), std::cos(3.0f * float(i)), std::sin(5.0f * float(i))) * 0.3f);
+  scan.add(frame);
+  expect_implausible(scan, "--sensor-position x,y,z", "sensor-position");
+  sensor_of(scan).viewpoint.value = Vec3d(0.0, 0.0, 0.8);
+  EXPECT_EQ(only(scan).text, "");
+}
+
+TEST(Plausibility, SaysWhereNothingTurns) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.data.size(); ++i)
+    scan.data[i].depth = bump_at(30, int(i), 900.0);
+  EXPECT_EQ(only(scan).level, Plausibility::kDoubtful);
+  EXPECT_EQ(only(scan).text.find("nothing changes in the images of sensor 0"), 0u);
+}
+
+TEST(Plausibility, AFewViewsFarApartShowThatSomethingTurns) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.data.size(); ++i)
+    scan.data[i].depth = bump_at(i % 2 == 0 ? 16 : 40, int(i), 900.0);
+  EXPECT_EQ(only(scan).text, "");
+}
+
+TEST(Plausibility, SaysWhereTheSurroundingsMove) {
+  MemorySequence scan;
+  scan.header_value.sensors = scan_of_bump().header_value.sensors;
+  sensor_of(scan).intrinsics.width = 4 * kWidth, sensor_of(scan).intrinsics.height = 4 * kHeight;
+  sensor_of(scan).intrinsics.cx *= 4.0, sensor_of(scan).intrinsics.cy *= 4.0;
+  for (int i = 0; i < kFrames; ++i) {
+    Frame frame;
+    frame.info.index = std::uint32_t(i);
+    frame.depth = DepthImage(4 * kWidth, 4 * kHeight);
+    for (int y = 0; y < 4 * kHeight; ++y)
+      for (int x = 0; x < 4 * kWidth; ++x)
+        frame.depth.at(x, y) =
+            std::uint16_t(900.0 + 2.0 * x + y + 30.0 * i + (x * 7 + y * 3 + i) % 3);
+    scan.add(std::move(frame));
+  }
+  EXPECT_EQ(only(scan).text.find("what surrounds the object moves"), 0u) << only(scan).text;
+  for (FrameInfo& info : scan.infos) info.T_table_sensor = Pose::Identity();
+  for (std::size_t i = 0; i < scan.data.size(); ++i) scan.data[i].info = scan.infos[i];
+  EXPECT_EQ(only(scan).text, "");
+}
+
+TEST(Plausibility, StopsWhenItIsCancelled) {
+  const RunContext context;
+  context.cancel();
+  const auto found = find_implausible(scan_of_bump(), context);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace turnscan
