@@ -1,5 +1,6 @@
 #include <fmt/ranges.h>
 #include <array>
+#include <span>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/io/text/angle_table.hpp>
 #include <turnscan/io/text/table_text.hpp>
