@@ -249,11 +249,12 @@ class Judge {
       text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base stood on the platter", base_m2 * 1e4,
                           100.0 * base);
     if (unseen)
-      text +=
-          fmt::format("; {:.1f} cm2 ({:.0f} %){} hardly a frame could see", hidden_ * area_m2 * 1e4,
-                      100.0 * hidden_, height_sigma_m ? "" : " besides the base");
-    if (object_.no_return_area_m2 > 0.0)
-      text += fmt::format(" or returned nothing{}", object_.too_near ? ", being too near" : "");
+      text += fmt::format("; {:.1f} cm2 ({:.0f} %){} hardly a frame could see{}",
+                          hidden_ * area_m2 * 1e4, 100.0 * hidden_,
+                          height_sigma_m ? "" : " besides the base",
+                          !(object_.no_return_area_m2 > 0.0) ? ""
+                          : object_.too_near ? " or returned nothing, being too near"
+                                             : " or returned nothing");
     say("invented", workflow::level_of(1.0 - hidden_, 1.0 - kGoodHidden, 1.0 - kFairHidden),
         text + largest, 100.0 * invented, "%");
   }
