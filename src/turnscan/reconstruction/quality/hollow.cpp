@@ -196,7 +196,8 @@ class HollowSearch {
     }
   }
 
-  /// In cells, from what is within to the nearest that is not (a chamfer distance).
+  /// In cells, from what is within to the nearest that is not (a chamfer distance). Cells at the
+  /// border are outside, so that it does not matter that the ends of rows are neighbours here.
   std::vector<float> distance_to_outside(const std::vector<std::uint8_t>& within) const {
     std::vector<float> out(within.size());
     const auto w = std::ptrdiff_t(columns_.width());
