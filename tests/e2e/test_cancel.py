@@ -111,14 +111,14 @@ class Cancel(harness.TestCase):
         """A terminal signals the whole group: the child must not die first and be taken for a
         failed library."""
         args = ("reconstruct", str(shared_recording()), "-o", "m.ply", "--method", "poisson",
-                "--poisson-depth", "9")
+                "--poisson-depth", "12", "--voxel-size", "0.7mm")
         process = start(*args, cwd=self.dir, start_new_session=True)
         lines = []
         for line in process.stderr:
             lines.append(line)
             if phases_of(line) == ["surface"]:
                 break
-        time.sleep(0.3)
+        time.sleep(0.2)
         os.killpg(process.pid, signal.SIGINT)
         _, err = process.communicate(timeout=HANG_S)
         self.assertEqual(process.returncode, CANCELLED, "".join(lines) + err)

@@ -80,6 +80,18 @@ bool path_of(int descriptor, char (&path)[PATH_MAX]) {
   return true;
 }
 
+/// The name of a file as its folder's descriptor has it.
+struct FullName {
+  char text[2 * PATH_MAX];
+  FullName(int base, const char* path) {
+    char start[PATH_MAX];
+    if (log_descriptor >= 0 && path[0] != '/' && base != AT_FDCWD && path_of(base, start))
+      snprintf(text, sizeof text, "%s/%s", start, path);
+    else
+      snprintf(text, sizeof text, "%s", path);
+  }
+};
+
 /// A record: operation, sizes of two names and of the data, then these.
 void log_change(char operation, const char* name, const char* other, const void* data,
                 size_t size) {
@@ -167,68 +179,68 @@ int ftruncate(int descriptor, off_t size) {
   return result;
 }
 
-int rename(const char* from, const char* to) {
-  if (fails(kRename)) {
-    errno = EIO;
-    return -1;
-  }
-  const int result = REAL(rename)(from, to);
-  if (result == 0) log_change('r', from, to, "", 0);
-  return result;
-}
-
 int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
   if (fails(kRename)) {
     errno = EIO;
     return -1;
   }
+  const FullName source(from_folder, from), target(to_folder, to);
   const int result = int(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
-  if (result == 0) log_change('r', from, to, "", 0);
+  const bool exchanged = (flags & RENAME_EXCHANGE) != 0;
+  if (result == 0) log_change(exchanged ? 'x' : 'r', source.text, target.text, "", 0);
   return result;
 }
 
-int unlink(const char* path) {
-  const int result = REAL(unlink)(path);
-  if (result == 0) log_change('u', path, "", "", 0);
+int renameat(int from_folder, const char* from, int to_folder, const char* to) {
+  return renameat2(from_folder, from, to_folder, to, 0);
+}
+
+int rename(const char* from, const char* to) { return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0); }
+
+int unlinkat(int base, const char* path, int flags) {
+  const FullName name(base, path);
+  const int result = REAL(unlinkat)(base, path, flags);
+  if (result == 0) log_change('u', name.text, "", "", 0);
   return result;
 }
 
-int mkdir(const char* path, mode_t mode) {
+int unlink(const char* path) { return unlinkat(AT_FDCWD, path, 0); }
+
+int mkdirat(int base, const char* path, mode_t mode) {
   if (fails(kOpen)) {
     errno = EMFILE;
     return -1;
   }
-  const int result = REAL(mkdir)(path, mode);
-  if (result == 0) log_change('d', path, "", "", 0);
+  const FullName name(base, path);
+  const int result = REAL(mkdirat)(base, path, mode);
+  if (result == 0) log_change('d', name.text, "", "", 0);
   return result;
 }
 
-static int open_file(const char* path, int flags, mode_t mode) {
+int mkdir(const char* path, mode_t mode) { return mkdirat(AT_FDCWD, path, mode); }
+
+static int open_file(int base, const char* path, int flags, mode_t mode) {
   if (fails(kOpen)) {
     errno = EMFILE;
     return -1;
   }
-  const int descriptor = int(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+  const int descriptor = int(syscall(SYS_openat, base, path, flags, mode));
   if (descriptor >= 0 && (flags & (O_CREAT | O_TRUNC)) != 0)
-    log_change((flags & O_TRUNC) != 0 ? 'T' : 'c', path, "", "", 0);
+    log_change((flags & O_TRUNC) != 0 ? 'T' : 'c', FullName(base, path).text, "", "", 0);
   return descriptor;
 }
 
-int open(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
-  va_end(more);
-  return open_file(path, flags, mode);
-}
+#define OPEN_BODY(base)                                                  \
+  va_list more;                                                          \
+  va_start(more, flags);                                                 \
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0; \
+  va_end(more);                                                          \
+  return open_file(base, path, flags, mode);
 
-int open64(const char* path, int flags, ...) {
-  va_list more;
-  va_start(more, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
-  va_end(more);
-  return open_file(path, flags, mode);
-}
+int open(const char* path, int flags, ...) { OPEN_BODY(AT_FDCWD) }
+int open64(const char* path, int flags, ...) { OPEN_BODY(AT_FDCWD) }
+int openat(int base, const char* path, int flags, ...) { OPEN_BODY(base) }
+int openat64(int base, const char* path, int flags, ...) { OPEN_BODY(base) }
 
 void* dlopen(const char* file, int mode) noexcept {
   in_loader = true;

@@ -54,6 +54,8 @@ class Disk:
                 file[1] = len(file[0])
         elif operation == "r":
             self.files[other] = self.files.pop(name)
+        elif operation == "x":
+            self.files[name], self.files[other] = self.files[other], self.files[name]
         elif operation == "u":
             self.files.pop(name, None)
         elif operation == "d":
