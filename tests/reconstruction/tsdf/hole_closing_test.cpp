@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <turnscan/core/random.hpp>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volume.hpp>
 
 namespace turnscan::tsdf {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {

@@ -159,5 +159,21 @@ TEST(MeasureAxisOffset, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
   EXPECT_EQ(measure_axis_offset(sequence, context).error().code, ErrorCode::kCancelled);
 }
 
+TEST(AxisOffset, CountsOnlyWhereItShowsAndIsKnown) {
+  TurntableInfo recorded, found;
+  found.axis = Eigen::AngleAxisd(0.001, Vec3d::UnitZ()) * Vec3d::UnitY();
+  found.center_m = Vec3d(0.002, 0.5, 0.0);  // the height along the axis does not matter
+  const AxisOffset offset = axis_offset_between(recorded, found, 0.01, 0.0004);
+  EXPECT_NEAR(offset.shift_m, 0.002, 1e-9);
+  EXPECT_NEAR(offset.tilt_rad, 0.001, 1e-9);
+  EXPECT_TRUE(offset.visible());
+  EXPECT_TRUE(offset.significant());
+  const AxisOffset vague = axis_offset_between(recorded, found, 0.01, 0.0006);
+  EXPECT_TRUE(vague.visible());
+  EXPECT_FALSE(vague.significant());
+  found.center_m.x() = 0.0014;
+  EXPECT_FALSE(axis_offset_between(recorded, found, 0.0, 0.0).visible());
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -338,6 +338,23 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
       << "half of it may be the platter's, one of its two directions is towards the sensor";
 }
 
+TEST(JudgeObjects, CallACalibrationFairThatNeitherTheMotionNorAPlatterConfirms) {
+  Reconstruction run = sheet();
+  CalibrationChoice choice;
+  choice.checks.axis_offset = AxisOffset{.shift_m = 0.002, .shift_sigma_m = 0.0008};
+  ScanKnowledge known;
+  known.choice = &choice;
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "calibration")->level, Level::kFair);
+  known.platter.emplace();  // which lies where the calibration says
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "calibration")->level, Level::kGood);
+  known.platter.reset();
+  choice.checks.axis_offset->shift_m = 0.001;
+  judge_objects(run, known);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "calibration")->level, Level::kGood);
+}
+
 TEST(VerdictText, SaysTheColourAndASentenceALine) {
   Verdict verdict;
   verdict.sentences = {{"turn", Level::kGood, "all sides", 360.0, "deg"},

@@ -14,7 +14,7 @@ namespace turnscan::quality {
 namespace {
 
 /// Fitted to simulated scans (bench/expected_error).
-constexpr double kNoiseShare = 0.29, kFloorShare = 0.018, kHiddenShare = 0.4;
+constexpr double kNoiseShare = 0.22, kFloorShare = 0.018, kHiddenShare = 0.4;
 constexpr double kFitBlur = 0.092, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
 /// Exponents of a fit's relative stiffness.

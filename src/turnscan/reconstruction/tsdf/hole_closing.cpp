@@ -6,7 +6,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
 #include <turnscan/reconstruction/tsdf/outside_flood.hpp>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/unobserved_filaments.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
@@ -36,8 +36,10 @@ class HoleClosing {
       : v_(volume), scale_(scale), round_(round), context_(context), samples_(volume) {}
 
   Result<> run() {
-    if (scale_.floor_m) forget_below_floor();
-    if (!round_.none()) end_above_platter();
+    if (scale_.floor_m) {
+      forget_below_floor();
+      decide_below_platter(hollow_floors(v_, floor_row()));
+    }
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
     for (int round = 0; round < kMaxExtensions; ++round) {
@@ -72,18 +74,20 @@ class HoleClosing {
     }
   }
 
-  /// A round bottom at most touches the platter.
-  void end_above_platter() {
+  /// A round bottom at most touches the platter. A vessel whose floor no ray reached has one: the
+  /// harmonic function would leave it without.
+  void decide_below_platter(const std::vector<std::uint8_t>& floors) {
     const auto& size = samples_.size();
     for (int k = 0; k < size[2]; ++k) {
       for (int i = 0; i < size[0]; ++i) {
-        if (!round_.column(i, k)) continue;
+        const bool inside = floors[std::size_t(i) + std::size_t(size[0]) * std::size_t(k)] != 0;
+        if (!inside && !round_.column(i, k)) continue;
         const std::size_t b = samples_.brick(i, 0, k);
         if (v_.slot[b] < 0 && v_.uniform[b] != 0.0f) continue;
         if (v_.slot[b] < 0) v_.allocate(b, float(v_.truncation_m));
         for (int j = 0; j < kBrickSide && v_.position(i, j, k).y() < 0.0; ++j) {
           const auto s = std::size_t(samples_.at(i, j, k));
-          v_.value[s] = float(v_.truncation_m);
+          v_.value[s] = float(inside ? -v_.truncation_m : v_.truncation_m);
           v_.weight[s] = 1.0f;
         }
       }

@@ -3,8 +3,8 @@
 #include <turnscan/geometry/mesh/merge_clustered_vertices.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/integrator.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/sample_bits.hpp>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
 
 namespace turnscan::tsdf {
 

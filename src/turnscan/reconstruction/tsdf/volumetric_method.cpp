@@ -10,7 +10,7 @@
 #include <turnscan/reconstruction/seen_space.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
 #include <turnscan/reconstruction/tsdf/piece_measures.hpp>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric_method.hpp>
 #include <turnscan/reconstruction/views/profiles.hpp>

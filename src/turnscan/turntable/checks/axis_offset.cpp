@@ -26,29 +26,31 @@ std::vector<std::size_t> placed_frames(const std::vector<double>& angle) {
   return evenly_spread_to_last(std::move(out), kMaxFrames);
 }
 
-AxisOffset offset_between(const TurntableInfo& recorded, const motion::AxisFit& fit) {
-  const Vec3d axis = recorded.axis.normalized();
-  const Vec3d off = fit.center_m - recorded.center_m;
-  AxisOffset out;
-  out.tilt_rad = std::atan2(axis.cross(fit.axis).norm(), axis.dot(fit.axis));
-  out.shift_m = (off - off.dot(axis) * axis).norm();
-  out.tilt_sigma_rad = fit.axis_sigma_rad;
-  out.shift_sigma_m = fit.center_sigma_m;
-  return out;
-}
-
 }  // namespace
 
 }  // namespace turnscan::checks
 
 namespace turnscan {
 
+AxisOffset axis_offset_between(const TurntableInfo& recorded, const TurntableInfo& found,
+                               double tilt_sigma_rad, double shift_sigma_m) {
+  const Vec3d axis = recorded.axis.normalized();
+  const Vec3d off = found.center_m - recorded.center_m;
+  AxisOffset out;
+  out.tilt_rad = std::atan2(axis.cross(found.axis).norm(), axis.dot(found.axis));
+  out.shift_m = (off - off.dot(axis) * axis).norm();
+  out.tilt_sigma_rad = tilt_sigma_rad;
+  out.shift_sigma_m = shift_sigma_m;
+  return out;
+}
+
+bool AxisOffset::visible() const {
+  return tilt_rad > checks::kLargestTilt || shift_m > checks::kLargestShift_m;
+}
+
 bool AxisOffset::significant() const {
-  const auto beyond = [](double value, double limit, double sigma) {
-    return value > std::max(limit, checks::kSigmas * sigma);
-  };
-  return beyond(tilt_rad, checks::kLargestTilt, tilt_sigma_rad) ||
-         beyond(shift_m, checks::kLargestShift_m, shift_sigma_m);
+  return tilt_rad > std::max(checks::kLargestTilt, checks::kSigmas * tilt_sigma_rad) ||
+         shift_m > std::max(checks::kLargestShift_m, checks::kSigmas * shift_sigma_m);
 }
 
 Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& sequence,
@@ -80,7 +82,9 @@ Result<std::optional<AxisOffset>> measure_axis_offset(const FrameSequence& seque
   if (!data) return nothing_if_unseen(data.error());
   const auto fit = motion::fit_axis(*data, *table, placed, context);
   if (!fit) return nothing_if_unseen(fit.error());
-  AxisOffset out = checks::offset_between(*table, *fit);
+  TurntableInfo found;
+  found.axis = fit->axis, found.center_m = fit->center_m;
+  AxisOffset out = axis_offset_between(*table, found, fit->axis_sigma_rad, fit->center_sigma_m);
   out.frames = positions.size();
   if (!out.significant()) return out;
   TURNSCAN_ASSIGN(const double gain, motion::gain_over_start(*fit, *data, *table, placed, context));

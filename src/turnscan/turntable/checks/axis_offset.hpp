@@ -17,8 +17,13 @@ struct AxisOffset {
   double tilt_sigma_rad = 0.0;  ///< standard deviations
   double shift_sigma_m = 0.0;
   std::size_t frames = 0;    ///< number of frames compared
-  bool significant() const;  ///< over 1.5 mm or half a degree, and over four standard deviations
+  bool visible() const;      ///< over 1.5 mm or half a degree
+  bool significant() const;  ///< visible, and over four standard deviations
 };
+
+/// From the recorded axis to another, with that one's standard deviations.
+AxisOffset axis_offset_between(const TurntableInfo& recorded, const TurntableInfo& found,
+                               double tilt_sigma_rad, double shift_sigma_m);
 
 /// Compares up to 36 frames of the first sensor at the angles that the recording states. nullopt if
 /// that sensor is not a depth camera (profiles of a line scanner do not overlap), if it covers less

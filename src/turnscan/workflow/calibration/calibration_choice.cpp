@@ -241,6 +241,21 @@ Result<CalibrationChoice> completed(const FrameSequence& sequence,
   return std::move(*turned);
 }
 
+/// The check compares a few frames and states how well they fit; the whole motion also knows how
+/// well the shape determines the axis. If that leaves room for the recorded axis, it is kept.
+bool leaves_room(const Calibration& found, const TurntableInfo& recorded, CalibrationChoice& kept) {
+  const AxisOffset offset =
+      axis_offset_between(recorded, found.table, found.axis_sigma_rad, found.center_sigma_m);
+  if (kept.checks.closure && kept.checks.closure->significant()) return false;
+  if (offset.significant()) return false;
+  kept.checks.axis_offset = offset;
+  kept.note = fmt::format(
+      "the motion puts the axis {:.1f} mm beside the recorded one, but determines it to {:.1f} mm "
+      "only, so the recorded one was kept",
+      offset.shift_m * 1e3, offset.shift_sigma_m * 1e3);
+  return true;
+}
+
 /// The recording's own calibration, or one from motion if the checks contradict it.
 Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
                                     const CalibrationRequest& request, PlatterMemory& memory,
@@ -254,6 +269,9 @@ Result<CalibrationChoice> undoubted(const FrameSequence& sequence,
   auto found = from_motion(sequence, request, *why, memory, context);
   if (!found && found.error().code == ErrorCode::kCancelled) return found;
   std::string failure = found ? "" : found.error().message;
+  if (found && found->poses.empty() &&
+      leaves_room(*found->calibration, *sequence.header().turntable, out))
+    return out;
   if (found) {
     // A calibration replaces the recording's only if the checks do not contradict it.
     TURNSCAN_ASSIGN(const auto better, with_calibration(sequence, *found->calibration));

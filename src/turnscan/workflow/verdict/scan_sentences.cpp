@@ -46,10 +46,12 @@ void add_recorded(const ScanKnowledge& known, Findings& out) {
   parts.push_back(known.platter ? platter_text(*known.platter)
                                 : "no platter was seen in it to check the calibration by");
   parts.push_back("the calibration: " + age_text(known.dates));
-  // The motion of the object is the more reliable evidence, if available.
+  // The motion of the object is the more reliable evidence, if available. Where it is not reliable
+  // enough and no platter confirms the calibration, nothing does.
   const bool moved = !offset && known.platter && known.platter->moved;
+  const bool unconfirmed = offset && offset->visible() && !known.platter;
   const Level level = offset && offset->significant() ? Level::kBad
-                      : moved                         ? Level::kFair
+                      : moved || unconfirmed          ? Level::kFair
                                                       : Level::kGood;
   out.push_back({"calibration", level, fmt::format("{}", fmt::join(parts, "; ")),
                  offset ? offset->shift_m * 1e3 : std::nan(""), offset ? "mm" : ""});

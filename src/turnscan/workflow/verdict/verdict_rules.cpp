@@ -25,7 +25,8 @@ constexpr double kGoodShare = 0.96, kFairShare = 0.84;
 /// Share of the surface visible in hardly any frame. If that is not known, the unmeasured surface
 /// is used, which is 4 % more on average.
 constexpr double kGoodHidden = 0.10, kFairHidden = 0.25, kNotMeasuredMore = 0.04;
-constexpr double kFewFrames = 6.0;
+/// Frames that see a place, below which nothing confirms what one frame measured.
+constexpr double kConfirmed = 2.0;
 /// Number of frames that see a point; more do not help as much as a closer sensor.
 constexpr int kManyFrames = 40;
 /// Share of the volume that lies behind hollows, which makes it amber, and which is mentioned.
@@ -130,7 +131,7 @@ class Judge {
       directions.emplace_back(object_.quality[v].directions, areas_[v]);
     }
     const int usual = weighted_quantile(frames, 0.5), least = weighted_quantile(frames, 0.05);
-    say("seen", usual >= kFewFrames ? Level::kGood : Level::kFair,
+    say("seen", usual >= kConfirmed ? Level::kGood : Level::kFair,
         fmt::format("half of what was measured was seen by {} frames or more, from {} or more "
                     "directions (30 degrees each); 5 % of it by {} or fewer",
                     usual, weighted_quantile(directions, 0.5), least),

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <turnscan/geometry/search/knn.hpp>
-#include <turnscan/reconstruction/tsdf/tapered_foot.hpp>
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {
@@ -71,6 +71,98 @@ class LowestSurfaceSearch {
   LowestSurface out_;
 };
 
+enum class Known : std::uint8_t { kNothing, kFree, kInside };
+
+class HollowFloorSearch {
+ public:
+  explicit HollowFloorSearch(const Volume& volume)
+      : v_(volume),
+        samples_(volume),
+        width_(samples_.size()[0]),
+        depth_(samples_.size()[2]),
+        floors_(std::size_t(width_) * std::size_t(depth_), 0),
+        found_(floors_.size(), 0),
+        through_(floors_.size(), 0),
+        layer_(floors_.size()) {}
+
+  std::vector<std::uint8_t> run(int floor) {
+    for (int j = floor; j < samples_.size()[1]; ++j) {
+      for (int k = 0; k < depth_; ++k)
+        for (int i = 0; i < width_; ++i) layer_[at(i, k)] = known(i, j, k);
+      for (std::size_t c = 0; c < layer_.size(); ++c)
+        through_[c] = layer_[c] == Known::kFree && (j == floor || through_[c] != 0) ? 1 : 0;
+      if (j == floor) free_at_floor_ = through_;
+      add_hollows();
+    }
+    return std::move(floors_);
+  }
+
+ private:
+  std::size_t at(int i, int k) const {
+    return std::size_t(i) + std::size_t(width_) * std::size_t(k);
+  }
+
+  Known known(int i, int j, int k) const {
+    const std::ptrdiff_t s = samples_.at(i, j, k);
+    const float value = samples_.value(i, j, k);
+    if (s >= 0 ? !(v_.weight[std::size_t(s)] > 0.0f) : value == 0.0f) return Known::kNothing;
+    return value < 0.0f ? Known::kInside : Known::kFree;
+  }
+
+  /// The columns that are connected with one of them within the layer, without those inside.
+  std::vector<std::size_t> region_of(std::size_t start, std::vector<std::uint8_t>& visited) const {
+    std::vector<std::size_t> out{start};
+    visited[start] = 1;
+    for (std::size_t n = 0; n < out.size(); ++n) {
+      const int i = int(out[n] % std::size_t(width_)), k = int(out[n] / std::size_t(width_));
+      for (const auto& [x, z] :
+           {std::pair(i - 1, k), std::pair(i + 1, k), std::pair(i, k - 1), std::pair(i, k + 1)}) {
+        if (x < 0 || z < 0 || x >= width_ || z >= depth_) continue;
+        const std::size_t next = at(x, z);
+        if (visited[next] || layer_[next] == Known::kInside) continue;
+        visited[next] = 1;
+        out.push_back(next);
+      }
+    }
+    return out;
+  }
+
+  bool reaches_border(const std::vector<std::size_t>& region) const {
+    return std::any_of(region.begin(), region.end(), [&](std::size_t c) {
+      const int i = int(c % std::size_t(width_)), k = int(c / std::size_t(width_));
+      return i == 0 || k == 0 || i == width_ - 1 || k == depth_ - 1;
+    });
+  }
+
+  void add_hollows() {
+    std::vector<std::uint8_t> visited(layer_.size(), 0);
+    for (std::size_t c = 0; c < layer_.size(); ++c) {
+      if (visited[c] || layer_[c] == Known::kInside) continue;
+      const std::vector<std::size_t> region = region_of(c, visited);
+      const auto count = [&](const auto& of) {
+        return std::size_t(std::count_if(region.begin(), region.end(), of));
+      };
+      const bool hollow = count([&](std::size_t r) { return layer_[r] == Known::kFree; }) > 0 &&
+                          count([&](std::size_t r) { return through_[r] != 0; }) == 0;
+      const bool again = 2 * count([&](std::size_t r) { return found_[r] != 0; }) > region.size();
+      if (reaches_border(region) || !hollow || again) continue;
+      for (const std::size_t r : region) {
+        found_[r] = 1;
+        floors_[r] = 1 - free_at_floor_[r];
+      }
+    }
+  }
+
+  const Volume& v_;
+  VolumeSamples samples_;
+  int width_, depth_;
+  std::vector<std::uint8_t> floors_;
+  std::vector<std::uint8_t> found_;  ///< in the lowest layer of a hollow
+  std::vector<std::uint8_t> free_at_floor_;
+  std::vector<std::uint8_t> through_;  ///< free from the floor up to the current layer
+  std::vector<Known> layer_;
+};
+
 }  // namespace
 
 TaperedFoot::TaperedFoot(const Volume& volume, int floor)
@@ -106,6 +198,10 @@ bool TaperedFoot::contains(const Vec3f& p) const {
   const Vec3d at = (p.cast<double>() - origin_m_) / cell_m_;
   const int i = int(std::lround(at.x())), k = int(std::lround(at.z()));
   return i >= 0 && k >= 0 && i < width_ && k < depth_ && column(i, k);
+}
+
+std::vector<std::uint8_t> hollow_floors(const Volume& volume, int floor) {
+  return HollowFloorSearch(volume).run(floor);
 }
 
 }  // namespace turnscan::tsdf

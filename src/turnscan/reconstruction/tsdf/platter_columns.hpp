@@ -1,4 +1,5 @@
 #pragma once
+// What stands on a platter in a way that the crop above it hides: columns of samples along y.
 
 #include <turnscan/reconstruction/tsdf/volume.hpp>
 
@@ -28,5 +29,11 @@ class TaperedFoot {
   int width_ = 0, depth_ = 0;
   std::vector<std::uint8_t> columns_;
 };
+
+/// For each column (i + columns along x * k): 1 where a vessel on a platter has a floor that no ray
+/// reached. In some layer the column is part of an observed hollow, which observed surface
+/// surrounds, and no column of that hollow was observed to be free all the way from layer `floor`,
+/// the lowest that is used. From a volume whose holes are not closed yet.
+std::vector<std::uint8_t> hollow_floors(const Volume& volume, int floor);
 
 }  // namespace turnscan::tsdf
