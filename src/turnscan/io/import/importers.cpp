@@ -82,6 +82,13 @@ const std::vector<Importer>& table() {
         "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
        open_rosbag,
        {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kNerfstudio, "nerfstudio",
+        "nerfstudio's transforms.json with depth (also of Polycam and Record3D)"},
+       open_nerfstudio,
+       {"depth-unit", "device-poses", "world-up", "fps", "clockwise"}},
+      {{ImportFormat::kBop, "bop", "scene of the BOP benchmark (scene_camera.json, depth/)"},
+       open_bop,
+       {"depth-unit", "world-up"}},
       {{ImportFormat::kDepthFolder, "depth-folder",
         "depth images (16-bit PNG, in the folder or its depth/) and the camera's intrinsics"},
        open_depth_folder,
@@ -103,6 +110,8 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   const bool images = has("depth") || any_ends_with(names, ".png");
   if (!options.angles.empty())
     return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
+  if (has("scene_camera.json")) return ImportFormat::kBop;
+  if (has("transforms.json")) return ImportFormat::kNerfstudio;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
   if (has("depth") && (has("intrinsic.json") || has("camera_intrinsic.json")))
     return ImportFormat::kOpen3dRgbd;
@@ -176,7 +185,8 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
   } else if (path.extension() == ".conf") {
     format = ImportFormat::kStanfordConf;
   } else if (path.extension() == ".json") {
-    format = ImportFormat::kJsonPng;
+    format = path.filename().string().starts_with("transforms") ? ImportFormat::kNerfstudio
+                                                                : ImportFormat::kJsonPng;
   } else {
     format = recognise_file(path);
   }
@@ -244,11 +254,11 @@ Result<> ImportOptions::check() const {
 
 OptionTable describe(ImportOptions& o) {
   OptionTable table;
-  table.choice(
-      "format", o.format,
-      {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png", "matroska",
-       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag", "depth-folder"},
-      "Layout of the data set; auto recognises it by its files");
+  table.choice("format", o.format,
+               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
+                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap",
+                "rosbag", "nerfstudio", "bop", "depth-folder"},
+               "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text(
       "angles", o.angles,

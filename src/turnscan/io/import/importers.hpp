@@ -29,6 +29,8 @@ enum class ImportFormat {
   kScannerApp,
   kRtabmap,
   kRosbag,
+  kNerfstudio,
+  kBop,
   kDepthFolder
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };

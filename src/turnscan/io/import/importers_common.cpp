@@ -160,6 +160,15 @@ Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {
   return camera_of((*m)[0], (*m)[4], (*m)[2], (*m)[5]);
 }
 
+Result<std::optional<CameraIntrinsics>> intrinsics_beside(const fs::path& folder) {
+  for (const char* name :
+       {"camera_matrix.csv", "cam_K.txt", "camera-intrinsics.txt", "intrinsics.txt"}) {
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
+    if (there) return intrinsics_from_file(folder / name);
+  }
+  return std::optional<CameraIntrinsics>();
+}
+
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options) {
   if (const auto v = text::parse_numbers(options.intrinsics, 4); v)
     return camera_of((*v)[0], (*v)[1], (*v)[2], (*v)[3]);

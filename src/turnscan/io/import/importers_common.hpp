@@ -58,6 +58,8 @@ OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& opt
                      const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_bop(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
 /// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
@@ -106,6 +108,10 @@ Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
 Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options);
 /// Intrinsics from the 3x3 matrix in a text file, without the image size.
 Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
+
+/// Intrinsics from the first file there is of those that usually hold a camera's 3x3 matrix beside
+/// images; nullopt: there is none.
+Result<std::optional<CameraIntrinsics>> intrinsics_beside(const std::filesystem::path& folder);
 
 /// From options.sensor_position or options.sensor_direction, if either is given.
 Result<std::optional<Viewpoint>> stated_viewpoint(const ImportOptions& options);

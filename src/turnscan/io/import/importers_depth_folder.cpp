@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 4> kMatrixFiles{"camera_matrix.csv", "cam_K.txt",
-                                                  "camera-intrinsics.txt", "intrinsics.txt"};
 /// A principal point farther than this share of the image from its middle belongs to an image of
 /// another size.
 constexpr double kOffMiddle = 0.25;
@@ -103,11 +101,9 @@ Result<> put_angles(const fs::path& path, bool clockwise, const fs::path& folder
   return {};
 }
 
-Result<CameraIntrinsics> matrix_beside(const fs::path& folder) {
-  for (const char* name : kMatrixFiles) {
-    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
-    if (there) return intrinsics_from_file(folder / name);
-  }
+Result<CameraIntrinsics> required_intrinsics(const fs::path& folder) {
+  TURNSCAN_ASSIGN(const std::optional<CameraIntrinsics> beside, intrinsics_beside(folder));
+  if (beside) return *beside;
   return fail_at(folder.string(), ErrorCode::kMissingData,
                  "the depth images do not say the intrinsics of their camera; state them: "
                  "--intrinsics fx,fy,cx,cy");
@@ -134,8 +130,8 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
   SequenceHeader header;
   header.source = fmt::format("depth images of {}", display_name(folder));
   SensorInfo sensor;
-  TURNSCAN_ASSIGN(sensor.intrinsics,
-                  options.intrinsics.empty() ? matrix_beside(folder) : stated_intrinsics(options));
+  TURNSCAN_ASSIGN(sensor.intrinsics, options.intrinsics.empty() ? required_intrinsics(folder)
+                                                                : stated_intrinsics(options));
   TURNSCAN_ASSIGN(const bool stray, file::is_there(folder / "odometry.csv"));
   TURNSCAN_ASSIGN(sensor.depth_unit_m,
                   depth_scale(options, stray ? std::optional(1e-3) : std::nullopt));
