@@ -190,6 +190,22 @@ class Export(harness.TestCase):
             self.check_masks(views, mesh)
             self.check_depth(views, mesh, 0.2)
 
+    def test_a_lens_is_kept_where_the_layout_has_one_and_taken_out_elsewhere(self):
+        (self.dir / "lens.toml").write_text(harness.SENSOR.read_text() + "k1 = 0.8\nk2 = -0.3\np1 = 0.004\n")
+        self.ok("simulate", recordings.mesh_of("skull"), "--scanner", "lens.toml", "--frames", 3, "--noise",
+                "none", "-o", "rec", "--quiet")
+        truth = self.dir / "rec/truth/object.ply"
+        mesh = [tuple(v[k] for k in "xyz") for v in read_ply(truth)["vertex"]]
+        for layout in LAYOUTS:
+            self.ok("export", "rec", "--to", layout, "--mesh", truth, "-o", layout, "--quiet")
+        for layout in ("bop", "tum"):
+            views = list(VIEWS[layout](self.dir / layout))
+            self.check_masks(views, mesh)
+            self.check_depth(views, mesh, 0.2)
+        root = json.loads((self.dir / "nerfstudio/transforms.json").read_text())
+        self.assertEqual([root[k] for k in ("k1", "k2", "p1", "p2", "k3")], [0.8, -0.3, 0.004, 0, 0])
+        self.assertIn("FULL_OPENCV", (self.dir / "colmap/sparse/0/cameras.txt").read_text())
+
     def test_initial_points_are_the_mesh(self):
         _, mesh = self.export("colour-doll", "colmap")
         points = [line.split() for line in (self.dir / "colmap/sparse/0/points3D.txt").read_text().splitlines()

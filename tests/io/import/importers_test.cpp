@@ -229,7 +229,7 @@ TEST(CloudFolder, UnknownNamesOfColumnsAreToldTheKnownOnes) {
               HasSubstr("names Datei, Winkel [\xC2\xB0]; known are file and angle_deg"));
   folder.put("angles.csv", "file,angle [grad]\na.ply,0\n");
   EXPECT_THAT(open_foreign(folder.path(), with({{"point-unit", "m"}})).error().text(),
-              HasSubstr("unknown unit; known are deg and rad"));
+              HasSubstr("unknown unit; known are deg, rad"));
 }
 
 TEST(CloudFolder, StatedAxesAreTurnedToTheSensorsFrame) {

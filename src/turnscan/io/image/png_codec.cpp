@@ -53,6 +53,7 @@ void ask_for(png_structp png, PngPixels kind) {
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
     return;
   }
+  if (kind == PngPixels::kGrey8) return;
   png_set_palette_to_rgb(png);
   png_set_expand_gray_1_2_4_to_8(png);
   png_set_scale_16(png);

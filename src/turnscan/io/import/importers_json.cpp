@@ -10,6 +10,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
+#include <utility>
 
 namespace turnscan::importers {
 
@@ -223,13 +224,33 @@ std::string color_beside(const std::string& depth, std::size_t view) {
   return fmt::format("color_{}.png", view);
 }
 
+/// "depth_7.png", or of another kind if there is one.
+Result<std::string> numbered_file(const fs::path& folder, std::size_t view) {
+  for (const char* ending : {"npy", "pgm"}) {
+    std::string name = fmt::format("depth_{}.{}", view, ending);
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
+    if (there) return name;
+  }
+  return fmt::format("depth_{}.png", view);
+}
+
+/// The stated unit is that of numbers in the first file, too.
+Result<DepthFileOptions> float_files(const std::vector<ForeignFrame>& frames, SensorInfo& sensor) {
+  DepthFileOptions out;
+  if (frames.empty() || frames.front().data.extension() != ".npy") return out;
+  TURNSCAN_ASSIGN(const DepthFile first, read_depth_file(frames.front().data));
+  if (first.floats) out.float_unit_m = std::exchange(sensor.depth_unit_m, kFloatDepthStep_m);
+  return out;
+}
+
 Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder) {
   std::vector<ForeignFrame> frames;
   for (std::size_t i = 0; i < views.count; ++i) {
     ForeignFrame frame;
     frame.info.index = static_cast<std::uint32_t>(i);
-    frame.info.file =
-        views.depth_files.empty() ? fmt::format("depth_{}.png", i) : views.depth_files[i];
+    TURNSCAN_ASSIGN(frame.info.file, views.depth_files.empty()
+                                         ? numbered_file(folder, i)
+                                         : Result<std::string>(views.depth_files[i]));
     TURNSCAN_ASSIGN(frame.data, existing_file(folder, frame.info.file, "the JSON file"));
     if (!views.color_files.empty()) {
       TURNSCAN_ASSIGN(frame.color, existing_file(folder, views.color_files[i], "the JSON file"));
@@ -276,9 +297,12 @@ OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames,
                   list_frames(description->views, file.parent_path()));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
+  TURNSCAN_ASSIGN(const DepthFileOptions files, float_files(frames, header.sensors.front()));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, description->on_platter, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames);
+  auto out = std::make_unique<ForeignSequence>(std::move(header), frames);
+  out->set_depth_files(files);
+  return out;
 }
 
 }  // namespace turnscan::importers

@@ -286,11 +286,11 @@ Result<ExportSummary> export_recording(const FrameSequence& recording, const Exp
   placing.calibration = request.calibration;
   placing.turntable = request.turntable;
   TURNSCAN_ASSIGN(const auto findings, find_implausible(recording, context));
-  TURNSCAN_ASSIGN(const workflow::PlacedRecording placed,
-                  workflow::place_recording({"", &recording}, placing, context));
+  const auto placed = workflow::place_recording({"", &recording}, placing, context);
+  if (!placed) return tl::unexpected<Error>(workflow::with_cause(placed.error(), {findings}));
   std::error_code error;
   const bool made = fs::create_directories(folder, error);
-  auto summary = write_export(placed.calibrated, request, folder, context);
+  auto summary = write_export(placed->calibrated, request, folder, context);
   if (!summary) {
     if (const auto own = file::Folder::open(folder))
       for (const std::string& name : own->names()) (void)own->remove(name);
@@ -298,7 +298,7 @@ Result<ExportSummary> export_recording(const FrameSequence& recording, const Exp
     return summary;
   }
   std::vector<std::string>& notes = summary->notes;
-  if (const std::string& note = placed.calibrated.choice.note; !note.empty())
+  if (const std::string& note = placed->calibrated.choice.note; !note.empty())
     notes.insert(notes.begin(), note);
   for (const PlausibilityFinding& finding : findings) notes.push_back(finding.text);
   return summary;
