@@ -192,8 +192,8 @@ class Export(harness.TestCase):
 
     def test_a_lens_is_kept_where_the_layout_has_one_and_taken_out_elsewhere(self):
         (self.dir / "lens.toml").write_text(harness.SENSOR.read_text() + "k1 = 0.8\nk2 = -0.3\np1 = 0.004\n")
-        self.ok("simulate", recordings.mesh_of("skull"), "--scanner", "lens.toml", "--frames", 3, "--noise",
-                "none", "-o", "rec", "--quiet")
+        self.ok("simulate", recordings.mesh_of("skull"), "--scanner", "lens.toml", "--height", "320mm",
+                "--frames", 3, "--noise", "none", "-o", "rec", "--quiet")
         truth = self.dir / "rec/truth/object.ply"
         mesh = [tuple(v[k] for k in "xyz") for v in read_ply(truth)["vertex"]]
         for layout in LAYOUTS:
