@@ -505,6 +505,22 @@ TEST(JsonPng, ReadsAnglesAndTheAxis) {
   EXPECT_FALSE(frame_of(*sequence, 1).color.empty());
 }
 
+TEST(JsonPng, ImagesMayBeArraysInItsUnit) {
+  const TempFolder folder;
+  folder.put("views.json", R"({"intrinsics": {"width": 3, "height": 2, "fx": 80, "fy": 80,
+             "cx": 1, "cy": 0.5, "depth_unit_m": 0.001}, "angle_deg": [0, 45]})");
+  for (const char* name : {"depth_0.npy", "depth_1.npy"})
+    folder.put(name, npy<double>("<f8", "(2, 3)", {700.0, 0.0, 1.0, 2.0, 3.0, 4.04}));
+  ASSERT_TRUE(write_color_png(folder / "color_1.png", ColorImage(3, 2)));
+  const auto sequence = open(folder.path());
+  EXPECT_EQ(sequence->header().sensors[0].depth_unit_m, 1e-4);
+  const Frame frame = frame_of(*sequence, 1);
+  EXPECT_THAT(frame.depth.pixels, ElementsAre(7000, 0, 10, 20, 30, 40));
+  EXPECT_FALSE(frame.color.empty());
+  std::filesystem::remove(folder / "depth_1.npy");
+  EXPECT_THAT(refusal(folder.path()).text(), HasSubstr("depth_1.npy"));
+}
+
 TEST(JsonPng, PlatterHeightMovesTheCentreAlongTheAxis) {
   const TempFolder folder;
   put_views(folder, R"("axis_dir": [0, -1, 0], "axis_point": [0, 0.1, 0.4], "angle_deg": [0, 45])");

@@ -218,20 +218,20 @@ Result<bool> parse_turntable(const text::JsonObject& root, Views& views, Sequenc
   return height.has_value();
 }
 
-/// "color_007.png" for "depth_007.png"; for other names by the view's position.
+/// "color_007.png" for "depth_007.png" or "depth_007.npy"; for other names by the view's position.
 std::string color_beside(const std::string& depth, std::size_t view) {
-  if (depth.starts_with(kDepth)) return "color" + depth.substr(kDepth.size());
+  if (depth.starts_with(kDepth))
+    return fs::path("color" + depth.substr(kDepth.size())).replace_extension(".png").string();
   return fmt::format("color_{}.png", view);
 }
 
-/// "depth_7.png", or of another kind if there is one.
-Result<std::string> numbered_file(const fs::path& folder, std::size_t view) {
+/// Of the images depth_N, by that of the first.
+Result<std::string> ending_of_images(const fs::path& folder) {
   for (const char* ending : {"npy", "pgm"}) {
-    std::string name = fmt::format("depth_{}.{}", view, ending);
-    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
-    if (there) return name;
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / fmt::format("depth_0.{}", ending)));
+    if (there) return std::string(ending);
   }
-  return fmt::format("depth_{}.png", view);
+  return std::string("png");
 }
 
 /// The stated unit is that of numbers in the first file, too.
@@ -244,13 +244,13 @@ Result<DepthFileOptions> float_files(const std::vector<ForeignFrame>& frames, Se
 }
 
 Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder) {
+  TURNSCAN_ASSIGN(const std::string ending, ending_of_images(folder));
   std::vector<ForeignFrame> frames;
   for (std::size_t i = 0; i < views.count; ++i) {
     ForeignFrame frame;
     frame.info.index = static_cast<std::uint32_t>(i);
-    TURNSCAN_ASSIGN(frame.info.file, views.depth_files.empty()
-                                         ? numbered_file(folder, i)
-                                         : Result<std::string>(views.depth_files[i]));
+    frame.info.file =
+        views.depth_files.empty() ? fmt::format("depth_{}.{}", i, ending) : views.depth_files[i];
     TURNSCAN_ASSIGN(frame.data, existing_file(folder, frame.info.file, "the JSON file"));
     if (!views.color_files.empty()) {
       TURNSCAN_ASSIGN(frame.color, existing_file(folder, views.color_files[i], "the JSON file"));
