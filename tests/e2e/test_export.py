@@ -242,6 +242,7 @@ class Export(harness.TestCase):
         (self.dir / "far.obj").write_text("v 9 9 9\nv 9 9 8\nv 9 8 9\nf 1 2 3\n")
         self.refused(FAILED, "export", rec, "--to", "tum", "--mesh", "far.obj", "-o", "x",
                      says=["far.obj", "none of the images"])
+        self.refused(USAGE, "export", rec, "--to", "tum", "--depth-unit", "10um", "-o", "x", says="longer step")
         twice = recordings.folder_of("skull-twice")
         self.refused(FAILED, "export", twice, "--to", "tum", "-o", "x", says="--pass")
         self.assertFalse((self.dir / "x").exists())

@@ -82,9 +82,12 @@ class ImageWriter {
     image.camera = sensor.depth.intrinsics();
     image.depth_unit_m = sensor.depth_unit_m;
     image.depth = exporters::depth_file(layout_, image.id);
-    const DepthImage depth = workflow::depth_in_unit(frame.depth, sensor.info, sensor.depth_unit_m);
-    TURNSCAN_TRY(
-        write_depth_png(folder_ / image.depth, sensor.depth.image_of(depth), Durability::kNamed));
+    const workflow::UnitDepth depth =
+        workflow::depth_in_unit(frame.depth, sensor.info, sensor.depth_unit_m);
+    measured_ += depth.measured;
+    lost_ += depth.lost;
+    TURNSCAN_TRY(write_depth_png(folder_ / image.depth, sensor.depth.image_of(depth.image),
+                                 Durability::kNamed));
     if (!sensor.keeps_color_camera) {
       TURNSCAN_ASSIGN(const ColorImage color,
                       workflow::color_of_depth(frame, sensor.info, sensor.rays));
@@ -106,6 +109,18 @@ class ImageWriter {
   }
 
   bool mesh_seen() const { return mesh_seen_; }
+
+  /// A note if some depth is lost in so short steps; fails if most is.
+  Result<> check_depth(std::vector<std::string>& notes) const {
+    if (lost_ == 0) return {};
+    const std::string what = fmt::format(
+        "{:.1f} % of depth is farther than 16 bits reach in the steps of the depth images",
+        100.0 * double(lost_) / double(measured_));
+    if (2 * lost_ > measured_)
+      return fail(ErrorCode::kInvalidOption, "{}; give a longer step, e.g. --depth-unit 1mm", what);
+    notes.push_back(what + " and was left out; --depth-unit states a longer step");
+    return {};
+  }
 
  private:
   Result<> write_color(const ExportCamera& camera, const ColorImage& color, const std::string& jpeg,
@@ -131,6 +146,7 @@ class ImageWriter {
   const Scene* scene_;
   std::vector<ExportSensor> sensors_;
   mutable std::atomic<bool> mesh_seen_ = false;
+  mutable std::atomic<std::size_t> measured_ = 0, lost_ = 0;  ///< pixels of depth
 };
 
 Result<> check_exportable(const FrameSequence& frames, const ExportOptions& options) {
@@ -259,6 +275,7 @@ Result<ExportSummary> write_export(const CalibratedFrames& calibrated, const Exp
     context.advance();
     return {};
   }));
+  TURNSCAN_TRY(writer.check_depth(summary.notes));
   if (scene && !writer.mesh_seen())
     return fail_at(request.mesh, ErrorCode::kMissingData,
                    "the mesh is in none of the images; give the one that turnscan reconstruct "

@@ -49,13 +49,17 @@ Image<std::uint8_t> ExportCamera::silhouette(const Scene& scene, const Pose& T_w
   return out;
 }
 
-DepthImage depth_in_unit(const DepthImage& depth, const SensorInfo& sensor, double unit_m) {
-  DepthImage out(depth.width, depth.height, kNoReturn);
+UnitDepth depth_in_unit(const DepthImage& depth, const SensorInfo& sensor, double unit_m) {
+  UnitDepth out{DepthImage(depth.width, depth.height, kNoReturn)};
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     const std::uint16_t raw = depth.pixels[i];
     if (raw == kNoReturn || raw == kOutsideCrop) continue;
     const double steps = std::round((raw * sensor.depth_unit_m + sensor.depth_bias_m) / unit_m);
-    if (steps > kNoReturn && steps < kOutsideCrop) out.pixels[i] = std::uint16_t(steps);
+    ++out.measured;
+    if (steps > kNoReturn && steps < kOutsideCrop)
+      out.image.pixels[i] = std::uint16_t(steps);
+    else
+      ++out.lost;
   }
   return out;
 }

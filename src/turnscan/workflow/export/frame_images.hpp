@@ -35,9 +35,13 @@ class ExportCamera {
   RayTable rays_;                     ///< only for masks
 };
 
-/// Depth in steps of unit_m, without the sensor's bias; 0 where nothing was measured, also where
-/// it was outside the crop or is beyond what 16 bits hold.
-DepthImage depth_in_unit(const DepthImage& depth, const SensorInfo& sensor, double unit_m);
+struct UnitDepth {
+  DepthImage image;
+  std::size_t measured = 0, lost = 0;  ///< pixels; lost: beyond what 16 bits hold
+};
+/// Depth in steps of unit_m, with the sensor's bias; 0 where nothing was measured, where it was
+/// outside the crop, and where it is lost.
+UnitDepth depth_in_unit(const DepthImage& depth, const SensorInfo& sensor, double unit_m);
 
 /// Colour in the pixels of the depth image; black where colour has a camera of its own and there is
 /// no depth. Empty if there is no colour. Fails as points_of().
