@@ -109,6 +109,11 @@ class ImageWriter {
   }
 
   bool mesh_seen() const { return mesh_seen_; }
+  bool takes_lens_out() const {
+    return std::any_of(sensors_.begin(), sensors_.end(), [](const ExportSensor& sensor) {
+      return sensor.depth.resamples() || sensor.own_color.resamples();
+    });
+  }
 
   /// A note if some depth is lost in so short steps; fails if most is.
   Result<> check_depth(std::vector<std::string>& notes) const {
@@ -210,13 +215,12 @@ void add_notes(const ExportLayout& layout, const SequenceHeader& header,
   if (!layout.one_camera && summary.color_images == 0)
     summary.notes.push_back(fmt::format(
         "there is no colour: the poses are those of the depth images, in {}", layout.depth_folder));
-  for (const SensorInfo& sensor : header.sensors) {
-    if (layout.one_camera && sensor.color_intrinsics && summary.color_images > 0)
-      summary.notes.push_back(
-          "colour was taken into the pixels of depth, black where there is none");
-    if (layout.lens == exporters::LensModel::kNone && sensor.intrinsics.distorted())
-      summary.notes.push_back("the lens's distortion was taken out of the images");
-  }
+  const bool taken_over =
+      layout.one_camera && summary.color_images > 0 &&
+      std::any_of(header.sensors.begin(), header.sensors.end(),
+                  [](const SensorInfo& sensor) { return sensor.color_intrinsics.has_value(); });
+  if (taken_over)
+    summary.notes.push_back("colour was taken into the pixels of depth, black where there is none");
 }
 
 }  // namespace
@@ -285,6 +289,8 @@ Result<ExportSummary> write_export(const CalibratedFrames& calibrated, const Exp
     images.insert(images.end(), of_frame.begin(), of_frame.end());
   TURNSCAN_TRY(exporters::write_descriptions(folder, layout, images, mesh ? &*mesh : nullptr));
   add_notes(layout, frames.header(), images, summary);
+  if (writer.takes_lens_out())
+    summary.notes.push_back("the lens's distortion was taken out of the images");
   std::error_code ignored;
   for (const std::string_view name : {layout.image_folder, layout.mask_folder})
     fs::remove(folder / name, ignored);  // if it is empty
